@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# dmrp_add_plugin(NAME SOURCES file... [LIBRARIES target...])
+#
+# Builds libNAME.so: a plugin library that exports dmrp_entry_v1 and nothing else.
+set(DMRP_PLUGIN_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin_exports.map)
+
+function(dmrp_add_plugin name)
+  cmake_parse_arguments(PARSE_ARGV 1 plugin "" "" "SOURCES;LIBRARIES")
+  if(NOT plugin_SOURCES OR plugin_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "dmrp_add_plugin(NAME SOURCES file... [LIBRARIES target...])")
+  endif()
+  add_library(${name} MODULE ${plugin_SOURCES})
+  target_link_libraries(${name} PRIVATE dmrp::sdk ${plugin_LIBRARIES})
+  target_compile_features(${name} PRIVATE cxx_std_17)
+  # -ffp-contract=off: results must not depend on which instructions the compiler fuses.
+  target_compile_options(${name} PRIVATE -ffp-contract=off)
+  target_link_options(${name} PRIVATE -Wl,--version-script=${DMRP_PLUGIN_VERSION_SCRIPT})
+  set_target_properties(
+    ${name}
+    PROPERTIES C_VISIBILITY_PRESET hidden
+               CXX_VISIBILITY_PRESET hidden
+               VISIBILITY_INLINES_HIDDEN ON
+               POSITION_INDEPENDENT_CODE ON
+               LINK_DEPENDS ${DMRP_PLUGIN_VERSION_SCRIPT})
+endfunction()

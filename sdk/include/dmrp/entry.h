@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+// entry.h: the one symbol that a plugin library exports, dmrp_entry_v1.
+#ifndef DMRP_ENTRY_H
+#define DMRP_ENTRY_H
+
+#include "plugin.h"
+
+typedef struct dmrp_entry {
+  uint32_t struct_size;
+  uint32_t abi_minor;       // that it was built with; informational
+  uint32_t min_host_minor;  // the host must have at least this; refused otherwise, with both versions printed
+  uint32_t abi_draft;       // must equal the host's until v1 is frozen
+
+  // Called once after loading, before create(). `host` lives until deinit(). Returns DMRP_OK or DMRP_FATAL.
+  // [main]
+  int32_t (*init)(const dmrp_host* host);
+
+  // Called once, when no instance is left.
+  // [main]
+  void (*deinit)(void);
+
+  // Number of plugins in this library, and the descriptor of each: static data, also before init().
+  // [any]
+  uint32_t (*plugin_count)(void);
+  const dmrp_descriptor* (*descriptor)(uint32_t index);
+
+  // Makes an instance of the plugin `id`. `host` is the instance's own and lives until its destroy(); `params` has
+  // every declared key and dies when the call returns; `out` is filled in on DMRP_OK.
+  // Returns DMRP_OK, DMRP_ERROR (with set_error), DMRP_OUT_OF_MEMORY or DMRP_FATAL.
+  // [main]
+  int32_t (*create)(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out);
+} dmrp_entry;
+
+DMRP_ASSERT_SIZE(dmrp_entry, 56);
+
+#define DMRP_ENTRY_SYMBOL "dmrp_entry_v1"
+
+// Declares the exported object. Follow it with `= { ... };`. (A const object in C++ has internal linkage without an
+// earlier extern declaration.)
+#define DMRP_ENTRY \
+  DMRP_EXTERN_C __attribute__((visibility("default"))) extern const dmrp_entry dmrp_entry_v1; \
+  const dmrp_entry dmrp_entry_v1
+
+#endif

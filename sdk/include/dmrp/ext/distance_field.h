@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+// ext/distance_field.h: the Euclidean distance to the nearest obstacle of the local costmap, derived on demand, at
+// most once a scan. An extension of the host for local controllers.
+#ifndef DMRP_EXT_DISTANCE_FIELD_H
+#define DMRP_EXT_DISTANCE_FIELD_H
+
+#include "../values.h"
+
+#define DMRP_EXT_DISTANCE_FIELD "dmrp.distance_field/1"
+
+// Cells as in dmrp_costmap.
+typedef struct dmrp_field {
+  uint32_t struct_size;
+  uint32_t width;
+  uint32_t height;
+  uint32_t reserved;
+  int64_t t_ns;  // of the scan behind it
+  double resolution_m;
+  dmrp_vec2 origin;
+  double distance_max_m;     // distances are capped at this
+  const float* distances_m;  // from the cell's centre to the nearest lethal cell's centre; 0 in a lethal cell
+} dmrp_field;
+
+typedef struct dmrp_distance_field dmrp_distance_field;
+struct dmrp_distance_field {
+  uint32_t struct_size;
+  uint32_t reserved;
+  void* context;  // the host's own
+
+  // The field of the instance's robot. Valid until the call of step() that asks returns.
+  // [step]
+  const dmrp_field* (*field)(const dmrp_distance_field* extension);
+};
+
+DMRP_ASSERT_SIZE(dmrp_field, 64);
+DMRP_ASSERT_SIZE(dmrp_distance_field, 24);
+
+#endif

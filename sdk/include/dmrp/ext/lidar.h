@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+// ext/lidar.h: the robot's planar range scan. An extension of the host for local controllers.
+#ifndef DMRP_EXT_LIDAR_H
+#define DMRP_EXT_LIDAR_H
+
+#include "../values.h"
+
+#define DMRP_EXT_LIDAR "dmrp.lidar/1"
+
+// Beam i points at angle_min + i * angle_increment in the robot's frame. The sensor sits at the robot's origin.
+typedef struct dmrp_scan {
+  uint32_t struct_size;
+  uint32_t count;
+  int64_t t_ns;            // when it was taken
+  double angle_min;        // rad
+  double angle_increment;  // rad
+  double range_min;        // m
+  double range_max;        // m
+  const float* ranges;     // m; INFINITY where nothing was hit within range_max
+} dmrp_scan;
+
+typedef struct dmrp_lidar dmrp_lidar;
+struct dmrp_lidar {
+  uint32_t struct_size;
+  uint32_t reserved;
+  void* context;  // the host's own
+
+  // The latest scan of the instance's robot. Valid until the call of step() that asks returns.
+  // [step]
+  const dmrp_scan* (*scan)(const dmrp_lidar* lidar);
+};
+
+DMRP_ASSERT_SIZE(dmrp_scan, 56);
+DMRP_ASSERT_SIZE(dmrp_lidar, 24);
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+// observation.h: what a local controller knows at a control tick.
+#ifndef DMRP_OBSERVATION_H
+#define DMRP_OBSERVATION_H
+
+#include "robot.h"
+
+#define DMRP_AGENT_ROBOT 1
+#define DMRP_AGENT_PERSON 2
+
+// Somebody who moves. Array element.
+typedef struct dmrp_agent {
+  uint64_t id;         // stable through the trial, unique within its kind; a respawned person has a new one
+  uint32_t kind;       // DMRP_AGENT_*
+  uint32_t state;      // robots: DMRP_ROBOT_*
+  dmrp_pose pose;      // a person's theta is the direction of motion
+  dmrp_vec2 velocity;  // m/s, world frame
+  double radius_m;
+} dmrp_agent;
+
+// Made by the host for one call of step().
+typedef struct dmrp_observation {
+  uint32_t struct_size;
+  uint32_t robot;  // index; always world.self
+  int64_t t_ns;    // simulated time
+  int64_t dt_ns;   // the control period
+  dmrp_pose pose;
+  dmrp_twist velocity;  // measured
+  dmrp_twist applied;   // the last command as the host applied it, after clipping
+  dmrp_goal goal;       // the current one. (Frozen inside this struct: it cannot grow here.)
+  uint32_t goal_index;
+  uint32_t goal_count;
+  double progress_m;           // arc length along the path of the point that the robot has reached; never falls
+  uint32_t progress_waypoint;  // last waypoint passed
+  uint32_t released_waypoint;  // last waypoint that may be passed: the path's last under execution = "free"
+  const dmrp_limits* limits;
+  const dmrp_footprint* footprint;
+  const dmrp_agent* agents;  // visible others, as `tracking` allows; ordered by kind, then id
+  uint32_t agent_count;
+  uint32_t agent_stride;
+} dmrp_observation;
+
+DMRP_ASSERT_SIZE(dmrp_agent, 64);
+DMRP_ASSERT_SIZE(dmrp_observation, 208);
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+// parameter.h: the parameters that a plugin declares, and the values that the host passes to create().
+//
+// The host checks an experiment file against the declared table before anything is constructed: unknown keys,
+// wrong types and values out of range never reach a plugin. create() gets the *complete* table, defaults filled in.
+#ifndef DMRP_PARAMETER_H
+#define DMRP_PARAMETER_H
+
+#include "abi.h"
+
+// Types of a parameter. PATH is a string that the host resolves against the experiment file and whose file it hashes
+// into the manifest.
+#define DMRP_PARAM_BOOL 1          // integer 0 or 1
+#define DMRP_PARAM_INT 2           // integer
+#define DMRP_PARAM_DOUBLE 3        // number
+#define DMRP_PARAM_STRING 4        // text
+#define DMRP_PARAM_CHOICE 5        // text, one of spec.choices
+#define DMRP_PARAM_PATH 6          // text
+#define DMRP_PARAM_DOUBLE_ARRAY 7  // numbers, count
+#define DMRP_PARAM_STRING_ARRAY 8  // texts, count
+
+// One value. Only the field of its type is meaningful; the others are zero.
+// Owned by whoever made it; the host's die when create() returns.
+typedef struct dmrp_param_value {
+  const char* key;
+  uint32_t type;   // DMRP_PARAM_*
+  uint32_t count;  // of an array, 0 otherwise
+  int64_t integer;
+  double number;
+  const char* text;
+  const double* numbers;
+  const char* const* texts;
+} dmrp_param_value;
+
+// The table handed to create(): exactly the declared keys, in the declared order.
+typedef struct dmrp_params {
+  uint32_t struct_size;
+  uint32_t count;
+  uint32_t stride;  // of values
+  uint32_t reserved;
+  const dmrp_param_value* values;
+} dmrp_params;
+
+// One declared parameter. Static data of the plugin. Array element.
+typedef struct dmrp_param_spec {
+  dmrp_param_value fallback;  // key, type and the default. (Frozen inside this struct: it cannot grow here.)
+  const char* unit;           // "m", "rad/s", "1" for a ratio, "" where there is none
+  const char* doc;            // one line
+  double minimum;             // for INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY where there is none
+  double maximum;             // likewise, INFINITY
+  const char* const* choices;  // for CHOICE, choice_count texts
+  uint32_t choice_count;
+  uint32_t reserved;
+} dmrp_param_spec;
+
+DMRP_ASSERT_SIZE(dmrp_param_value, 56);
+DMRP_ASSERT_SIZE(dmrp_params, 24);
+DMRP_ASSERT_SIZE(dmrp_param_spec, 104);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+// path.h: a timed path.
+#ifndef DMRP_PATH_H
+#define DMRP_PATH_H
+
+#include "values.h"
+
+// Array element.
+typedef struct dmrp_waypoint {
+  double x;             // m
+  double y;             // m
+  double theta;         // heading on arrival; NaN: free
+  int64_t t_ns;         // planned time of arrival since the trial's start; cost is not time: see global_planner.h
+  uint32_t goal_index;  // the goal that this waypoint leads to (counts up along a tour)
+  uint32_t reserved;
+} dmrp_waypoint;
+
+// One robot's path. Waits stand in it as repeated positions. The robot rests at the last waypoint.
+// Growable; an array of paths has a stride like every array.
+typedef struct dmrp_path {
+  uint32_t struct_size;
+  uint32_t count;
+  uint32_t stride;  // of waypoints
+  uint32_t reserved;
+  const dmrp_waypoint* waypoints;
+} dmrp_path;
+
+DMRP_ASSERT_SIZE(dmrp_waypoint, 40);
+DMRP_ASSERT_SIZE(dmrp_path, 24);
+
+#endif

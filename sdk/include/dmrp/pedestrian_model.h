@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+// pedestrian_model.h: gives every person a velocity, one physics step at a time. One instance for all people.
+//
+// Who is there, where they go and when they come and leave is the host's; a model only moves them.
+#ifndef DMRP_PEDESTRIAN_MODEL_H
+#define DMRP_PEDESTRIAN_MODEL_H
+
+#include "observation.h"
+#include "plugin.h"
+
+// A person. Array element.
+typedef struct dmrp_person {
+  uint64_t id;           // stable; a respawned person has a new one
+  uint32_t group;        // people of one group walk together; 0: alone
+  uint32_t target_id;    // people with the same id walk to the same place: a key for cached navigation fields
+  dmrp_vec2 position;    // m
+  dmrp_vec2 velocity;    // m/s, as the world let it happen in the last step
+  double radius_m;
+  double desired_speed;  // m/s
+  dmrp_vec2 target;      // where this person wants to go now
+  dmrp_vec2 area_lower;  // the place that target_id names: an axis-aligned rectangle that holds `target`
+  dmrp_vec2 area_upper;
+} dmrp_person;
+
+// The crowd at one physics step; made by the host for one call.
+typedef struct dmrp_crowd {
+  uint32_t struct_size;
+  uint32_t person_count;
+  int64_t t_ns;
+  int64_t dt_ns;
+  const dmrp_person* people;  // ordered by slot: element i keeps its place; a new id in it is a new person
+  const dmrp_agent* robots;   // all robots, as kind DMRP_AGENT_ROBOT, ordered by index
+  uint32_t person_stride;
+  uint32_t robot_count;
+  uint32_t robot_stride;
+  uint32_t reserved;
+} dmrp_crowd;
+
+typedef struct dmrp_pedestrian_model {
+  uint32_t struct_size;
+  uint32_t reserved;
+
+  // Writes person_count velocities (m/s, world frame) for the step that begins now. Bodies are solid in the world:
+  // it cancels the part of a velocity that would deepen an overlap. Velocities above 5 m/s or not finite are a fault
+  // (bad_output). Returns DMRP_OK or DMRP_ERROR.
+  // [step]
+  int32_t (*step)(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_vec2* velocities);
+} dmrp_pedestrian_model;
+
+DMRP_ASSERT_SIZE(dmrp_person, 112);
+DMRP_ASSERT_SIZE(dmrp_crowd, 56);
+DMRP_ASSERT_SIZE(dmrp_pedestrian_model, 16);
+
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+// world.h: the static world of a trial, handed to start().
+#ifndef DMRP_WORLD_H
+#define DMRP_WORLD_H
+
+#include "grid.h"
+#include "robot.h"
+
+#define DMRP_SHAPE_CIRCLE 1
+#define DMRP_SHAPE_POLYGON 2
+
+// A static body: a wall, a shelf, a planter. Array element.
+typedef struct dmrp_shape {
+  const char* name;
+  uint32_t kind;          // DMRP_SHAPE_*
+  uint32_t vertex_count;  // polygon
+  dmrp_vec2 center;       // circle
+  double radius_m;        // circle
+  const dmrp_vec2* vertices;  // polygon: convex, counter-clockwise
+  double height_m;
+} dmrp_shape;
+
+// Lives, with all it points to, from start() until the next start() or destroy(); never changes in between.
+typedef struct dmrp_world {
+  uint32_t struct_size;
+  uint32_t person_count;  // constant population
+  dmrp_vec2 lower;        // the world is the rectangle from lower ...
+  dmrp_vec2 upper;        // ... to upper; its border is a wall
+  int64_t step_ns;            // one physics step
+  int64_t control_period_ns;  // between two calls of a controller's step()
+  int64_t time_limit_ns;      // of the trial, simulated
+  int64_t call_budget_ns;     // wall time for one call other than plan(); should_stop() says 1 after it
+  const dmrp_robot* robots;
+  uint32_t robot_count;
+  uint32_t robot_stride;
+  const dmrp_shape* shapes;
+  uint32_t shape_count;
+  uint32_t shape_stride;
+  const dmrp_segment* segments;  // outlines of all shapes and of the border, as walls for people; circles as polygons
+  uint32_t segment_count;
+  int32_t self;  // index of the robot that this local controller drives; -1 for the other kinds
+  const dmrp_grid* planning_grid;  // cells of the global planners; free for every robot of the trial
+  const dmrp_grid* walking_grid;   // finer cells for the way-finding of people; free for a disc of 0.3 m
+} dmrp_world;
+
+DMRP_ASSERT_SIZE(dmrp_shape, 56);
+DMRP_ASSERT_SIZE(dmrp_world, 136);
+
+#endif
