@@ -62,12 +62,4 @@
 
 DMRP_STATIC_ASSERT(sizeof(void*) == 8 && sizeof(double) == 8, dmrp_needs_a_64_bit_platform);
 
-#if defined(__cplusplus)
-#define DMRP_EXTERN_C extern "C"
-#define DMRP_EXPORT extern "C" __attribute__((visibility("default")))
-#else
-#define DMRP_EXTERN_C
-#define DMRP_EXPORT __attribute__((visibility("default")))
-#endif
-
 #endif

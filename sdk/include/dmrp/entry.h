@@ -35,10 +35,15 @@ DMRP_ASSERT_SIZE(dmrp_entry, 56);
 
 #define DMRP_ENTRY_SYMBOL "dmrp_entry_v1"
 
-// Declares the exported object. Follow it with `= { ... };`. (A const object in C++ has internal linkage without an
-// earlier extern declaration.)
-#define DMRP_ENTRY \
-  DMRP_EXTERN_C __attribute__((visibility("default"))) extern const dmrp_entry dmrp_entry_v1; \
+// Begins the definition of the exported object: `DMRP_ENTRY = { sizeof(dmrp_entry), ... };`
+// (A const object in C++ has internal linkage unless it was declared extern before.)
+#if defined(__cplusplus)
+#define DMRP_ENTRY_DECLARATION extern "C" __attribute__((visibility("default"))) const dmrp_entry dmrp_entry_v1
+#else
+#define DMRP_ENTRY_DECLARATION extern __attribute__((visibility("default"))) const dmrp_entry dmrp_entry_v1
+#endif
+#define DMRP_ENTRY        \
+  DMRP_ENTRY_DECLARATION; \
   const dmrp_entry dmrp_entry_v1
 
 #endif

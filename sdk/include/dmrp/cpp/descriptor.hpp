@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// cpp/descriptor.hpp: what a plugin class says about itself, built in its static describe().
+#ifndef DMRP_CPP_DESCRIPTOR_HPP
+#define DMRP_CPP_DESCRIPTOR_HPP
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../descriptor.h"
+#include "parameters.hpp"
+
+namespace dmrp {
+
+enum class Direction : std::uint32_t {
+  none = DMRP_DIRECTION_NONE,
+  lower_is_better = DMRP_DIRECTION_LOWER,
+  higher_is_better = DMRP_DIRECTION_HIGHER
+};
+
+// Whom a metric's value is given for; the system value is always given.
+enum class Subjects : std::uint32_t {
+  system = 1u << DMRP_SUBJECT_SYSTEM,
+  system_and_robots = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT,
+  system_and_pedestrians = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_PEDESTRIAN
+};
+
+class Descriptor {
+ public:
+  Descriptor(std::string id, std::string name, std::string version)
+      : id_(std::move(id)), name_(std::move(name)), version_(std::move(version)) {}
+
+  Descriptor& vendor(std::string text) { return vendor_ = std::move(text), *this; }
+  Descriptor& license(std::string spdx) { return license_ = std::move(spdx), *this; }
+  Descriptor& summary(std::string line) { return summary_ = std::move(line), *this; }
+  Descriptor& source(std::string paper) { return source_ = std::move(paper), *this; }
+
+  // Extensions of the host, by id (DMRP_EXT_*): without which it cannot run, or which it uses when they are there.
+  Descriptor& needs(std::string id) { return requires_.push_back(std::move(id)), *this; }
+  Descriptor& uses(std::string id) { return uses_.push_back(std::move(id)), *this; }
+
+  // Planners.
+  Descriptor& connectivity(std::uint32_t connectivity) { return connectivity_ = connectivity, *this; }
+  Descriptor& uncoordinated() { return planner_flags_ |= DMRP_PLANNER_UNCOORDINATED, *this; }
+
+  // Metrics: the values given, and the channels (DMRP_CHANNEL_* bits) needed for them.
+  Descriptor& value(std::string name, std::string unit, Direction direction, Subjects subjects,
+                    std::string description) {
+    values_.push_back({std::move(name), std::move(unit), std::move(description), direction, subjects, 0, 0});
+    return *this;
+  }
+  Descriptor& wall_clock() { return values_.back().wall_clock = 1, *this; }  // of the value named last
+  Descriptor& curve() { return values_.back().curve = 1, *this; }            // likewise
+  Descriptor& channels(std::uint32_t bits) { return channels_ = bits, *this; }
+
+ private:
+  friend class PublishedDescriptor;
+  struct Value {
+    std::string name, unit, description;
+    Direction direction;
+    Subjects subjects;
+    std::uint32_t wall_clock, curve;
+  };
+  std::string id_, name_, version_, vendor_, license_, summary_, source_;
+  std::vector<std::string> requires_, uses_;
+  std::vector<Value> values_;
+  std::uint32_t connectivity_ = DMRP_CONNECTIVITY_NONE;
+  std::uint32_t planner_flags_ = 0;
+  std::uint32_t channels_ = 0;
+};
+
+// A descriptor and a parameter table as the C structs that the host reads. Owns all of it; never moves.
+class PublishedDescriptor {
+ public:
+  PublishedDescriptor(Descriptor descriptor, std::uint32_t kind,
+                      std::vector<std::unique_ptr<ParamDefinition>> parameters)
+      : descriptor_(std::move(descriptor)), parameters_(std::move(parameters)) {
+    publish_parameters();
+    publish_values();
+    requires_ = pointers(descriptor_.requires_);
+    uses_ = pointers(descriptor_.uses_);
+
+    c_.struct_size = sizeof(c_);
+    c_.kind = kind;
+    c_.id = descriptor_.id_.c_str();
+    c_.name = descriptor_.name_.c_str();
+    c_.version = descriptor_.version_.c_str();
+    c_.vendor = descriptor_.vendor_.c_str();
+    c_.license = descriptor_.license_.c_str();
+    c_.summary = descriptor_.summary_.c_str();
+    c_.source = descriptor_.source_.c_str();
+    c_.requires_ = requires_.data();
+    c_.requires_count = static_cast<std::uint32_t>(requires_.size());
+    c_.uses = uses_.data();
+    c_.uses_count = static_cast<std::uint32_t>(uses_.size());
+    c_.params = specs_.data();
+    c_.param_count = static_cast<std::uint32_t>(specs_.size());
+    c_.param_stride = sizeof(dmrp_param_spec);
+    c_.values = values_.data();
+    c_.value_count = static_cast<std::uint32_t>(values_.size());
+    c_.value_stride = sizeof(dmrp_metric_value_spec);
+    c_.connectivity = descriptor_.connectivity_;
+    c_.channels = descriptor_.channels_;
+    c_.planner_flags = descriptor_.planner_flags_;
+  }
+  PublishedDescriptor(const PublishedDescriptor&) = delete;
+  PublishedDescriptor& operator=(const PublishedDescriptor&) = delete;
+
+  const dmrp_descriptor& get() const { return c_; }
+
+ private:
+  static std::vector<const char*> pointers(const std::vector<std::string>& texts) {
+    std::vector<const char*> out;
+    for (const std::string& text : texts) out.push_back(text.c_str());
+    return out;
+  }
+
+  void publish_parameters() {
+    for (const auto& d : parameters_) {
+      choices_.push_back(pointers(d->choices));
+      texts_.push_back(pointers(d->texts));
+      dmrp_param_spec spec{};
+      spec.fallback.key = d->key.c_str();
+      spec.fallback.type = d->type;
+      spec.fallback.count = static_cast<std::uint32_t>(d->numbers.size() + d->texts.size());
+      spec.fallback.integer = d->integer;
+      spec.fallback.number = d->number;
+      spec.fallback.text = d->text.c_str();
+      spec.fallback.numbers = d->numbers.data();
+      spec.fallback.texts = texts_.back().data();
+      spec.unit = d->unit.c_str();
+      spec.doc = d->doc.c_str();
+      spec.minimum = d->minimum;
+      spec.maximum = d->maximum;
+      spec.choices = choices_.back().data();
+      spec.choice_count = static_cast<std::uint32_t>(d->choices.size());
+      specs_.push_back(spec);
+    }
+  }
+
+  void publish_values() {
+    for (const Descriptor::Value& v : descriptor_.values_) {
+      values_.push_back({v.name.c_str(), v.unit.c_str(), v.description.c_str(), static_cast<std::uint32_t>(v.direction),
+                         static_cast<std::uint32_t>(v.subjects), v.wall_clock, v.curve});
+    }
+  }
+
+  Descriptor descriptor_;
+  std::vector<std::unique_ptr<ParamDefinition>> parameters_;
+  std::vector<std::vector<const char*>> choices_, texts_;
+  std::vector<dmrp_param_spec> specs_;
+  std::vector<dmrp_metric_value_spec> values_;
+  std::vector<const char*> requires_, uses_;
+  dmrp_descriptor c_{};
+};
+
+}  // namespace dmrp
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// cpp/global_planner.hpp: the base class of global planners; the contract is in ../global_planner.h.
+#ifndef DMRP_CPP_GLOBAL_PLANNER_HPP
+#define DMRP_CPP_GLOBAL_PLANNER_HPP
+
+#include <stdexcept>
+
+#include "../global_planner.h"
+#include "path.hpp"
+#include "plugin_base.hpp"
+
+namespace dmrp {
+
+using PlanningRobot = dmrp_planning_robot;
+
+// dmrp_planning_problem with spans for arrays. Dies when plan() returns.
+struct PlanningProblem {
+  explicit PlanningProblem(const dmrp_planning_problem& c)
+      : revision(c.revision),
+        now_ns(c.now_ns),
+        effective_from_ns(c.effective_from_ns),
+        step_duration_ns(c.step_duration_ns),
+        time_budget_ns(c.time_budget_ns),
+        grid(*c.grid),
+        robots(c.robots, c.robot_count, c.robot_stride),
+        in_force(c.in_force, c.in_force_count, c.in_force_stride) {}
+
+  std::uint64_t revision;
+  std::int64_t now_ns;
+  std::int64_t effective_from_ns;
+  std::int64_t step_duration_ns;
+  std::int64_t time_budget_ns;
+  const Grid& grid;
+  Span<PlanningRobot> robots;
+  Span<dmrp_path> in_force;  // empty for the first plan; Path(in_force[i]) views one
+};
+
+inline Span<Goal> goals(const PlanningRobot& robot) {
+  return {robot.goals, robot.goal_count, robot.goal_stride};
+}
+
+class PlanSink {
+ public:
+  explicit PlanSink(dmrp_plan_sink* c) : c_(c) {}
+
+  void path(std::uint32_t robot, const std::vector<Waypoint>& waypoints) {
+    if (c_->path(c_, robot, waypoints.data(), static_cast<std::uint32_t>(waypoints.size()), sizeof(Waypoint)) !=
+        DMRP_OK)
+      throw std::logic_error("the host refused the path of robot " + std::to_string(robot));
+  }
+  void statistic(const char* name, double value) { c_->statistic(c_, name, value); }
+
+ private:
+  dmrp_plan_sink* c_;
+};
+
+class GlobalPlanner : public Plugin {
+ public:
+  virtual Status plan(const PlanningProblem& problem, PlanSink& sink) = 0;
+
+  static constexpr std::uint32_t kind = DMRP_KIND_GLOBAL_PLANNER;
+  static const void* interface_table() {
+    static const dmrp_global_planner table = {
+        sizeof(table), 0, [](dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink) {
+          auto& planner = detail::from_instance<GlobalPlanner>(self);
+          return PluginAccess::guarded(planner, [&] {
+            PlanSink out(sink);
+            return planner.plan(PlanningProblem(*problem), out);
+          });
+        }};
+    return &table;
+  }
+};
+
+}  // namespace dmrp
+
+#endif

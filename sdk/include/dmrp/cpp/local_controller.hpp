@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// cpp/local_controller.hpp: the base class of local controllers; the contract is in ../local_controller.h.
+#ifndef DMRP_CPP_LOCAL_CONTROLLER_HPP
+#define DMRP_CPP_LOCAL_CONTROLLER_HPP
+
+#include "../local_controller.h"
+#include "path.hpp"
+#include "plugin_base.hpp"
+
+namespace dmrp {
+
+using Agent = dmrp_agent;
+
+// dmrp_observation with references and spans. Dies when step() returns.
+struct Observation {
+  explicit Observation(const dmrp_observation& c)
+      : robot(c.robot),
+        t_ns(c.t_ns),
+        dt_ns(c.dt_ns),
+        pose(c.pose),
+        velocity(c.velocity),
+        applied(c.applied),
+        goal(c.goal),
+        goal_index(c.goal_index),
+        goal_count(c.goal_count),
+        progress_m(c.progress_m),
+        progress_waypoint(c.progress_waypoint),
+        released_waypoint(c.released_waypoint),
+        limits(*c.limits),
+        footprint(*c.footprint),
+        agents(c.agents, c.agent_count, c.agent_stride) {}
+
+  std::uint32_t robot;
+  std::int64_t t_ns;
+  std::int64_t dt_ns;
+  Pose pose;
+  Twist velocity;
+  Twist applied;
+  Goal goal;
+  std::uint32_t goal_index;
+  std::uint32_t goal_count;
+  double progress_m;
+  std::uint32_t progress_waypoint;
+  std::uint32_t released_waypoint;
+  const Limits& limits;
+  const Footprint& footprint;
+  Span<Agent> agents;
+};
+
+struct Command {
+  double v_x = 0.0;    // m/s
+  double v_y = 0.0;    // m/s
+  double omega = 0.0;  // rad/s
+};
+
+class LocalController : public Plugin {
+ public:
+  // Throw to report an error.
+  virtual void set_path(Path path, std::uint64_t revision) = 0;
+  virtual Status step(const Observation& now, Command& command) = 0;
+
+  static constexpr std::uint32_t kind = DMRP_KIND_LOCAL_CONTROLLER;
+  static const void* interface_table() {
+    static const dmrp_local_controller table = {
+        sizeof(table), 0,
+        [](dmrp_instance* self, const dmrp_path* path, std::uint64_t revision) {
+          auto& controller = detail::from_instance<LocalController>(self);
+          return PluginAccess::guarded(controller, [&] {
+            controller.set_path(Path(*path), revision);
+            return Status::ok;
+          });
+        },
+        [](dmrp_instance* self, const dmrp_observation* observation, dmrp_command* out) {
+          auto& controller = detail::from_instance<LocalController>(self);
+          return PluginAccess::guarded(controller, [&] {
+            Command command;
+            const Status status = controller.step(Observation(*observation), command);
+            out->v_x = command.v_x;
+            out->v_y = command.v_y;
+            out->omega = command.omega;
+            return status;
+          });
+        }};
+    return &table;
+  }
+};
+
+}  // namespace dmrp
+
+#endif

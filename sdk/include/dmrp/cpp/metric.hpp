@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// cpp/metric.hpp: the base class of metrics; the contract is in ../metric.h.
+#ifndef DMRP_CPP_METRIC_HPP
+#define DMRP_CPP_METRIC_HPP
+
+#include <limits>
+#include <stdexcept>
+
+#include "../metric.h"
+#include "path.hpp"
+#include "plugin_base.hpp"
+
+namespace dmrp {
+
+using Agent = dmrp_agent;
+using RobotSample = dmrp_robot_sample;
+using Contact = dmrp_contact;
+using Call = dmrp_call;
+using RobotEnd = dmrp_robot_end;
+using Statistic = dmrp_statistic;
+
+// A value that does not exist for this trial: NULL in the results.
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+// dmrp_plan with spans. The plan lives until finish() returns; an object of this class is a cheap view.
+class Plan {
+ public:
+  explicit Plan(const dmrp_plan& c) : c_(&c) {}
+
+  std::size_t size() const { return c_->path_count; }  // paths, one a robot
+  Path path(std::size_t robot) const { return Path(*DMRP_AT(dmrp_path, c_->paths, c_->path_stride, robot)); }
+  Span<Statistic> statistics() const { return {c_->statistics, c_->statistic_count, c_->statistic_stride}; }
+  const dmrp_plan* operator->() const { return c_; }  // revision, from_ns, step_duration_ns, planning_ns, status
+
+ private:
+  const dmrp_plan* c_;
+};
+
+// dmrp_sample with spans. Dies when observe() returns.
+struct Sample {
+  explicit Sample(const dmrp_sample& c)
+      : t_ns(c.t_ns),
+        dt_ns(c.dt_ns),
+        control_tick(c.control_tick != 0),
+        plan(c.plan),
+        robots(c.robots, c.robot_count, c.robot_stride),
+        people(c.people, c.person_count, c.person_stride),
+        contacts(c.contacts, c.contact_count, c.contact_stride),
+        calls(c.calls, c.call_count, c.call_stride) {}
+
+  std::int64_t t_ns;
+  std::int64_t dt_ns;
+  bool control_tick;
+  const dmrp_plan* plan;  // in force; nullptr if there is none. Plan(*plan) views it
+  Span<RobotSample> robots;
+  Span<Agent> people;
+  Span<Contact> contacts;
+  Span<Call> calls;
+};
+
+// dmrp_trial_end with a span.
+struct TrialEnd {
+  explicit TrialEnd(const dmrp_trial_end& c)
+      : ending(c.ending), t_ns(c.t_ns), robots(c.robots, c.robot_count, c.robot_stride) {}
+
+  std::uint32_t ending;  // DMRP_ENDING_*
+  std::int64_t t_ns;
+  Span<RobotEnd> robots;
+};
+
+class MetricSink {
+ public:
+  explicit MetricSink(dmrp_metric_sink* c) : c_(c) {}
+
+  void system(const char* name, double value) { give(name, DMRP_SUBJECT_SYSTEM, 0, undefined, value); }
+  void robot(const char* name, std::size_t robot, double value) {
+    give(name, DMRP_SUBJECT_ROBOT, robot, undefined, value);
+  }
+  void pedestrian(const char* name, std::uint64_t id, double value) {
+    give(name, DMRP_SUBJECT_PEDESTRIAN, id, undefined, value);
+  }
+  // One point of a curve of the system.
+  void curve(const char* name, double coordinate, double value) {
+    give(name, DMRP_SUBJECT_SYSTEM, 0, coordinate, value);
+  }
+  void event(const char* name, std::int64_t from_ns, std::int64_t to_ns, const std::vector<std::uint32_t>& robots,
+             const std::string& text) {
+    if (c_->event(c_, name, from_ns, to_ns, robots.data(), static_cast<std::uint32_t>(robots.size()), text.c_str()) !=
+        DMRP_OK)
+      throw std::logic_error(std::string("the host refused an event of ") + name);
+  }
+
+ private:
+  void give(const char* name, std::uint32_t subject_kind, std::uint64_t subject, double coordinate, double value) {
+    if (c_->value(c_, name, subject_kind, subject, coordinate, value) != DMRP_OK)
+      throw std::logic_error(std::string("the host refused a value of ") + name);
+  }
+  dmrp_metric_sink* c_;
+};
+
+class Metric : public Plugin {
+ public:
+  // `plan` is the first plan, nullptr if planning failed. Throw to report an error.
+  virtual void begin(const dmrp_plan* plan) = 0;
+  virtual void observe(const Sample& sample) = 0;
+  virtual void finish(const TrialEnd& end, MetricSink& sink) = 0;
+
+  static constexpr std::uint32_t kind = DMRP_KIND_METRIC;
+  static const void* interface_table() {
+    static const dmrp_metric table = {sizeof(table), 0, &call_begin, &call_observe, &call_finish};
+    return &table;
+  }
+
+ private:
+  template <class Body>
+  static std::int32_t call(dmrp_instance* self, Body&& body) {
+    auto& metric = detail::from_instance<Metric>(self);
+    return PluginAccess::guarded(metric, [&] { return body(metric), Status::ok; });
+  }
+  static std::int32_t call_begin(dmrp_instance* self, const dmrp_metric_trial* trial) {
+    return call(self, [&](Metric& metric) { metric.begin(trial->plan); });
+  }
+  static std::int32_t call_observe(dmrp_instance* self, const dmrp_sample* sample) {
+    return call(self, [&](Metric& metric) { metric.observe(Sample(*sample)); });
+  }
+  static std::int32_t call_finish(dmrp_instance* self, const dmrp_trial_end* end, dmrp_metric_sink* sink) {
+    return call(self, [&](Metric& metric) {
+      MetricSink out(sink);
+      metric.finish(TrialEnd(*end), out);
+    });
+  }
+};
+
+}  // namespace dmrp
+
+#endif

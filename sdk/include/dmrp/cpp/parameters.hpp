@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// cpp/parameters.hpp: parameters bound to members of a plugin class.
+//
+//   dmrp::Param<double> gain = param("gain", 2.0).unit("1/s").range(0.0, 10.0).doc("turn rate per radian of error");
+//
+// The declarations of a class are its parameter table; values are there before start() is called.
+#ifndef DMRP_CPP_PARAMETERS_HPP
+#define DMRP_CPP_PARAMETERS_HPP
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../parameter.h"
+
+namespace dmrp {
+
+// What a class declared about one parameter, and where its value goes.
+struct ParamDefinition {
+  std::string key;
+  std::string unit;
+  std::string doc;
+  std::uint32_t type = 0;  // DMRP_PARAM_*
+  std::int64_t integer = 0;
+  double number = 0.0;
+  std::string text;
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+  std::vector<std::string> choices;
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  void* target = nullptr;  // the member, of the type that `assign` knows
+  void (*assign)(void* target, const dmrp_param_value& value) = nullptr;
+};
+
+namespace detail {
+
+inline void assign(bool& to, const dmrp_param_value& from) {
+  to = from.integer != 0;
+}
+inline void assign(std::int64_t& to, const dmrp_param_value& from) {
+  to = from.integer;
+}
+inline void assign(double& to, const dmrp_param_value& from) {
+  to = from.number;
+}
+inline void assign(std::string& to, const dmrp_param_value& from) {
+  to = from.text;
+}
+inline void assign(std::vector<double>& to, const dmrp_param_value& from) {
+  to.assign(from.numbers, from.numbers + from.count);
+}
+inline void assign(std::vector<std::string>& to, const dmrp_param_value& from) {
+  to.assign(from.texts, from.texts + from.count);
+}
+
+inline void fall_back(ParamDefinition& d, bool value) {
+  d.type = DMRP_PARAM_BOOL, d.integer = value;
+}
+inline void fall_back(ParamDefinition& d, std::int64_t value) {
+  d.type = DMRP_PARAM_INT, d.integer = value;
+}
+inline void fall_back(ParamDefinition& d, double value) {
+  d.type = DMRP_PARAM_DOUBLE, d.number = value;
+}
+inline void fall_back(ParamDefinition& d, std::string value) {
+  d.type = DMRP_PARAM_STRING, d.text = std::move(value);
+}
+inline void fall_back(ParamDefinition& d, std::vector<double> value) {
+  d.type = DMRP_PARAM_DOUBLE_ARRAY, d.numbers = std::move(value);
+}
+inline void fall_back(ParamDefinition& d, std::vector<std::string> value) {
+  d.type = DMRP_PARAM_STRING_ARRAY, d.texts = std::move(value);
+}
+
+}  // namespace detail
+
+// Declares one parameter; made by Plugin::param(), ends in a Param.
+template <class T>
+class ParamBuilder {
+ public:
+  ParamBuilder(std::vector<std::unique_ptr<ParamDefinition>>& table, const char* key, T value) {
+    table.push_back(std::make_unique<ParamDefinition>());
+    definition_ = table.back().get();
+    definition_->key = key;
+    detail::fall_back(*definition_, value);
+    value_ = std::move(value);
+  }
+
+  ParamBuilder& unit(const char* unit) { return definition_->unit = unit, *this; }
+  ParamBuilder& doc(const char* doc) { return definition_->doc = doc, *this; }
+  ParamBuilder& range(double minimum, double maximum) {
+    definition_->minimum = minimum;
+    definition_->maximum = maximum;
+    return *this;
+  }
+  // Of a text: one of these.
+  ParamBuilder& choices(std::vector<std::string> choices) {
+    definition_->type = DMRP_PARAM_CHOICE;
+    definition_->choices = std::move(choices);
+    return *this;
+  }
+  // Of a text: the path of a file, resolved against the experiment file.
+  ParamBuilder& path() { return definition_->type = DMRP_PARAM_PATH, *this; }
+
+ private:
+  template <class>
+  friend class Param;
+  ParamDefinition* definition_;
+  T value_;
+};
+
+// A parameter's value: a T to whoever reads it. Lives in the plugin object, which never moves.
+template <class T>
+class Param {
+ public:
+  Param(const ParamBuilder<T>& declared) : value_(declared.value_) {  // implicit: `Param<double> x = param(...)`
+    declared.definition_->target = &value_;
+    declared.definition_->assign = [](void* target, const dmrp_param_value& value) {
+      detail::assign(*static_cast<T*>(target), value);
+    };
+  }
+  Param(const Param&) = delete;
+  Param& operator=(const Param&) = delete;
+
+  operator const T&() const { return value_; }
+  const T& operator*() const { return value_; }
+  const T* operator->() const { return &value_; }
+
+ private:
+  T value_;
+};
+
+}  // namespace dmrp
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// cpp/path.hpp: a path as a span of waypoints; the contract is in ../path.h.
+#ifndef DMRP_CPP_PATH_HPP
+#define DMRP_CPP_PATH_HPP
+
+#include "../path.h"
+#include "span.hpp"
+
+namespace dmrp {
+
+using Waypoint = dmrp_waypoint;
+
+// Valid as long as the dmrp_path's waypoints.
+class Path : public Span<Waypoint> {
+ public:
+  explicit Path(const dmrp_path& c) : Span(c.waypoints, c.count, c.stride) {}
+};
+
+}  // namespace dmrp
+
+#endif

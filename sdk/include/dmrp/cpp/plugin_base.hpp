@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// cpp/plugin_base.hpp: the base of every plugin class: parameters, the host, the world of the trial.
+#ifndef DMRP_CPP_PLUGIN_BASE_HPP
+#define DMRP_CPP_PLUGIN_BASE_HPP
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "../plugin.h"
+#include "parameters.hpp"
+#include "span.hpp"
+
+namespace dmrp {
+
+using Vec2 = dmrp_vec2;
+using Pose = dmrp_pose;
+using Twist = dmrp_twist;
+using Segment = dmrp_segment;
+using Limits = dmrp_limits;
+using Footprint = dmrp_footprint;
+using Goal = dmrp_goal;
+using Robot = dmrp_robot;
+using Grid = dmrp_grid;
+using Shape = dmrp_shape;
+
+// As in status.h.
+enum class Status : std::int32_t {
+  ok = DMRP_OK,
+  warning = DMRP_WARNING,
+  no_solution = DMRP_NO_SOLUTION,
+  timeout = DMRP_TIMEOUT,
+  out_of_memory = DMRP_OUT_OF_MEMORY,
+  error = DMRP_ERROR,
+  fatal = DMRP_FATAL
+};
+
+enum class LogLevel : std::int32_t {
+  debug = DMRP_LOG_DEBUG,
+  info = DMRP_LOG_INFO,
+  warning = DMRP_LOG_WARNING,
+  error = DMRP_LOG_ERROR
+};
+
+constexpr double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-9;
+}
+
+// dmrp_world with spans for arrays. Valid from start() until the next start() or the end of the object.
+class World {
+ public:
+  World() = default;
+  explicit World(const dmrp_world& c) : c_(&c) {}
+
+  Span<Robot> robots() const { return {c_->robots, c_->robot_count, c_->robot_stride}; }
+  Span<Shape> shapes() const { return {c_->shapes, c_->shape_count, c_->shape_stride}; }
+  Span<Segment> segments() const { return {c_->segments, c_->segment_count}; }
+  const Grid& planning_grid() const { return *c_->planning_grid; }
+  const Grid& walking_grid() const { return *c_->walking_grid; }
+  const dmrp_world* operator->() const { return c_; }  // the scalars: world->lower, world->step_ns, ...
+
+ private:
+  const dmrp_world* c_ = nullptr;
+};
+
+class Plugin {
+ public:
+  Plugin() = default;
+  Plugin(const Plugin&) = delete;
+  Plugin& operator=(const Plugin&) = delete;
+  virtual ~Plugin() = default;
+
+  // Begins a trial: forget everything of an earlier one. world() is set, extensions can be asked for.
+  virtual Status start(const World&, std::uint64_t /*seed*/) { return Status::ok; }
+
+  // An extension that the plugin offers to the host, or nullptr.
+  virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
+
+ protected:
+  ParamBuilder<bool> param(const char* key, bool value) { return {parameters_, key, value}; }
+  ParamBuilder<std::int64_t> param(const char* key, int value) { return {parameters_, key, value}; }
+  ParamBuilder<std::int64_t> param(const char* key, std::int64_t value) { return {parameters_, key, value}; }
+  ParamBuilder<double> param(const char* key, double value) { return {parameters_, key, value}; }
+  ParamBuilder<std::string> param(const char* key, const char* value) { return {parameters_, key, value}; }
+  ParamBuilder<std::vector<double>> param(const char* key, std::vector<double> value) {
+    return {parameters_, key, std::move(value)};
+  }
+  ParamBuilder<std::vector<std::string>> param(const char* key, std::vector<std::string> value) {
+    return {parameters_, key, std::move(value)};
+  }
+
+  const World& world() const { return world_; }
+  void log(LogLevel level, const std::string& text) const {
+    host_->log(host_, static_cast<std::int32_t>(level), text.c_str());
+  }
+  void set_error(const std::string& text) const { host_->set_error(host_, text.c_str()); }
+  bool should_stop() const { return host_->should_stop(host_) != 0; }
+
+  // An extension of the host, as its C struct: extension<dmrp_lidar>(DMRP_EXT_LIDAR). Ask in start().
+  template <class T>
+  const T* extension(const char* id) const {
+    return static_cast<const T*>(host_->get_extension(host_, id));
+  }
+
+ private:
+  friend struct PluginAccess;
+  std::vector<std::unique_ptr<ParamDefinition>> parameters_;
+  const dmrp_host* host_ = nullptr;
+  World world_;
+};
+
+// What the trampolines may do to a Plugin.
+struct PluginAccess {
+  static std::vector<std::unique_ptr<ParamDefinition>>& parameters(Plugin& p) { return p.parameters_; }
+
+  static void configure(Plugin& plugin, const dmrp_host* host, const dmrp_params& values) {
+    plugin.host_ = host;
+    for (std::uint32_t i = 0; i < values.count; ++i) {
+      const dmrp_param_value& value = *DMRP_AT(dmrp_param_value, values.values, values.stride, i);
+      for (const auto& definition : plugin.parameters_)
+        if (definition->target && definition->key == value.key) definition->assign(definition->target, value);
+    }
+  }
+
+  static Status start(Plugin& plugin, const dmrp_world& world, std::uint64_t seed) {
+    plugin.world_ = World(world);
+    return plugin.start(plugin.world_, seed);
+  }
+
+  // Runs `call`, which returns a Status; no exception gets past here.
+  template <class Call>
+  static std::int32_t guarded(const dmrp_host* host, Call&& call) noexcept {
+    try {
+      return static_cast<std::int32_t>(call());
+    } catch (const std::bad_alloc&) {
+      return DMRP_OUT_OF_MEMORY;
+    } catch (const std::exception& error) {
+      host->set_error(host, error.what());
+    } catch (...) {
+      host->set_error(host, "an exception that is no std::exception");
+    }
+    return DMRP_ERROR;
+  }
+  template <class Call>
+  static std::int32_t guarded(const Plugin& plugin, Call&& call) noexcept {
+    return guarded(plugin.host_, std::forward<Call>(call));
+  }
+};
+
+namespace detail {
+
+inline dmrp_instance* to_instance(Plugin* plugin) {
+  return reinterpret_cast<dmrp_instance*>(plugin);
+}
+
+template <class Kind>
+Kind& from_instance(dmrp_instance* self) {
+  return static_cast<Kind&>(*reinterpret_cast<Plugin*>(self));
+}
+
+}  // namespace detail
+
+}  // namespace dmrp
+
+#endif
