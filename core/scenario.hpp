@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// scenario.hpp: a world as its file describes it: static shapes, robots with their goals, and flows of people.
+// Plain data, metres and radians in the world frame; host parses scenario.toml into it.
+#pragma once
+
+#include <dmrp/values.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dmrp::core {
+
+// A static body. A box of the file is a polygon here.
+struct Shape {
+  enum class Kind { circle, polygon };
+  std::string name;
+  Kind kind = Kind::polygon;
+  dmrp_vec2 center{};               // circle
+  double radius_m = 0.0;            // circle
+  std::vector<dmrp_vec2> vertices;  // polygon: convex, counter-clockwise
+  double height_m = 2.0;
+};
+
+// A robot's task. Headings that are NaN are free: a start's is then set along the first goal's dominant axis.
+struct RobotTask {
+  std::string name;
+  dmrp_pose start{};
+  std::vector<dmrp_pose> goals;  // at least one; several make a tour
+};
+
+// An axis-aligned rectangle where people come from, pass or go to.
+struct Region {
+  std::string name;
+  dmrp_vec2 lower{};
+  dmrp_vec2 upper{};
+};
+
+// People who walk from one region through others to a last one, and begin again when they get there.
+struct Flow {
+  std::string name;
+  std::vector<std::uint32_t> regions;  // indices into Scenario::regions: from, via..., to; at least two
+  std::uint32_t people = 0;
+};
+
+// Bodies and walking speeds of people: normal, truncated.
+struct PeopleSettings {
+  double radius_m = 0.3;
+  double speed_mean = 1.2;  // m/s
+  double speed_sd = 0.2;
+  double speed_min = 0.5;
+  double speed_max = 2.0;
+};
+
+struct Scenario {
+  std::string name;  // as it is used in experiment files
+  std::string title;
+  std::string description;
+  dmrp_vec2 lower{};  // the world is this rectangle; its border is a wall
+  dmrp_vec2 upper{};
+  double time_limit_s = 180.0;
+  std::vector<Shape> shapes;
+  std::vector<RobotTask> robots;
+  PeopleSettings people;
+  std::vector<Region> regions;
+  std::vector<Flow> flows;
+};
+
+inline std::uint32_t person_count(const Scenario& scenario) {
+  std::uint32_t count = 0;
+  for (const Flow& flow : scenario.flows) count += flow.people;
+  return count;
+}
+
+}  // namespace dmrp::core

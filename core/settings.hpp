@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// settings.hpp: what an experiment sets for all its trials: the simulation, the robot, the sensors.
+// Defaults are those of the benchmark's method.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+namespace dmrp::core {
+
+enum class Tracking { none, visible, all };  // which agents controllers are told of; visible: in range, line of sight
+
+struct LidarSettings {
+  std::uint32_t beams = 360;
+  double field_of_view_rad = 2.0 * std::numbers::pi;  // centred on the robot's heading
+  double range_min_m = 0.0;                           // from the sensor; nearer hits read as this
+  double range_max_m = 10.0;
+};
+
+struct CostmapSettings {
+  double resolution_m = 0.05;
+  double window_m = 6.0;            // side of the square about the robot
+  double obstacle_range_m = 4.0;    // hits nearer than this mark
+  double raytrace_range_m = 4.5;    // beams clear up to this
+  double inflation_radius_m = 0.55;
+  double cost_scaling = 5.0;        // 1/m
+};
+
+struct RobotSettings {
+  double radius_m = 0.25;
+  double v_min = 0.0;      // m/s
+  double v_max = 0.8;      // m/s
+  double omega_max = 1.0;  // rad/s
+  double a_max = 1.0;      // m/s^2
+  double alpha_max = 1.0;  // rad/s^2
+  LidarSettings lidar;
+  CostmapSettings costmap;
+};
+
+struct GoalSettings {
+  double tolerance_m = 0.2;
+  double tolerance_rad = 0.2;    // where a goal has a heading
+  double tolerance_speed = 0.1;  // m/s
+  double settle_s = 0.5;
+};
+
+struct SimulationSettings {
+  std::int64_t step_ns = 20'000'000;
+  std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
+  std::int64_t step_duration_ns = 1'800'000'000;
+  std::int64_t time_limit_ns = 180'000'000'000;
+  double grid_resolution_m = 1.0;
+  double planning_margin_m = 0.10;  // a cell is free when the clearance at its centre is radius + this
+  Tracking tracking = Tracking::visible;
+  double tracking_range_m = 10.0;
+  GoalSettings goal;
+};
+
+}  // namespace dmrp::core
