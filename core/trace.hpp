@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// trace.hpp: the encoded trace of a trial: what a trial is measured by, live and later alike.
+//
+// A trace is a sequence of records: the world first, then plans, samples, trajectories and notes as they came about,
+// the end last. (A trial that was cut short has no end.) A record is
+//
+//   u32 length of the body · u8 kind · body
+//
+// little-endian, unaligned; doubles keep their bits. Concatenated records are the trace; in a file each is one message
+// of the channel `dmrp/trace` (mcap_writer.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dmrp::core {
+
+inline constexpr std::uint32_t trace_format_version = 1;
+
+enum class TraceRecordKind : std::uint8_t { world = 1, plan = 2, sample = 3, trajectory = 4, note = 5, end = 6 };
+
+inline constexpr std::size_t trace_record_prefix_bytes = 5;  // length and kind
+
+using TraceBytes = std::vector<std::uint8_t>;
+
+// The trace is cut off or damaged, or of another format.
+class TraceError : public std::runtime_error {
+ public:
+  TraceError(std::size_t offset, const std::string& what)
+      : std::runtime_error("trace, byte " + std::to_string(offset) + ": " + what), offset_(offset) {}
+
+  std::size_t offset() const { return offset_; }  // of the first byte that could not be understood
+
+ private:
+  std::size_t offset_;
+};
+
+// Who left a trajectory or a note.
+struct TraceSource {
+  std::uint32_t plugin_kind = 0;  // DMRP_KIND_*
+  std::uint32_t robot = 0;        // whose, where it is a local controller; 0 otherwise
+};
+
+}  // namespace dmrp::core

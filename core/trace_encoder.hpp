@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// trace_encoder.hpp: writes down a trial as it happens.
+#pragma once
+
+#include <dmrp/metric.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "trace.hpp"
+
+namespace dmrp::core {
+
+// Keeps the trace in memory and hands every record, once it is whole, to a sink as well (a file, say).
+//
+//   TraceEncoder trace(world);
+//   trace.plan(plan, conflicts);
+//   for (...) trace.sample(sample);
+//   trace.end(end, "all robots arrived");
+//   TraceReader reader(trace.bytes());
+class TraceEncoder {
+ public:
+  // `t_ns` is the simulated time at which the record was made.
+  using RecordSink = std::function<void(std::int64_t t_ns, std::span<const std::uint8_t> record)>;
+
+  explicit TraceEncoder(const dmrp_world& world, RecordSink sink = {});
+
+  // A call of the planner and what it gave. One that gave no plan has no paths. `conflicts`: what the plan validator
+  // counted between robots (of uncoordinated planners only; others' plans have none).
+  void plan(const dmrp_plan& plan, std::uint32_t conflicts = 0);
+
+  // `sample.plan` is null or has the revision of a plan with paths that was written before.
+  void sample(const dmrp_sample& sample);
+
+  // What plugins said through dmrp.annotate/1.
+  void trajectory(TraceSource source, std::uint32_t role, std::span<const dmrp_pose> poses, std::int64_t step_ns);
+  void note(TraceSource source, std::string_view text);
+
+  // The last record. `reason` is for people.
+  void end(const dmrp_trial_end& end, std::string_view reason = {});
+
+  const TraceBytes& bytes() const { return bytes_; }
+
+ private:
+  template <class WriteBody>
+  void record(TraceRecordKind kind, WriteBody&& write_body);
+
+  TraceBytes bytes_;
+  RecordSink sink_;
+  std::int64_t now_ns_ = 0;  // of the last sample
+};
+
+}  // namespace dmrp::core
