@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// rectangle.hpp: upright rectangles, metres; the border belongs to them.
+#ifndef DMRP_TOOLKIT_RECTANGLE_HPP
+#define DMRP_TOOLKIT_RECTANGLE_HPP
+
+#include <algorithm>
+
+#include "vec2.hpp"
+
+namespace dmrp::toolkit {
+
+// lower.x <= upper.x and lower.y <= upper.y; a point or a line where they are equal.
+struct Rectangle {
+  dmrp_vec2 lower = {0.0, 0.0};
+  dmrp_vec2 upper = {0.0, 0.0};
+};
+
+constexpr bool contains(const Rectangle& rectangle, dmrp_vec2 point) {
+  return rectangle.lower.x <= point.x && point.x <= rectangle.upper.x && rectangle.lower.y <= point.y &&
+         point.y <= rectangle.upper.y;
+}
+
+inline dmrp_vec2 closest_point(const Rectangle& rectangle, dmrp_vec2 point) {
+  return {std::clamp(point.x, rectangle.lower.x, rectangle.upper.x),
+          std::clamp(point.y, rectangle.lower.y, rectangle.upper.y)};
+}
+
+// 0 inside.
+inline double distance(const Rectangle& rectangle, dmrp_vec2 point) {
+  return distance(closest_point(rectangle, point), point);
+}
+
+// From a point inside to the nearest side; negative outside by the distance to the rectangle's nearest side line.
+constexpr double depth(const Rectangle& rectangle, dmrp_vec2 point) {
+  return std::min(std::min(point.x - rectangle.lower.x, rectangle.upper.x - point.x),
+                  std::min(point.y - rectangle.lower.y, rectangle.upper.y - point.y));
+}
+
+}  // namespace dmrp::toolkit
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// shape_distance.hpp: distances to the static shapes of a world, metres.
+#ifndef DMRP_TOOLKIT_SHAPE_DISTANCE_HPP
+#define DMRP_TOOLKIT_SHAPE_DISTANCE_HPP
+
+#include <algorithm>
+
+#include "../world.h"
+#include "polygon.hpp"
+#include "rectangle.hpp"
+#include "segment.hpp"
+
+namespace dmrp::toolkit {
+
+// The vertices of a shape of kind DMRP_SHAPE_POLYGON.
+inline PolygonView polygon_of(const dmrp_shape& shape) {
+  return {shape.vertices, shape.vertex_count};
+}
+
+// The smallest upright rectangle around a shape.
+inline Rectangle bounds(const dmrp_shape& shape) {
+  if (shape.kind == DMRP_SHAPE_CIRCLE) {
+    const dmrp_vec2 reach = {shape.radius_m, shape.radius_m};
+    return {shape.center - reach, shape.center + reach};
+  }
+  Rectangle box = {shape.vertices[0], shape.vertices[0]};
+  for (const dmrp_vec2 vertex : polygon_of(shape)) {
+    box.lower = {std::min(box.lower.x, vertex.x), std::min(box.lower.y, vertex.y)};
+    box.upper = {std::max(box.upper.x, vertex.x), std::max(box.upper.y, vertex.y)};
+  }
+  return box;
+}
+
+// To the shape's outline, negative inside.
+inline double signed_distance(const dmrp_shape& shape, dmrp_vec2 point) {
+  if (shape.kind == DMRP_SHAPE_CIRCLE) return distance(shape.center, point) - shape.radius_m;
+  return signed_distance(polygon_of(shape), point);
+}
+
+// 0 inside.
+inline double distance(const dmrp_shape& shape, dmrp_vec2 point) {
+  if (shape.kind == DMRP_SHAPE_CIRCLE) return std::max(0.0, distance(shape.center, point) - shape.radius_m);
+  return distance(polygon_of(shape), point);
+}
+
+// 0 where they touch or the segment lies inside.
+inline double distance(const dmrp_shape& shape, const dmrp_segment& segment) {
+  if (shape.kind == DMRP_SHAPE_CIRCLE) return std::max(0.0, distance(segment, shape.center) - shape.radius_m);
+  return distance(polygon_of(shape), segment);
+}
+
+// From a point to the nearest shape or to the border around the world; 0 inside a shape or outside the border.
+// `shapes` is any range of dmrp_shape.
+template <class Shapes>
+double clearance(const Shapes& shapes, const Rectangle& border, dmrp_vec2 point) {
+  double nearest = std::max(0.0, depth(border, point));
+  for (const dmrp_shape& shape : shapes) {
+    if (distance(bounds(shape), point) < nearest) nearest = std::min(nearest, distance(shape, point));
+  }
+  return nearest;
+}
+
+}  // namespace dmrp::toolkit
+
+#endif
