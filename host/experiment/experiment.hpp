@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// experiment.hpp: an experiment file, checked and complete. Everything that a trial needs to know follows from it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/settings.hpp"
+#include "host/plugins/plugin_info.hpp"
+
+namespace dmrp::host {
+
+// A library that the experiment names.
+struct LibraryUse {
+  std::string written;         // as in the file
+  std::filesystem::path file;  // absolute
+  std::vector<PluginInfo> plugins;
+};
+
+// A plugin as the experiment uses it.
+struct PluginUse {
+  std::uint32_t library = 0;               // index into Experiment::libraries
+  PluginInfo info;
+  std::string label;                       // for people; unique among the uses of its kind
+  std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
+};
+
+// A scenario with a number of robots.
+struct ScenarioVariant {
+  core::Scenario scenario;     // holds exactly the robots that take part
+  std::string label;           // the scenario's name; "mall/10" where an experiment asks for several numbers of robots
+  std::filesystem::path file;  // of scenario.toml
+};
+
+enum class RecordTraces { all, failed, none };
+
+struct RunLimits {
+  double planner_time_s = 60.0;      // wall time for one call of plan()
+  double step_time_s = 1.0;          // for every other call
+  double trial_wall_time_s = 600.0;
+  std::int64_t memory_mb = 4096;     // of a worker; 0: none
+};
+
+struct Experiment {
+  std::filesystem::path file;  // of experiment.toml, absolute
+  std::string text;            // its content
+  std::string name;
+  std::uint64_t seed = 1;
+  std::uint32_t trials = 1;    // repetitions a combination
+  std::vector<LibraryUse> libraries;
+  std::vector<ScenarioVariant> scenarios;
+  std::vector<PluginUse> global_planners;
+  std::vector<PluginUse> local_controllers;
+  std::vector<PluginUse> pedestrian_models;  // empty when no scenario has people and none is named
+  std::vector<PluginUse> metrics;
+  bool time_limit_set = false;  // by [simulation]; else every scenario has its own
+  core::SimulationSettings simulation;
+  core::RobotSettings robot;
+  RecordTraces traces = RecordTraces::all;
+  RunLimits limits;
+};
+
+// What is tried out against each other: indices into the experiment's lists.
+struct Combination {
+  std::uint32_t scenario = 0;
+  std::uint32_t global_planner = 0;
+  std::uint32_t local_controller = 0;
+  std::int32_t pedestrian_model = -1;  // -1: a scenario without people
+};
+
+std::vector<Combination> combinations(const Experiment& experiment);
+
+// Trial k is repetition k / C of combination k % C for C combinations: the same trial whatever number is asked for.
+struct TrialId {
+  std::uint64_t number = 0;
+  std::uint32_t combination = 0;
+  std::uint32_t repetition = 0;
+};
+TrialId trial_id(std::uint64_t number, std::size_t combination_count);
+
+// Reads and checks an experiment: every mistake is an InputError in one line. Probes the libraries it names.
+// `trials` > 0 replaces the number in the file.
+Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials);
+
+// Where the shipped scenarios and those of DMRP_SCENARIO_PATH are: name -> scenario.toml. An InputError in one line.
+core::Scenario load_scenario(const std::filesystem::path& file);
+std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base);
+std::vector<std::string> shipped_scenarios();
+
+// The experiment with every default written out; reads back as the same experiment.
+std::string effective_toml(const Experiment& experiment);
+
+}  // namespace dmrp::host

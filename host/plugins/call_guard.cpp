@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "host/plugins/call_guard.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <fmt/format.h>
+
+#include "host/plugins/fp_control.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+// A call counts as hanging long after should_stop() has said yes, so that a slow machine makes no faults.
+constexpr std::int64_t grace_factor = 10;
+constexpr std::int64_t grace_ns = 5'000'000'000;
+
+template <std::size_t n>
+void copy_text(std::array<char, n>& to, const char* from) {
+  const std::size_t length = std::min(std::strlen(from), n - 1);
+  std::memcpy(to.data(), from, length);
+  to[length] = '\0';
+}
+
+std::string status_detail(const char* status, const std::string& error) {
+  return error.empty() ? fmt::format("returned {} without a text", status) : error;
+}
+
+}  // namespace
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+bool CallGuard::should_stop() {
+  const bool over = monotonic_ns() >= deadline_ns_;
+  stopped_ = stopped_ || over;
+  return over;
+}
+
+void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
+  error_.clear();
+  copy_text(note_.plugin, site.plugin.c_str());
+  copy_text(note_.function, site.function);
+  note_.step.store(site.step, std::memory_order_relaxed);
+  note_.robot.store(site.robot, std::memory_order_relaxed);
+  note_.limit_ns.store(budget_ns * grace_factor + grace_ns, std::memory_order_relaxed);
+  control_bits_ = fp_control();
+  start_ns_ = monotonic_ns();
+  deadline_ns_ = start_ns_ + budget_ns;
+  note_.start_ns.store(start_ns_, std::memory_order_relaxed);
+  note_.call_number.fetch_add(1, std::memory_order_release);
+}
+
+CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bool threw) {
+  const std::int64_t duration_ns = monotonic_ns() - start_ns_;
+  note_.call_number.fetch_add(1, std::memory_order_release);
+  if (fp_control() != control_bits_) {
+    set_fp_control(control_bits_);
+    throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");
+  }
+  if (threw) throw PluginFault(fault_kind::abi_breach, site, "let a C++ exception out");
+  switch (status) {
+    case DMRP_OK:
+    case DMRP_WARNING:
+    case DMRP_NO_SOLUTION:
+    case DMRP_TIMEOUT: return {status, duration_ns};
+    case DMRP_OUT_OF_MEMORY:
+      throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error_));
+    case DMRP_ERROR: throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_ERROR", error_));
+    case DMRP_FATAL: throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_FATAL", error_));
+    default: throw PluginFault(fault_kind::abi_breach, site, fmt::format("returned the unknown status {}", status));
+  }
+}
+
+}  // namespace dmrp::host

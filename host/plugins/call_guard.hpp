@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// call_guard.hpp: the one way into a plugin function. Notes who is called for the watchdog, times the call, compares
+// the floating-point control bits, turns statuses that end the trial into a PluginFault.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <dmrp/status.h>
+
+#include "host/plugins/call_note.hpp"
+#include "host/plugins/plugin_fault.hpp"
+
+namespace dmrp::host {
+
+// One a process: plugins are entered one at a time.
+class CallGuard {
+ public:
+  explicit CallGuard(CallNote& note) : note_(note) {}
+
+  struct Result {
+    std::int32_t status;
+    std::int64_t duration_ns;
+  };
+
+  // Calls `function`, which returns a status. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, unknown statuses,
+  // changed control bits and exceptions. should_stop() says yes after `budget_ns`.
+  template <class Function>
+  Result call(const CallSite& site, std::int64_t budget_ns, Function&& function) {
+    enter(site, budget_ns);
+    std::int32_t status = DMRP_ERROR;
+    bool threw = false;
+    try {
+      status = function();
+    } catch (...) {
+      threw = true;
+    }
+    return leave(site, status, threw);
+  }
+
+  // What host.h offers to the plugin that is being called.
+  bool should_stop();
+  void set_error(const char* text) { error_ = text ? text : ""; }
+
+  // Whether should_stop() has said yes since the last reset.
+  bool stopped() const { return stopped_; }
+  void reset_stopped() { stopped_ = false; }
+  const std::string& error() const { return error_; }
+
+ private:
+  void enter(const CallSite& site, std::int64_t budget_ns);
+  Result leave(const CallSite& site, std::int32_t status, bool threw);
+
+  CallNote& note_;
+  std::string error_;
+  std::int64_t start_ns_ = 0;
+  std::int64_t deadline_ns_ = 0;
+  std::uint32_t control_bits_ = 0;
+  bool stopped_ = false;
+};
+
+// Nanoseconds of the monotonic clock that worker and supervisor share.
+std::int64_t monotonic_ns();
+
+}  // namespace dmrp::host

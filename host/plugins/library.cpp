@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "host/plugins/library.hpp"
+
+#include <algorithm>
+#include <boost/dll/shared_library.hpp>
+#include <cstring>
+#include <fmt/format.h>
+#include <stdexcept>
+
+#include "host/plugins/fp_control.hpp"
+
+namespace dmrp::host {
+
+struct Library::Handle {
+  boost::dll::shared_library library;
+};
+
+namespace {
+
+// The loader's own message without the path in front, which the caller prints better.
+std::string loader_message(const std::exception& error, const std::filesystem::path& file) {
+  std::string text = error.what();
+  if (const auto at = text.find(file.string()); at != std::string::npos) {
+    text = text.substr(at + file.string().size());
+    text.erase(0, text.find_first_not_of(": "));
+  }
+  const auto end = text.find_last_not_of("\n \"]");
+  text.erase(end == std::string::npos ? 0 : end + 1);
+  return text;
+}
+
+dmrp_entry copy_entry(const dmrp_entry& theirs) {
+  constexpr std::size_t v1_0 = offsetof(dmrp_entry, create) + sizeof(theirs.create);
+  if (theirs.struct_size < v1_0) throw std::runtime_error("its dmrp_entry_v1 is shorter than v1.0's");
+  dmrp_entry ours{};
+  std::memcpy(&ours, &theirs, std::min<std::size_t>(theirs.struct_size, sizeof(ours)));
+  if (ours.abi_draft != DMRP_ABI_DRAFT)
+    throw std::runtime_error(fmt::format("built for draft {} of the v1 contract, this host has draft {}: build it again",
+                                         ours.abi_draft, DMRP_ABI_DRAFT));
+  if (ours.min_host_minor > DMRP_ABI_MINOR)
+    throw std::runtime_error(fmt::format("needs a host of ABI 1.{} or newer, this is 1.{}", ours.min_host_minor,
+                                         DMRP_ABI_MINOR));
+  if (!ours.init || !ours.deinit || !ours.plugin_count || !ours.descriptor || !ours.create)
+    throw std::runtime_error("its dmrp_entry_v1 lacks a function");
+  return ours;
+}
+
+}  // namespace
+
+Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<Handle>()) {
+  const std::uint32_t control_bits = fp_control();
+  try {
+    handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot be loaded: " + loader_message(error, file));
+  }
+  if (fp_control() != control_bits) {
+    set_fp_control(control_bits);
+    warning_ = "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored";
+  }
+  if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
+    throw std::runtime_error("not a dmrp v1 plugin (no symbol " DMRP_ENTRY_SYMBOL "; built with dmrp_add_plugin()?)");
+  entry_ = copy_entry(handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL));
+
+  const std::uint32_t count = entry_.plugin_count();
+  if (count == 0) throw std::runtime_error("holds no plugin");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const dmrp_descriptor* descriptor = entry_.descriptor(i);
+    if (!descriptor) throw std::runtime_error(fmt::format("gives no descriptor for its plugin {}", i));
+    plugins_.push_back(copy_descriptor(*descriptor));
+  }
+}
+
+Library::~Library() {
+  // Code of the library may still be referred to (thread-local destructors, static objects): leave it mapped.
+  static std::vector<boost::dll::shared_library> kept;
+  kept.push_back(std::move(handle_->library));
+}
+
+}  // namespace dmrp::host

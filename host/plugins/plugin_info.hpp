@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// plugin_info.hpp: a plugin's descriptor as the host's own copy, so that it outlives the library and crosses processes.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include <dmrp/descriptor.h>
+
+namespace dmrp::host {
+
+// The value of a parameter; the field of its type counts.
+struct ParameterValue {
+  std::string key;
+  std::uint32_t type = 0;  // DMRP_PARAM_*
+  std::int64_t integer = 0;
+  double number = 0.0;
+  std::string text;
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+};
+
+struct ParameterSpec {
+  ParameterValue fallback;
+  std::string unit;
+  std::string doc;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  std::vector<std::string> choices;
+};
+
+struct MetricValueSpec {
+  std::string name;
+  std::string unit;
+  std::string description;
+  std::uint32_t direction = DMRP_DIRECTION_NONE;
+  std::uint32_t subjects = 0;
+  bool wall_clock = false;
+  bool curve = false;
+};
+
+struct PluginInfo {
+  std::string id;
+  std::uint32_t kind = 0;  // DMRP_KIND_*
+  std::string name;
+  std::string version;
+  std::string vendor;
+  std::string license;
+  std::string summary;
+  std::string source;
+  std::vector<std::string> needs;  // extensions
+  std::vector<std::string> uses;
+  std::vector<ParameterSpec> parameters;
+  std::vector<MetricValueSpec> values;
+  std::uint32_t connectivity = DMRP_CONNECTIVITY_NONE;
+  std::uint32_t planner_flags = 0;
+  std::uint32_t channels = 0;
+};
+
+// "global_planner", ...: as the experiment file's tables are called.
+const char* kind_name(std::uint32_t kind);
+
+// "bool", "int", "double", "string", "choice", "path", "double array", "string array".
+const char* parameter_type_name(std::uint32_t type);
+
+// Copies a descriptor. Throws std::runtime_error, in one line, when it is not usable (no id, unknown kind, ...).
+PluginInfo copy_descriptor(const dmrp_descriptor& descriptor);
+
+void to_json(nlohmann::json& json, const PluginInfo& info);
+void from_json(const nlohmann::json& json, PluginInfo& info);
+
+}  // namespace dmrp::host

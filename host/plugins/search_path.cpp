@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+
+#include "host/executable.hpp"
+#include "host/plugins/library.hpp"
+
+namespace dmrp::host {
+
+std::vector<std::filesystem::path> plugin_path() {
+  std::vector<std::filesystem::path> folders = folders_of_variable("DMRP_PLUGIN_PATH");
+  folders.push_back(executable_path().parent_path() / "../lib/dmrp/plugins");
+  return folders;
+}
+
+std::filesystem::path find_library(const std::string& name, const std::filesystem::path& base) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> candidates;
+  if (name.find('/') == std::string::npos)
+    for (const fs::path& folder : plugin_path()) candidates.push_back(folder / name);
+  else
+    candidates.push_back(base / name);
+  for (const fs::path& candidate : candidates)
+    if (std::error_code ignored; fs::is_regular_file(candidate, ignored)) return fs::canonical(candidate);
+  return {};
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// plan_validator.hpp: checks every plan, independently of the planner that made it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <dmrp/global_planner.h>
+
+namespace dmrp::host {
+
+// The paths of a plan, one a robot.
+using PlannedPaths = std::vector<std::vector<dmrp_waypoint>>;
+
+// Whether a disc swept from one point to another stays clear of the static world; for any-angle plans.
+using SweepIsFree = std::function<bool(dmrp_vec2 from, dmrp_vec2 to, double radius_m)>;
+
+struct PlanVerdict {
+  std::string error;            // the first breach of the contract, in one line; empty if there is none
+  std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing and passing; or discs that meet
+  std::string first_conflict;   // in one line
+};
+
+// Checks structure (start, strictly growing times, goals in order, rest at the last), moves (free cells, edge mask,
+// one step each; any angle: swept discs) and conflicts between robots (robots rest at their last waypoint).
+PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPaths& paths, std::uint32_t connectivity,
+                          const SweepIsFree& sweep_is_free);
+
+}  // namespace dmrp::host
