@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// trial_record.hpp: what one trial left behind, as results.sqlite keeps it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dmrp::host {
+
+// A value that a metric gives, as it is declared.
+struct MetricColumn {
+  std::string name;
+  std::string unit;
+  std::uint32_t direction = 0;  // DMRP_DIRECTION_*
+  bool wall_clock = false;      // not repeatable to the bit
+  std::string description;
+};
+
+struct MetricValue {
+  std::string metric;                  // MetricColumn::name
+  std::uint32_t subject_kind = 0;      // DMRP_SUBJECT_*
+  std::optional<std::uint64_t> subject;  // none for the system
+  std::optional<double> coordinate;    // of a curve
+  std::optional<double> value;         // none where it is undefined
+};
+
+struct MetricEvent {
+  std::string metric;
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;
+  std::vector<std::uint32_t> robots;
+  std::string text;
+};
+
+struct FaultRecord {
+  std::string kind;  // fault_kind
+  std::string plugin;
+  std::string function;
+  std::int64_t step = 0;
+  std::int32_t robot = -1;  // -1: none
+  std::int32_t signal = 0;  // 0: none
+  std::string detail;
+  std::string rerun;  // the command that runs just this trial again
+};
+
+// outcome of a trial.
+namespace trial_outcome {
+inline constexpr const char* succeeded = "succeeded";  // all robots arrived
+inline constexpr const char* failed = "failed";
+inline constexpr const char* fault = "fault";
+inline constexpr const char* skipped = "skipped";
+}  // namespace trial_outcome
+
+struct TrialRecord {
+  std::uint64_t id = 0;
+  std::string scenario;
+  std::uint32_t robots = 0;
+  std::string global_planner;
+  std::string local_controller;
+  std::string pedestrian_model;  // empty where nobody walks
+  std::uint32_t repetition = 0;
+  std::uint64_t seed = 0;
+  std::string outcome;
+  bool repeatable = true;
+  double sim_time_s = 0.0;
+  double wall_time_s = 0.0;
+  std::vector<MetricValue> values;
+  std::vector<MetricEvent> events;
+  std::vector<FaultRecord> faults;
+};
+
+}  // namespace dmrp::host
