@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// trace_bytes.hpp: little-endian values in and out of bytes; internal to the trace's encoder and reader.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "trace.hpp"
+
+namespace dmrp::core {
+
+static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
+
+// A number, or a frozen value type of the SDK (no padding).
+template <class Value>
+concept TraceValue = std::is_arithmetic_v<Value> ||
+    (std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value> && std::is_standard_layout_v<Value>);
+
+class ByteWriter {
+ public:
+  explicit ByteWriter(TraceBytes& bytes) : bytes_(bytes) {}
+
+  template <TraceValue Value>
+  void put(const Value& value) {
+    put_array(&value, 1);
+  }
+
+  template <TraceValue Value>
+  void put_array(const Value* values, std::size_t count) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(values);
+    bytes_.insert(bytes_.end(), begin, begin + count * sizeof(Value));
+  }
+
+  void put_text(std::string_view text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    put_array(text.data(), text.size());
+  }
+
+ private:
+  TraceBytes& bytes_;
+};
+
+// Reads bytes [position, end) of a trace; throws TraceError rather than read beyond.
+class ByteCursor {
+ public:
+  ByteCursor(std::span<const std::uint8_t> bytes, std::size_t position, std::size_t end)
+      : bytes_(bytes), position_(position), end_(end) {}
+
+  std::size_t position() const { return position_; }
+  bool at_end() const { return position_ == end_; }
+
+  template <TraceValue Value>
+  Value take() {
+    Value value;
+    take_array(&value, 1);
+    return value;
+  }
+
+  template <TraceValue Value>
+  void take_array(Value* values, std::size_t count) {
+    require(count, sizeof(Value));
+    if (count > 0) std::memcpy(values, bytes_.data() + position_, count * sizeof(Value));
+    position_ += count * sizeof(Value);
+  }
+
+  // A count of elements of which each takes `element_bytes` or more: what follows has room for them, so that a damaged
+  // count never makes anybody allocate more than a small multiple of the trace.
+  std::uint32_t take_count(std::size_t element_bytes) {
+    const auto count = take<std::uint32_t>();
+    require(count, element_bytes);
+    return count;
+  }
+
+  std::string_view take_text() {
+    const std::uint32_t size = take_count(1);
+    const auto* begin = reinterpret_cast<const char*>(bytes_.data() + position_);
+    position_ += size;
+    return {begin, size};
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw TraceError(position_, what); }
+
+  void require(std::size_t count, std::size_t element_bytes) const {
+    if (count > (end_ - position_) / element_bytes) fail("the record ends too early");
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t position_;
+  std::size_t end_;
+};
+
+}  // namespace dmrp::core
