@@ -2,9 +2,9 @@
 # dmrp_add_plugin(NAME SOURCES file... [LIBRARIES target...])
 #
 # Builds libNAME.so: a plugin library that exports dmrp_entry_v1 and nothing else.
-set(DMRP_PLUGIN_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin_exports.map)
-
 function(dmrp_add_plugin name)
+  # Of this file's folder, wherever the function is called from.
+  set(version_script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin_exports.map)
   cmake_parse_arguments(PARSE_ARGV 1 plugin "" "" "SOURCES;LIBRARIES")
   if(NOT plugin_SOURCES OR plugin_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dmrp_add_plugin(NAME SOURCES file... [LIBRARIES target...])")
@@ -14,12 +14,12 @@ function(dmrp_add_plugin name)
   target_compile_features(${name} PRIVATE cxx_std_17)
   # -ffp-contract=off: results must not depend on which instructions the compiler fuses.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
-  target_link_options(${name} PRIVATE -Wl,--version-script=${DMRP_PLUGIN_VERSION_SCRIPT})
+  target_link_options(${name} PRIVATE -Wl,--version-script=${version_script})
   set_target_properties(
     ${name}
     PROPERTIES C_VISIBILITY_PRESET hidden
                CXX_VISIBILITY_PRESET hidden
                VISIBILITY_INLINES_HIDDEN ON
                POSITION_INDEPENDENT_CODE ON
-               LINK_DEPENDS ${DMRP_PLUGIN_VERSION_SCRIPT})
+               LINK_DEPENDS ${version_script})
 endfunction()

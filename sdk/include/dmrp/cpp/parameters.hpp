@@ -92,8 +92,9 @@ class ParamBuilder {
     value_ = std::move(value);
   }
 
-  ParamBuilder& unit(const char* unit) { return definition_->unit = unit, *this; }
-  ParamBuilder& doc(const char* doc) { return definition_->doc = doc, *this; }
+  // (Moved from a temporary: assigning a literal makes gcc 12 warn of an overlap that cannot be, -Wrestrict.)
+  ParamBuilder& unit(const char* unit) { return definition_->unit = std::string(unit), *this; }
+  ParamBuilder& doc(const char* doc) { return definition_->doc = std::string(doc), *this; }
   ParamBuilder& range(double minimum, double maximum) {
     definition_->minimum = minimum;
     definition_->maximum = maximum;
