@@ -19,11 +19,11 @@ struct LidarSettings {
 
 struct CostmapSettings {
   double resolution_m = 0.05;
-  double window_m = 6.0;            // side of the square about the robot
-  double obstacle_range_m = 4.0;    // hits nearer than this mark
-  double raytrace_range_m = 4.5;    // beams clear up to this
+  double window_m = 6.0;          // side of the square about the robot
+  double obstacle_range_m = 4.0;  // hits nearer than this mark
+  double raytrace_range_m = 4.5;  // beams clear up to this
   double inflation_radius_m = 0.55;
-  double cost_scaling = 5.0;        // 1/m
+  double cost_scaling = 5.0;  // 1/m
 };
 
 struct RobotSettings {

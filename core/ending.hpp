@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// ending.hpp: when a trial is over, and why a robot failed.
+#pragma once
+
+#include <dmrp/metric.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/world.hpp"
+
+namespace dmrp::core {
+
+inline constexpr std::int64_t stall_window_ns = 20'000'000'000;
+inline constexpr double stall_progress_m = 0.2;
+inline constexpr double oscillation_travel_m = 1.0;
+inline constexpr double oscillation_turn_rad = 4.0 * 3.14159265358979323846;
+inline constexpr std::int64_t controller_silence_ns = 5'000'000'000;
+
+// Watches the robots of one trial.
+// - Deadlock: no unfinished robot gained stall_progress_m in the last stall_window_ns. Ends the trial.
+// - Oscillation of a robot: over the same window it travelled or turned much and gained as little. Recorded for good,
+//   also if it arrives later.
+// - Controller failure: no command for controller_silence_ns.
+class EndingMonitor {
+ public:
+  EndingMonitor(std::uint32_t robot_count, std::int64_t time_limit_ns);
+
+  // A controller gave a command.
+  void command_given(std::uint32_t robot, std::int64_t t_ns) { robots_[robot].last_command_ns = t_ns; }
+
+  // The robots after a step, and what each has gained along its paths (PathProgress::gained_m). Every step; times grow.
+  // Returns DMRP_ENDING_* once the trial is over, 0 until then.
+  std::uint32_t update(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m);
+
+  // DMRP_FAILURE_* of a robot as far as known; a robot whose controller failed is to be given up (World::fail).
+  std::uint32_t failure(std::uint32_t robot) const { return robots_[robot].failure; }
+
+  // How every robot ended, when update() has returned an ending.
+  std::vector<dmrp_robot_end> robot_ends(std::uint32_t ending, std::span<const RobotState> robots) const;
+
+ private:
+  struct Moment {
+    std::int64_t t_ns;
+    double gained_m;
+    double travelled_m;
+    double turned_rad;
+  };
+  struct Watched {
+    std::vector<Moment> ring;  // the last stall_window_ns
+    std::size_t oldest = 0;
+    Moment now{};
+    dmrp_pose last_pose{};
+    std::int64_t last_command_ns = 0;
+    std::uint32_t failure = 0;
+  };
+
+  std::int64_t time_limit_ns_;
+  std::vector<Watched> robots_;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// solid_motion.hpp: round bodies that cannot walk through each other or through walls.
+#pragma once
+
+#include <dmrp/values.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/broad_phase.hpp"
+#include "core/static_geometry.hpp"
+
+namespace dmrp::core {
+
+// Motion is cancelled where it would bring two bodies deeper into each other than this. More than contact_depth_m, so
+// that a body that presses on is in contact.
+inline constexpr double solid_depth_m = 0.0015;
+
+// A disc and where it is about to go in this step.
+struct SolidBody {
+  dmrp_vec2 position{};
+  double radius_m = 0.0;
+  dmrp_vec2 displacement{};
+};
+
+// Two bodies, or a body and a shape, that overlap.
+struct Overlap {
+  std::uint32_t a = 0;  // body
+  std::uint32_t b = 0;  // body, shape, or StaticGeometry::border()
+  double depth_m = 0.0;
+  dmrp_vec2 point{};  // in the middle of the overlap
+};
+
+// Keeps bodies solid. Nobody is ever pushed: a body loses the part of its motion that would deepen an overlap, the rest
+// stays, and who stands still keeps standing. Where two approach each other, both lose the same share of their approach.
+class SolidMotion {
+ public:
+  explicit SolidMotion(std::shared_ptr<const StaticGeometry> geometry);
+
+  // Shortens the displacements so that no overlap gets deeper than solid_depth_m, and none that is deeper gets deeper.
+  void resolve(std::span<SolidBody> bodies);
+
+  // Overlaps deeper than `depth_m` at the present positions, ordered by a, then b: with shapes, and between bodies.
+  void overlaps_with_shapes(std::span<const SolidBody> bodies, double depth_m, std::vector<Overlap>& found);
+  void overlaps_between(std::span<const SolidBody> bodies, double depth_m, std::vector<Overlap>& found);
+
+ private:
+  struct Constraint {
+    std::uint32_t a;
+    std::uint32_t b;   // no_body: something static
+    dmrp_vec2 normal;  // from b toward a
+    double allowed_m;  // how far the two may approach
+  };
+
+  void find_neighbours(std::span<const SolidBody> bodies);
+  void collect_constraints(std::span<const SolidBody> bodies);
+  bool relax(std::span<SolidBody> bodies) const;
+  void halt_violators(std::span<SolidBody> bodies) const;
+
+  std::shared_ptr<const StaticGeometry> geometry_;
+  BodyPairs pairs_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> body_neighbours_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> shape_neighbours_;  // body, shape
+  std::vector<dmrp_vec2> neighbours_at_;  // positions for which the neighbours were found
+  std::vector<Constraint> constraints_;
+};
+
+}  // namespace dmrp::core

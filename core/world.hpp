@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// world.hpp: the simulated world of one trial. It owns no plugin and no clock: who steps it decides who moves how.
+#pragma once
+
+#include <dmrp/metric.h>
+#include <dmrp/pedestrian_model.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/contact_events.hpp"
+#include "core/population.hpp"
+#include "core/scenario.hpp"
+#include "core/settings.hpp"
+#include "core/solid_motion.hpp"
+#include "core/static_geometry.hpp"
+
+namespace dmrp::core {
+
+struct RobotState {
+  dmrp_pose pose{};
+  dmrp_twist velocity{};    // actual
+  dmrp_twist command{};     // in force, within the velocity limits
+  std::uint32_t state = 0;  // DMRP_ROBOT_*
+  std::uint32_t goal_index = 0;
+  std::int64_t settling_since_ns = -1;  // the current goal's conditions hold since then; -1: they don't
+  std::int64_t arrival_ns = -1;         // of the last goal
+};
+
+class World {
+ public:
+  World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+        std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed);
+
+  std::int64_t t_ns() const { return t_ns_; }
+  const StaticGeometry& geometry() const { return *geometry_; }
+  const RobotSettings& robot_settings() const { return robot_settings_; }
+  const SimulationSettings& settings() const { return settings_; }
+
+  std::span<const RobotState> robots() const { return robots_; }
+  std::span<const dmrp_goal> goals(std::uint32_t robot) const { return goals_[robot]; }
+
+  // All robots as others see them, by index; all people likewise, by slot.
+  std::span<const dmrp_agent> robot_agents() const { return robot_agents_; }
+  std::span<const dmrp_agent> person_agents() const { return person_agents_; }
+
+  // What a pedestrian model is told, by slot.
+  std::span<const dmrp_person> people() const { return population_.people(); }
+
+  // Sets the command in force, clipped to the velocity limits, until the next one. Must be finite. Ignored for a robot
+  // that is not active. Returns what is in force.
+  dmrp_twist set_command(std::uint32_t robot, const dmrp_twist& command);
+
+  // Gives a robot up: it brakes and stands where it is.
+  void fail(std::uint32_t robot);
+
+  // One physics step: robots follow their commands within their accelerations, people move at these velocities (one a
+  // slot, world frame, finite), bodies stop where they would get deeper into each other, robots arrive, people reach
+  // their regions. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
+  std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
+
+  // Of the last step.
+  std::span<const dmrp_contact> contacts() const { return contacts_; }
+
+ private:
+  void propose_motion(std::span<const dmrp_vec2> person_velocities);
+  void apply_motion();
+  void find_contacts();
+  void check_arrival(std::uint32_t robot);
+  void update_agents();
+
+  RobotSettings robot_settings_;
+  SimulationSettings settings_;
+  dmrp_limits limits_;
+  std::shared_ptr<const StaticGeometry> geometry_;
+  std::int64_t t_ns_ = 0;
+  std::vector<RobotState> robots_;
+  std::vector<std::vector<dmrp_goal>> goals_;
+  Population population_;
+  SolidMotion motion_;
+  ContactTracker tracker_;
+  std::vector<SolidBody> bodies_;    // robots, then people
+  std::vector<dmrp_pose> proposed_;  // robots, unhindered
+  std::vector<dmrp_agent> robot_agents_;
+  std::vector<dmrp_agent> person_agents_;
+  std::vector<double> person_headings_;
+  std::vector<dmrp_contact> contacts_;
+};
+
+}  // namespace dmrp::core
