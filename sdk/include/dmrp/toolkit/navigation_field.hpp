@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// navigation_field.hpp: how far it is from everywhere to a target, and which way to go.
+//
+// The fast marching method (Sethian 1996): solves |grad T| = cost on the free cells of a grid, so that T is the length
+// of the shortest way (not of a zigzag of grid moves) times the cost of a metre along it. First order: within a few
+// per cent of the true length, never shorter than the straight line by more than rounding. It goes from cell to cell
+// only along edges E, N, W, S of the grid's mask and cuts no corner. Cells that are equally near are settled in the
+// order of their indices, so equal grids give equal fields.
+#ifndef DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
+#define DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "grid_view.hpp"
+#include "rectangle.hpp"
+#include "vec2.hpp"
+
+namespace dmrp::toolkit {
+
+// What makes ways near walls longer: a metre in clearance c costs 1 + wall_cost * (1 - c / comfort_m)^2 where
+// c < comfort_m, and 1 elsewhere. The default keeps to the shortest way.
+struct NavigationCost {
+  double comfort_m = 0.0;
+  double wall_cost = 0.0;
+};
+
+// Keeps its buffers from one compute() to the next. The grid's arrays must outlive the field.
+class NavigationField {
+ public:
+  // The field toward the nearest of the targets; a point is a rectangle without extent. A target is reached through
+  // the free cells that it touches: where it touches none, it counts for nothing.
+  void compute(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost = {}) {
+    grid_ = grid;
+    cost_ = cost;
+    targets_ = targets;
+    values_.assign(grid.size(), unreachable);
+    directions_.assign(grid.size(), {0.0, 0.0});
+    settled_.assign(grid.size(), 0);
+    queue_.clear();
+    for (const Rectangle& target : targets_) seed(target);
+    march();
+    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell) directions_[cell] = descent(cell);
+  }
+
+  void compute(const GridView& grid, const Rectangle& target, NavigationCost cost = {}) {
+    compute(grid, std::vector<Rectangle>{target}, cost);
+  }
+
+  static constexpr double unreachable = std::numeric_limits<double>::infinity();
+
+  const GridView& grid() const { return grid_; }
+
+  // At a cell's centre: metres times cost; `unreachable` where no way leads to a target.
+  double value(std::uint32_t cell) const { return values_[cell]; }
+  bool reachable(std::uint32_t cell) const { return values_[cell] < unreachable; }
+
+  // The unit direction of steepest descent at a cell's centre; zero in a target and where there is no way.
+  dmrp_vec2 direction(std::uint32_t cell) const { return directions_[cell]; }
+
+  // At any point: bilinear between cell centres, from the point's own cell alone where a neighbour is cut off. From a
+  // point in no reachable cell (pushed against a wall) the way to the nearest such cell's centre is added.
+  double value(dmrp_vec2 point) const {
+    const std::uint32_t own = nearest_reachable(point);
+    if (own == no_cell) return unreachable;
+    if (grid_.index_of(point) != own) return values_[own] + distance(point, grid_.center(own));
+    const Rectangle* target = touching_target(own);
+    if (target != nullptr) return distance(*target, point) * metre_cost(own);
+    const Corners corners = corners_around(point, own);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (corners.cells[i] == no_cell) {
+        const double gained = dot(directions_[own], point - grid_.center(own));
+        return std::max(0.0, values_[own] - gained * metre_cost(own));
+      }
+      sum += corners.weights[i] * values_[corners.cells[i]];
+    }
+    return sum;
+  }
+
+  // The unit direction to walk at any point: interpolated between cells that are joined to the point's own; straight to
+  // the target in a cell that touches it; to the nearest reachable cell from a point in none. Zero inside a target and
+  // where there is no way.
+  dmrp_vec2 direction(dmrp_vec2 point) const {
+    const std::uint32_t own = nearest_reachable(point);
+    if (own == no_cell) return {0.0, 0.0};
+    if (grid_.index_of(point) != own) return normalized(grid_.center(own) - point);
+    const Rectangle* target = touching_target(own);
+    if (target != nullptr) return normalized(closest_point(*target, point) - point);
+    const Corners corners = corners_around(point, own);
+    dmrp_vec2 sum = {0.0, 0.0};
+    for (std::size_t i = 0; i < 4; ++i)
+      if (corners.cells[i] != no_cell) sum += corners.weights[i] * directions_[corners.cells[i]];
+    // Where ways part, neighbours may pull apart: then the point's own cell decides.
+    return norm(sum) > 0.1 ? normalized(sum) : directions_[own];
+  }
+
+ private:
+  using Entry = std::pair<double, std::uint32_t>;  // value, cell: the order of settling
+
+  // The four cells whose centres surround a point, with their bilinear weights; no_cell for one that is not joined to
+  // the point's own cell.
+  struct Corners {
+    std::array<std::uint32_t, 4> cells;
+    std::array<double, 4> weights;
+  };
+
+  double metre_cost(std::uint32_t cell) const {
+    const double clearance = static_cast<double>(grid_.clearance(cell));
+    if (!(clearance < cost_.comfort_m)) return 1.0;
+    const double closeness = 1.0 - clearance / cost_.comfort_m;
+    return 1.0 + cost_.wall_cost * closeness * closeness;
+  }
+
+  Rectangle square_of(Cell cell) const {
+    const dmrp_vec2 half = {0.5 * grid_.resolution_m(), 0.5 * grid_.resolution_m()};
+    return {grid_.center(cell) - half, grid_.center(cell) + half};
+  }
+
+  static bool overlap(const Rectangle& a, const Rectangle& b) {
+    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y;
+  }
+
+  const Rectangle* touching_target(std::uint32_t cell) const {
+    const Rectangle* nearest = nullptr;
+    double nearest_distance = unreachable;
+    for (const Rectangle& target : targets_) {
+      if (!overlap(target, square_of(grid_.cell(cell)))) continue;
+      const double target_distance = distance(target, grid_.center(cell));
+      if (target_distance < nearest_distance) {
+        nearest = &target;
+        nearest_distance = target_distance;
+      }
+    }
+    return nearest;
+  }
+
+  Cell clamped(Cell cell) const {
+    return {std::clamp(cell.column, 0, static_cast<std::int32_t>(grid_.width()) - 1),
+            std::clamp(cell.row, 0, static_cast<std::int32_t>(grid_.height()) - 1)};
+  }
+
+  void seed(const Rectangle& target) {
+    if (grid_.size() == 0) return;
+    // One cell more all round: a target that ends on a border of cells touches those on both sides.
+    const Cell first = grid_.cell_of(target.lower);
+    const Cell last = grid_.cell_of(target.upper);
+    const Cell lower = clamped({first.column - 1, first.row - 1});
+    const Cell upper = clamped({last.column + 1, last.row + 1});
+    for (std::int32_t row = lower.row; row <= upper.row; ++row) {
+      for (std::int32_t column = lower.column; column <= upper.column; ++column) {
+        const Cell cell = {column, row};
+        if (!grid_.free(cell) || !overlap(target, square_of(cell))) continue;
+        const std::uint32_t index = grid_.index(cell);
+        offer(index, distance(target, grid_.center(cell)) * metre_cost(index));
+      }
+    }
+  }
+
+  void offer(std::uint32_t cell, double value) {
+    if (!(value < values_[cell])) return;
+    values_[cell] = value;
+    queue_.emplace_back(value, cell);
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
+  }
+
+  void march() {
+    while (!queue_.empty()) {
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
+      const std::uint32_t cell = queue_.back().second;
+      queue_.pop_back();
+      if (settled_[cell]) continue;
+      settled_[cell] = 1;
+      for (int direction = 0; direction < direction_count; direction += 2) {
+        const std::uint32_t next = grid_.neighbour(cell, direction);
+        if (next == no_cell || settled_[next] || !grid_.free(next)) continue;
+        if (grid_.edge(next, opposite_direction(direction))) offer(next, upwind_value(next));
+      }
+    }
+  }
+
+  // The settled value across one edge; `unreachable` where there is none.
+  double settled_value(std::uint32_t cell, int direction) const {
+    if (!grid_.edge(cell, direction)) return unreachable;
+    const std::uint32_t next = grid_.neighbour(cell, direction);
+    return next != no_cell && settled_[next] ? values_[next] : unreachable;
+  }
+
+  // Solves the eikonal equation at a cell from its settled neighbours.
+  double upwind_value(std::uint32_t cell) const {
+    const double along_x = std::min(settled_value(cell, 0), settled_value(cell, 4));
+    const double along_y = std::min(settled_value(cell, 2), settled_value(cell, 6));
+    const double step = metre_cost(cell) * grid_.resolution_m();
+    const double lower = std::min(along_x, along_y);
+    const double apart = std::max(along_x, along_y) - lower;
+    if (!(apart < step)) return lower + step;
+    return 0.5 * (along_x + along_y + std::sqrt(2.0 * step * step - apart * apart));
+  }
+
+  // The direction whose upwind differences made the value.
+  dmrp_vec2 descent(std::uint32_t cell) const {
+    if (!reachable(cell)) return {0.0, 0.0};
+    const auto slope = [&](int positive, int negative) {
+      const double ahead = settled_value(cell, positive);
+      const double behind = settled_value(cell, negative);
+      return ahead <= behind ? std::max(0.0, values_[cell] - ahead) : -std::max(0.0, values_[cell] - behind);
+    };
+    const dmrp_vec2 steepest = normalized({slope(0, 4), slope(2, 6)});
+    if (steepest != dmrp_vec2{0.0, 0.0}) return steepest;
+    const Rectangle* target = touching_target(cell);
+    return target == nullptr ? steepest : normalized(closest_point(*target, grid_.center(cell)) - grid_.center(cell));
+  }
+
+  Corners corners_around(dmrp_vec2 point, std::uint32_t own) const {
+    const Cell center = grid_.cell(own);
+    const dmrp_vec2 offset = (point - grid_.center(own)) / grid_.resolution_m();
+    const std::int32_t dx = offset.x < 0.0 ? -1 : 1;
+    const std::int32_t dy = offset.y < 0.0 ? -1 : 1;
+    const double far_x = std::abs(offset.x);
+    const double far_y = std::abs(offset.y);
+    const auto joined = [&](std::int32_t step_x, std::int32_t step_y) {
+      const bool open = grid_.edge(own, direction_of(step_x, step_y));
+      const Cell cell = {center.column + step_x, center.row + step_y};
+      return open && grid_.contains(cell) && reachable(grid_.index(cell)) ? grid_.index(cell) : no_cell;
+    };
+    return {{own, joined(dx, 0), joined(0, dy), joined(dx, dy)},
+            {(1.0 - far_x) * (1.0 - far_y), far_x * (1.0 - far_y), (1.0 - far_x) * far_y, far_x * far_y}};
+  }
+
+  // The reachable cell that holds the point, or the one whose centre is nearest, the lowest index of several; no_cell
+  // where none is reachable. Looks at square rings of cells until no further one can be nearer.
+  std::uint32_t nearest_reachable(dmrp_vec2 point) const {
+    const std::uint32_t holding = grid_.index_of(point);
+    if (holding != no_cell && reachable(holding)) return holding;
+    const Cell middle = clamped(grid_.cell_of(point));
+    const auto rings = static_cast<std::int32_t>(std::max(grid_.width(), grid_.height()));
+    std::uint32_t best = no_cell;
+    double best_distance = unreachable;
+    for (std::int32_t ring = 0; ring <= rings; ++ring) {
+      if ((ring - 1) * grid_.resolution_m() > best_distance) break;
+      for (std::int32_t row = middle.row - ring; row <= middle.row + ring; ++row) {
+        const bool whole_row = std::abs(row - middle.row) == ring;
+        for (std::int32_t dx = -ring; dx <= ring; dx += whole_row ? 1 : std::max(1, 2 * ring)) {
+          const Cell cell = {middle.column + dx, row};
+          if (!grid_.contains(cell) || !reachable(grid_.index(cell))) continue;
+          const double cell_distance = distance(grid_.center(cell), point);
+          if (cell_distance < best_distance || (cell_distance == best_distance && grid_.index(cell) < best)) {
+            best = grid_.index(cell);
+            best_distance = cell_distance;
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+  GridView grid_;
+  NavigationCost cost_;
+  std::vector<Rectangle> targets_;
+  std::vector<double> values_;
+  std::vector<dmrp_vec2> directions_;
+  std::vector<std::uint8_t> settled_;
+  std::vector<Entry> queue_;
+};
+
+}  // namespace dmrp::toolkit
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// snap.hpp: puts robots that stand anywhere on cells of a planning grid, as planning from where they are needs it.
+#ifndef DMRP_TOOLKIT_SNAP_HPP
+#define DMRP_TOOLKIT_SNAP_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "disc_sweep.hpp"
+#include "grid_view.hpp"
+#include "rectangle.hpp"
+#include "vec2.hpp"
+
+namespace dmrp::toolkit {
+
+struct SnapRequest {
+  dmrp_vec2 position = {0.0, 0.0};
+  std::uint32_t preferred = no_cell;  // the next cell of the plan in force, if there is one
+};
+
+// The free cell whose centre is nearest to `position` among those within `reach_m` that `can_move(from, to)` says can
+// be driven to straight; the lowest index of several equally near; no_cell where there is none.
+template <class CanMove>
+std::uint32_t nearest_free_cell(const GridView& grid, dmrp_vec2 position, double reach_m, const CanMove& can_move) {
+  struct Candidate {
+    double squared_distance;
+    std::uint32_t cell;
+  };
+  const dmrp_vec2 reach = {reach_m, reach_m};
+  const Cell lower = grid.cell_of(position - reach);
+  const Cell upper = grid.cell_of(position + reach);
+  std::vector<Candidate> candidates;
+  for (std::int32_t row = std::max(lower.row, 0); row <= upper.row && grid.contains(Cell{0, row}); ++row) {
+    for (std::int32_t column = std::max(lower.column, 0); column <= upper.column; ++column) {
+      const Cell cell = {column, row};
+      if (!grid.contains(cell)) break;
+      const double squared = squared_distance(grid.center(cell), position);
+      if (grid.free(cell) && squared <= reach_m * reach_m) candidates.push_back({squared, grid.index(cell)});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance : a.cell < b.cell;
+  });
+  for (const Candidate& candidate : candidates)
+    if (can_move(position, grid.center(candidate.cell))) return candidate.cell;
+  return no_cell;
+}
+
+// One cell a request, all different: the preferred one if it is free, nobody else prefers it and it can be driven to
+// straight; else the nearest free one that can. Nothing at all if a robot finds none within `reach_m` or two would
+// share one: the plans in force then stay the better answer. Does not depend on the order of the requests.
+template <class CanMove>
+std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
+                                                        double reach_m, const CanMove& can_move) {
+  std::vector<std::uint32_t> cells;
+  for (const SnapRequest& request : requests) {
+    const auto prefers_it = [&](const SnapRequest& other) { return other.preferred == request.preferred; };
+    const bool takes_it = request.preferred != no_cell && grid.free(request.preferred) &&
+                          std::count_if(requests.begin(), requests.end(), prefers_it) == 1 &&
+                          can_move(request.position, grid.center(request.preferred));
+    cells.push_back(takes_it ? request.preferred : nearest_free_cell(grid, request.position, reach_m, can_move));
+    if (cells.back() == no_cell) return std::nullopt;
+  }
+  std::vector<std::uint32_t> sorted = cells;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
+  return cells;
+}
+
+// The same for discs among static shapes: a cell can be driven to when the disc swept to its centre stays clear, or
+// comes no closer to anything than it already is. `shapes` is any range of dmrp_shape.
+template <class Shapes>
+std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
+                                                        double reach_m, double radius_m, const Shapes& shapes,
+                                                        const Rectangle& border) {
+  return snap_to_cells(grid, requests, reach_m, [&](dmrp_vec2 from, dmrp_vec2 to) {
+    return disc_retreat_is_clear({from, to}, radius_m, shapes, border);
+  });
+}
+
+}  // namespace dmrp::toolkit
+
+#endif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// svg.hpp: draws a plan of a world as an SVG document.
+//
+//   SvgPlan plan({{0, 0}, {40, 40}}, "mall");
+//   plan.polygon(shelf, {"furniture"}, "shelf B");
+//   plan.polyline(path, {"path", series_color(robot)});
+//   plan.text({3.0, 4.5}, "R1", {"label"});
+//   file << plan.document();
+//
+// World coordinates in metres, y up; the page's own are told to nobody. What is drawn later lies on top. Equal calls
+// give equal bytes, whatever the locale.
+//
+// Looks come by class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
+// `label`, `heading`; another class name is left to the reader's own style sheet. Line widths and text sizes are those
+// of the page, not of the world.
+#ifndef DMRP_TOOLKIT_SVG_HPP
+#define DMRP_TOOLKIT_SVG_HPP
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "polygon.hpp"
+#include "rectangle.hpp"
+#include "vec2.hpp"
+
+namespace dmrp::toolkit {
+
+// The palette of Okabe and Ito (2008), which stays distinct under colour blindness; it repeats after eight.
+inline std::string_view series_color(std::size_t index) {
+  constexpr std::array<std::string_view, 8> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                      "#e69f00", "#56b4e9", "#000000", "#f0e442"};
+  return colors[index % colors.size()];
+}
+
+// Text as it may stand between tags and in attributes. Control characters, which XML forbids, become spaces.
+inline std::string escape_xml(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
+// At most two decimals, rounded half away from zero, no trailing zeros, never "-0". Finite, below 1e15.
+inline std::string format_svg_number(double value) {
+  const std::int64_t hundredths = std::llround(std::abs(value) * 100.0);
+  std::string text = (value < 0.0 && hundredths != 0 ? "-" : "") + std::to_string(hundredths / 100);
+  const auto decimals = static_cast<char>(hundredths % 100);
+  if (decimals != 0) {
+    text += '.';
+    text += static_cast<char>('0' + decimals / 10);
+    if (decimals % 10 != 0) text += static_cast<char>('0' + decimals % 10);
+  }
+  return text;
+}
+
+// `color` stands in for the class's own: of the line where that is drawn as a line, of the fill otherwise.
+struct SvgStyle {
+  std::string_view name;
+  std::string_view color = {};
+};
+
+class SvgPlan {
+ public:
+  // A page that shows the rectangle `world`, `page_width` pixels wide without its margin. `heading` may be empty.
+  explicit SvgPlan(const Rectangle& world, std::string_view heading = {}, double page_width = 800.0)
+      : world_(world),
+        scale_(page_width / (world.upper.x - world.lower.x)),
+        top_(heading.empty() ? margin : 3 * margin) {
+    width_ = page_width + 2.0 * margin;
+    height_ = scale_ * (world.upper.y - world.lower.y) + top_ + 3.0 * margin;
+    rectangle(world, {"free"});
+    if (!heading.empty()) page_text({margin, 2.0 * margin}, heading, "heading");
+  }
+
+  // `title` is what a browser shows while the pointer rests on the figure.
+  void rectangle(const Rectangle& box, SvgStyle style, std::string_view title = {}) {
+    const dmrp_vec2 corner = page({box.lower.x, box.upper.y});
+    element("rect",
+            attribute("x", corner.x) + attribute("y", corner.y) +
+                attribute("width", scale_ * (box.upper.x - box.lower.x)) +
+                attribute("height", scale_ * (box.upper.y - box.lower.y)) + look(style, false),
+            title);
+  }
+
+  void circle(dmrp_vec2 center, double radius_m, SvgStyle style, std::string_view title = {}) {
+    const dmrp_vec2 at = page(center);
+    element("circle",
+            attribute("cx", at.x) + attribute("cy", at.y) + attribute("r", scale_ * radius_m) + look(style, false),
+            title);
+  }
+
+  void polygon(PolygonView vertices, SvgStyle style, std::string_view title = {}) {
+    element("polygon", points(vertices) + look(style, false), title);
+  }
+
+  // A path as in polyline.hpp.
+  template <class Path>
+  void polyline(const Path& path, SvgStyle style, std::string_view title = {}) {
+    element("polyline", points(path) + look(style, true), title);
+  }
+
+  void line(dmrp_vec2 from, dmrp_vec2 to, SvgStyle style) { polyline(std::array<dmrp_vec2, 2>{from, to}, style); }
+
+  // A line with a head of fixed size at `to`.
+  void arrow(dmrp_vec2 from, dmrp_vec2 to, SvgStyle style) {
+    line(from, to, style);
+    const dmrp_vec2 back = normalized(from - to) * (7.0 / scale_);
+    polyline(std::array<dmrp_vec2, 3>{to + rotate(back, 0.45), to, to + rotate(back, -0.45)}, style);
+  }
+
+  // Centred at a point of the world.
+  void text(dmrp_vec2 at, std::string_view words, SvgStyle style) {
+    page_text(page(at), words, style.name, style.color);
+  }
+
+  // A bar of so many metres, below the plan.
+  void scale_bar(double length_m) {
+    const dmrp_vec2 from = page(world_.lower) + dmrp_vec2{0.0, 1.2 * margin};
+    const double length = scale_ * length_m;
+    body_ += "<path class=\"scale\" d=\"M" + number(from.x) + " " + number(from.y - 3.0) + "v6m0-3h" + number(length) +
+             "m0-3v6\"/>\n";
+    page_text(from + dmrp_vec2{length + 8.0, 4.0}, number(length_m) + " m", "scale-label");
+  }
+
+  // The whole document so far.
+  std::string document() const {
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width_) + " " + number(height_) +
+           "\" width=\"" + number(width_) + "\" height=\"" + number(height_) + "\">\n<style>\n" +
+           std::string(style_sheet) + "</style>\n<rect class=\"page\" width=\"" + number(width_) + "\" height=\"" +
+           number(height_) + "\"/>\n" + body_ + "</svg>\n";
+  }
+
+ private:
+  static constexpr double margin = 16.0;
+
+  static constexpr std::string_view style_sheet =
+      "  text { font: 12px system-ui, 'DejaVu Sans', sans-serif; fill: #333; text-anchor: middle;"
+      " dominant-baseline: central; }\n"
+      "  polyline { fill: none; stroke: #333; stroke-width: 1.5; stroke-linejoin: round; stroke-linecap: round; }\n"
+      "  .page { fill: #fff; }\n"
+      "  .free { fill: #fafaf7; stroke: #444; stroke-width: 2; }\n"
+      "  .wall { fill: #4a4f57; }\n"
+      "  .furniture { fill: #b9b4a8; stroke: #8c877b; stroke-width: 0.75; }\n"
+      "  .region { fill: #56b4e9; fill-opacity: 0.15; stroke: #56b4e9; stroke-dasharray: 4 3; }\n"
+      "  .grid { stroke: #ddd; stroke-width: 0.5; }\n"
+      "  .path { stroke-width: 2.5; stroke-opacity: 0.8; }\n"
+      "  .robot { fill: #0072b2; stroke: #fff; stroke-width: 1; }\n"
+      "  .person { fill: #e69f00; fill-opacity: 0.8; stroke: #fff; stroke-width: 1; }\n"
+      "  .start { fill: #0072b2; stroke: #fff; stroke-width: 1; }\n"
+      "  .goal { fill: #0072b2; fill-opacity: 0.25; stroke: #333; stroke-width: 1; stroke-dasharray: 3 2; }\n"
+      "  .label { font-size: 11px; }\n"
+      "  text.heading { font-size: 18px; font-weight: 600; text-anchor: start; }\n"
+      "  .scale { fill: none; stroke: #333; }\n"
+      "  text.scale-label { text-anchor: start; dominant-baseline: auto; }\n";
+
+  static std::string number(double value) { return format_svg_number(value); }
+
+  static std::string attribute(std::string_view name, double value) {
+    return " " + std::string(name) + "=\"" + number(value) + "\"";
+  }
+
+  static std::string look(SvgStyle style, bool is_line) {
+    std::string attributes = " class=\"" + escape_xml(style.name) + "\"";
+    if (!style.color.empty())
+      attributes += std::string(" style=\"") + (is_line ? "stroke" : "fill") + ":" + escape_xml(style.color) + "\"";
+    return attributes;
+  }
+
+  dmrp_vec2 page(dmrp_vec2 at) const {
+    return {margin + scale_ * (at.x - world_.lower.x), top_ + scale_ * (world_.upper.y - at.y)};
+  }
+
+  template <class Path>
+  std::string points(const Path& path) const {
+    std::string list;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const dmrp_vec2 at = page(position(path[i]));
+      list += (i > 0 ? " " : "") + number(at.x) + "," + number(at.y);
+    }
+    return " points=\"" + list + "\"";
+  }
+
+  void element(std::string_view name, const std::string& attributes, std::string_view title) {
+    body_ += "<" + std::string(name) + attributes;
+    body_ += title.empty() ? "/>\n" : "><title>" + escape_xml(title) + "</title></" + std::string(name) + ">\n";
+  }
+
+  void page_text(dmrp_vec2 at, std::string_view words, std::string_view name, std::string_view color = {}) {
+    body_ += "<text" + attribute("x", at.x) + attribute("y", at.y) + look({name, color}, false) + ">" +
+             escape_xml(words) + "</text>\n";
+  }
+
+  Rectangle world_;
+  double scale_;  // pixels a metre
+  double top_;
+  double width_ = 0.0;
+  double height_ = 0.0;
+  std::string body_;
+};
+
+}  // namespace dmrp::toolkit
+
+#endif
