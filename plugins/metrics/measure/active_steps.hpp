@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// active_steps.hpp: in which steps a robot was active: on its way, neither arrived nor given up.
+//
+// Everywhere in these metrics a sample stands for the step that ended with it: the interval (t - dt, t]. So the first
+// sample stands for no time at all, and the last one counts in full.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+namespace dmrp::metrics {
+
+class ActiveSteps {
+ public:
+  void begin(std::size_t robot_count) {
+    first_ = true;
+    before_.assign(robot_count, false);
+    now_.assign(robot_count, false);
+  }
+
+  void observe(const Sample& sample) {
+    before_.swap(now_);
+    for (std::size_t robot = 0; robot < now_.size(); ++robot)
+      now_[robot] = sample.robots[robot].state == DMRP_ROBOT_ACTIVE;
+    if (first_) before_ = now_;
+    first_ = false;
+  }
+
+  // In the step that ended with the sample: the step of the arrival is the last active one.
+  bool in_step(std::size_t robot) const { return before_[robot]; }
+
+  // At the instant of the sample.
+  bool at_instant(std::size_t robot) const { return now_[robot]; }
+
+ private:
+  bool first_ = true;
+  std::vector<char> before_;
+  std::vector<char> now_;
+};
+
+}  // namespace dmrp::metrics

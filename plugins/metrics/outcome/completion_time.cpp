@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "completion_time.hpp"
+
+#include <algorithm>
+
+#include "../measure/describe_metric.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+// One rounding, so that 0.3 s is the double nearest to 0.3.
+double in_seconds(std::int64_t ns) {
+  return static_cast<double>(ns) / 1e9;
+}
+
+}  // namespace
+
+Descriptor CompletionTime::describe() {
+  return describe_metric("dmrp.metric.completion_time", "Completion time")
+      .summary("simulated time until the robots had arrived for good, and until the trial ended")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: completion time")
+      .value("completion_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
+             "final arrival of the robot, undefined if it did not arrive; system: the last arrival, undefined unless "
+             "all arrive")
+      .value("mission_time", "s", Direction::lower_is_better, Subjects::system,
+             "end of the trial, however it ended: always finite");
+}
+
+void CompletionTime::finish(const TrialEnd& end, MetricSink& sink) {
+  std::int64_t last_ns = 0;
+  bool all = true;
+  for (std::size_t robot = 0; robot < end.robots.size(); ++robot) {
+    const std::int64_t arrival_ns = end.robots[robot].arrival_ns;
+    sink.robot("completion_time", robot, arrival_ns >= 0 ? in_seconds(arrival_ns) : undefined);
+    last_ns = std::max(last_ns, arrival_ns);
+    all = all && arrival_ns >= 0;
+  }
+  sink.system("completion_time", all ? in_seconds(last_ns) : undefined);
+  sink.system("mission_time", in_seconds(end.t_ns));
+}
+
+}  // namespace dmrp::metrics

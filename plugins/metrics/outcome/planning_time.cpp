@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "planning_time.hpp"
+
+#include "../measure/describe_metric.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor PlanningTime::describe() {
+  return describe_metric("dmrp.metric.planning_time", "Planning time")
+      .summary("wall time of the call that made the first plan")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: planning time")
+      .value("planning_time", "ms", Direction::lower_is_better, Subjects::system,
+             "wall time of the first call of plan(), as in the paper's Table II: replans start from easier and harder "
+             "places and are left out; undefined if planning failed")
+      .wall_clock();
+}
+
+void PlanningTime::finish(const TrialEnd&, MetricSink& sink) {
+  sink.system("planning_time", first_plan_ ? static_cast<double>(first_plan_->planning_ns) / 1e6 : undefined);
+}
+
+}  // namespace dmrp::metrics

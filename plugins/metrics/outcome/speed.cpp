@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "speed.hpp"
+
+#include "../measure/describe_metric.hpp"
+#include "../measure/speed_of.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor Speed::describe() {
+  return describe_metric("dmrp.metric.speed", "Speed")
+      .summary("mean and spread over time of each robot's measured speed until it arrived")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: mean speed, speed standard deviation")
+      .value("mean_speed", "m/s", Direction::higher_is_better, Subjects::system_and_robots,
+             "mean over its active time of the robot's measured |v|; system: mean over robots; undefined if planning "
+             "failed")
+      .value("speed_sd", "m/s", Direction::lower_is_better, Subjects::system_and_robots,
+             "standard deviation over its active time of the robot's measured |v|; system: mean over robots; undefined "
+             "if planning failed");
+}
+
+void Speed::begin(const dmrp_plan*) {
+  active_.begin(world().robots().size());
+  speed_.assign(world().robots().size(), {});
+}
+
+void Speed::observe(const Sample& sample) {
+  active_.observe(sample);
+  for (std::size_t robot = 0; robot < speed_.size(); ++robot)
+    if (active_.in_step(robot)) speed_[robot].add(speed_of(sample.robots[robot]), sample.dt_ns);
+}
+
+void Speed::finish(const TrialEnd&, MetricSink& sink) {
+  std::vector<double> means, deviations;
+  for (std::size_t robot = 0; robot < speed_.size(); ++robot) {
+    means.push_back(speed_[robot].mean());
+    deviations.push_back(speed_[robot].standard_deviation());
+    sink.robot("mean_speed", robot, means.back());
+    sink.robot("speed_sd", robot, deviations.back());
+  }
+  sink.system("mean_speed", mean_of_defined(means));
+  sink.system("speed_sd", mean_of_defined(deviations));
+}
+
+}  // namespace dmrp::metrics

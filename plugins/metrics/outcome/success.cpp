@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "success.hpp"
+
+#include "../measure/contact_fault.hpp"
+#include "../measure/describe_metric.hpp"
+#include "../measure/sums.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor Success::describe() {
+  return describe_metric("dmrp.metric.success", "Success")
+      .summary("which robots reached their last goal in time, and which did so safely")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: success rate")
+      .value(
+          "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+          "1 if the robot arrived by the time limit and was not failed by the host, else 0; system: mean over robots")
+      .value("trial_success", "1", Direction::higher_is_better, Subjects::system, "1 if every robot succeeded, else 0")
+      .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+             "1 if the robot succeeded without a contact of its own fault, else 0; system: mean over robots");
+}
+
+void Success::begin(const dmrp_plan*) {
+  at_fault_.assign(world().robots().size(), false);
+}
+
+void Success::observe(const Sample& sample) {
+  for (const Contact& contact : sample.contacts) {
+    if (fault_of_a(contact)) at_fault_[contact.a] = true;
+    if (fault_of_b(contact)) at_fault_[contact.b] = true;
+  }
+}
+
+void Success::finish(const TrialEnd& end, MetricSink& sink) {
+  std::vector<double> success, safe_success;
+  bool all = true;
+  for (std::size_t robot = 0; robot < at_fault_.size(); ++robot) {
+    // A robot that oscillated counts as failed, even if it arrived in the end.
+    const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
+    all = all && succeeded;
+    success.push_back(succeeded ? 1.0 : 0.0);
+    safe_success.push_back(succeeded && !at_fault_[robot] ? 1.0 : 0.0);
+    sink.robot("success", robot, success.back());
+    sink.robot("safe_success", robot, safe_success.back());
+  }
+  sink.system("success", mean_of_defined(success));
+  sink.system("trial_success", all ? 1.0 : 0.0);
+  sink.system("safe_success", mean_of_defined(safe_success));
+}
+
+}  // namespace dmrp::metrics

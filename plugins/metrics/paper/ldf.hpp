@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// ldf.hpp: local density fluctuation: how much the number of robots around a robot varies.
+#pragma once
+
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "../measure/active_steps.hpp"
+
+namespace dmrp::metrics {
+
+class Ldf final : public Metric {
+ public:
+  static Descriptor describe();
+  Param<double> distance_m =
+      param("distance_m", 2.0).unit("m").range(0.0, 100.0).doc("R: robots at most this far away are neighbours");
+  Param<double> period_s = param("period_s", 1.0).unit("s").range(0.001, 60.0).doc("time between two counts");
+
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  // Counts of neighbours; their variance comes from integers, so it is exact but for the last division.
+  struct Counts {
+    std::int64_t instants = 0, sum = 0, squares = 0;
+    void add(std::int64_t neighbours, std::int64_t times);
+    double variance() const;  // with 1/n; NaN without an instant
+  };
+
+  void count_neighbours(const Sample& sample, std::int64_t times);
+
+  std::int64_t period_ns_ = 0;
+  std::int64_t next_ns_ = 0;  // the next instant to count at
+  ActiveSteps active_;
+  std::vector<Counts> all_;          // a robot: among all robots, over the whole trial
+  std::vector<Counts> active_only_;  // among active robots, while active itself
+};
+
+}  // namespace dmrp::metrics

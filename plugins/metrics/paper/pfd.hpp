@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// pfd.hpp: path following deviation: how far robots are off their plans.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "../measure/active_steps.hpp"
+#include "../measure/sums.hpp"
+
+namespace dmrp::metrics {
+
+class Pfd final : public Metric {
+ public:
+  static Descriptor describe();
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  // The mean of one robot's distances.
+  struct Deviation {
+    CompensatedSum sum_m;
+    std::size_t count = 0;
+    void add(double distance_m);
+    double mean_m() const;  // NaN without a distance
+  };
+
+  const dmrp_plan* first_plan_ = nullptr;
+  ActiveSteps active_;
+  std::vector<Deviation> in_force_;
+  std::vector<Deviation> initial_;
+};
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "sto.hpp"
+
+#include <algorithm>
+#include <dmrp/toolkit/vec2.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "../measure/describe_metric.hpp"
+#include "../measure/sums.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+using Steps = std::vector<Vec2>;  // where a robot is planned to be at step 0, 1, ... until it stays at its goal
+
+// The waypoint at which the robot has come to its last goal for good: padding behind it is no way.
+std::size_t final_arrival(const Path& path) {
+  std::size_t last = path.size() - 1;
+  while (last > 0 && toolkit::position(path[last - 1]) == toolkit::position(path[last])) --last;
+  return last;
+}
+
+// The path at start_ns, start_ns + step_ns, ...: exactly its waypoints where those come one a step.
+Steps resample(const Path& path, std::int64_t start_ns, std::int64_t step_ns) {
+  const std::size_t last = final_arrival(path);
+  Steps steps;
+  std::size_t next = 0;  // first waypoint that is not before the instant
+  for (std::int64_t t_ns = start_ns;; t_ns += step_ns) {
+    while (next < last && path[next].t_ns < t_ns) ++next;
+    if (next == 0 || path[next].t_ns <= t_ns) {
+      steps.push_back(toolkit::position(path[next]));
+    } else {
+      const Waypoint& from = path[next - 1];
+      const double part = static_cast<double>(t_ns - from.t_ns) / static_cast<double>(path[next].t_ns - from.t_ns);
+      steps.push_back(toolkit::lerp(toolkit::position(from), toolkit::position(path[next]), part));
+    }
+    if (path[last].t_ns <= t_ns) return steps;
+  }
+}
+
+// Whether `other` is planned to be near at some step from i - window to i + window. It rests at its goal.
+bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distance_m, std::size_t window) {
+  const std::size_t from = i > window ? i - window : 0;
+  for (std::size_t j = from; j <= i + window; ++j) {
+    const Vec2 there = other[std::min(j, other.size() - 1)];
+    if (toolkit::squared_distance(own[i], there) <= distance_m * distance_m) return true;
+    if (j >= other.size()) return false;  // at rest: later steps are the same
+  }
+  return false;
+}
+
+std::vector<Steps> resample_all(const Plan& plan) {
+  if (plan->step_duration_ns <= 0) throw std::invalid_argument("STO needs a plan with a step duration above 0");
+  std::int64_t start_ns = plan.path(0)[0].t_ns;
+  for (std::size_t robot = 1; robot < plan.size(); ++robot) start_ns = std::min(start_ns, plan.path(robot)[0].t_ns);
+  std::vector<Steps> all;
+  for (std::size_t robot = 0; robot < plan.size(); ++robot)
+    all.push_back(resample(plan.path(robot), start_ns, plan->step_duration_ns));
+  return all;
+}
+
+}  // namespace
+
+Descriptor Sto::describe() {
+  return describe_metric("dmrp.metric.sto", "Spatio-temporal overlap")
+      .summary("share of planned waypoints with another robot planned to be near at about that step")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: STO")
+      .value("sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
+             "distance_m of some other's waypoint within window steps; system: mean over robots; undefined if planning "
+             "failed");
+}
+
+void Sto::finish(const TrialEnd&, MetricSink& sink) {
+  if (!first_plan_ || first_plan_->path_count == 0) {
+    sink.system("sto", undefined);
+    return;
+  }
+  const std::vector<Steps> all = resample_all(Plan(*first_plan_));
+  std::vector<double> shares;
+  for (std::size_t robot = 0; robot < all.size(); ++robot) {
+    std::size_t overlapping = 0;
+    for (std::size_t i = 0; i < all[robot].size(); ++i) {
+      bool near = false;
+      for (std::size_t other = 0; other < all.size() && !near; ++other)
+        near = other != robot && overlaps(all[robot], i, all[other], distance_m, static_cast<std::size_t>(*window));
+      overlapping += near;
+    }
+    shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));
+    sink.robot("sto", robot, shares.back());
+  }
+  sink.system("sto", mean_of_defined(shares));
+}
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// sto.hpp: spatio-temporal overlap: how much of a plan lies close to where others are planned to be at about that time.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+
+namespace dmrp::metrics {
+
+class Sto final : public Metric {
+ public:
+  static Descriptor describe();
+  Param<double> distance_m =
+      param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("D: waypoints at most this far apart overlap");
+  Param<std::int64_t> window =
+      param("window", 2).unit("1").range(0, 1000).doc("k: compared with the others' waypoints i - k to i + k");
+
+  void begin(const dmrp_plan* plan) override { first_plan_ = plan; }
+  void observe(const Sample&) override {}
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  const dmrp_plan* first_plan_ = nullptr;
+};
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "collisions.hpp"
+
+#include "../measure/contact_fault.hpp"
+#include "../measure/describe_metric.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+// What the events of one robot, or of all, add up to.
+struct Tally {
+  int all = 0, at_fault = 0, with_static = 0, with_robots = 0, with_people = 0, unavoidable = 0;
+
+  void count(std::uint32_t kind, bool fault, bool nobody_could_avoid_it) {
+    ++all;
+    at_fault += fault;
+    with_static += kind == DMRP_CONTACT_STATIC;
+    with_robots += kind == DMRP_CONTACT_ROBOT;
+    with_people += kind == DMRP_CONTACT_PERSON;
+    unavoidable += nobody_could_avoid_it;
+  }
+};
+
+template <class Give>
+void give_all(const Tally& tally, Give&& give) {
+  give("collisions", tally.all);
+  give("collisions_at_fault", tally.at_fault);
+  give("collisions_static", tally.with_static);
+  give("collisions_robot", tally.with_robots);
+  give("collisions_person", tally.with_people);
+  give("collisions_unavoidable", tally.unavoidable);
+}
+
+}  // namespace
+
+Descriptor Collisions::describe() {
+  const auto lower = Direction::lower_is_better;
+  const auto robots = Subjects::system_and_robots;
+  return describe_metric("dmrp.metric.collisions", "Collisions")
+      .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
+      .source("rising-edge events attributed as in HuNavSim; fault by the benchmark's rule")
+      .value("collisions", "1", lower, robots,
+             "contact events the robot took part in, whoever's fault; system: all events, one between two robots once")
+      .value("collisions_at_fault", "1", lower, robots,
+             "contact events of the robot's own fault; system: events that are the fault of a robot")
+      .value("collisions_static", "1", lower, robots, "contact events with walls, furniture or the world's border")
+      .value("collisions_robot", "1", lower, robots,
+             "contact events between robots; counted for both, once for the system")
+      .value("collisions_person", "1", lower, robots, "contact events with people, whoever's fault")
+      .value("collisions_unavoidable", "1", lower, robots,
+             "contact events with people who were on no collision course one braking time before: nobody's fault")
+      .channels(DMRP_CHANNEL_PEOPLE);
+}
+
+void Collisions::begin(const dmrp_plan*) {
+  events_.clear();
+  latest_.clear();
+}
+
+// People are told apart by id: their places in the array change hands.
+Collisions::Pair Collisions::pair_of(const Contact& contact, const Sample& sample) {
+  const bool person = contact.kind == DMRP_CONTACT_PERSON && contact.b < sample.people.size();
+  return {contact.kind, contact.a, person ? sample.people[contact.b].id : contact.b};
+}
+
+void Collisions::observe(const Sample& sample) {
+  for (const Contact& contact : sample.contacts) {
+    const Pair pair = pair_of(contact, sample);
+    if (begins(contact)) {
+      latest_[pair] = events_.size();
+      events_.push_back({contact.kind, contact.a, std::get<2>(pair), fault_of_a(contact), fault_of_b(contact),
+                         unavoidable(contact), sample.t_ns, sample.t_ns});
+    } else if (const auto found = latest_.find(pair); found != latest_.end()) {
+      events_[found->second].to_ns = sample.t_ns;
+    }
+  }
+}
+
+std::string Collisions::text_of(const Event& event) const {
+  const std::string robot = "robot " + std::to_string(event.a);
+  if (event.kind == DMRP_CONTACT_STATIC) {
+    const bool border = event.b >= world().shapes().size();
+    return robot + " against " + (border ? "the border" : world().shapes()[event.b].name);
+  }
+  if (event.kind == DMRP_CONTACT_ROBOT) {
+    const std::string other = "robot " + std::to_string(event.b);
+    const std::string both = robot + " and " + other;
+    if (event.fault_of_a && event.fault_of_b) return both + ": both at fault";
+    if (event.fault_of_a) return both + ": " + robot + " at fault";
+    if (event.fault_of_b) return both + ": " + other + " at fault";
+    return both + ": neither at fault";
+  }
+  const std::string both = robot + " and person " + std::to_string(event.b);
+  if (event.unavoidable) return both + ": unavoidable";
+  return both + (event.fault_of_a ? ": robot at fault" : ": person at fault");
+}
+
+void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
+  Tally system;
+  std::vector<Tally> tallies(end.robots.size());
+  for (const Event& event : events_) {
+    system.count(event.kind, event.fault_of_a || event.fault_of_b, event.unavoidable);
+    tallies[event.a].count(event.kind, event.fault_of_a, event.unavoidable);
+    std::vector<std::uint32_t> robots = {event.a};
+    if (event.kind == DMRP_CONTACT_ROBOT) {
+      tallies[event.b].count(event.kind, event.fault_of_b, event.unavoidable);
+      robots.push_back(static_cast<std::uint32_t>(event.b));
+    }
+    sink.event("collisions", event.from_ns, event.to_ns, robots, text_of(event));
+  }
+  for (std::size_t robot = 0; robot < tallies.size(); ++robot)
+    give_all(tallies[robot], [&](const char* name, int count) { sink.robot(name, robot, count); });
+  give_all(system, [&](const char* name, int count) { sink.system(name, count); });
+}
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// collisions.hpp: contacts of robots as events: how many, with what, and whose fault.
+#pragma once
+
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace dmrp::metrics {
+
+class Collisions final : public Metric {
+ public:
+  static Descriptor describe();
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  // One contact from its beginning to the last sample of it.
+  struct Event {
+    std::uint32_t kind;  // DMRP_CONTACT_*
+    std::uint32_t a;     // the robot, or the first of two
+    std::uint64_t b;     // what it touched: index of a shape or robot, id of a person
+    bool fault_of_a, fault_of_b, unavoidable;
+    std::int64_t from_ns, to_ns;
+  };
+  using Pair = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>;  // kind, a, b
+
+  static Pair pair_of(const Contact& contact, const Sample& sample);
+  std::string text_of(const Event& event) const;
+
+  std::vector<Event> events_;           // in order of their beginning
+  std::map<Pair, std::size_t> latest_;  // index of the pair's last event
+};
+
+}  // namespace dmrp::metrics
