@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "neighbor_grid.hpp"
+
+#include <cmath>
+
+namespace dmrp::pedestrians {
+
+void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
+  lower_ = lower;
+  squared_reach_ = reach_m * reach_m;
+  cells_per_m_ = cells_in_reach / reach_m;
+  const auto count = [&](double extent_m) {
+    return std::max(static_cast<std::int32_t>(std::ceil(extent_m * cells_per_m_)), 1);
+  };
+  columns_ = count(upper.x - lower.x);
+  rows_ = count(upper.y - lower.y);
+  begins_.assign(cell(0, rows_) + 1, 0);
+  sorted_.clear();
+}
+
+void NeighborGrid::build(const std::vector<Body>& bodies) {
+  // count the bodies of every cell, one place further on
+  std::fill(begins_.begin(), begins_.end(), 0u);
+  cell_of_body_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::size_t at = cell(column_of(bodies[i].position.x), row_of(bodies[i].position.y));
+    cell_of_body_[i] = static_cast<std::uint32_t>(at);
+    ++begins_[at + 1];
+  }
+  for (std::size_t c = 1; c < begins_.size(); ++c) begins_[c] += begins_[c - 1];
+
+  // put every body where its cell begins, moving that on; afterwards each begin stands at the cell's end
+  sorted_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) sorted_[begins_[cell_of_body_[i]]++] = bodies[i];
+  for (std::size_t c = begins_.size() - 1; c > 0; --c) begins_[c] = begins_[c - 1];
+  begins_[0] = 0;
+}
+
+}  // namespace dmrp::pedestrians

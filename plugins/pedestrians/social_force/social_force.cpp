@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "social_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::pedestrians {
+
+namespace {
+
+// Others further away than this are not minded, m.
+constexpr double neighbor_reach_m = 5.0;
+
+// Walls are minded where the nearest point is this near to a person's centre, m.
+constexpr double wall_reach_m = 1.5;
+
+// Distances between people in the model are those of bodies of this radius, m; others count by the gap between them.
+constexpr double reference_radius_m = 0.3;
+
+// Nobody walks faster than this times the desired speed.
+constexpr double speed_cap_factor = 1.3;
+
+}  // namespace
+
+Descriptor SocialForce::describe() {
+  return Descriptor("dmrp.pedestrian.social_force", "Social force", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("people accelerate toward their targets and away from walls, robots and each other")
+      .source("Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405");
+}
+
+Status SocialForce::start(const World& world, std::uint64_t seed) {
+  shape_ = {lambda, gamma, n, n_prime};
+  seed_ = seed;
+  ways_.start(world.walking_grid());
+  neighbors_.start(world->lower, world->upper, neighbor_reach_m);
+  walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
+  return Status::ok;
+}
+
+Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
+  gather(crowd);
+  neighbors_.build(bodies_);
+
+  const double dt = seconds(crowd.dt_ns);
+  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+    const Person& person = crowd.people[slot];
+    Vec2 velocity = person.velocity + dt * acceleration(slot, person);
+    if (motion_noise > 0.0) {
+      toolkit::Stream chance(seed_, "pedestrian.motion", person.id, crowd.t_ns);
+      const double deviation = motion_noise * std::sqrt(dt);
+      velocity.x += chance.normal(0.0, deviation);
+      velocity.y += chance.normal(0.0, deviation);
+    }
+    const double speed = toolkit::norm(velocity);
+    const double cap = speed_cap_factor * person.desired_speed;
+    velocities[slot] = speed > cap ? velocity * (cap / speed) : velocity;
+  }
+  return Status::ok;
+}
+
+void SocialForce::gather(const Crowd& crowd) {
+  bodies_.clear();
+  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+    const Person& person = crowd.people[slot];
+    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
+  }
+  if (robot_awareness > 0.0)
+    for (const Agent& robot : crowd.robots)
+      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
+}
+
+Vec2 SocialForce::acceleration(std::uint32_t slot, const Person& person) {
+  const Vec2 desired = person.desired_speed * ways_.direction(slot, person);
+  const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
+  return drive + from_others(slot, person) + from_walls(person);
+}
+
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
+  Vec2 sum = {0.0, 0.0};
+  neighbors_.for_each_near(person.position, [&](const Body& other, double squared_distance) {
+    if (other.slot == slot || !(squared_distance > 0.0)) return;
+    const double distance_m = std::sqrt(squared_distance);
+    const Vec2 apart = other.position - person.position;
+    const double gap_m = distance_m - person.radius_m - other.radius_m;
+    const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
+    Vec2 force = social_weight *
+                 interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
+    if (gap_m < negligible_exponent * body_sigma)
+      force -= apart * (body_weight * std::exp(-std::max(gap_m, -body_sigma) / body_sigma) / distance_m);
+    sum += other.weight * force;
+  });
+  return sum;
+}
+
+// Walls push by their distance. Where several lie in much the same direction (pieces of one wall, the two sides of a
+// corner) they share one push between them, so that it makes no difference of how many pieces a wall is made.
+Vec2 SocialForce::from_walls(const Person& person) {
+  walls_.nearest_points(person.position, wall_points_);
+  Vec2 sum = {0.0, 0.0};
+  for (const WallPoint& wall : wall_points_) {
+    double sharers = 0.0;
+    for (const WallPoint& other : wall_points_) {
+      const double alike = toolkit::dot(wall.away, other.away);
+      if (alike > 0.0) sharers += alike * std::exp((wall.distance_m - other.distance_m) / obstacle_sigma);
+    }
+    const double gap_m = std::max(wall.distance_m - person.radius_m, -*obstacle_sigma);
+    sum += wall.away * (obstacle_weight * std::exp(-gap_m / obstacle_sigma) / sharers);
+  }
+  return sum;
+}
+
+}  // namespace dmrp::pedestrians
