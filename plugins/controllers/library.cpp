@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// The local controllers of dmrp, as one plugin library.
+#include <dmrp/plugin.hpp>
+
+#include "pure_pursuit/pure_pursuit.hpp"
+
+DMRP_PLUGINS(dmrp::controllers::PurePursuit)

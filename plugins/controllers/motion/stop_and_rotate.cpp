@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "stop_and_rotate.hpp"
+
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+#include "unicycle.hpp"
+
+namespace dmrp::controllers {
+
+namespace {
+
+// The latch closes at this share of the goal's tolerance, so that the robot rests well inside it.
+constexpr double closing_share = 0.4;
+
+// Below these the robot counts as standing (trans_stopped_vel and rot_stopped_vel upstream).
+constexpr double standing_m_s = 0.02;
+constexpr double standing_rad_s = 0.02;
+
+}  // namespace
+
+double turning_rate(double angle, const Observation& now) {
+  const double period_s = seconds(now.dt_ns);
+  const double reach = now.limits.alpha_max * period_s;
+  const double rate = std::min(now.limits.omega_max, stopping_speed(std::abs(angle), now.limits.alpha_max, period_s));
+  const double wanted = std::copysign(rate, angle);
+  return std::clamp(toward(now.velocity.omega, wanted, reach), -now.limits.omega_max, now.limits.omega_max);
+}
+
+Command braking(const Observation& now) {
+  const double period_s = seconds(now.dt_ns);
+  Command command;
+  command.v_x = toward(now.velocity.v_x, 0.0, now.limits.a_max * period_s);
+  command.omega = toward(now.velocity.omega, 0.0, now.limits.alpha_max * period_s);
+  return command;
+}
+
+bool StopAndRotate::reached(const StopPoint& stop, const Observation& now) {
+  const double distance_m = toolkit::distance(toolkit::position(now.pose), stop.position);
+  if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_m > stop.tolerance_m)) reset();
+  if (!latched_ && distance_m <= closing_share * stop.tolerance_m) {
+    latched_ = true;
+    latched_at_ = stop.position;
+  }
+  return latched_;
+}
+
+Command StopAndRotate::command(const StopPoint& stop, const Observation& now) {
+  const double angle = std::isnan(stop.heading) ? 0.0 : toolkit::difference(now.pose.theta, stop.heading);
+  // half the tolerance, so that the last degrees do not depend on rounding; then turning stays off
+  if (std::abs(angle) <= 0.5 * stop.tolerance_rad || std::isnan(stop.heading))
+    turning_ = false;
+  else if (std::abs(now.velocity.v_x) <= standing_m_s && std::abs(now.velocity.omega) <= standing_rad_s)
+    turning_ = turning_ || std::abs(angle) > 0.75 * stop.tolerance_rad;
+  Command command = braking(now);
+  if (turning_) command.omega = turning_rate(angle, now);
+  return command;
+}
+
+}  // namespace dmrp::controllers

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "pure_pursuit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers {
+
+Descriptor PurePursuit::describe() {
+  return Descriptor("dmrp.controller.pure_pursuit", "Regulated pure pursuit", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("steers along arcs to a point ahead on the path, slower in curves, near obstacles and at the end")
+      .source(
+          "Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 "
+          "(2023)")
+      .uses(DMRP_EXT_LOCAL_COSTMAP);
+}
+
+Status PurePursuit::start(const World&, std::uint64_t) {
+  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
+  tracker_.clear();
+  at_goal_.reset();
+  return Status::ok;
+}
+
+void PurePursuit::set_path(Path path, std::uint64_t) {
+  tracker_.set_path(path);
+}
+
+Status PurePursuit::step(const Observation& now, Command& command) {
+  tracker_.update(now);
+  if (tracker_.empty() || at_goal_.reached(tracker_.stop(), now)) {
+    command = tracker_.empty() ? braking(now) : at_goal_.command(tracker_.stop(), now);
+    return Status::ok;
+  }
+  const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_) : nullptr;
+  command = pursue(now, look_ahead(now), map);
+  if (!use_collision_detection || !map || !is_blocked(now, command, map)) return Status::ok;
+  // a shorter look-ahead cuts the corner less; the published controller would stand here for good
+  command = pursue(now, min_lookahead_dist, map);
+  if (!is_blocked(now, command, map)) return Status::ok;
+  set_error("the arc to the look-ahead point runs into an obstacle");
+  return Status::no_solution;
+}
+
+double PurePursuit::look_ahead(const Observation& now) const {
+  if (!use_velocity_scaled_lookahead_dist) return lookahead_dist;
+  return std::max<double>(min_lookahead_dist,
+                          std::min<double>(std::abs(now.velocity.v_x) * lookahead_time, max_lookahead_dist));
+}
+
+Command PurePursuit::pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const {
+  const double period_s = seconds(now.dt_ns);
+  const Vec2 carrot =
+      toolkit::to_local(now.pose, tracker_.point_at_distance(toolkit::position(now.pose), look_ahead_m));
+  const double angle = std::atan2(carrot.y, carrot.x);
+  const double step_m_s = now.limits.a_max * period_s;
+  Command command;
+  if (std::abs(angle) > (use_rotate_to_heading ? *rotate_to_heading_min_angle : toolkit::pi / 2)) {
+    command.v_x = toward(now.velocity.v_x, 0.0, step_m_s);
+    command.omega = turning_rate(angle, now);
+    return command;
+  }
+  const double squared = toolkit::squared_norm(carrot);
+  const double curvature = squared > 1e-6 ? 2.0 * carrot.y / squared : 0.0;
+  double speed = std::min(regulated_speed(now, curvature, map), approach_speed(now));
+  if (std::abs(curvature) > 1e-9) speed = std::min(speed, now.limits.omega_max / std::abs(curvature));
+  command.v_x = std::clamp(toward(now.velocity.v_x, speed, step_m_s), 0.0, now.limits.v_max);
+  const double omega = toward(now.velocity.omega, command.v_x * curvature, now.limits.alpha_max * period_s);
+  command.omega = std::clamp(omega, -now.limits.omega_max, now.limits.omega_max);
+  return command;
+}
+
+double PurePursuit::regulated_speed(const Observation& now, double curvature, const dmrp_costmap* map) const {
+  double speed = now.limits.v_max;
+  if (use_regulated_linear_velocity_scaling) {
+    const double radius_m = 1.0 / std::max(std::abs(curvature), 1e-9);
+    speed = std::min(speed, now.limits.v_max * radius_m / regulated_linear_scaling_min_radius);
+  }
+  if (use_cost_regulated_linear_velocity_scaling && map) {
+    const CostmapView view(*map);
+    const std::uint8_t cost = view.cost(now.pose.x, now.pose.y);
+    const double distance_m = view.distance_of(cost);
+    if (cost != DMRP_COST_FREE && distance_m < cost_scaling_dist)
+      speed = std::min(speed, now.limits.v_max * cost_scaling_gain * distance_m / cost_scaling_dist);
+  }
+  return std::clamp<double>(speed, std::min<double>(regulated_linear_scaling_min_speed, now.limits.v_max),
+                            now.limits.v_max);
+}
+
+double PurePursuit::approach_speed(const Observation& now) const {
+  const double along_m = tracker_.remaining_m();
+  const double straight_m = toolkit::distance(toolkit::position(now.pose), tracker_.stop().position);
+  const double remaining_m = std::max(along_m, straight_m);
+  const double in_time = stopping_speed(remaining_m, now.limits.a_max, seconds(now.dt_ns));
+  if (remaining_m >= approach_velocity_scaling_dist) return std::min(now.limits.v_max, in_time);
+  const double scaled = now.limits.v_max * remaining_m / approach_velocity_scaling_dist;
+  return std::min(std::max<double>(scaled, min_approach_linear_velocity), in_time);
+}
+
+// Along the arc as far as the look-ahead point, no longer than the time allowed, and never less than it takes to brake.
+bool PurePursuit::is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const {
+  const CostmapView view(*map);
+  const FootprintCheck check(view, now.footprint, footprint_padding, now.pose);
+  const double speed = std::abs(command.v_x);
+  double duration_s = max_allowed_time_to_collision_up_to_carrot;
+  if (speed > 1e-3) {
+    const double braking_s = speed / now.limits.a_max + seconds(now.dt_ns);
+    duration_s = std::max(std::min(duration_s, look_ahead(now) / speed), braking_s);
+  }
+  const double length_m = std::max(speed, std::abs(command.omega) * now.footprint.radius_m) * duration_s;
+  const int steps = 1 + static_cast<int>(length_m / view.resolution_m());
+  return check.arc_cost(now.pose, command.v_x, command.omega, duration_s, steps) == in_collision;
+}
+
+}  // namespace dmrp::controllers
