@@ -1,52 +1,48 @@
 // SPDX-License-Identifier: MIT
-// Where people should turn to reach their targets: round furniture, through doors, straight where the way is clear.
+// Which way people turn to reach their targets: straight where the way is clear, else round furniture, through doors.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <dmrp/cpp/pedestrian_model.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/navigation_field.hpp>
 #include <vector>
 
 namespace dmrp::pedestrians {
 
-// Everybody heads for a point in sight: the target itself, or else the farthest point in sight of the shortest way
-// there over the walking grid. Those points are worked out once for every place and cell, when first asked for.
+// Shares one navigation field among all who walk to the same place; it is computed when somebody first needs it.
 class WayFinder {
  public:
   // The grid must live until the next start().
   void start(const dmrp_grid& walking_grid);
 
-  // The unit vector in which the person in this slot should set out; zero on the target.
+  // The unit vector in which the person in this slot should set out; zero on the target. Where no way leads to the
+  // target: straight at it.
   dmrp_vec2 direction(std::size_t slot, const Person& person);
 
  private:
-  // The ways to one target area, from everywhere.
   struct Place {
     std::uint32_t target_id;
-    dmrp_vec2 area_lower;
-    dmrp_vec2 area_upper;
-    std::vector<double> distance_m;          // of every cell from the area; infinite where there is no way
-    std::vector<std::uint32_t> heading_for;  // of every cell: the cell to head for; no_cell: not worked out yet
+    toolkit::Rectangle area;
+    toolkit::NavigationField field;
   };
 
-  // What a person heads for, until another cell or another target.
-  struct Heading {
-    std::uint64_t person_id;
-    std::uint32_t target_id;
-    std::uint32_t cell;
-    dmrp_vec2 target;
-    dmrp_vec2 point;
+  // What was found out about a person's way; true until they walk into another cell or get another target.
+  struct Way {
+    std::uint64_t person_id = 0;
+    std::uint32_t cell = toolkit::no_cell;
+    dmrp_vec2 target = {0.0, 0.0};
+    const toolkit::NavigationField* field = nullptr;  // null: straight
   };
 
-  dmrp_vec2 point_to_head_for(const Person& person, std::uint32_t cell);
-  Place& place_of(const Person& person);
-  std::uint32_t cell_to_head_for(Place& place, std::uint32_t from) const;
-  std::uint32_t nearest_reached_cell(const Place& place, dmrp_vec2 position) const;
+  Way find_way(const Person& person, std::uint32_t cell);
+  const toolkit::NavigationField& field_to_target_of(const Person& person);
 
   toolkit::GridView grid_;
-  std::vector<Place> places_;
-  std::vector<Heading> headings_;  // by slot
+  std::deque<Place> places_;  // never move
+  std::vector<Way> ways_;     // by slot
 };
 
 }  // namespace dmrp::pedestrians
