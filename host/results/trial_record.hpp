@@ -2,9 +2,12 @@
 // trial_record.hpp: what one trial left behind, as results.sqlite keeps it.
 #pragma once
 
+#include <dmrp/descriptor.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dmrp::host {
@@ -19,11 +22,11 @@ struct MetricColumn {
 };
 
 struct MetricValue {
-  std::string metric;                  // MetricColumn::name
-  std::uint32_t subject_kind = 0;      // DMRP_SUBJECT_*
+  std::string metric;                    // MetricColumn::name
+  std::uint32_t subject_kind = 0;        // DMRP_SUBJECT_*
   std::optional<std::uint64_t> subject;  // none for the system
-  std::optional<double> coordinate;    // of a curve
-  std::optional<double> value;         // none where it is undefined
+  std::optional<double> coordinate;      // of a curve
+  std::optional<double> value;           // none where it is undefined
 };
 
 struct MetricEvent {
@@ -70,5 +73,12 @@ struct TrialRecord {
   std::vector<MetricEvent> events;
   std::vector<FaultRecord> faults;
 };
+
+// The system's value of a metric that is no curve; none where it is undefined or was not measured.
+inline std::optional<double> system_value(const TrialRecord& trial, std::string_view metric) {
+  for (const MetricValue& value : trial.values)
+    if (value.subject_kind == DMRP_SUBJECT_SYSTEM && !value.coordinate && value.metric == metric) return value.value;
+  return std::nullopt;
+}
 
 }  // namespace dmrp::host

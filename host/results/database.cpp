@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "host/results/database.hpp"
+
+#include <dmrp/descriptor.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+namespace dmrp::host {
+namespace {
+
+constexpr std::int64_t schema_version = 1;
+
+constexpr const char* schema = R"sql(
+CREATE TABLE trial(
+  id INTEGER PRIMARY KEY,
+  scenario TEXT NOT NULL,
+  robots INTEGER NOT NULL,
+  global_planner TEXT NOT NULL,
+  local_controller TEXT NOT NULL,
+  pedestrian_model TEXT NOT NULL,
+  repetition INTEGER NOT NULL,
+  seed INTEGER NOT NULL,
+  outcome TEXT NOT NULL CHECK (outcome IN ('succeeded', 'failed', 'fault', 'skipped')),
+  repeatable INTEGER NOT NULL CHECK (repeatable IN (0, 1)),
+  sim_time_s REAL NOT NULL,
+  wall_time_s REAL NOT NULL
+);
+CREATE TABLE metric(
+  name TEXT PRIMARY KEY,
+  unit TEXT NOT NULL,
+  direction TEXT NOT NULL CHECK (direction IN ('none', 'lower', 'higher')),
+  wall_clock INTEGER NOT NULL CHECK (wall_clock IN (0, 1)),
+  description TEXT NOT NULL
+);
+CREATE TABLE value(
+  trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
+  metric TEXT NOT NULL REFERENCES metric(name),
+  subject_kind TEXT NOT NULL CHECK (subject_kind IN ('system', 'robot', 'pedestrian')),
+  subject INTEGER,
+  coordinate REAL,
+  value REAL
+);
+CREATE INDEX value_of_trial ON value(trial_id, metric);
+CREATE TABLE event(
+  trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
+  metric TEXT NOT NULL,
+  from_s REAL NOT NULL,
+  to_s REAL NOT NULL,
+  subjects TEXT NOT NULL,
+  text TEXT NOT NULL
+);
+CREATE INDEX event_of_trial ON event(trial_id);
+CREATE TABLE fault(
+  trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
+  kind TEXT NOT NULL,
+  plugin TEXT NOT NULL,
+  function TEXT NOT NULL,
+  step INTEGER NOT NULL,
+  robot INTEGER,
+  signal INTEGER,
+  detail TEXT NOT NULL,
+  rerun TEXT NOT NULL
+);
+CREATE INDEX fault_of_trial ON fault(trial_id);
+)sql";
+
+constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};      // by DMRP_DIRECTION_*
+constexpr std::array<const char*, 3> subject_names{"system", "robot", "pedestrian"};  // by DMRP_SUBJECT_*
+
+std::uint32_t index_of(const std::array<const char*, 3>& names, const std::string& name) {
+  for (std::uint32_t i = 0; i < names.size(); ++i)
+    if (name == names[i]) return i;
+  throw SqliteError("'" + name + "' is not known here");
+}
+
+std::int64_t as_signed(std::uint64_t value) {
+  return static_cast<std::int64_t>(value);
+}
+std::uint64_t as_unsigned(std::int64_t value) {
+  return static_cast<std::uint64_t>(value);
+}
+
+double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) / 1e9;
+}
+std::int64_t nanoseconds(double s) {
+  return std::llround(s * 1e9);
+}
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();  // bound as NULL
+
+void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(as_signed(trial.id)).bind(trial.scenario).bind(std::int64_t{trial.robots});
+  insert.bind(trial.global_planner).bind(trial.local_controller).bind(trial.pedestrian_model);
+  insert.bind(std::int64_t{trial.repetition}).bind(as_signed(trial.seed));
+  insert.bind(trial.outcome).bind(std::int64_t{trial.repeatable}).bind(trial.sim_time_s).bind(trial.wall_time_s);
+  insert.run();
+}
+
+void write_values(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO value VALUES (?, ?, ?, ?, ?, ?)");
+  for (const MetricValue& value : trial.values) {
+    insert.bind(as_signed(trial.id)).bind(value.metric).bind(std::string_view(subject_names.at(value.subject_kind)));
+    if (value.subject)
+      insert.bind(as_signed(*value.subject));
+    else
+      insert.bind_null();
+    insert.bind(value.coordinate.value_or(undefined)).bind(value.value.value_or(undefined)).run();
+  }
+}
+
+void write_events(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO event VALUES (?, ?, ?, ?, ?, ?)");
+  for (const MetricEvent& event : trial.events) {
+    insert.bind(as_signed(trial.id)).bind(event.metric).bind(seconds(event.from_ns)).bind(seconds(event.to_ns));
+    insert.bind(nlohmann::json(event.robots).dump()).bind(event.text).run();
+  }
+}
+
+void write_faults(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO fault VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const FaultRecord& fault : trial.faults) {
+    insert.bind(as_signed(trial.id)).bind(fault.kind).bind(fault.plugin).bind(fault.function).bind(fault.step);
+    if (fault.robot >= 0)
+      insert.bind(std::int64_t{fault.robot});
+    else
+      insert.bind_null();
+    if (fault.signal != 0)
+      insert.bind(std::int64_t{fault.signal});
+    else
+      insert.bind_null();
+    insert.bind(fault.detail).bind(fault.rerun).run();
+  }
+}
+
+std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
+  SqliteStatement select(connection,
+                         "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, "
+                         "seed, outcome, repeatable, sim_time_s, wall_time_s FROM trial ORDER BY id");
+  std::vector<TrialRecord> trials;
+  while (select.step()) {
+    TrialRecord& trial = trials.emplace_back();
+    trial.id = as_unsigned(select.column_integer(0));
+    trial.scenario = select.column_text(1);
+    trial.robots = static_cast<std::uint32_t>(select.column_integer(2));
+    trial.global_planner = select.column_text(3);
+    trial.local_controller = select.column_text(4);
+    trial.pedestrian_model = select.column_text(5);
+    trial.repetition = static_cast<std::uint32_t>(select.column_integer(6));
+    trial.seed = as_unsigned(select.column_integer(7));
+    trial.outcome = select.column_text(8);
+    trial.repeatable = select.column_integer(9) != 0;
+    trial.sim_time_s = select.column_number(10);
+    trial.wall_time_s = select.column_number(11);
+  }
+  return trials;
+}
+
+// Hands every row of `select`, which is ordered by trial, together with its trial to `take`.
+template <class Take>
+void read_rows(const SqliteConnection& connection, std::string_view select_sql, std::vector<TrialRecord>& trials,
+               Take take) {
+  SqliteStatement select(connection, select_sql);
+  auto trial = trials.begin();
+  while (select.step()) {
+    const std::uint64_t id = as_unsigned(select.column_integer(0));
+    while (trial->id != id) ++trial;  // there is one: the column is a foreign key
+    take(select, *trial);
+  }
+}
+
+void take_value(const SqliteStatement& row, TrialRecord& trial) {
+  MetricValue& value = trial.values.emplace_back();
+  value.metric = row.column_text(1);
+  value.subject_kind = index_of(subject_names, row.column_text(2));
+  if (!row.column_is_null(3)) value.subject = as_unsigned(row.column_integer(3));
+  if (!row.column_is_null(4)) value.coordinate = row.column_number(4);
+  if (!row.column_is_null(5)) value.value = row.column_number(5);
+}
+
+void take_event(const SqliteStatement& row, TrialRecord& trial) {
+  MetricEvent& event = trial.events.emplace_back();
+  event.metric = row.column_text(1);
+  event.from_ns = nanoseconds(row.column_number(2));
+  event.to_ns = nanoseconds(row.column_number(3));
+  event.robots = nlohmann::json::parse(row.column_text(4)).get<std::vector<std::uint32_t>>();
+  event.text = row.column_text(5);
+}
+
+void take_fault(const SqliteStatement& row, TrialRecord& trial) {
+  FaultRecord& fault = trial.faults.emplace_back();
+  fault.kind = row.column_text(1);
+  fault.plugin = row.column_text(2);
+  fault.function = row.column_text(3);
+  fault.step = row.column_integer(4);
+  if (!row.column_is_null(5)) fault.robot = static_cast<std::int32_t>(row.column_integer(5));
+  if (!row.column_is_null(6)) fault.signal = static_cast<std::int32_t>(row.column_integer(6));
+  fault.detail = row.column_text(7);
+  fault.rerun = row.column_text(8);
+}
+
+void check_schema_version(const SqliteConnection& connection, const std::filesystem::path& path) {
+  SqliteStatement pragma(connection, "PRAGMA user_version");
+  const std::int64_t version = pragma.step() ? pragma.column_integer(0) : 0;
+  if (version != schema_version)
+    throw SqliteError(path.string() + ": results of version " + std::to_string(version) + ", not " +
+                      std::to_string(schema_version));
+}
+
+}  // namespace
+
+ResultsDatabase::ResultsDatabase(SqliteConnection connection) : connection_(std::move(connection)) {
+  connection_.execute("PRAGMA foreign_keys = ON");
+}
+
+ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::span<const MetricColumn> metrics) {
+  ResultsDatabase database{SqliteConnection(path, SqliteMode::create)};
+  SqliteConnection& connection = database.connection_;
+  connection.execute("PRAGMA journal_mode = WAL");
+  SqliteTransaction transaction(connection);
+  connection.execute(schema);
+  connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
+  SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
+  for (const MetricColumn& metric : metrics) {
+    insert.bind(metric.name).bind(metric.unit).bind(std::string_view(direction_names.at(metric.direction)));
+    insert.bind(std::int64_t{metric.wall_clock}).bind(metric.description).run();
+  }
+  transaction.commit();
+  return database;
+}
+
+ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
+  ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
+  check_schema_version(database.connection_, path);
+  return database;
+}
+
+ResultsDatabase ResultsDatabase::open_read_only(const std::filesystem::path& path) {
+  ResultsDatabase database{SqliteConnection(path, SqliteMode::read_only)};
+  check_schema_version(database.connection_, path);
+  return database;
+}
+
+void ResultsDatabase::write(const TrialRecord& trial) {
+  SqliteTransaction transaction(connection_);
+  SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
+  write_trial(connection_, trial);
+  write_values(connection_, trial);
+  write_events(connection_, trial);
+  write_faults(connection_, trial);
+  transaction.commit();
+}
+
+std::vector<std::uint64_t> ResultsDatabase::finished_trials() const {
+  SqliteStatement select(connection_, "SELECT id FROM trial WHERE outcome <> 'skipped' ORDER BY id");
+  std::vector<std::uint64_t> ids;
+  while (select.step()) ids.push_back(as_unsigned(select.column_integer(0)));
+  return ids;
+}
+
+std::vector<MetricColumn> ResultsDatabase::metrics() const {
+  SqliteStatement select(connection_,
+                         "SELECT name, unit, direction, wall_clock, description FROM metric ORDER BY rowid");
+  std::vector<MetricColumn> metrics;
+  while (select.step()) {
+    MetricColumn& metric = metrics.emplace_back();
+    metric.name = select.column_text(0);
+    metric.unit = select.column_text(1);
+    metric.direction = index_of(direction_names, select.column_text(2));
+    metric.wall_clock = select.column_integer(3) != 0;
+    metric.description = select.column_text(4);
+  }
+  return metrics;
+}
+
+std::vector<TrialRecord> ResultsDatabase::trials() const {
+  std::vector<TrialRecord> trials = read_trials(connection_);
+  read_rows(connection_,
+            "SELECT trial_id, metric, subject_kind, subject, coordinate, value FROM value ORDER BY trial_id, rowid",
+            trials, take_value);
+  read_rows(connection_, "SELECT trial_id, metric, from_s, to_s, subjects, text FROM event ORDER BY trial_id, rowid",
+            trials, take_event);
+  read_rows(connection_,
+            "SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
+            "ORDER BY trial_id, rowid",
+            trials, take_fault);
+  return trials;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// sqlite.hpp: handles of SQLite that close themselves, and errors as exceptions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace dmrp::host {
+
+class SqliteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class SqliteMode { create, read_write, read_only };  // create: the file must not exist
+
+class SqliteConnection {
+ public:
+  SqliteConnection(const std::filesystem::path& path, SqliteMode mode);
+
+  // Runs statements that give no rows.
+  void execute(const std::string& sql);
+
+  sqlite3* handle() const { return handle_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const;
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+// A prepared statement; parameters and columns are counted from 0. Rows:
+//   while (statement.step()) use(statement.column_text(0));
+class SqliteStatement {
+ public:
+  SqliteStatement(const SqliteConnection& connection, std::string_view sql);
+
+  // Each binds the next parameter, beginning with the first after a run or reset. A NaN is bound as NULL.
+  SqliteStatement& bind(std::int64_t value);
+  SqliteStatement& bind(double value);
+  SqliteStatement& bind(std::string_view value);
+  SqliteStatement& bind_null();
+
+  bool step();   // true: there is a row. After the last row the statement is ready to be bound anew
+  void run();    // steps to the end
+  void reset();  // before the last row was reached
+
+  bool column_is_null(int column) const;
+  std::int64_t column_integer(int column) const;
+  double column_number(int column) const;
+  std::string column_text(int column) const;
+
+ private:
+  void check(int code);
+
+  struct Finalize {
+    void operator()(sqlite3_stmt* handle) const;
+  };
+  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+  int next_parameter_ = 1;
+};
+
+// Rolls back unless committed.
+class SqliteTransaction {
+ public:
+  explicit SqliteTransaction(SqliteConnection& connection);
+  ~SqliteTransaction();
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
+
+  void commit();
+
+ private:
+  SqliteConnection& connection_;
+  bool open_ = true;
+};
+
+}  // namespace dmrp::host

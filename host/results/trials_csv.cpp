@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "host/results/trials_csv.hpp"
+
+#include "host/results/csv.hpp"
+
+namespace dmrp::host {
+
+std::string trials_csv(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials) {
+  CsvWriter csv;
+  for (const char* name : {"trial", "scenario", "robots", "global_planner", "local_controller", "pedestrian_model",
+                           "repetition", "seed", "outcome", "repeatable", "sim_time_s", "wall_time_s"})
+    csv.field(name);
+  for (const MetricColumn& metric : metrics) csv.field(metric.name);
+  csv.end_line();
+
+  for (const TrialRecord& trial : trials) {
+    csv.field(trial.id).field(trial.scenario).field(trial.robots);
+    csv.field(trial.global_planner).field(trial.local_controller).field(trial.pedestrian_model);
+    csv.field(trial.repetition).field(trial.seed).field(trial.outcome).field(trial.repeatable ? 1 : 0);
+    csv.field(trial.sim_time_s).field(trial.wall_time_s);
+    for (const MetricColumn& metric : metrics) csv.field(system_value(trial, metric.name));
+    csv.end_line();
+  }
+  return csv.text();
+}
+
+}  // namespace dmrp::host
