@@ -13,13 +13,13 @@ namespace dmrp::host {
 namespace {
 
 // A call counts as hanging long after should_stop() has said yes, so that a slow machine makes no faults.
-constexpr std::int64_t grace_factor = 10;
+constexpr std::int64_t grace_factor = 2;
 constexpr std::int64_t grace_ns = 5'000'000'000;
 
 template <std::size_t n>
-void copy_text(std::array<char, n>& to, const char* from) {
-  const std::size_t length = std::min(std::strlen(from), n - 1);
-  std::memcpy(to.data(), from, length);
+void copy_text(std::array<char, n>& to, std::string_view from) {
+  const std::size_t length = std::min(from.size(), n - 1);
+  std::memcpy(to.data(), from.data(), length);
   to[length] = '\0';
 }
 
@@ -43,7 +43,7 @@ bool CallGuard::should_stop() {
 
 void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
   error_.clear();
-  copy_text(note_.plugin, site.plugin.c_str());
+  copy_text(note_.plugin, site.plugin);
   copy_text(note_.function, site.function);
   note_.step.store(site.step, std::memory_order_relaxed);
   note_.robot.store(site.robot, std::memory_order_relaxed);

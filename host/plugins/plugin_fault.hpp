@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace dmrp::host {
 
@@ -21,7 +22,7 @@ inline constexpr const char* exit = "exit";
 
 // A call into a plugin: who, what, when.
 struct CallSite {
-  std::string plugin;         // id
+  std::string_view plugin;    // id; lives as long as the instance
   const char* function = "";  // as in the contract: "plan", "step", ...
   std::int64_t step = 0;      // physics steps since the trial's start
   std::int32_t robot = -1;    // of a local controller
@@ -30,12 +31,16 @@ struct CallSite {
 class PluginFault : public std::runtime_error {
  public:
   PluginFault(const char* kind, const CallSite& site, const std::string& detail)
-      : std::runtime_error(detail), kind_(kind), site_(site) {}
+      : std::runtime_error(detail), kind_(kind), plugin_(site.plugin), site_(site) {}
   const char* kind() const { return kind_; }
-  const CallSite& site() const { return site_; }
+  const std::string& plugin() const { return plugin_; }
+  const char* function() const { return site_.function; }
+  std::int64_t step() const { return site_.step; }
+  std::int32_t robot() const { return site_.robot; }
 
  private:
   const char* kind_;
+  std::string plugin_;
   CallSite site_;
 };
 

@@ -84,7 +84,7 @@ typedef struct dmrp_call {
 // The state after a physics step; the first sample is the state at t = 0. Dies when observe() returns.
 typedef struct dmrp_sample {
   uint32_t struct_size;
-  uint32_t control_tick;  // 1: controllers were called at the beginning of this step (and at t = 0)
+  uint32_t control_tick;  // 1: a control tick falls on t_ns: controllers act on this state
   int64_t t_ns;
   int64_t dt_ns;          // since the last sample; 0 for the first
   const dmrp_plan* plan;  // in force; NULL if there is none. Lives until finish() returns

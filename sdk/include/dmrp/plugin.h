@@ -4,7 +4,7 @@
 //   create -> start -> calls -> start -> calls ... -> destroy
 //
 // start() begins a trial; after DMRP_ERROR it is also the way back. Nothing of an earlier trial may show in a later
-// one: the host keeps instances over trials and compares results with fresh ones.
+// one: the host keeps instances over trials, and the same trial must come out the same whatever ran before it.
 #ifndef DMRP_PLUGIN_H
 #define DMRP_PLUGIN_H
 

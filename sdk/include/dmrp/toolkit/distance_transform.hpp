@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace dmrp::toolkit {
@@ -23,7 +24,7 @@ class DistanceTransform {
   // Row-major cells, index = row * width + column, up to 30,000 a side. `is_obstacle(index)` is asked once a cell, in
   // the order of the indices. Gives metres between cell centres, 0 in an obstacle, `cap_m` where the nearest is
   // further away or there is none (infinity by default). The reference holds until the next call.
-  template <class IsObstacle>
+  template <class IsObstacle, class = std::enable_if_t<std::is_invocable_v<const IsObstacle&, std::size_t>>>
   const std::vector<float>& compute(std::uint32_t width, std::uint32_t height, double resolution_m,
                                     const IsObstacle& is_obstacle,
                                     double cap_m = std::numeric_limits<double>::infinity()) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/cast.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include <dmrp/toolkit/random.hpp>
+
+#include "core/robot_task.hpp"
+#include "core/sensing.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr double fastest_person = 5.0;  // m/s; nobody runs faster than this in a benchmark of walking people
+
+std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32_t index) {
+  return toolkit::Stream(seed, purpose, index).next_u64();
+}
+
+}  // namespace
+
+Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination, const VariantWorld& variant,
+           const core::World& world, std::uint64_t seed)
+    : experiment_(experiment),
+      variant_(variant),
+      world_(world),
+      planner_use_(experiment.global_planners[combination.global_planner]),
+      planner_(&pool.get(planner_use_, -1)),
+      lidar_(experiment.robot.lidar, variant.geometry) {
+  const std::int64_t step_budget_ns = nanoseconds(experiment.limits.step_time_s);
+  const dmrp_world& view = variant.view.world();
+  planner_->start(view, instance_seed(seed, "global_planner", 0), nanoseconds(experiment.limits.planner_time_s));
+
+  const PluginUse& controller_use = experiment.local_controllers[combination.local_controller];
+  drivers_.reserve(world.robots().size());  // controllers keep the address of their view
+  for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
+    Instance& controller = pool.get(controller_use, static_cast<std::int32_t>(i));
+    drivers_.push_back({&controller, std::make_unique<RobotSensors>(world, i, lidar_),
+                        variant.view.seen_by(static_cast<std::int32_t>(i)), controller.table<dmrp_local_controller>()});
+    Driver& driver = drivers_.back();
+    controller.offer([sensors = driver.sensors.get()](const char* id) { return sensors->extension(id); });
+    controller.start(driver.view, instance_seed(seed, "local_controller", i), step_budget_ns);
+  }
+
+  if (combination.pedestrian_model >= 0) {
+    pedestrian_model_ =
+        &pool.get(experiment.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
+    pedestrian_model_->start(view, instance_seed(seed, "pedestrian_model", 0), step_budget_ns);
+    pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
+  }
+  velocities_.resize(world.people().size());
+}
+
+void Cast::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result) {
+  calls_.push_back({kind, robot, result.status, 0, result.duration_ns});
+}
+
+Plan Cast::plan(std::uint64_t revision, std::int64_t step) {
+  Plan plan = make_plan(*planner_, planner_use_.info, variant_, world_, revision,
+                        nanoseconds(experiment_.limits.planner_time_s), step);
+  note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
+  return plan;
+}
+
+void Cast::set_paths(const Plan& plan, std::int64_t step) {
+  for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
+    if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
+    const auto waypoints = path_to_drive(plan.paths[i], world_.goals(i).back(), plan.step_duration_ns);
+    const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
+                            waypoints.data()};
+    Driver& driver = drivers_[i];
+    driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s), [&] {
+      return driver.table.set_path(driver.controller->self(), &path, plan.revision);
+    });
+  }
+}
+
+void Cast::sense() {
+  for (std::uint32_t i = 0; i < drivers_.size(); ++i)
+    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i].sensors->tick();
+}
+
+std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const core::PathProgress& progress,
+                                      std::uint32_t last_waypoint, std::int64_t step) {
+  const core::RobotState& state = world_.robots()[robot];
+  const auto goals = world_.goals(robot);
+  const dmrp_robot& body =
+      *DMRP_AT(dmrp_robot, variant_.view.world().robots, variant_.view.world().robot_stride, robot);
+  core::visible_agents(world_, robot, agents_);
+
+  dmrp_observation observation{};
+  observation.struct_size = sizeof(observation);
+  observation.robot = robot;
+  observation.t_ns = world_.t_ns();
+  observation.dt_ns = variant_.simulation.control_period_ns;
+  observation.pose = state.pose;
+  observation.velocity = state.velocity;
+  observation.applied = state.command;
+  observation.goal = goals[state.goal_index];
+  observation.goal_index = state.goal_index;
+  observation.goal_count = static_cast<std::uint32_t>(goals.size());
+  observation.progress_m = progress.progress_m();
+  observation.progress_waypoint = progress.waypoint();
+  observation.released_waypoint = last_waypoint;
+  observation.limits = body.limits;
+  observation.footprint = body.footprint;
+  observation.agents = agents_.data();
+  observation.agent_count = static_cast<std::uint32_t>(agents_.size());
+  observation.agent_stride = sizeof(dmrp_agent);
+
+  Driver& driver = drivers_[robot];
+  dmrp_command command{};
+  command.struct_size = sizeof(command);
+  const auto result = driver.controller->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
+    return driver.table.step(driver.controller->self(), &observation, &command);
+  });
+  note_call(DMRP_CALL_CONTROL, robot, result);
+  if (result.status == DMRP_NO_SOLUTION) return std::nullopt;
+  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
+    throw PluginFault(fault_kind::bad_output, driver.controller->site("step", step),
+                      fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
+  return dmrp_twist{command.v_x, command.v_y, command.omega};
+}
+
+const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
+  if (!pedestrian_model_) return velocities_;
+  const auto people = world_.people();
+  const auto robots = world_.robot_agents();
+  const dmrp_crowd crowd = {sizeof(crowd),
+                            static_cast<std::uint32_t>(people.size()),
+                            world_.t_ns(),
+                            variant_.simulation.step_ns,
+                            people.data(),
+                            robots.data(),
+                            sizeof(dmrp_person),
+                            static_cast<std::uint32_t>(robots.size()),
+                            sizeof(dmrp_agent),
+                            0};
+  std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
+  const auto result = pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
+    return pedestrian_table_.step(pedestrian_model_->self(), &crowd, velocities_.data());
+  });
+  note_call(DMRP_CALL_PEOPLE, 0, result);
+  for (std::size_t i = 0; i < velocities_.size(); ++i)
+    if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person))
+      throw PluginFault(
+          fault_kind::bad_output, pedestrian_model_->site("step", step),
+          fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocities_[i].x, velocities_[i].y));
+  return velocities_;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// cast.hpp: the plugins that play in one trial, each entered through its guarded call.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <dmrp/local_controller.h>
+#include <dmrp/metric.h>
+#include <dmrp/pedestrian_model.h>
+
+#include "core/lidar.hpp"
+#include "core/progress.hpp"
+#include "core/world.hpp"
+#include "host/trial/instance_pool.hpp"
+#include "host/trial/planning.hpp"
+#include "host/trial/robot_sensors.hpp"
+#include "host/trial/variant_world.hpp"
+
+namespace dmrp::host {
+
+class Cast {
+ public:
+  // Takes the combination's instances from the pool and starts them for this trial. Throws PluginFault.
+  Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination, const VariantWorld& variant,
+       const core::World& world, std::uint64_t seed);
+  Cast(const Cast&) = delete;
+  Cast& operator=(const Cast&) = delete;
+
+  // Plans from where the robots are.
+  Plan plan(std::uint64_t revision, std::int64_t step);
+
+  // Hands each active robot's controller its path.
+  void set_paths(const Plan& plan, std::int64_t step);
+
+  // A control tick begins: sensors look.
+  void sense();
+
+  // The next command of a robot; nothing where its controller found none, and the host brakes.
+  std::optional<dmrp_twist> drive(std::uint32_t robot, const core::PathProgress& progress, std::uint32_t last_waypoint,
+                                  std::int64_t step);
+
+  // Velocities of all people for the next step.
+  const std::vector<dmrp_vec2>& walk(std::int64_t step);
+
+  // The calls since the last time it was asked.
+  std::vector<dmrp_call> take_calls() { return std::move(calls_); }
+
+ private:
+  void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
+
+  const Experiment& experiment_;
+  const VariantWorld& variant_;
+  const core::World& world_;
+  const PluginUse& planner_use_;
+  Instance* planner_;
+  Instance* pedestrian_model_ = nullptr;
+  struct Driver {
+    Instance* controller;
+    std::unique_ptr<RobotSensors> sensors;
+    dmrp_world view;
+    dmrp_local_controller table;
+  };
+  core::Lidar lidar_;
+  std::vector<Driver> drivers_;
+  dmrp_pedestrian_model pedestrian_table_{};
+  std::vector<dmrp_vec2> velocities_;
+  std::vector<dmrp_agent> agents_;
+  std::vector<dmrp_call> calls_;
+};
+
+}  // namespace dmrp::host

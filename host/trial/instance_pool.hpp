@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// instance_pool.hpp: the plugin libraries of an experiment in this process, and instances that live over trials.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "host/plugins/instance.hpp"
+
+namespace dmrp::host {
+
+class InstancePool {
+ public:
+  // Loads and initialises all libraries. Throws std::runtime_error in one line, or PluginFault.
+  InstancePool(const std::vector<LibraryUse>& libraries, CallGuard& guard, LogSink log);
+  ~InstancePool();
+  InstancePool(const InstancePool&) = delete;
+  InstancePool& operator=(const InstancePool&) = delete;
+
+  // The instance for this use of a plugin, made when first asked for. `robot`: of a local controller, -1 otherwise.
+  Instance& get(const PluginUse& use, std::int32_t robot);
+
+  // Forgets the instances of all uses: after an error, fresh ones are safer.
+  void clear() { instances_.clear(); }
+
+ private:
+  struct Key {
+    const PluginUse* use;  // for identity alone: never iterated over in an order that matters
+    std::int32_t robot;
+    auto operator<=>(const Key&) const = default;
+  };
+
+  CallGuard& guard_;
+  LogSink log_;
+  std::vector<std::unique_ptr<Library>> libraries_;
+  std::vector<std::unique_ptr<dmrp_host>> library_hosts_;
+  std::map<Key, std::unique_ptr<Instance>> instances_;
+};
+
+}  // namespace dmrp::host

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/planning.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/snap.hpp>
+
+namespace dmrp::host {
+
+namespace {
+
+// A robot may have strayed this far from the cell that it is planned from, in cells.
+constexpr double snap_reach_cells = 2.0;
+
+struct Collected {
+  PlannedPaths paths;
+  std::vector<bool> given;
+  std::vector<Plan::Statistic> statistics;
+};
+
+std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_waypoint* waypoints, std::uint32_t count,
+                          std::uint32_t stride) {
+  auto& collected = *static_cast<Collected*>(sink->context);
+  if (robot >= collected.paths.size() || collected.given[robot]) return DMRP_ERROR;
+  collected.given[robot] = true;
+  for (std::uint32_t i = 0; i < count; ++i)
+    collected.paths[robot].push_back(*DMRP_AT(dmrp_waypoint, waypoints, stride, i));
+  return DMRP_OK;
+}
+
+void collect_statistic(dmrp_plan_sink* sink, const char* name, double value) {
+  if (name) static_cast<Collected*>(sink->context)->statistics.push_back({name, value});
+}
+
+// The problem and the arrays behind it.
+struct Problem {
+  std::vector<std::vector<dmrp_goal>> goals;
+  std::vector<dmrp_planning_robot> robots;
+  dmrp_grid grid{};
+  dmrp_planning_problem c{};
+};
+
+// Planners work on cells: a goal becomes the centre of its cell.
+dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
+  const dmrp_vec2 center = grid.center(grid.cell_of({goal.pose.x, goal.pose.y}));
+  goal.pose.x = center.x;
+  goal.pose.y = center.y;
+  return goal;
+}
+
+// False where robots cannot be put on distinct cells.
+bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
+                  Problem& problem) {
+  std::vector<toolkit::SnapRequest> requests;
+  for (const core::RobotState& robot : world.robots()) requests.push_back({{robot.pose.x, robot.pose.y}, toolkit::no_cell});
+  const auto cells = toolkit::snap_to_cells(
+      grid, requests, snap_reach_cells * variant.planning_grid.resolution_m,
+      [&](dmrp_vec2 from, dmrp_vec2 to) { return variant.geometry->sweep_is_free(from, to, radius_m); });
+  if (!cells) return false;
+  for (std::size_t i = 0; i < problem.robots.size(); ++i) problem.robots[i].start = grid.center((*cells)[i]);
+  return true;
+}
+
+void describe_robots(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
+                     Problem& problem) {
+  const dmrp_world& view = variant.view.world();
+  problem.goals.resize(world.robots().size());
+  for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
+    const core::RobotState& state = world.robots()[i];
+    const auto goals = world.goals(i);
+    for (std::size_t g = state.goal_index; g < goals.size(); ++g) problem.goals[i].push_back(on_grid(grid, goals[g]));
+    dmrp_planning_robot robot{};
+    robot.state = state.state;
+    robot.goal_count = static_cast<std::uint32_t>(problem.goals[i].size());
+    robot.goals = problem.goals[i].data();
+    robot.goal_stride = sizeof(dmrp_goal);
+    robot.first_goal_index = state.goal_index;
+    robot.robot = DMRP_AT(dmrp_robot, view.robots, view.robot_stride, i);
+    robot.pose = state.pose;
+    robot.velocity = state.velocity;
+    problem.robots.push_back(robot);
+  }
+}
+
+}  // namespace
+
+const dmrp_plan& Plan::view() {
+  c_paths_.clear();
+  for (const auto& path : paths)
+    c_paths_.push_back(
+        {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
+  c_statistics_.clear();
+  for (const Statistic& statistic : statistics) c_statistics_.push_back({statistic.name.c_str(), statistic.value});
+  c_ = {sizeof(dmrp_plan),
+        static_cast<std::uint32_t>(c_paths_.size()),
+        c_paths_.data(),
+        sizeof(dmrp_path),
+        static_cast<std::uint32_t>(c_statistics_.size()),
+        c_statistics_.data(),
+        sizeof(dmrp_statistic),
+        status,
+        revision,
+        from_ns,
+        step_duration_ns,
+        planning_ns};
+  return c_;
+}
+
+Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step) {
+  Plan plan;
+  plan.revision = revision;
+  plan.from_ns = world.t_ns();
+  plan.step_duration_ns = variant.simulation.step_duration_ns;
+
+  Problem problem;
+  problem.grid = variant.planning_grid.view();
+  const toolkit::GridView grid(problem.grid);
+  describe_robots(variant, world, grid, problem);
+  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, problem)) return plan;
+
+  dmrp_planning_problem& c = problem.c;
+  c.struct_size = sizeof(c);
+  c.robot_count = static_cast<std::uint32_t>(problem.robots.size());
+  c.robots = problem.robots.data();
+  c.robot_stride = sizeof(dmrp_planning_robot);
+  c.revision = revision;
+  c.now_ns = world.t_ns();
+  c.effective_from_ns = plan.from_ns;
+  c.step_duration_ns = plan.step_duration_ns;
+  c.time_budget_ns = time_budget_ns;
+  c.grid = &problem.grid;
+
+  Collected collected;
+  collected.paths.resize(c.robot_count);
+  collected.given.resize(c.robot_count);
+  dmrp_plan_sink sink = {sizeof(sink), 0, &collected, &collect_path, &collect_statistic};
+  const auto table = planner.table<dmrp_global_planner>();
+  const auto result = planner.call("plan", step, time_budget_ns, [&] { return table.plan(planner.self(), &c, &sink); });
+  plan.status = result.status;
+  plan.planning_ns = result.duration_ns;
+  plan.statistics = std::move(collected.statistics);
+
+  const bool complete = std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end();
+  if (result.status == DMRP_NO_SOLUTION || (result.status == DMRP_TIMEOUT && !complete)) return plan;
+  const CallSite site = planner.site("plan", step);
+  if (!complete) throw PluginFault(fault_kind::bad_output, site, "returned OK without a path for every robot");
+
+  const PlanVerdict verdict = validate_plan(c, collected.paths, info.connectivity, [&](auto from, auto to, double radius_m) {
+    return variant.geometry->sweep_is_free(from, to, radius_m);
+  });
+  if (!verdict.error.empty()) throw PluginFault(fault_kind::bad_output, site, "invalid plan: " + verdict.error);
+  if (verdict.conflicts > 0 && !(info.planner_flags & DMRP_PLANNER_UNCOORDINATED))
+    throw PluginFault(fault_kind::bad_output, site,
+                      fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts));
+  plan.paths = std::move(collected.paths);
+  plan.conflicts = verdict.conflicts;
+  return plan;
+}
+
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, const dmrp_goal& goal,
+                                         std::int64_t step_duration_ns) {
+  std::vector<dmrp_waypoint> path = planned;
+  dmrp_waypoint& last = path.back();
+  if (std::hypot(last.x - goal.pose.x, last.y - goal.pose.y) > 1e-9) {
+    const dmrp_waypoint there = {goal.pose.x,     goal.pose.y, goal.pose.theta, last.t_ns + step_duration_ns,
+                                 last.goal_index, 0};
+    path.push_back(there);
+  } else {
+    last.theta = goal.pose.theta;
+  }
+  return path;
+}
+
+}  // namespace dmrp::host

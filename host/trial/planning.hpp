@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// planning.hpp: asks the global planner for a plan, checks it, and keeps the plan in force.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <dmrp/global_planner.h>
+#include <dmrp/metric.h>
+
+#include "core/world.hpp"
+#include "host/plugins/instance.hpp"
+#include "host/trial/plan_validator.hpp"
+#include "host/trial/variant_world.hpp"
+
+namespace dmrp::host {
+
+// A plan as it came out of the planner, and the C structs over it.
+class Plan {
+ public:
+  struct Statistic {
+    std::string name;
+    double value;
+  };
+
+  PlannedPaths paths;  // empty if there is no plan
+  std::vector<Statistic> statistics;
+  std::uint64_t revision = 0;
+  std::int32_t status = DMRP_NO_SOLUTION;
+  std::int64_t from_ns = 0;
+  std::int64_t step_duration_ns = 0;
+  std::int64_t planning_ns = 0;
+  std::uint32_t conflicts = 0;  // of an uncoordinated planner
+
+  bool exists() const { return !paths.empty(); }
+
+  // Valid until the plan changes or moves.
+  const dmrp_plan& view();
+
+ private:
+  std::vector<dmrp_path> c_paths_;
+  std::vector<dmrp_statistic> c_statistics_;
+  dmrp_plan c_{};
+};
+
+// Plans for the robots where they are now. A plan that breaks the contract is a PluginFault (bad_output).
+Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step);
+
+// A robot's path as its controller gets it: where a goal lies off its cell's centre, the way to it is the last leg.
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, const dmrp_goal& goal,
+                                         std::int64_t step_duration_ns);
+
+}  // namespace dmrp::host

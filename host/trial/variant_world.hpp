@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// variant_world.hpp: what all trials of a scenario variant share: its static geometry, grids and the contract's view.
+#pragma once
+
+#include <memory>
+
+#include "core/planning_grid.hpp"
+#include "core/settings.hpp"
+#include "core/static_geometry.hpp"
+#include "core/world_view.hpp"
+#include "host/experiment/experiment.hpp"
+
+namespace dmrp::host {
+
+struct VariantWorld {
+  VariantWorld(const Experiment& experiment, const ScenarioVariant& variant);
+
+  const core::Scenario& scenario;
+  core::SimulationSettings simulation;  // with the time limit that holds for this scenario
+  std::shared_ptr<const core::StaticGeometry> geometry;
+  core::PlanningGrid planning_grid;
+  core::PlanningGrid walking_grid;
+  core::WorldView view;
+};
+
+// A number of seconds from the experiment file, as the contract counts them.
+inline std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9 + 0.5); }
+
+}  // namespace dmrp::host

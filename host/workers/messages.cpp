@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "host/workers/messages.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dmrp::host {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Job, trial, trace_file, keep_trace_of_success, skip_metrics)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrialDone, outcome, repeatable, sim_time_s)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricEvent, metric, from_ns, to_ns, robots, text)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
+
+namespace {
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+template <class T>
+std::optional<T> from_null(const nlohmann::json& json) {
+  return json.is_null() ? std::nullopt : std::optional<T>(json.get<T>());
+}
+
+}  // namespace
+
+// A row, not an object: there are many. Finite doubles keep their bits in JSON (shortest round trip).
+void to_json(nlohmann::json& json, const MetricValue& v) {
+  json = nlohmann::json::array({v.metric, v.subject_kind, or_null(v.subject), or_null(v.coordinate), or_null(v.value)});
+}
+void from_json(const nlohmann::json& json, MetricValue& v) {
+  v = {json.at(0).get<std::string>(), json.at(1).get<std::uint32_t>(), from_null<std::uint64_t>(json.at(2)),
+       from_null<double>(json.at(3)), from_null<double>(json.at(4))};
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricResult, index, values, events)
+
+}  // namespace dmrp::host

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// messages.hpp: what supervisor and worker say to each other.
+//
+//   worker  -> {"type": "ready", "digest": ...}           the experiment as it reads it
+//   supervisor -> Job                                      one trial
+//   worker  -> {"type": "metric", "index", "values", "events"}   as each metric finishes
+//   worker  -> {"type": "fault", ...}                      a plugin broke its contract; the worker goes on
+//   worker  -> {"type": "done", ...}                       the trial is over
+//
+// A worker that cannot go on just dies: the supervisor knows from the call note where.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+// Exit status of a worker that ran out of memory outside a plugin call.
+inline constexpr int out_of_memory_exit = 86;
+
+struct Job {
+  std::uint64_t trial = 0;
+  std::string trace_file;                    // "" for none
+  bool keep_trace_of_success = true;
+  std::vector<std::uint32_t> skip_metrics;   // that killed a worker before
+};
+
+// The end of a trial, without its values.
+struct TrialDone {
+  std::string outcome;
+  bool repeatable = true;
+  double sim_time_s = 0.0;
+};
+
+struct MetricResult {
+  std::uint32_t index = 0;  // of Experiment::metrics
+  std::vector<MetricValue> values;
+  std::vector<MetricEvent> events;
+};
+
+void to_json(nlohmann::json& json, const Job& job);
+void from_json(const nlohmann::json& json, Job& job);
+void to_json(nlohmann::json& json, const TrialDone& done);
+void from_json(const nlohmann::json& json, TrialDone& done);
+void to_json(nlohmann::json& json, const MetricResult& result);
+void from_json(const nlohmann::json& json, MetricResult& result);
+void to_json(nlohmann::json& json, const FaultRecord& fault);
+void from_json(const nlohmann::json& json, FaultRecord& fault);
+
+}  // namespace dmrp::host

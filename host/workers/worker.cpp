@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "host/workers/worker.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/mcap_writer.hpp"
+#include "core/trace_encoder.hpp"
+#include "core/trace_reader.hpp"
+#include "host/experiment/digest.hpp"
+#include "host/trial/measure.hpp"
+#include "host/trial/run_trial.hpp"
+#include "host/workers/line_channel.hpp"
+#include "host/workers/messages.hpp"
+#include "host/workers/supervisor.hpp"
+#include "host/workers/worker_process.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool address_space_is_ours = false;  // sanitizers reserve terabytes
+#else
+constexpr bool address_space_is_ours = true;
+#endif
+
+void set_resource_limits(const RunLimits& limits) {
+  const rlimit no_core = {0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (!address_space_is_ours || limits.memory_mb == 0) return;
+  const rlim_t bytes = static_cast<rlim_t>(limits.memory_mb) << 20;
+  const rlimit memory = {bytes, bytes};
+  setrlimit(RLIMIT_AS, &memory);
+}
+
+void log_line(std::int32_t level, const std::string& plugin, const std::string& text) {
+  static constexpr const char* const names[] = {"debug", "info", "warning", "error"};
+  std::fprintf(stderr, "[%s] %s: %s\n", level >= 0 && level <= 3 ? names[level] : "?", plugin.c_str(), text.c_str());
+}
+
+FaultRecord record_of(const PluginFault& fault) {
+  FaultRecord record;
+  record.kind = fault.kind();
+  record.plugin = fault.plugin();
+  record.function = fault.function();
+  record.step = fault.step();
+  record.robot = fault.robot();
+  record.detail = fault.what();
+  return record;
+}
+
+nlohmann::json typed(const char* type, nlohmann::json message) {
+  message["type"] = type;
+  return message;
+}
+
+class Worker {
+ public:
+  Worker(const Experiment& experiment, LineChannel& channel, CallNote& note)
+      : experiment_(experiment),
+        combinations_(combinations(experiment)),
+        channel_(channel),
+        guard_(note),
+        pool_(experiment.libraries, guard_, &log_line) {}
+
+  void serve() {
+    channel_.send({{"type", "ready"}, {"digest", experiment_digest(experiment_)}});
+    while (const auto message = channel_.receive()) run(message->get<Job>());
+  }
+
+ private:
+  const VariantWorld& variant(std::uint32_t scenario) {
+    auto& made = variants_[scenario];
+    if (!made) made = std::make_unique<VariantWorld>(experiment_, experiment_.scenarios[scenario]);
+    return *made;
+  }
+
+  void run(const Job& job) {
+    const Combination& combination = combinations_[trial_id(job.trial, combinations_.size()).combination];
+    const VariantWorld& world = variant(combination.scenario);
+    const std::uint64_t seed = trial_seed(experiment_, job.trial);
+
+    std::optional<core::McapWriter> file;
+    if (!job.trace_file.empty()) file.emplace(job.trace_file);
+    core::TraceEncoder trace(world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
+      if (file) file->write(t_ns, record);
+    });
+
+    TrialDone done;
+    try {
+      const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, guard_, trace);
+      done = {ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed, ending.repeatable, ending.sim_time_s};
+    } catch (const PluginFault& fault) {
+      channel_.send(typed("fault", record_of(fault)));
+      done.outcome = trial_outcome::fault;
+      pool_.clear();
+    }
+    if (file) file->close();
+    if (done.outcome != trial_outcome::fault) measure_all(trace.bytes(), seed, job);
+    if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
+      std::filesystem::remove(job.trace_file);
+    channel_.send(typed("done", done));
+  }
+
+  void measure_all(const core::TraceBytes& bytes, std::uint64_t seed, const Job& job) {
+    core::TraceReader reader(bytes);
+    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
+      if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
+      channel_.send({{"type", "measuring"}, {"index", i}});
+      const PluginUse& use = experiment_.metrics[i];
+      try {
+        const MetricResult result = measure(reader, pool_.get(use, -1), use.info, i, seed,
+                                            static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
+        channel_.send(typed("metric", result));
+      } catch (const PluginFault& fault) {
+        channel_.send(typed("fault", record_of(fault)));
+      }
+    }
+  }
+
+  const Experiment& experiment_;
+  std::vector<Combination> combinations_;
+  LineChannel& channel_;
+  CallGuard guard_;
+  InstancePool pool_;
+  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;
+};
+
+// Descriptors without a probe: the supervisor's probe has survived these libraries.
+Probe read_descriptors(const std::filesystem::path& file) {
+  const Library library(file);
+  return {library.plugins(), library.warning()};
+}
+
+}  // namespace
+
+int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
+  LineChannel channel(read_end, write_end);
+  try {
+    const Experiment experiment = load_experiment(file, trials, &read_descriptors);
+    set_resource_limits(experiment.limits);
+    Worker(experiment, channel, map_call_note(note)).serve();
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory_exit;
+  } catch (const std::exception& error) {
+    channel.send({{"type", "error"}, {"text", error.what()}});
+    return 1;
+  }
+}
+
+}  // namespace dmrp::host
