@@ -34,8 +34,12 @@ dmrp_vec2 WayFinder::direction(std::size_t slot, const Person& person) {
 }
 
 WayFinder::Way WayFinder::find_way(const Person& person, std::uint32_t cell) {
-  const bool clear = toolkit::line_is_free(grid_, person.position, person.target);
-  return {person.id, cell, person.target, clear ? nullptr : &field_to_target_of(person)};
+  Way way = {person.id, cell, person.target, nullptr};
+  if (toolkit::line_is_free(grid_, person.position, person.target)) return way;
+  const toolkit::NavigationField& field = field_to_target_of(person);
+  const bool cut_off = cell != toolkit::no_cell && grid_.free(cell) && !field.reachable(cell);
+  if (!cut_off) way.field = &field;
+  return way;
 }
 
 const toolkit::NavigationField& WayFinder::field_to_target_of(const Person& person) {

@@ -5,6 +5,7 @@
 // Proc. R. Soc. B 276 (2009); groups: The walking behaviour of pedestrian social groups, PLoS ONE 5 (2010).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -18,7 +19,7 @@ struct InteractionShape {
   double n_prime;  // angular width of slowing down
 };
 
-// Terms smaller than exp(-this) are left out.
+// Influences smaller than exp(-this) are left out.
 inline constexpr double negligible_exponent = 5.0;
 
 // How somebody minds another who is `apart` away (from self to other, `distance_m` long) and to whom their own velocity
@@ -27,19 +28,25 @@ inline constexpr double negligible_exponent = 5.0;
 inline dmrp_vec2 interaction(const InteractionShape& shape, dmrp_vec2 apart, double distance_m, dmrp_vec2 approach) {
   const dmrp_vec2 toward = apart / distance_m;
   const dmrp_vec2 direction = shape.lambda * approach + toward;
-  const double length = toolkit::norm(direction);
-  const double range_m = shape.gamma * length;
-  if (distance_m > negligible_exponent * range_m) return {0.0, 0.0};
+  const double squared_length = toolkit::squared_norm(direction);
+  const double furthest_m = negligible_exponent * shape.gamma;
+  if (distance_m * distance_m > furthest_m * furthest_m * squared_length) return {0.0, 0.0};
 
-  const double parallel = toolkit::dot(direction, toward);  // both times `length`
-  const double lateral = toolkit::cross(direction, toward);
-  const double theta = std::atan2(lateral, parallel);
+  const double length = std::sqrt(squared_length);
+  const double range_m = shape.gamma * length;
   const double decay = distance_m / range_m;
-  const double slowing_angle = shape.n_prime * range_m * theta;
-  const double turning_angle = shape.n * range_m * theta;
-  const double slowing = std::exp(-decay - slowing_angle * slowing_angle);
-  const double turning = std::exp(-decay - turning_angle * turning_angle);
+  const double slowing_width = shape.n_prime * range_m;
+  const double turning_width = shape.n * range_m;
   const dmrp_vec2 along = direction / length;
+  // theta^2 >= 2 - 2 cos(theta): most of those aside are told without the angle itself
+  const double cosine = toolkit::dot(along, toward);
+  const double width = std::min(slowing_width, turning_width);
+  if (decay + width * width * (2.0 - 2.0 * cosine) > negligible_exponent) return {0.0, 0.0};
+
+  const double theta = std::atan2(toolkit::cross(along, toward), cosine);
+  const double squared_theta = theta * theta;
+  const double slowing = std::exp(-decay - slowing_width * slowing_width * squared_theta);
+  const double turning = std::exp(-decay - turning_width * turning_width * squared_theta);
   return -slowing * along + (theta < 0.0 ? turning : -turning) * toolkit::perpendicular(along);
 }
 

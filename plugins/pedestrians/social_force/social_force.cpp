@@ -79,6 +79,13 @@ Vec2 SocialForce::acceleration(std::uint32_t slot, const Person& person) {
   return drive + from_others(slot, person) + from_walls(person);
 }
 
+// How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world allows
+// at most a little of.
+double SocialForce::keeping_off(double gap_m) const {
+  const double gaps = gap_m / obstacle_sigma;
+  return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
+}
+
 Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
   Vec2 sum = {0.0, 0.0};
   neighbors_.for_each_near(person.position, [&](const Body& other, double squared_distance) {
@@ -89,8 +96,7 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
     Vec2 force = social_weight *
                  interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
-    if (gap_m < negligible_exponent * body_sigma)
-      force -= apart * (body_weight * std::exp(-std::max(gap_m, -body_sigma) / body_sigma) / distance_m);
+    force -= apart * (keeping_off(gap_m) / distance_m);
     sum += other.weight * force;
   });
   return sum;
@@ -107,8 +113,7 @@ Vec2 SocialForce::from_walls(const Person& person) {
       const double alike = toolkit::dot(wall.away, other.away);
       if (alike > 0.0) sharers += alike * std::exp((wall.distance_m - other.distance_m) / obstacle_sigma);
     }
-    const double gap_m = std::max(wall.distance_m - person.radius_m, -*obstacle_sigma);
-    sum += wall.away * (obstacle_weight * std::exp(-gap_m / obstacle_sigma) / sharers);
+    sum += wall.away * (keeping_off(wall.distance_m - person.radius_m) / sharers);
   }
   return sum;
 }

@@ -24,13 +24,9 @@ class SocialForce final : public PedestrianModel {
   Param<double> social_weight =
       param("force_factor_social", 2.1).range(0.0, 100.0).doc("weight of minding people and robots");
   Param<double> obstacle_weight =
-      param("force_factor_obstacle", 10.0).range(0.0, 100.0).doc("weight of keeping off walls");
+      param("force_factor_obstacle", 10.0).range(0.0, 100.0).doc("weight of keeping off walls and bodies");
   Param<double> obstacle_sigma =
-      param("force_sigma_obstacle", 0.2).unit("m").range(0.01, 0.25).doc("range of keeping off walls");
-  Param<double> body_weight =
-      param("force_factor_body", 10.0).range(0.0, 100.0).doc("weight of keeping bodies from touching");
-  Param<double> body_sigma =
-      param("force_sigma_body", 0.08).unit("m").range(0.01, 0.25).doc("range of keeping bodies from touching");
+      param("force_sigma_obstacle", 0.2).unit("m").range(0.01, 0.25).doc("range of keeping off walls and bodies");
   Param<double> lambda =
       param("lambda", 2.0).range(0.0, 10.0).doc("weight of the relative velocity in an interaction's direction");
   Param<double> gamma = param("gamma", 0.35).range(0.01, 5.0).doc("range of an interaction per unit of its strength");
@@ -47,6 +43,7 @@ class SocialForce final : public PedestrianModel {
  private:
   void gather(const Crowd& crowd);
   Vec2 acceleration(std::uint32_t slot, const Person& person);
+  double keeping_off(double gap_m) const;
   Vec2 from_others(std::uint32_t slot, const Person& person) const;
   Vec2 from_walls(const Person& person);
 

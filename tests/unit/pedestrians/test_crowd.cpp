@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/segment.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <vector>
+
+#include "../../../plugins/pedestrians/crowd/neighbor_grid.hpp"
+#include "../../../plugins/pedestrians/crowd/wall_grid.hpp"
+#include "../../../plugins/pedestrians/crowd/way_finding.hpp"
+#include "walking_world.hpp"
+
+using namespace dmrp::pedestrians;
+using dmrp::toolkit::Stream;
+
+TEST_CASE("the neighbour grid finds whom a search through all finds") {
+  const double reach_m = GENERATE(0.7, 5.0, 100.0);
+  NeighborGrid grid;
+  grid.start({-10.0, 0.0}, {13.0, 17.0}, reach_m);
+  for (uint64_t round = 0; round < 5; ++round) {
+    // some stand outside the world
+    Stream chance(1, "bodies", round);
+    std::vector<Body> bodies;
+    for (std::uint32_t slot = 0; slot < 60 * round; ++slot)
+      bodies.push_back({{chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)}, {0.0, 0.0}, 0.3, 1.0, slot});
+    grid.build(bodies);
+
+    for (int query = 0; query < 50; ++query) {
+      const dmrp_vec2 point = {chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)};
+      std::vector<std::uint32_t> expected;
+      for (const Body& body : bodies)
+        if (dmrp::toolkit::squared_distance(body.position, point) <= reach_m * reach_m) expected.push_back(body.slot);
+      std::vector<std::uint32_t> found;
+      grid.for_each_near(point, [&](const Body& body, double squared_distance) {
+        found.push_back(body.slot);
+        REQUIRE(squared_distance == Approx(dmrp::toolkit::squared_distance(body.position, point)));
+      });
+      std::sort(found.begin(), found.end());
+      REQUIRE(found == expected);
+    }
+  }
+}
+
+TEST_CASE("the wall grid finds the walls that a search through all finds") {
+  const double reach_m = 1.5;
+  Stream chance(1, "walls");
+  std::vector<dmrp_segment> segments;
+  for (int i = 0; i < 80; ++i) {
+    const dmrp_vec2 from = {chance.uniform(0.0, 20.0), chance.uniform(5.0, 30.0)};
+    segments.push_back({from, from + dmrp_vec2{chance.uniform(-6.0, 6.0), chance.uniform(-6.0, 6.0)}});
+  }
+  segments.push_back({{3.0, 7.0}, {3.0, 7.0}});  // a point is a wall too
+  WallGrid grid;
+  grid.start({segments.data(), segments.size()}, {0.0, 5.0}, {20.0, 30.0}, reach_m);
+
+  std::vector<WallPoint> found;
+  for (int query = 0; query < 500; ++query) {
+    const dmrp_vec2 point = {chance.uniform(0.0, 20.0), chance.uniform(5.0, 30.0)};
+    grid.nearest_points(point, found);
+    std::size_t next = 0;
+    for (const dmrp_segment& segment : segments) {
+      const double distance_m = dmrp::toolkit::distance(segment, point);
+      if (distance_m > reach_m || distance_m == 0.0) continue;
+      REQUIRE(next < found.size());
+      CHECK(found[next].distance_m == Approx(distance_m));
+      const dmrp_vec2 back = point - found[next].distance_m * found[next].away;
+      CHECK(dmrp::toolkit::distance(segment, back) < 1e-9);
+      ++next;
+    }
+    CHECK(next == found.size());
+  }
+}
+
+TEST_CASE("ways lead straight to what is in sight and round what is not") {
+  const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
+  WayFinder ways;
+  ways.start(*world.c().walking_grid);
+
+  dmrp_person p = dmrp::test::person(1, {2.0, 2.0}, {5.0, 6.0});
+  CHECK(ways.direction(0, p).x == Approx(0.6));
+  CHECK(ways.direction(0, p).y == Approx(0.8));
+  p.position = p.target;
+  CHECK(ways.direction(0, p) == dmrp_vec2{0.0, 0.0});
+
+  // following the directions leads past the box
+  p = dmrp::test::person(2, {2.0, 2.0}, {22.0, 2.0});
+  double walked_m = 0.0;
+  while (dmrp::toolkit::distance(p.position, p.target) > 0.3 && walked_m < 40.0) {
+    p.position += 0.05 * ways.direction(0, p);
+    walked_m += 0.05;
+    REQUIRE(world.clearance(p.position) >= 0.25);
+  }
+  // 23.0 m round the corners at 0.3 m, less the last 0.3 m; the comfortable way keeps further off
+  CHECK(walked_m > 22.5);
+  CHECK(walked_m < 24.5);
+}
+
+TEST_CASE("where no way leads to the target people head straight for it") {
+  const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 10.0}}});
+  WayFinder ways;
+  ways.start(*world.c().walking_grid);
+  const dmrp_vec2 along = ways.direction(0, dmrp::test::person(1, {2.0, 5.0}, {22.0, 2.0}));
+  CHECK(along.x == Approx(20.0 / std::sqrt(409.0)));
+  CHECK(along.y == Approx(-3.0 / std::sqrt(409.0)));
+}
+
+TEST_CASE("somebody pushed off the free cells finds the way back") {
+  const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
+  WayFinder ways;
+  ways.start(*world.c().walking_grid);
+  CHECK(ways.direction(0, dmrp::test::person(1, {9.95, 3.0}, {22.0, 2.0})).x < 0.0);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// A small world for pedestrian models: boxes for walls, a walking grid, people who walk to their targets, and bodies
+// that are solid in the way that the host's world keeps them solid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "../plugin_under_test.hpp"
+
+namespace dmrp::test {
+
+struct Box {
+  dmrp_vec2 lower;
+  dmrp_vec2 upper;
+};
+
+double distance_to_box(const Box& box, dmrp_vec2 point);  // 0 inside
+
+// The static world: a rectangle with boxes in it. Never moves.
+class WalkingWorld {
+ public:
+  WalkingWorld(dmrp_vec2 size, std::vector<Box> boxes, double cell_m = 0.25);
+  WalkingWorld(const WalkingWorld&) = delete;
+  WalkingWorld& operator=(const WalkingWorld&) = delete;
+
+  const dmrp_world& c() const { return world_; }
+  double clearance(dmrp_vec2 point) const;  // to the nearest box or border; 0 or less outside
+
+ private:
+  void rasterise(double cell_m);
+
+  dmrp_vec2 size_;
+  std::vector<Box> boxes_;
+  std::vector<dmrp_segment> segments_;
+  std::vector<uint8_t> free_, edges_;
+  std::vector<float> clearance_;
+  dmrp_grid grid_{};
+  dmrp_world world_{};
+};
+
+// A person with everything that a test seldom sets. The target is a point, unless the area is widened.
+dmrp_person person(uint64_t id, dmrp_vec2 position, dmrp_vec2 target, double desired_speed = 1.3);
+
+dmrp_agent robot(uint64_t id, dmrp_vec2 position, dmrp_vec2 velocity = {0.0, 0.0}, double radius_m = 0.25);
+
+// A model, its people and robots, stepped at 50 Hz.
+class Walk {
+ public:
+  static constexpr double step_s = 0.02;
+
+  Walk(const WalkingWorld& world, const std::string& model, ParamOverrides params = {}, uint64_t seed = 1);
+
+  // Begins a new trial with the same instance; people and robots stay.
+  void restart(const WalkingWorld& world, uint64_t seed);
+
+  std::vector<dmrp_person> people;
+  std::vector<dmrp_agent> robots;
+  std::vector<dmrp_vec2> velocities;  // as the model gave them last
+  double t_s() const { return static_cast<double>(step_) * step_s; }
+
+  // One step. Robots move at their velocities. Fails the test where an answer is not finite or above 5 m/s.
+  void step();
+
+  // Steps until done() says so or the time is over; returns whether done() said so.
+  template <class Done>
+  bool until(double time_limit_s, Done&& done) {
+    const double end_s = t_s() + time_limit_s;
+    while (t_s() < end_s) {
+      step();
+      if (done()) return true;
+    }
+    return false;
+  }
+
+ private:
+  void keep_solid();
+
+  const WalkingWorld* world_;
+  PluginUnderTest model_;
+  int64_t step_ = 0;
+};
+
+}  // namespace dmrp::test
