@@ -2,6 +2,7 @@
 // The local controllers of dmrp, as one plugin library.
 #include <dmrp/plugin.hpp>
 
+#include "dwa/dwa.hpp"
 #include "pure_pursuit/pure_pursuit.hpp"
 
-DMRP_PLUGINS(dmrp::controllers::PurePursuit)
+DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa)

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "critics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dmrp::controllers::dwa {
+
+namespace {
+
+// The highest footprint cost along the arc, or in_collision; `at` becomes the arc's end. The footprint grows with
+// speed: what the robot could hit within its braking time is kept further away.
+int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint,
+                  ArcState& at) {
+  const double fast = std::max(scene.v_max - tuning.scaling_speed, 1e-9);
+  const double share = std::clamp((std::abs(sample.v) - tuning.scaling_speed) / fast, 0.0, 1.0);
+  footprint.scale(1.0 + tuning.max_scaling_factor * share);
+  const int steps = simulation_steps(sample, tuning);
+  const ArcStepper stepper(sample.v, sample.omega, tuning.sim_time / steps);
+  int highest = 0;
+  for (int i = 0; i < steps; ++i) {
+    stepper.step(at);
+    const int cost = footprint.cost(at);
+    if (cost == in_collision) return in_collision;
+    highest = std::max(highest, cost);
+  }
+  return highest;
+}
+
+// A nose that is over an obstacle, or off the window, is as far away as it can be.
+double nose_cells(const WaveFront& front, std::int32_t nose, std::int32_t center, double nose_length_cells) {
+  if (front.reached(nose)) return front.cells(nose);
+  return front.cells(center) + nose_length_cells + 1.0;
+}
+
+}  // namespace
+
+int simulation_steps(const Sample& sample, const Tuning& tuning) {
+  const double straight = std::abs(sample.v) * tuning.sim_time / tuning.sim_granularity;
+  const double turning = std::abs(sample.omega) * tuning.sim_time / tuning.angular_sim_granularity;
+  return std::max(1, static_cast<int>(std::ceil(std::max(straight, turning))));
+}
+
+double score(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint, double best) {
+  if (!scene.oscillation.allows(sample.v, sample.omega)) return rejected;
+
+  ArcState end = arc_state(scene.pose);
+  const int obstacle = obstacle_cost(sample, scene, tuning, footprint, end);
+  if (obstacle == in_collision) return rejected;
+  double sum = tuning.occdist_scale * obstacle;
+  if (sum > best) return sum;
+
+  // the four grid critics: at the robot's nose, then at its centre
+  const double resolution_m = scene.map.resolution_m();
+  const double nose_length_m = tuning.forward_point_distance;
+  // (a robot that gets away from something too near may still be on a blocked cell)
+  const std::int32_t center =
+      scene.terrain.nearest_free(scene.terrain.index_of(scene.map, end.x, end.y), escape_reach_cells);
+  if (!scene.path.reached(center) || !scene.goal.reached(center)) return rejected;
+  const std::int32_t nose =
+      scene.terrain.index_of(scene.map, end.x + nose_length_m * end.cos_theta, end.y + nose_length_m * end.sin_theta);
+  const double nose_length_cells = nose_length_m / resolution_m;
+  const double goal_scale = tuning.goal_distance_bias * resolution_m;
+  const double path_scale = tuning.path_distance_bias * resolution_m;
+
+  sum += goal_scale * nose_cells(scene.goal_front, nose, center, nose_length_cells);
+  if (sum > best) return sum;
+  if (scene.align) sum += path_scale * nose_cells(scene.path, nose, center, nose_length_cells);
+  if (sum > best) return sum;
+  sum += path_scale * scene.path.cells(center);
+  if (sum > best) return sum;
+  sum += goal_scale * scene.goal.cells(center);
+  return sum + tuning.twirling_scale * std::abs(sample.omega);
+}
+
+std::optional<Sample> cheapest(const VelocityWindow& window, const Scene& scene, const Tuning& tuning,
+                               FootprintCheck& footprint) {
+  std::optional<Sample> choice;
+  double best = std::numeric_limits<double>::infinity();
+  for (const double v : window.v) {
+    for (const double omega : window.omega) {
+      const Sample sample = {v, omega};
+      const double cost = score(sample, scene, tuning, footprint, best);
+      if (cost == rejected || !(cost < best)) continue;
+      choice = sample;
+      best = cost;
+    }
+  }
+  return choice;
+}
+
+}  // namespace dmrp::controllers::dwa

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// critics.hpp: what an arc costs, and the search for the cheapest one.
+#ifndef DMRP_CONTROLLERS_DWA_CRITICS_HPP
+#define DMRP_CONTROLLERS_DWA_CRITICS_HPP
+
+#include <optional>
+#include <vector>
+
+#include "../motion/footprint_check.hpp"
+#include "oscillation.hpp"
+#include "velocity_window.hpp"
+#include "wave_front.hpp"
+
+namespace dmrp::controllers::dwa {
+
+// One constant velocity, kept over the time simulated.
+struct Sample {
+  double v = 0.0;
+  double omega = 0.0;
+};
+
+// Named and defaulted as upstream; dwa.hpp documents them.
+struct Tuning {
+  double sim_time = 1.7;
+  double sim_granularity = 0.025;
+  double angular_sim_granularity = 0.1;
+  double path_distance_bias = 0.6;
+  double goal_distance_bias = 0.8;
+  double occdist_scale = 0.01;
+  double twirling_scale = 0.0;
+  double forward_point_distance = 0.325;
+  double scaling_speed = 0.25;
+  double max_scaling_factor = 0.2;
+};
+
+// What the critics of one control period look at. The referenced objects outlive it.
+struct Scene {
+  Pose pose;
+  double v_max = 0.0;
+  const CostmapView& map;
+  const Terrain& terrain;
+  const WaveFront& path;        // from the path in the window
+  const WaveFront& goal;        // from the last point of it
+  const WaveFront& goal_front;  // from a point ahead of that
+  bool align = true;            // whether the nose shall be on the path
+  const OscillationGuard& oscillation;
+};
+
+inline constexpr double rejected = -1.0;
+
+// How far from the free cells a robot may be that gets away from something that came too near.
+inline constexpr std::int32_t escape_reach_cells = 8;
+
+// The steps in which an arc is checked.
+int simulation_steps(const Sample& sample, const Tuning& tuning);
+
+// The sum of all critics, or `rejected`. Gives up, with a sum so far, once that is above `best`.
+double score(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint, double best);
+
+// The cheapest sample of the window, the first of several; nothing where all are rejected.
+std::optional<Sample> cheapest(const VelocityWindow& window, const Scene& scene, const Tuning& tuning,
+                               FootprintCheck& footprint);
+
+}  // namespace dmrp::controllers::dwa
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// dwa.hpp: the dynamic window approach, as ROS's dwa_local_planner does it.
+//
+// Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4 (1997).
+#ifndef DMRP_CONTROLLERS_DWA_DWA_HPP
+#define DMRP_CONTROLLERS_DWA_DWA_HPP
+
+#include <dmrp/ext/local_costmap.h>
+
+#include <dmrp/plugin.hpp>
+
+#include "../motion/path_tracker.hpp"
+#include "../motion/stop_and_rotate.hpp"
+#include "critics.hpp"
+
+namespace dmrp::controllers {
+
+class Dwa final : public LocalController {
+ public:
+  static Descriptor describe();
+
+  Param<double> sim_time = param("sim_time", 1.7).unit("s").range(0.1, 10.0).doc("how far ahead arcs are simulated");
+  Param<double> sim_granularity =
+      param("sim_granularity", 0.025).unit("m").range(0.001, 1.0).doc("step of the collision check along an arc");
+  Param<double> angular_sim_granularity = param("angular_sim_granularity", 0.1)
+                                              .unit("rad")
+                                              .range(0.001, 1.0)
+                                              .doc("step of the collision check along a turn");
+  Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("speeds tried");
+  Param<std::int64_t> vth_samples = param("vth_samples", 20).unit("1").range(2, 200).doc("turning rates tried");
+  Param<double> path_distance_bias =
+      param("path_distance_bias", 0.6).unit("1/m").range(0.0, 100.0).doc("weight of the distance from the path");
+  Param<double> goal_distance_bias = param("goal_distance_bias", 0.8)
+                                         .unit("1/m")
+                                         .range(0.0, 100.0)
+                                         .doc("weight of the distance to the end of the path in the window");
+  Param<double> occdist_scale =
+      param("occdist_scale", 0.01).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
+  Param<double> twirling_scale =
+      param("twirling_scale", 0.0).unit("s/rad").range(0.0, 10.0).doc("weight of the turning rate");
+  Param<double> forward_point_distance =
+      param("forward_point_distance", 0.325).unit("m").range(0.0, 2.0).doc("from the robot's centre to its nose");
+  Param<double> scaling_speed =
+      param("scaling_speed", 0.25).unit("m/s").range(0.0, 10.0).doc("above this the footprint grows");
+  Param<double> max_scaling_factor =
+      param("max_scaling_factor", 0.2).unit("1").range(0.0, 1.0).doc("growth of the footprint at full speed");
+  Param<double> oscillation_reset_dist = param("oscillation_reset_dist", 0.05)
+                                             .unit("m")
+                                             .range(0.0, 10.0)
+                                             .doc("having moved this far, the robot may reverse again");
+  Param<double> oscillation_reset_angle = param("oscillation_reset_angle", 0.2)
+                                              .unit("rad")
+                                              .range(0.0, 3.2)
+                                              .doc("having turned this far, the robot may reverse again");
+  Param<double> footprint_padding =
+      param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
+  Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 2.0)
+                                                     .unit("m")
+                                                     .range(0.5, 100.0)
+                                                     .doc("length of the path that is looked at, inside the window");
+
+  Status start(const World& world, std::uint64_t seed) override;
+  void set_path(Path path, std::uint64_t revision) override;
+  Status step(const Observation& now, Command& command) override;
+
+ private:
+  void lay_out_plan(const CostmapView& map);
+  void spread_fronts(const Observation& now, const CostmapView& map);
+  std::int32_t choose_goal(std::int32_t home);
+  std::int32_t point_in_front(const CostmapView& map, Vec2 from, Vec2 goal, double fallback_heading) const;
+  double way_out(const CostmapView& map, const Pose& from) const;
+  Command turn_toward(double angle, const Observation& now, FootprintCheck& footprint) const;
+
+  struct PlanPoint {
+    Vec2 at;
+    std::int32_t index;  // on the terrain
+  };
+
+  const dmrp_local_costmap* costmap_ = nullptr;
+  PathTracker tracker_;
+  StopAndRotate at_goal_;
+  dwa::Tuning tuning_;
+  dwa::VelocityWindow window_;
+  dwa::OscillationGuard oscillation_;
+  dwa::Terrain terrain_;
+  dwa::WaveFront path_front_;
+  dwa::WaveFront goal_front_;
+  dwa::WaveFront nose_front_;
+  std::vector<PlanPoint> plan_;
+  Vec2 goal_ = {0.0, 0.0};  // the point of the plan that the robot goes for now
+  bool turning_ = false;    // in place, toward the way out
+};
+
+}  // namespace dmrp::controllers
+
+#endif

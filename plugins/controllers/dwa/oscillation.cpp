@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "oscillation.hpp"
+
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers::dwa {
+
+namespace {
+
+// Slower than this a turn counts as a turn in place (min_vel_trans upstream).
+constexpr double hardly_driving_m_s = 0.1;
+
+// Takes the sign of `value` as the direction; whether that reverses an earlier one.
+bool reverses(double value, int& direction) {
+  if (value == 0.0) return false;
+  const int now = value > 0.0 ? 1 : -1;
+  const bool reversed = direction == -now;
+  direction = now;
+  return reversed;
+}
+
+}  // namespace
+
+void OscillationGuard::release(const dmrp_pose& now, double reset_distance_m, double reset_angle_rad) {
+  if (only_drive_ == 0 && only_turn_ == 0) return;
+  const double moved_m = toolkit::distance(toolkit::position(since_), toolkit::position(now));
+  if (moved_m > reset_distance_m || std::abs(toolkit::difference(since_.theta, now.theta)) > reset_angle_rad) reset();
+}
+
+void OscillationGuard::note(const dmrp_pose& now, double v, double omega) {
+  bool reversed = false;
+  if (reverses(v, drive_)) {
+    only_drive_ = drive_;
+    reversed = true;
+  }
+  if (std::abs(v) <= hardly_driving_m_s && reverses(omega, turn_)) {
+    only_turn_ = turn_;
+    reversed = true;
+  }
+  if (reversed) since_ = now;
+}
+
+}  // namespace dmrp::controllers::dwa

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "velocity_window.hpp"
+
+#include <algorithm>
+
+namespace dmrp::controllers::dwa {
+
+void sample_range(double lowest, double highest, std::size_t count, std::vector<double>& values) {
+  values.clear();
+  if (!(highest > lowest)) {
+    values.push_back(lowest);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
+    const double value = (1.0 - fraction) * lowest + fraction * highest;
+    if (value > 0.0 && !values.empty() && values.back() < 0.0) values.push_back(0.0);
+    values.push_back(value);
+  }
+}
+
+void VelocityWindow::sample(const Observation& now, std::size_t v_count, std::size_t omega_count) {
+  const double period_s = seconds(now.dt_ns);
+  const Limits& limits = now.limits;
+  // a velocity outside the limits (measured with noise, say) is brought back as fast as the accelerations allow
+  const auto window = [](double current, double step, double lower, double upper, std::size_t count,
+                         std::vector<double>& values) {
+    sample_range(std::clamp(current - step, lower, upper), std::clamp(current + step, lower, upper), count, values);
+  };
+  window(now.velocity.v_x, limits.a_max * period_s, limits.v_min, limits.v_max, v_count, v);
+  window(now.velocity.omega, limits.alpha_max * period_s, -limits.omega_max, limits.omega_max, omega_count, omega);
+}
+
+}  // namespace dmrp::controllers::dwa
