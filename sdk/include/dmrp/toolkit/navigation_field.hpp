@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid_line.hpp"
 #include "grid_view.hpp"
 #include "rectangle.hpp"
 #include "vec2.hpp"
@@ -47,7 +48,8 @@ class NavigationField {
     queue_.clear();
     for (const Rectangle& target : targets_) seed(target);
     march();
-    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell) directions_[cell] = descent(cell);
+    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell)
+      if (directions_[cell] == dmrp_vec2{0.0, 0.0}) directions_[cell] = descent(cell);
   }
 
   void compute(const GridView& grid, const Rectangle& target, NavigationCost cost = {}) {
@@ -147,26 +149,39 @@ class NavigationField {
             std::clamp(cell.row, 0, static_cast<std::int32_t>(grid_.height()) - 1)};
   }
 
+  // The cells that a target touches, and those around it that see it: their distance is known exactly, and the
+  // method's error is made near a source.
   void seed(const Rectangle& target) {
     if (grid_.size() == 0) return;
-    // One cell more all round: a target that ends on a border of cells touches those on both sides.
+    const std::int32_t exact_ring = 8;
     const Cell first = grid_.cell_of(target.lower);
     const Cell last = grid_.cell_of(target.upper);
-    const Cell lower = clamped({first.column - 1, first.row - 1});
-    const Cell upper = clamped({last.column + 1, last.row + 1});
+    const Cell lower = clamped({first.column - exact_ring, first.row - exact_ring});
+    const Cell upper = clamped({last.column + exact_ring, last.row + exact_ring});
     for (std::int32_t row = lower.row; row <= upper.row; ++row) {
       for (std::int32_t column = lower.column; column <= upper.column; ++column) {
         const Cell cell = {column, row};
-        if (!grid_.free(cell) || !overlap(target, square_of(cell))) continue;
+        if (!grid_.free(cell)) continue;
         const std::uint32_t index = grid_.index(cell);
-        offer(index, distance(target, grid_.center(cell)) * metre_cost(index));
+        const dmrp_vec2 center = grid_.center(cell);
+        const dmrp_vec2 aim = closest_point(target, center);
+        const double away = distance(aim, center);
+        if (overlap(target, square_of(cell))) {
+          offer(index, away * metre_cost(index), normalized(aim - center));
+        } else if (static_cast<double>(grid_.clearance(index)) - away >= cost_.comfort_m &&
+                   line_is_free(grid_, center, aim)) {
+          // No shape is as near as the target, and comfort reigns all the way: it is straight and costs its length.
+          offer(index, away, normalized(aim - center));
+        }
       }
     }
   }
 
-  void offer(std::uint32_t cell, double value) {
+  // `direction` is zero where the slope of the finished field is to give it.
+  void offer(std::uint32_t cell, double value, dmrp_vec2 direction) {
     if (!(value < values_[cell])) return;
     values_[cell] = value;
+    directions_[cell] = direction;
     queue_.emplace_back(value, cell);
     std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
   }
@@ -181,7 +196,7 @@ class NavigationField {
       for (int direction = 0; direction < direction_count; direction += 2) {
         const std::uint32_t next = grid_.neighbour(cell, direction);
         if (next == no_cell || settled_[next] || !grid_.free(next)) continue;
-        if (grid_.edge(next, opposite_direction(direction))) offer(next, upwind_value(next));
+        if (grid_.edge(next, opposite_direction(direction))) offer(next, upwind_value(next), {0.0, 0.0});
       }
     }
   }
@@ -204,7 +219,7 @@ class NavigationField {
     return 0.5 * (along_x + along_y + std::sqrt(2.0 * step * step - apart * apart));
   }
 
-  // The direction whose upwind differences made the value.
+  // The direction whose upwind differences made the value; zero in a target.
   dmrp_vec2 descent(std::uint32_t cell) const {
     if (!reachable(cell)) return {0.0, 0.0};
     const auto slope = [&](int positive, int negative) {
@@ -212,10 +227,7 @@ class NavigationField {
       const double behind = settled_value(cell, negative);
       return ahead <= behind ? std::max(0.0, values_[cell] - ahead) : -std::max(0.0, values_[cell] - behind);
     };
-    const dmrp_vec2 steepest = normalized({slope(0, 4), slope(2, 6)});
-    if (steepest != dmrp_vec2{0.0, 0.0}) return steepest;
-    const Rectangle* target = touching_target(cell);
-    return target == nullptr ? steepest : normalized(closest_point(*target, grid_.center(cell)) - grid_.center(cell));
+    return normalized({slope(0, 4), slope(2, 6)});
   }
 
   Corners corners_around(dmrp_vec2 point, std::uint32_t own) const {
