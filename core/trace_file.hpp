@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// trace_file.hpp: a trace as a file, traces/trial_000000.mcap.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "mcap_writer.hpp"
+#include "trace.hpp"
+
+namespace dmrp::core {
+
+// Writes records as the encoder makes them. Throws std::system_error.
+//
+//   TraceFileWriter file(path);
+//   TraceEncoder trace(world, [&](std::int64_t t_ns, auto record) { file.write(t_ns, record); });
+//   ...
+//   file.finish();
+class TraceFileWriter {
+ public:
+  explicit TraceFileWriter(const std::filesystem::path& path);
+
+  void write(std::int64_t t_ns, std::span<const std::uint8_t> record) { mcap_.write(channel_, t_ns, record); }
+  void finish() { mcap_.finish(); }
+
+ private:
+  McapWriter mcap_;
+  std::uint16_t channel_;
+};
+
+// The trace in a file; one that was cut short ends with its last whole chunk. Throws std::system_error where the file
+// cannot be read, TraceError where it is damaged.
+TraceBytes read_trace_file(const std::filesystem::path& path);
+
+}  // namespace dmrp::core
