@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+// A trial written down by hand, and what a metric of libdmrp_metrics.so measures in it:
+//
+//   SyntheticTrial trial(2);
+//   trial.plan({{{0, 0}, {1, 0}}, {{5, 0}}});                 // a path a robot, one waypoint a second
+//   trial.sample(0.0, {at(0, 0), at(5, 0)});                  // the plan added last is in force
+//   trial.sample(1.0, {at(1, 0, 1.0), at(5, 0)});             // the first robot drives 1 m/s
+//   trial.end(1.0, {1.0, never});                             // it arrives; the second does not
+//   const Measurement m = measure("dmrp.metric.path_length", trial);
+//   m.system("path_length"), m.robot("path_length", 0), m.events
+#pragma once
+
+#include <dmrp/dmrp.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "../plugin_under_test.hpp"
+
+namespace dmrp::test {
+
+constexpr double never = -1.0;  // as a time of arrival
+
+inline std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds * 1e9);
+}
+
+// A robot at a sample: its place, its measured speed ahead, its state.
+inline dmrp_robot_sample at(double x, double y, double speed = 0.0, std::uint32_t state = DMRP_ROBOT_ACTIVE) {
+  dmrp_robot_sample robot{};
+  robot.pose = {x, y, 0.0};
+  robot.velocity.v_x = speed;
+  robot.state = state;
+  return robot;
+}
+
+inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b, std::uint32_t flags) {
+  return {kind, flags, a, b, 0.01, {0.0, 0.0}};
+}
+
+// An array element as a later version of the contract may have it: metrics have to go by the stride.
+template <class Element>
+struct Longer {
+  Element element;
+  double later_field = -1.0;
+};
+
+template <class Element>
+std::vector<Longer<Element>> longer(const std::vector<Element>& elements) {
+  std::vector<Longer<Element>> out;
+  for (const Element& element : elements) out.push_back({element});
+  return out;
+}
+
+using Points = std::vector<dmrp_vec2>;
+
+class SyntheticTrial {
+ public:
+  explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count), shapes_(1) { shapes_[0].name = "shelf B"; }
+  SyntheticTrial(SyntheticTrial&&) = default;  // what plans point to does not move; a copy would point into this one
+
+  // A path a robot, one waypoint a second from t = 0.
+  SyntheticTrial& plan(const std::vector<Points>& paths, std::int64_t planning_ns = 0) {
+    std::vector<std::vector<dmrp_waypoint>> timed;
+    for (const Points& path : paths) {
+      timed.emplace_back();
+      for (const dmrp_vec2& point : path) {
+        const auto second = static_cast<std::int64_t>(timed.back().size());
+        timed.back().push_back({point.x, point.y, std::nan(""), second * 1'000'000'000, 0, 0});
+      }
+    }
+    return timed_plan(timed, planning_ns);
+  }
+
+  SyntheticTrial& timed_plan(const std::vector<std::vector<dmrp_waypoint>>& paths, std::int64_t planning_ns = 0) {
+    plans_.emplace_back();
+    StoredPlan& stored = plans_.back();
+    for (const std::vector<dmrp_waypoint>& path : paths) stored.waypoints.push_back(longer(path));
+    for (const auto& path : stored.waypoints) {
+      stored.paths.push_back({{sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()),
+                               sizeof(Longer<dmrp_waypoint>), 0, &path.front().element}});
+    }
+    stored.c.struct_size = sizeof(dmrp_plan);
+    stored.c.path_count = static_cast<std::uint32_t>(paths.size());
+    stored.c.paths = &stored.paths.front().element;
+    stored.c.path_stride = sizeof(Longer<dmrp_path>);
+    stored.c.revision = plans_.size();
+    stored.c.step_duration_ns = 1'000'000'000;
+    stored.c.planning_ns = planning_ns;
+    return *this;
+  }
+
+  // The plan added last is in force. Controllers were called in every step, where without_control() does not follow.
+  SyntheticTrial& sample(double t_s, const std::vector<dmrp_robot_sample>& robots) {
+    const std::int64_t t_ns = nanoseconds(t_s);
+    const std::int64_t dt_ns = samples_.empty() ? 0 : t_ns - samples_.back().c.t_ns;
+    samples_.emplace_back();
+    StoredSample& stored = samples_.back();
+    stored.robots = longer(robots);
+    stored.c.struct_size = sizeof(dmrp_sample);
+    stored.c.control_tick = 1;
+    stored.c.t_ns = t_ns;
+    stored.c.dt_ns = dt_ns;
+    stored.c.plan = plans_.empty() ? nullptr : &plans_.back().c;
+    return *this;
+  }
+
+  // Of the sample added last.
+  SyntheticTrial& without_control() {
+    samples_.back().c.control_tick = 0;
+    return *this;
+  }
+  SyntheticTrial& contacts(const std::vector<dmrp_contact>& contacts) {
+    samples_.back().contacts = longer(contacts);
+    return *this;
+  }
+  SyntheticTrial& people(const std::vector<std::uint64_t>& ids) {
+    for (const std::uint64_t id : ids) {
+      samples_.back().people.push_back({});
+      samples_.back().people.back().element.id = id;
+      samples_.back().people.back().element.kind = DMRP_AGENT_PERSON;
+    }
+    return *this;
+  }
+
+  // Times of arrival, `never` for a robot that did not; all, where none is given.
+  SyntheticTrial& end(double t_s, const std::vector<double>& arrivals_s = {}) {
+    end_ns_ = nanoseconds(t_s);
+    ends_.assign(robots_.size(), {});
+    for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+      const double arrival_s = arrivals_s.empty() ? t_s : arrivals_s[robot];
+      const bool arrived = arrival_s >= 0.0;
+      ends_[robot].element.state = arrived ? DMRP_ROBOT_FINISHED : DMRP_ROBOT_ACTIVE;
+      ends_[robot].element.failure = arrived ? DMRP_FAILURE_NONE : DMRP_FAILURE_TIMEOUT;
+      ends_[robot].element.arrival_ns = arrived ? nanoseconds(arrival_s) : -1;
+    }
+    return *this;
+  }
+  SyntheticTrial& failure(std::size_t robot, std::uint32_t reason) {
+    ends_[robot].element.failure = reason;
+    return *this;
+  }
+
+  // Points into this trial.
+  dmrp_world world() const {
+    dmrp_world world{};
+    world.struct_size = sizeof(world);
+    world.robots = robots_.data();
+    world.robot_count = static_cast<std::uint32_t>(robots_.size());
+    world.robot_stride = sizeof(dmrp_robot);
+    world.shapes = shapes_.data();
+    world.shape_count = static_cast<std::uint32_t>(shapes_.size());
+    world.shape_stride = sizeof(dmrp_shape);
+    world.self = -1;
+    return world;
+  }
+  std::size_t robot_count() const { return robots_.size(); }
+  const dmrp_plan* first_plan() const { return plans_.empty() ? nullptr : &plans_.front().c; }
+
+  // Calls `use` with every sample in order of time.
+  template <class Use>
+  void for_each_sample(Use&& use) const {
+    for (const StoredSample& stored : samples_) {
+      dmrp_sample c = stored.c;
+      c.robots = stored.robots.empty() ? nullptr : &stored.robots.front().element;
+      c.robot_count = static_cast<std::uint32_t>(stored.robots.size());
+      c.robot_stride = sizeof(Longer<dmrp_robot_sample>);
+      c.contacts = stored.contacts.empty() ? nullptr : &stored.contacts.front().element;
+      c.contact_count = static_cast<std::uint32_t>(stored.contacts.size());
+      c.contact_stride = sizeof(Longer<dmrp_contact>);
+      c.people = stored.people.empty() ? nullptr : &stored.people.front().element;
+      c.person_count = static_cast<std::uint32_t>(stored.people.size());
+      c.person_stride = sizeof(Longer<dmrp_agent>);
+      use(c);
+    }
+  }
+
+  dmrp_trial_end trial_end() const {
+    dmrp_trial_end end{};
+    end.struct_size = sizeof(end);
+    end.ending = plans_.empty() ? DMRP_ENDING_NO_PLAN : DMRP_ENDING_TIME_LIMIT;
+    end.t_ns = end_ns_;
+    end.robots = ends_.empty() ? nullptr : &ends_.front().element;
+    end.robot_count = static_cast<std::uint32_t>(ends_.size());
+    end.robot_stride = sizeof(Longer<dmrp_robot_end>);
+    return end;
+  }
+
+ private:
+  struct StoredPlan {
+    dmrp_plan c{};
+    std::deque<std::vector<Longer<dmrp_waypoint>>> waypoints;
+    std::vector<Longer<dmrp_path>> paths;
+  };
+  struct StoredSample {
+    dmrp_sample c{};
+    std::vector<Longer<dmrp_robot_sample>> robots;
+    std::vector<Longer<dmrp_contact>> contacts;
+    std::vector<Longer<dmrp_agent>> people;
+  };
+
+  std::vector<dmrp_robot> robots_;
+  std::vector<dmrp_shape> shapes_;
+  std::deque<StoredPlan> plans_;  // addresses stay
+  std::vector<StoredSample> samples_;
+  std::int64_t end_ns_ = 0;
+  std::vector<Longer<dmrp_robot_end>> ends_;
+};
+
+struct MeasuredEvent {
+  std::string name;
+  double from_s, to_s;
+  std::vector<std::uint32_t> robots;
+  std::string text;
+};
+
+// What a metric gave, refused as a host would where it is undeclared, infinite or given twice.
+struct Measurement {
+  using Key = std::tuple<std::string, std::uint32_t, std::uint64_t>;  // name, kind of subject, subject
+  std::map<Key, double> values;
+  std::vector<MeasuredEvent> events;
+
+  double system(const std::string& name) const { return values.at({name, DMRP_SUBJECT_SYSTEM, 0}); }
+  double robot(const std::string& name, std::uint64_t robot) const {
+    return values.at({name, DMRP_SUBJECT_ROBOT, robot});
+  }
+};
+
+class CheckingSink {
+ public:
+  CheckingSink(const dmrp_descriptor& descriptor, std::size_t robot_count, Measurement& into)
+      : descriptor_(descriptor), robot_count_(robot_count), into_(into) {
+    c_.struct_size = sizeof(c_);
+    c_.context = this;
+    c_.value = [](dmrp_metric_sink* sink, const char* name, std::uint32_t kind, std::uint64_t subject,
+                  double coordinate, double value) -> std::int32_t {
+      return of(sink).take_value(name, kind, subject, coordinate, value) ? DMRP_OK : DMRP_ERROR;
+    };
+    c_.event = [](dmrp_metric_sink* sink, const char* name, std::int64_t from_ns, std::int64_t to_ns,
+                  const std::uint32_t* robots, std::uint32_t count, const char* text) -> std::int32_t {
+      if (!of(sink).specification(name) || to_ns < from_ns) return DMRP_ERROR;
+      of(sink).into_.events.push_back({name, static_cast<double>(from_ns) / 1e9, static_cast<double>(to_ns) / 1e9,
+                                       std::vector<std::uint32_t>(robots, robots + count), text});
+      return DMRP_OK;
+    };
+  }
+  dmrp_metric_sink* c() { return &c_; }
+
+ private:
+  static CheckingSink& of(dmrp_metric_sink* sink) { return *static_cast<CheckingSink*>(sink->context); }
+
+  const dmrp_metric_value_spec* specification(const std::string& name) const {
+    for (std::uint32_t i = 0; i < descriptor_.value_count; ++i) {
+      const auto* spec = DMRP_AT(dmrp_metric_value_spec, descriptor_.values, descriptor_.value_stride, i);
+      if (name == spec->name) return spec;
+    }
+    return nullptr;
+  }
+
+  bool take_value(const char* name, std::uint32_t kind, std::uint64_t subject, double coordinate, double value) {
+    const dmrp_metric_value_spec* spec = specification(name);
+    if (!spec || (spec->subjects & 1u << kind) == 0 || std::isinf(value) || !std::isnan(coordinate)) return false;
+    if (kind == DMRP_SUBJECT_ROBOT && subject >= robot_count_) return false;
+    return into_.values.emplace(Measurement::Key{name, kind, kind == DMRP_SUBJECT_SYSTEM ? 0 : subject}, value).second;
+  }
+
+  const dmrp_descriptor& descriptor_;
+  std::size_t robot_count_;
+  Measurement& into_;
+  dmrp_metric_sink c_{};
+};
+
+inline Measurement measure_once(PluginUnderTest& plugin, const SyntheticTrial& trial, const dmrp_world& world) {
+  const auto ok = [&](std::int32_t status) {
+    if (status != DMRP_OK) throw std::runtime_error(plugin.host().errors.empty() ? "?" : plugin.host().errors.back());
+  };
+  Measurement measurement;
+  const dmrp_metric& metric = plugin.as<dmrp_metric>();
+  const dmrp_metric_trial beginning = {sizeof(dmrp_metric_trial), 0, trial.first_plan()};
+  const dmrp_trial_end end = trial.trial_end();
+  CheckingSink sink(plugin.descriptor(), trial.robot_count(), measurement);
+
+  ok(plugin.start(world));
+  ok(metric.begin(plugin.self(), &beginning));
+  trial.for_each_sample([&](const dmrp_sample& sample) { ok(metric.observe(plugin.self(), &sample)); });
+  ok(metric.finish(plugin.self(), &end, sink.c()));
+  return measurement;
+}
+
+inline bool same_bits(const Measurement& a, const Measurement& b) {
+  if (a.values.size() != b.values.size() || a.events.size() != b.events.size()) return false;
+  for (auto i = a.values.begin(), j = b.values.begin(); i != a.values.end(); ++i, ++j)
+    if (i->first != j->first || std::memcmp(&i->second, &j->second, sizeof(double)) != 0) return false;
+  return true;
+}
+
+// Every declared name must come for the system, and a second trial of the same instance must give the same bits.
+inline Measurement measure(const std::string& id, const SyntheticTrial& trial, ParamOverrides overrides = {}) {
+  PluginUnderTest plugin("libdmrp_metrics.so", id, std::move(overrides));
+  const dmrp_world world = trial.world();
+  const Measurement measurement = measure_once(plugin, trial, world);
+  if (!same_bits(measurement, measure_once(plugin, trial, world)))
+    throw std::runtime_error(id + " remembers the last trial");
+  for (std::uint32_t i = 0; i < plugin.descriptor().value_count; ++i) {
+    const auto* spec = DMRP_AT(dmrp_metric_value_spec, plugin.descriptor().values, plugin.descriptor().value_stride, i);
+    if (measurement.values.count({spec->name, DMRP_SUBJECT_SYSTEM, 0}) == 0)
+      throw std::runtime_error(std::string("no value for the system: ") + spec->name);
+  }
+  return measurement;
+}
+
+}  // namespace dmrp::test
