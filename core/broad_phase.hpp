@@ -6,6 +6,7 @@
 #include <dmrp/values.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <functional>
 #include <memory>
 #include <span>
@@ -14,21 +15,16 @@
 
 namespace dmrp::core {
 
-struct BoundingBox {
-  dmrp_vec2 lower{};
-  dmrp_vec2 upper{};
-};
-
 // Boxes that never move.
 class BoxTree {
  public:
-  explicit BoxTree(std::span<const BoundingBox> boxes);
+  explicit BoxTree(std::span<const toolkit::Rectangle> boxes);
   ~BoxTree();
   BoxTree(BoxTree&&) noexcept;
   BoxTree& operator=(BoxTree&&) noexcept;
 
   // Indices of the boxes that touch this one, ascending. Replaces what `found` held.
-  void touching(const BoundingBox& box, std::vector<std::uint32_t>& found) const;
+  void touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
 
   // The smallest distance_to(index) over all boxes, and whose; the lowest index of several. distance_to must not be
   // less than the distance from the point to the index's box. {infinity, count} without boxes.

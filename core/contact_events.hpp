@@ -37,24 +37,32 @@ class ContactTracker {
 
  private:
   struct Moment {
-    std::int64_t t_ns;
+    std::int64_t t_ns = 0;
     std::vector<dmrp_agent> robots;
     std::vector<dmrp_agent> people;
   };
   struct Event {
-    std::int64_t last_ns;
-    std::uint32_t fault;
+    std::int64_t last_ns = 0;
+    std::uint32_t fault = 0;
   };
   using Pair = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>;  // kind, a, b or the person's id
 
-  std::uint32_t fault_of(const dmrp_contact& contact, std::int64_t t_ns) const;
-  bool moved_toward(std::int64_t t_ns, const dmrp_contact& contact, bool a_toward_b) const;
-  bool was_unavoidable(std::int64_t t_ns, const dmrp_contact& contact) const;
+  // In the fault window.
+  struct Motion {
+    bool a_moved = false;  // toward the other
+    bool b_moved = false;
+    double a_speed = 0.0;  // the largest
+  };
+
+  // `b`: the other robot's index or the person's id.
+  std::uint32_t fault_of(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns) const;
+  Motion motion_before(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns) const;
+  bool was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns, double speed) const;
+  static const dmrp_agent* body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b);
 
   double a_max_;
   std::int64_t memory_ns_;
   std::deque<Moment> history_;  // before the present step, oldest first
-  std::vector<Moment> spare_;
   std::map<Pair, Event> events_;
 };
 

@@ -9,12 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "core/flow_routes.hpp"
 #include "core/scenario.hpp"
 #include "core/static_geometry.hpp"
 
 namespace dmrp::core {
 
-inline constexpr double spawn_distance_to_robots_m = 1.5;
+inline constexpr double spawn_distance_to_robots_m = 1.5;  // between centres
 
 // A constant number of people, each in a slot. At t = 0 they are spread along their flows; who reaches the last region
 // of its flow leaves, and somebody new begins in the slot, in the flow's first region.
@@ -23,10 +24,11 @@ inline constexpr double spawn_distance_to_robots_m = 1.5;
 // the same for all combinations of a seed, but for where people stand in each other's or a robot's way when they begin.
 class Population {
  public:
-  // `robots`: where the robots begin.
-  Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed,
-             std::span<const dmrp_vec2> robots);
+  // `robots`: where the robots begin. Throws std::runtime_error if there is no room for everybody.
+  Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes,
+             std::uint64_t seed, std::span<const dmrp_vec2> robots);
 
+  // By slot. Ids are the slot, plus the number of slots for everyone who was there before.
   std::span<const dmrp_person> people() const { return people_; }
 
   // Where a person came to, and how.
@@ -38,18 +40,18 @@ class Population {
  private:
   struct Slot {
     std::uint32_t flow = 0;
-    std::uint32_t leg = 1;         // walks to flow.regions[leg]
-    std::uint64_t generation = 0;  // people that this slot has seen before
-    std::uint64_t tries = 0;       // to replace somebody who has arrived
+    std::uint32_t leg = 0;           // walks from flow.regions[leg] to the next
+    std::uint64_t predecessors = 0;  // people that this slot has seen before
+    std::uint64_t tries = 0;         // to begin anew, after arrival
     std::int64_t next_try_ns = 0;
   };
 
-  void begin_life(std::uint32_t slot, dmrp_vec2 position, std::uint32_t leg);
+  void place_along_flow(std::uint32_t slot, std::uint32_t place, const std::vector<Route>& legs,
+                        std::span<const dmrp_vec2> robots);
+  void begin(std::uint32_t slot, dmrp_vec2 position, std::uint32_t leg);
   void set_target(std::uint32_t slot);
-  void place_along_flow(std::uint32_t slot, std::uint32_t place_in_flow, std::span<const dmrp_vec2> robots);
-  bool try_to_respawn(std::uint32_t slot, std::span<const dmrp_vec2> robots);
-  bool is_free_for(std::uint32_t slot, std::uint32_t others, dmrp_vec2 point, std::span<const dmrp_vec2> robots) const;
-  dmrp_vec2 point_in(std::uint32_t region, std::uint32_t slot, std::uint32_t leg) const;
+  void try_to_begin_anew(std::uint32_t slot, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
+  bool has_room(std::uint32_t slot, std::uint32_t others, dmrp_vec2 point, std::span<const dmrp_vec2> robots) const;
 
   std::uint64_t seed_;
   PeopleSettings settings_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/broad_phase.hpp"
@@ -42,28 +43,41 @@ class SolidMotion {
   // Shortens the displacements so that no overlap gets deeper than solid_depth_m, and none that is deeper gets deeper.
   void resolve(std::span<SolidBody> bodies);
 
-  // Overlaps deeper than `depth_m` at the present positions, ordered by a, then b: with shapes, and between bodies.
-  void overlaps_with_shapes(std::span<const SolidBody> bodies, double depth_m, std::vector<Overlap>& found);
-  void overlaps_between(std::span<const SolidBody> bodies, double depth_m, std::vector<Overlap>& found);
+  // Overlaps deeper than `depth_m` at the present positions, ordered by a, then b, with a among the first `count`
+  // bodies: with shapes, and with bodies. All three functions want the same bodies, in the same order.
+  void overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                            std::vector<Overlap>& found);
+  void overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                        std::vector<Overlap>& found);
 
  private:
+  static constexpr std::uint32_t no_body = 0xFFFFFFFFu;
+
+  // How far two may approach along the line between them.
   struct Constraint {
     std::uint32_t a;
     std::uint32_t b;   // no_body: something static
     dmrp_vec2 normal;  // from b toward a
-    double allowed_m;  // how far the two may approach
+    double allowed_m;
   };
 
   void find_neighbours(std::span<const SolidBody> bodies);
+  bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
   void collect_constraints(std::span<const SolidBody> bodies);
+  void constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
   bool relax(std::span<SolidBody> bodies) const;
-  void halt_violators(std::span<SolidBody> bodies) const;
+  void stop_violators(std::span<SolidBody> bodies) const;
 
   std::shared_ptr<const StaticGeometry> geometry_;
   BodyPairs pairs_;
+
+  // Who may meet whom as long as no body is further than reach_m_ from where it was when they were found.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> body_neighbours_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> shape_neighbours_;  // body, shape
-  std::vector<dmrp_vec2> neighbours_at_;  // positions for which the neighbours were found
+  double reach_m_ = 0.0;
+  std::vector<dmrp_vec2> found_at_;
+  std::vector<double> found_radii_m_;
+
   std::vector<Constraint> constraints_;
 };
 

@@ -2,14 +2,15 @@
 // static_geometry.hpp: what never moves: the shapes of a scenario and the border of its rectangle. Exact distances.
 #pragma once
 
-#include <dmrp/values.h>
+#include <dmrp/world.h>
 
 #include <cstdint>
-#include <memory>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/broad_phase.hpp"
 #include "core/scenario.hpp"
 
 namespace dmrp::core {
@@ -29,13 +30,14 @@ struct NearestShape {
 class StaticGeometry {
  public:
   explicit StaticGeometry(const Scenario& scenario);
-  ~StaticGeometry();
   StaticGeometry(const StaticGeometry&) = delete;
   StaticGeometry& operator=(const StaticGeometry&) = delete;
 
   dmrp_vec2 lower() const { return lower_; }
   dmrp_vec2 upper() const { return upper_; }
+  toolkit::Rectangle rectangle() const { return {lower_, upper_}; }
   const std::vector<Shape>& shapes() const { return shapes_; }
+  std::span<const dmrp_shape> sdk_shapes() const { return sdk_shapes_; }
   std::uint32_t border() const { return static_cast<std::uint32_t>(shapes_.size()); }  // the border's index
   std::string_view shape_name(std::uint32_t shape) const;                              // "the border" for border()
 
@@ -55,19 +57,19 @@ class StaticGeometry {
   // Whether no shape stands between the two points.
   bool line_of_sight(dmrp_vec2 a, dmrp_vec2 b) const;
 
-  // Indices of the shapes whose bounding boxes touch this rectangle, ascending. Replaces what `found` held.
-  void shapes_near(dmrp_vec2 lower, dmrp_vec2 upper, std::vector<std::uint32_t>& found) const;
+  // Indices of the shapes whose bounding boxes touch this one, ascending. Replaces what `found` held.
+  void shapes_near(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
 
   // To one shape's surface. Not for the border.
   SurfaceDistance distance_to(std::uint32_t shape, dmrp_vec2 point) const;
 
  private:
-  struct Tree;
   dmrp_vec2 lower_;
   dmrp_vec2 upper_;
   std::vector<Shape> shapes_;
+  std::vector<dmrp_shape> sdk_shapes_;  // point into shapes_
   std::vector<dmrp_segment> segments_;
-  std::unique_ptr<Tree> tree_;
+  BoxTree tree_;
 };
 
 }  // namespace dmrp::core

@@ -32,6 +32,10 @@ struct RobotState {
 class World {
  public:
   World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+        std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes, std::uint64_t seed);
+
+  // Finds the flows' routes itself, which takes longer than many a second of simulation.
+  World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
         std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed);
 
   std::int64_t t_ns() const { return t_ns_; }
@@ -67,9 +71,11 @@ class World {
  private:
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
   void apply_motion();
-  void find_contacts();
   void check_arrival(std::uint32_t robot);
-  void update_agents();
+  void advance_people();
+  void show_agents();
+  void find_contacts();
+  double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
 
   RobotSettings robot_settings_;
   SimulationSettings settings_;
@@ -78,14 +84,16 @@ class World {
   std::int64_t t_ns_ = 0;
   std::vector<RobotState> robots_;
   std::vector<std::vector<dmrp_goal>> goals_;
+  std::vector<dmrp_vec2> robot_positions_;
   Population population_;
   SolidMotion motion_;
   ContactTracker tracker_;
-  std::vector<SolidBody> bodies_;    // robots, then people
-  std::vector<dmrp_pose> proposed_;  // robots, unhindered
+  std::vector<SolidBody> bodies_;                  // robots, then people
+  std::vector<dmrp_pose> proposed_poses_;          // of robots, unhindered
+  std::vector<dmrp_vec2> proposed_displacements_;  // of robots
+  std::vector<Overlap> overlaps_;
   std::vector<dmrp_agent> robot_agents_;
   std::vector<dmrp_agent> person_agents_;
-  std::vector<double> person_headings_;
   std::vector<dmrp_contact> contacts_;
 };
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "core/solid_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::core {
+namespace {
+
+constexpr double neighbour_reach_m = 0.25;  // found anew after every 0.2 s or so of walking
+constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
+constexpr int sweeps = 30;
+
+struct Wall {
+  dmrp_vec2 inward;
+  double distance_m;
+};
+
+// The four sides of the border as seen from a point.
+std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point) {
+  return {{{{1.0, 0.0}, point.x - geometry.lower().x},
+           {{-1.0, 0.0}, geometry.upper().x - point.x},
+           {{0.0, 1.0}, point.y - geometry.lower().y},
+           {{0.0, -1.0}, geometry.upper().y - point.y}}};
+}
+
+// From b toward a, also where they are at the same point.
+dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
+  return distance_m > 0.0 ? (a - b) / distance_m : dmrp_vec2{1.0, 0.0};
+}
+
+}  // namespace
+
+SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry) : geometry_(std::move(geometry)) {}
+
+void SolidMotion::resolve(std::span<SolidBody> bodies) {
+  find_neighbours(bodies);
+  collect_constraints(bodies);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    if (relax(bodies)) return;
+  stop_violators(bodies);
+}
+
+bool SolidMotion::neighbours_are_fresh(std::span<const SolidBody> bodies) const {
+  if (bodies.size() != found_at_.size()) return false;
+  const double squared_reach = reach_m_ * reach_m_;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const dmrp_vec2 moved = bodies[i].position - found_at_[i];
+    if (bodies[i].radius_m != found_radii_m_[i] || toolkit::squared_norm(moved) > squared_reach ||
+        toolkit::squared_norm(moved + bodies[i].displacement) > squared_reach)
+      return false;
+  }
+  return true;
+}
+
+void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
+  if (neighbours_are_fresh(bodies)) return;
+
+  double furthest_m = 0.0;
+  for (const SolidBody& body : bodies) furthest_m = std::max(furthest_m, toolkit::norm(body.displacement));
+  reach_m_ = neighbour_reach_m + furthest_m;
+  found_at_.clear();
+  found_radii_m_.clear();
+  std::vector<double> reaching_radii_m;
+  for (const SolidBody& body : bodies) {
+    found_at_.push_back(body.position);
+    found_radii_m_.push_back(body.radius_m);
+    reaching_radii_m.push_back(body.radius_m + neighbour_reach_m + furthest_m);
+  }
+
+  // FCL rebuilds its tree when radii change: round them up, so that they seldom do
+  for (double& radius : reaching_radii_m) radius = 0.25 * std::ceil(4.0 * radius);
+  pairs_.touching(found_at_, reaching_radii_m, body_neighbours_);
+
+  shape_neighbours_.clear();
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const dmrp_vec2 reach = {reaching_radii_m[i], reaching_radii_m[i]};
+    geometry_->shapes_near({found_at_[i] - reach, found_at_[i] + reach}, near);
+    for (const std::uint32_t shape : near) shape_neighbours_.emplace_back(i, shape);
+  }
+}
+
+void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
+                            double gap_m) {
+  const double allowed_m = std::max(0.0, gap_m + solid_depth_m);
+  double possible_m = toolkit::norm(bodies[a].displacement);
+  if (b != no_body) possible_m += toolkit::norm(bodies[b].displacement);
+  // displacements only ever get shorter
+  if (possible_m > allowed_m) constraints_.push_back({a, b, normal, allowed_m});
+}
+
+// A half-plane that holds one convex body apart from another on their line of nearest points holds them apart for any
+// motion that respects it. So nothing can be stepped over, however fast it moves.
+void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
+  constraints_.clear();
+  for (const auto& [body, shape] : shape_neighbours_) {
+    const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
+    constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
+  }
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
+      constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
+  }
+  for (const auto& [a, b] : body_neighbours_) {
+    const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
+    const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
+    constrain(bodies, a, b, normal, distance_m - bodies[a].radius_m - bodies[b].radius_m);
+  }
+}
+
+// One pass over all constraints; whether all of them held. Who approaches loses approach; who recedes makes room.
+bool SolidMotion::relax(std::span<SolidBody> bodies) const {
+  bool all_held = true;
+  for (const Constraint& constraint : constraints_) {
+    const double a_speed = -toolkit::dot(bodies[constraint.a].displacement, constraint.normal);
+    const double b_speed =
+        constraint.b == no_body ? 0.0 : toolkit::dot(bodies[constraint.b].displacement, constraint.normal);
+    if (a_speed + b_speed <= constraint.allowed_m + tolerance_m) continue;
+    all_held = false;
+    const double room_m = constraint.allowed_m - std::min(a_speed, 0.0) - std::min(b_speed, 0.0);
+    const double approach_m = std::max(a_speed, 0.0) + std::max(b_speed, 0.0);
+    const double lost_share = 1.0 - room_m / approach_m;
+    bodies[constraint.a].displacement += constraint.normal * (lost_share * std::max(a_speed, 0.0));
+    if (constraint.b != no_body)
+      bodies[constraint.b].displacement -= constraint.normal * (lost_share * std::max(b_speed, 0.0));
+  }
+  return all_held;
+}
+
+// Where sweeping did not settle it, those that still get too deep stand still for this step; then perhaps others do.
+void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
+  bool stopped = true;
+  while (stopped) {
+    stopped = false;
+    for (const Constraint& constraint : constraints_) {
+      double approach_m = -toolkit::dot(bodies[constraint.a].displacement, constraint.normal);
+      if (constraint.b != no_body) approach_m += toolkit::dot(bodies[constraint.b].displacement, constraint.normal);
+      if (approach_m <= constraint.allowed_m + tolerance_m) continue;
+      bodies[constraint.a].displacement = {0.0, 0.0};
+      if (constraint.b != no_body) bodies[constraint.b].displacement = {0.0, 0.0};
+      stopped = true;
+    }
+  }
+}
+
+void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                                       std::vector<Overlap>& found) {
+  found.clear();
+  find_neighbours(bodies);
+  const auto add = [&](std::uint32_t body, std::uint32_t shape, double distance_m, dmrp_vec2 outward) {
+    const double depth = bodies[body].radius_m - distance_m;
+    // the disc reaches from its centre to radius_m behind the surface
+    if (depth > depth_m)
+      found.push_back({body, shape, depth, bodies[body].position - outward * (distance_m + 0.5 * depth)});
+  };
+  for (const auto& [body, shape] : shape_neighbours_) {
+    if (body >= count) break;
+    const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
+    add(body, shape, surface.distance_m, surface.outward);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto walls = walls_around(*geometry_, bodies[i].position);
+    const auto nearest = std::min_element(
+        walls.begin(), walls.end(), [](const Wall& one, const Wall& two) { return one.distance_m < two.distance_m; });
+    add(i, geometry_->border(), nearest->distance_m, nearest->inward);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Overlap& one, const Overlap& two) { return std::pair(one.a, one.b) < std::pair(two.a, two.b); });
+}
+
+void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                                   std::vector<Overlap>& found) {
+  found.clear();
+  find_neighbours(bodies);
+  for (const auto& [a, b] : body_neighbours_) {
+    if (a >= count) break;
+    const double distance_m = toolkit::distance(bodies[a].position, bodies[b].position);
+    const double depth = bodies[a].radius_m + bodies[b].radius_m - distance_m;
+    if (!(depth > depth_m)) continue;
+    const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
+    found.push_back({a, b, depth, bodies[a].position - normal * (bodies[a].radius_m - 0.5 * depth)});
+  }
+}
+
+}  // namespace dmrp::core
