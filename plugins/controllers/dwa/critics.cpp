@@ -28,10 +28,17 @@ int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning
   return highest;
 }
 
-// A nose that is over an obstacle, or off the window, is as far away as it can be.
-double nose_cells(const WaveFront& front, std::int32_t nose, std::int32_t center, double nose_length_cells) {
-  if (front.reached(nose)) return front.cells(nose);
-  return front.cells(center) + nose_length_cells + 1.0;
+// From the nose to the front's seeds, in cells. A nose over an obstacle or off the window is measured from where, going
+// back to the centre, the front begins, plus the way back.
+double nose_cells(const WaveFront& front, const Scene& scene, const ArcState& at, std::int32_t center,
+                  double nose_length_m) {
+  const double cell_m = scene.map.resolution_m();
+  for (double length_m = nose_length_m; length_m > 0.0; length_m -= cell_m) {
+    const std::int32_t index =
+        scene.terrain.index_of(scene.map, at.x + length_m * at.cos_theta, at.y + length_m * at.sin_theta);
+    if (front.reached(index)) return front.cells(index) + (nose_length_m - length_m) / cell_m;
+  }
+  return front.cells(center) + nose_length_m / cell_m;
 }
 
 }  // namespace
@@ -58,17 +65,14 @@ double score(const Sample& sample, const Scene& scene, const Tuning& tuning, Foo
   const std::int32_t center =
       scene.terrain.nearest_free(scene.terrain.index_of(scene.map, end.x, end.y), escape_reach_cells);
   if (!scene.path.reached(center) || !scene.goal.reached(center)) return rejected;
-  const std::int32_t nose =
-      scene.terrain.index_of(scene.map, end.x + nose_length_m * end.cos_theta, end.y + nose_length_m * end.sin_theta);
-  const double nose_length_cells = nose_length_m / resolution_m;
   const double goal_scale = tuning.goal_distance_bias * resolution_m;
   const double path_scale = tuning.path_distance_bias * resolution_m;
 
-  sum += goal_scale * nose_cells(scene.goal_front, nose, center, nose_length_cells);
+  sum += goal_scale * nose_cells(scene.goal_front, scene, end, center, nose_length_m);
   if (sum > best) return sum;
-  if (scene.align) sum += path_scale * nose_cells(scene.path, nose, center, nose_length_cells);
+  if (scene.follow && scene.align) sum += path_scale * nose_cells(scene.path, scene, end, center, nose_length_m);
   if (sum > best) return sum;
-  sum += path_scale * scene.path.cells(center);
+  if (scene.follow) sum += path_scale * scene.path.cells(center);
   if (sum > best) return sum;
   sum += goal_scale * scene.goal.cells(center);
   return sum + tuning.twirling_scale * std::abs(sample.omega);

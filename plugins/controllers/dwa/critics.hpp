@@ -42,6 +42,7 @@ struct Scene {
   const WaveFront& path;        // from the path in the window
   const WaveFront& goal;        // from the last point of it
   const WaveFront& goal_front;  // from a point ahead of that
+  bool follow = true;           // whether the path critics count
   bool align = true;            // whether the nose shall be on the path
   const OscillationGuard& oscillation;
 };

@@ -12,6 +12,7 @@ namespace {
 
 // Turning in place begins when the way out is further aside than the first, and ends below the second.
 constexpr double turn_begin_rad = 0.5;
+constexpr double turn_back_rad = 1.8;
 constexpr double turn_end_rad = 0.2;
 
 // How far along the goal's front the direction of the way out is taken.
@@ -64,6 +65,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   lay_out_plan(map);
   spread_fronts(now, map);
   const double aside = way_out(map, now.pose);
+  if (std::abs(aside) > turn_back_rad && std::abs(now.velocity.v_x) < 0.1) turning_ = true;
   if (turning_ && std::abs(aside) > turn_end_rad) {
     command = turn_toward(aside, now, footprint);
     return Status::ok;
@@ -73,8 +75,11 @@ Status Dwa::step(const Observation& now, Command& command) {
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
   window_.sample(now, static_cast<std::size_t>(*vx_samples), static_cast<std::size_t>(*vth_samples));
   const bool align = toolkit::distance(toolkit::position(now.pose), goal_) > forward_point_distance;
-  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,   terrain_,    path_front_,
-                            goal_front_, nose_front_,      align, oscillation_};
+  // a path is not replanned about people: round something that stands on it, the goal critics lead alone
+  const bool follow =
+      std::all_of(plan_.begin(), plan_.end(), [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
+  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,    terrain_, path_front_,
+                            goal_front_, nose_front_,      follow, align,    oscillation_};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
@@ -82,7 +87,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   }
   oscillation_.note(now.pose, choice->v, choice->omega);
   // where standing is best although the way leads aside, turning in place comes first
-  if (choice->v == 0.0 && std::abs(choice->omega) < 1e-3 && std::abs(aside) > turn_begin_rad) {
+  if (choice->v == 0.0 && std::abs(choice->omega) < 0.1 && std::abs(aside) > turn_begin_rad) {
     turning_ = true;
     command = turn_toward(aside, now, footprint);
     return Status::ok;

@@ -35,7 +35,7 @@ class Dwa final : public LocalController {
                                          .range(0.0, 100.0)
                                          .doc("weight of the distance to the end of the path in the window");
   Param<double> occdist_scale =
-      param("occdist_scale", 0.01).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
+      param("occdist_scale", 0.002).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
   Param<double> twirling_scale =
       param("twirling_scale", 0.0).unit("s/rad").range(0.0, 10.0).doc("weight of the turning rate");
   Param<double> forward_point_distance =
