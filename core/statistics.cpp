@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <limits>
+#include <numeric>
+
+namespace dmrp::core {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double z_95 = 1.959963984540054;  // the standard normal's 0.975-quantile
+
+double sum(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+bool nonzero(double value) {
+  return value != 0.0;
+}
+
+}  // namespace
+
+double mean(std::span<const double> values) {
+  return values.empty() ? undefined : sum(values) / static_cast<double>(values.size());
+}
+
+double sample_sd(std::span<const double> values) {
+  if (values.size() < 2) return undefined;
+  const double center = mean(values);
+  double squares = 0.0;
+  for (const double value : values) squares += (value - center) * (value - center);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+double median(std::span<const double> values) {
+  std::vector<double> ascending(values.begin(), values.end());
+  std::sort(ascending.begin(), ascending.end());
+  return quantile_of_sorted(ascending, 0.5);
+}
+
+double quantile_of_sorted(std::span<const double> ascending, double p) {
+  if (ascending.empty()) return undefined;
+  const double position = p * static_cast<double>(ascending.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  return ascending[below] + (position - static_cast<double>(below)) * (ascending[above] - ascending[below]);
+}
+
+Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
+  if (trials == 0) return {undefined, undefined};
+  const auto n = static_cast<double>(trials);
+  const double p = static_cast<double>(successes) / n;
+  const double z2 = z_95 * z_95;
+  const double center = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half = z_95 / (1.0 + z2 / n) * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n));
+  // exactly 0 and 1 at the ends, where rounding could fall beside them
+  return {successes == 0 ? 0.0 : center - half, successes == trials ? 1.0 : center + half};
+}
+
+Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapSettings& settings) {
+  struct Total {
+    double sum;
+    double count;
+  };
+  std::vector<Total> totals;
+  for (const std::vector<double>& cluster : clusters)
+    if (!cluster.empty()) totals.push_back({sum(cluster), static_cast<double>(cluster.size())});
+  if (totals.size() < 2) return {undefined, undefined};
+
+  toolkit::Stream random(settings.seed, "statistics.bootstrap");
+  std::vector<double> means(settings.resamples);
+  for (double& resampled_mean : means) {
+    Total drawn{0.0, 0.0};
+    for (std::size_t i = 0; i < totals.size(); ++i) {
+      const Total& total = totals[random.below(totals.size())];
+      drawn.sum += total.sum;
+      drawn.count += total.count;
+    }
+    resampled_mean = drawn.sum / drawn.count;
+  }
+  std::sort(means.begin(), means.end());
+  return {quantile_of_sorted(means, 0.025), quantile_of_sorted(means, 0.975)};
+}
+
+TrimmedMean paper_mean(std::span<const double> values_of_successful_trials) {
+  std::vector<double> kept(values_of_successful_trials.begin(), values_of_successful_trials.end());
+  if (kept.size() >= 5) {
+    const double center = mean(kept);
+    const double reach = 2.0 * sample_sd(kept);
+    kept.erase(std::remove_if(kept.begin(), kept.end(), [&](double value) { return std::abs(value - center) > reach; }),
+               kept.end());
+  }
+  const bool all_vanished =
+      std::any_of(values_of_successful_trials.begin(), values_of_successful_trials.end(), nonzero) &&
+      std::none_of(kept.begin(), kept.end(), nonzero);
+  return {mean(kept), static_cast<std::uint32_t>(kept.size()), all_vanished};
+}
+
+}  // namespace dmrp::core
