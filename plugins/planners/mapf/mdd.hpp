@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// mdd.hpp: all of an agent's paths of least cost under its constraints, as the places it can be at each time
+// (a multi-valued decision diagram; Sharon et al. 2013), and a cache of them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "constraint.hpp"
+#include "tour_table.hpp"
+
+namespace dmrp::planners {
+
+class Mdd {
+ public:
+  struct Node {
+    Location location;
+    std::int32_t leg;
+  };
+
+  // `cost` is the least under the constraints.
+  Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
+      std::int32_t cost);
+
+  std::int32_t cost() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
+
+  // The nodes of a time up to cost(), each on at least one path.
+  std::span<const Node> level(std::int32_t t) const {
+    const auto at = static_cast<std::size_t>(t);
+    return {nodes_.data() + level_begin_[at], nodes_.data() + level_begin_[at + 1]};
+  }
+
+  // Whether every path of this cost is at `location` at time t (or rests there by then).
+  bool must_be_at(Location location, std::int32_t t) const;
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> level_begin_;
+};
+
+// Keyed by what an MDD follows from: the agent and its constraints.
+class MddCache {
+ public:
+  MddCache(const Problem& problem, const std::vector<TourTable>& tables)
+      : problem_(problem), tables_(tables), constraint_table_(problem.graph), of_agent_(problem.agents.size()) {}
+
+  // `constraints` are the agent's in any order, `cost` the least under them. The reference lives as long as the cache.
+  const Mdd& get(std::int32_t agent, std::vector<Constraint> constraints, std::int32_t cost);
+
+ private:
+  const Problem& problem_;
+  const std::vector<TourTable>& tables_;
+  ConstraintTable constraint_table_;
+  std::vector<std::map<std::vector<Constraint>, Mdd>> of_agent_;
+};
+
+}  // namespace dmrp::planners

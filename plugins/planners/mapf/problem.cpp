@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "problem.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace dmrp::planners {
+
+namespace {
+
+constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
+
+Waypoint waypoint_at(dmrp_vec2 point, std::int64_t t_ns, std::uint32_t goal_index) {
+  return {point.x, point.y, any_heading, t_ns, goal_index, 0};
+}
+
+std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const GridGraph& graph, const Agent& agent,
+                                   PathView path) {
+  std::vector<Waypoint> waypoints;
+  waypoints.reserve(path.size());
+  std::int64_t t_ns = host_problem.effective_from_ns;
+  std::int32_t leg = 0;
+  for (const Location location : path) {
+    const dmrp_vec2 point = waypoints.empty() ? host_problem.robots[agent.robot].start : graph.center(location);
+    waypoints.push_back(waypoint_at(point, t_ns, agent.first_goal_index + static_cast<std::uint32_t>(leg)));
+    leg = agent.leg_after(leg, location);
+    t_ns += host_problem.step_duration_ns;
+  }
+  return waypoints;
+}
+
+}  // namespace
+
+Problem make_problem(const PlanningProblem& problem, bool resting_robots_block) {
+  Problem out{GridGraph(problem.grid), {}};
+  if (resting_robots_block)
+    for (const PlanningRobot& robot : problem.robots) {
+      const Location cell = out.graph.locate(robot.start);
+      if (robot.state != DMRP_ROBOT_ACTIVE && cell != nowhere) out.graph.block(cell);
+    }
+  for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
+    const PlanningRobot& robot = problem.robots[i];
+    if (robot.state != DMRP_ROBOT_ACTIVE) continue;
+    Agent agent{i, out.graph.locate(robot.start), {}, robot.first_goal_index};
+    for (const Goal& goal : goals(robot)) agent.goals.push_back(out.graph.locate({goal.pose.x, goal.pose.y}));
+    out.agents.push_back(std::move(agent));
+  }
+  return out;
+}
+
+void write_paths(const PlanningProblem& host_problem, const Problem& problem, const std::vector<PathView>& paths,
+                 PlanSink& sink) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    sink.path(problem.agents[i].robot, waypoints_of(host_problem, problem.graph, problem.agents[i], paths[i]));
+  for (std::uint32_t i = 0; i < host_problem.robots.size(); ++i) {
+    const PlanningRobot& robot = host_problem.robots[i];
+    if (robot.state != DMRP_ROBOT_ACTIVE)
+      sink.path(i, {waypoint_at(robot.start, host_problem.effective_from_ns, robot.first_goal_index)});
+  }
+}
+
+std::int32_t count_turns(const GridGraph& graph, PathView path) {
+  std::int32_t turns = 0;
+  Direction heading = GridGraph::no_direction;
+  for (std::size_t t = 1; t < path.size(); ++t)
+    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+      if (path[t] == path[t - 1] || graph.neighbor(path[t - 1], d) != path[t]) continue;
+      if (heading != GridGraph::no_direction && d != heading) ++turns;
+      heading = d;
+    }
+  return turns;
+}
+
+}  // namespace dmrp::planners

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "solvability.hpp"
+
+#include <algorithm>
+
+namespace dmrp::planners {
+
+namespace {
+
+// A connected part of the graph (by moves in either direction) and the agents that start in it.
+struct Component {
+  std::vector<Location> locations;
+  std::vector<std::size_t> agents;
+};
+
+// The neighbors by moves in either direction, each once.
+std::vector<Location> linked_with(const GridGraph& graph, Location location) {
+  std::vector<Location> linked;
+  for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+    Location other = graph.neighbor(location, d);
+    if (other == nowhere) other = graph.predecessor(location, opposite(d));
+    if (other != nowhere) linked.push_back(other);
+  }
+  return linked;
+}
+
+Component component_of(const GridGraph& graph, Location start, std::vector<std::int32_t>& component_at,
+                       std::int32_t number) {
+  Component component;
+  component.locations.push_back(start);
+  component_at[static_cast<std::size_t>(start)] = number;
+  for (std::size_t i = 0; i < component.locations.size(); ++i)
+    for (const Location to : linked_with(graph, component.locations[i])) {
+      if (component_at[static_cast<std::size_t>(to)] >= 0) continue;
+      component_at[static_cast<std::size_t>(to)] = number;
+      component.locations.push_back(to);
+    }
+  return component;
+}
+
+std::vector<Component> components_with_agents(const Problem& problem) {
+  std::vector<std::int32_t> component_at(static_cast<std::size_t>(problem.graph.location_count()), -1);
+  std::vector<Component> components;
+  for (std::size_t i = 0; i < problem.agents.size(); ++i) {
+    const Location start = problem.agents[i].start;
+    std::int32_t number = component_at[static_cast<std::size_t>(start)];
+    if (number < 0) {
+      number = static_cast<std::int32_t>(components.size());
+      components.push_back(component_of(problem.graph, start, component_at, number));
+    }
+    components[static_cast<std::size_t>(number)].agents.push_back(i);
+  }
+  return components;
+}
+
+// The locations in order if the component is a corridor without a branch; empty otherwise.
+std::vector<Location> as_corridor(const GridGraph& graph, const Component& component) {
+  Location end = nowhere;
+  for (const Location location : component.locations) {
+    const std::size_t degree = linked_with(graph, location).size();
+    if (degree > 2) return {};
+    if (degree <= 1) end = location;
+  }
+  if (end == nowhere) return {};  // a ring
+  std::vector<Location> ordered = {end};
+  for (Location before = nowhere;;) {
+    Location next = nowhere;
+    for (const Location to : linked_with(graph, ordered.back()))
+      if (to != before) next = to;
+    if (next == nowhere) return ordered;
+    before = ordered.back();
+    ordered.push_back(next);
+  }
+}
+
+// All joint positions that the agents of a component can reach. A state is the agents' places in component.locations,
+// packed into one number.
+class JointReachability {
+ public:
+  JointReachability(const Problem& problem, const Component& component)
+      : problem_(problem), component_(component), place_of_(static_cast<std::size_t>(problem.graph.location_count())) {
+    for (std::size_t i = 0; i < component.locations.size(); ++i)
+      place_of_[static_cast<std::size_t>(component.locations[i])] = i;
+    std::size_t states = 1;
+    for (std::size_t i = 0; i < component.agents.size(); ++i) states *= component.locations.size();
+    visited_.assign(states, false);
+    for (const std::size_t agent : component.agents) missing_.push_back(problem.agents[agent].goals);
+  }
+
+  // Whether the agents can be at their last goals together, and each at its other goals at some time.
+  bool goals_can_be_reached(StopSignal& stop) {
+    from_ = positions([](const Agent& agent) { return agent.start; });
+    const std::vector<Location> ends = positions([](const Agent& agent) { return agent.last_goal(); });
+    to_ = from_;
+    add_reached();
+    for (std::size_t next = 0; next < queue_.size(); ++next) {
+      if (stop.poll()) return true;
+      unpack(queue_[next]);
+      end_reached_ = end_reached_ || from_ == ends;
+      note_goals();
+      if (end_reached_ && std::all_of(missing_.begin(), missing_.end(), [](const auto& m) { return m.empty(); }))
+        return true;
+      move_agent(0);
+    }
+    return false;
+  }
+
+ private:
+  template <class Where>
+  std::vector<Location> positions(Where where) const {
+    std::vector<Location> out;
+    for (const std::size_t agent : component_.agents) out.push_back(where(problem_.agents[agent]));
+    return out;
+  }
+
+  void add_reached() {
+    std::size_t state = 0;
+    for (const Location location : to_)
+      state = state * component_.locations.size() + place_of_[static_cast<std::size_t>(location)];
+    if (visited_[state]) return;
+    visited_[state] = true;
+    queue_.push_back(state);
+  }
+
+  void unpack(std::size_t state) {
+    for (std::size_t i = from_.size(); i-- > 0; state /= component_.locations.size())
+      from_[i] = component_.locations[state % component_.locations.size()];
+  }
+
+  void note_goals() {
+    for (std::size_t i = 0; i < from_.size(); ++i) std::erase(missing_[i], from_[i]);
+  }
+
+  // Tries all moves of agent i and those after it that do not conflict with the moves of the agents before.
+  void move_agent(std::size_t i) {
+    if (i == from_.size()) return add_reached();
+    for (Direction d = 0; d <= GridGraph::direction_count; ++d) {
+      to_[i] = d == GridGraph::direction_count ? from_[i] : problem_.graph.neighbor(from_[i], d);
+      if (to_[i] != nowhere && !conflicts_with_earlier(i)) move_agent(i + 1);
+    }
+  }
+
+  bool conflicts_with_earlier(std::size_t i) const {
+    for (std::size_t j = 0; j < i; ++j)
+      if (to_[j] == to_[i] || (to_[j] == from_[i] && to_[i] == from_[j])) return true;
+    return false;
+  }
+
+  const Problem& problem_;
+  const Component& component_;
+  std::vector<std::size_t> place_of_;
+  std::vector<bool> visited_;
+  std::vector<std::size_t> queue_;
+  std::vector<std::vector<Location>> missing_;  // goals nobody was seen at, by agent
+  std::vector<Location> from_;
+  std::vector<Location> to_;
+  bool end_reached_ = false;
+};
+
+std::string name(const Problem& problem, std::size_t agent) {
+  return "robot " + std::to_string(problem.agents[agent].robot);
+}
+
+}  // namespace
+
+std::optional<std::string> find_obvious_obstruction(const Problem& problem) {
+  for (std::size_t a = 0; a < problem.agents.size(); ++a)
+    for (std::size_t b = a + 1; b < problem.agents.size(); ++b) {
+      if (problem.agents[a].start == problem.agents[b].start)
+        return name(problem, a) + " and " + name(problem, b) + " start on the same cell";
+      if (problem.agents[a].last_goal() == problem.agents[b].last_goal())
+        return name(problem, a) + " and " + name(problem, b) + " end on the same cell";
+    }
+
+  std::vector<std::size_t> order(static_cast<std::size_t>(problem.graph.location_count()));
+  for (const Component& component : components_with_agents(problem)) {
+    const std::vector<Location> corridor = as_corridor(problem.graph, component);
+    for (std::size_t i = 0; i < corridor.size(); ++i) order[static_cast<std::size_t>(corridor[i])] = i;
+    if (corridor.empty()) continue;
+    for (const std::size_t a : component.agents)
+      for (const std::size_t b : component.agents) {
+        const auto at = [&](Location location) { return order[static_cast<std::size_t>(location)]; };
+        if (at(problem.agents[a].start) < at(problem.agents[b].start) &&
+            at(problem.agents[a].last_goal()) > at(problem.agents[b].last_goal()))
+          return name(problem, a) + " and " + name(problem, b) + " would have to pass each other in a corridor";
+      }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> find_joint_obstruction(const Problem& problem, std::size_t state_limit, StopSignal& stop) {
+  for (const Component& component : components_with_agents(problem)) {
+    std::size_t states = 1;
+    for (std::size_t i = 0; i < component.agents.size() && states <= state_limit; ++i)
+      states *= component.locations.size();
+    if (states > state_limit || JointReachability(problem, component).goals_can_be_reached(stop)) continue;
+    return "no joint motion takes the robots around " + name(problem, component.agents.front()) + " to their goals";
+  }
+  return std::nullopt;
+}
+
+}  // namespace dmrp::planners
