@@ -12,7 +12,9 @@ const std::filesystem::path& executable_path() {
   return path;
 }
 
-std::filesystem::path shared_data_path() { return executable_path().parent_path().parent_path() / "share/dmrp"; }
+std::filesystem::path shared_data_path() {
+  return executable_path().parent_path().parent_path() / "share/dmrp";
+}
 
 std::vector<std::filesystem::path> folders_of_variable(const char* name) {
   std::vector<std::filesystem::path> folders;

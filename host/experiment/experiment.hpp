@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/scenario.hpp"
 #include "core/settings.hpp"
+#include "host/plugins/library.hpp"
 #include "host/plugins/plugin_info.hpp"
 
 namespace dmrp::host {
@@ -22,7 +24,7 @@ struct LibraryUse {
 
 // A plugin as the experiment uses it.
 struct PluginUse {
-  std::uint32_t library = 0;               // index into Experiment::libraries
+  std::uint32_t library = 0;  // index into Experiment::libraries
   PluginInfo info;
   std::string label;                       // for people; unique among the uses of its kind
   std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
@@ -38,10 +40,10 @@ struct ScenarioVariant {
 enum class RecordTraces { all, failed, none };
 
 struct RunLimits {
-  double planner_time_s = 60.0;      // wall time for one call of plan()
-  double step_time_s = 1.0;          // for every other call
+  double planner_time_s = 60.0;  // wall time for one call of plan()
+  double step_time_s = 1.0;      // for every other call
   double trial_wall_time_s = 600.0;
-  std::int64_t memory_mb = 4096;     // of a worker; 0: none
+  std::int64_t memory_mb = 4096;  // of a worker; 0: none
 };
 
 struct Experiment {
@@ -49,7 +51,7 @@ struct Experiment {
   std::string text;            // its content
   std::string name;
   std::uint64_t seed = 1;
-  std::uint32_t trials = 1;    // repetitions a combination
+  std::uint32_t trials = 1;  // repetitions a combination
   std::vector<LibraryUse> libraries;
   std::vector<ScenarioVariant> scenarios;
   std::vector<PluginUse> global_planners;
@@ -61,6 +63,7 @@ struct Experiment {
   core::RobotSettings robot;
   RecordTraces traces = RecordTraces::all;
   RunLimits limits;
+  std::vector<std::string> warnings;  // one line each
 };
 
 // What is tried out against each other: indices into the experiment's lists.
@@ -81,12 +84,15 @@ struct TrialId {
 };
 TrialId trial_id(std::uint64_t number, std::size_t combination_count);
 
-// Reads and checks an experiment: every mistake is an InputError in one line. Probes the libraries it names.
-// `trials` > 0 replaces the number in the file.
-Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials);
+// What a library's plugins are found out by: a probe in a child process, or the library itself.
+using PluginSource = std::function<Probe(const std::filesystem::path&)>;
 
-// Where the shipped scenarios and those of DMRP_SCENARIO_PATH are: name -> scenario.toml. An InputError in one line.
-core::Scenario load_scenario(const std::filesystem::path& file);
+// Reads and checks an experiment: every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
+Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials,
+                           const PluginSource& source = &probe_library);
+
+// The scenario.toml behind a name (shipped, or in DMRP_SCENARIO_PATH) or a path relative to `base`; empty if there is
+// none.
 std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base);
 std::vector<std::string> shipped_scenarios();
 

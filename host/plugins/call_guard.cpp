@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host/plugins/call_guard.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <ctime>
-#include <fmt/format.h>
 
 #include "host/plugins/fp_control.hpp"
 
@@ -67,12 +68,16 @@ CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bo
     case DMRP_OK:
     case DMRP_WARNING:
     case DMRP_NO_SOLUTION:
-    case DMRP_TIMEOUT: return {status, duration_ns};
+    case DMRP_TIMEOUT:
+      return {status, duration_ns};
     case DMRP_OUT_OF_MEMORY:
       throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error_));
-    case DMRP_ERROR: throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_ERROR", error_));
-    case DMRP_FATAL: throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_FATAL", error_));
-    default: throw PluginFault(fault_kind::abi_breach, site, fmt::format("returned the unknown status {}", status));
+    case DMRP_ERROR:
+      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_ERROR", error_));
+    case DMRP_FATAL:
+      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_FATAL", error_));
+    default:
+      throw PluginFault(fault_kind::abi_breach, site, fmt::format("returned the unknown status {}", status));
   }
 }
 

@@ -3,10 +3,10 @@
 // the floating-point control bits, turns statuses that end the trial into a PluginFault.
 #pragma once
 
+#include <dmrp/status.h>
+
 #include <cstdint>
 #include <string>
-
-#include <dmrp/status.h>
 
 #include "host/plugins/call_note.hpp"
 #include "host/plugins/plugin_fault.hpp"

@@ -15,7 +15,7 @@ struct CallNote {
   std::atomic<std::int64_t> limit_ns;      // how long the call may take before it counts as hanging
   std::atomic<std::int64_t> step;
   std::atomic<std::int32_t> robot;
-  std::array<char, 128> plugin;    // NUL-terminated
+  std::array<char, 128> plugin;  // NUL-terminated
   std::array<char, 32> function;
 };
 

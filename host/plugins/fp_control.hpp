@@ -13,8 +13,12 @@ namespace dmrp::host {
 
 #if defined(__x86_64__)
 constexpr std::uint32_t fp_control_mask = 0xffc0;  // all of MXCSR but the exception flags
-inline std::uint32_t fp_control() { return _mm_getcsr() & fp_control_mask; }
-inline void set_fp_control(std::uint32_t bits) { _mm_setcsr((_mm_getcsr() & ~fp_control_mask) | bits); }
+inline std::uint32_t fp_control() {
+  return _mm_getcsr() & fp_control_mask;
+}
+inline void set_fp_control(std::uint32_t bits) {
+  _mm_setcsr((_mm_getcsr() & ~fp_control_mask) | bits);
+}
 #elif defined(__aarch64__)
 inline std::uint32_t fp_control() {
   std::uint64_t bits;

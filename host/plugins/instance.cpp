@@ -35,7 +35,8 @@ bool table_is_whole(const void* table, std::uint32_t kind) {
       const auto& t = *static_cast<const dmrp_metric*>(table);
       return DMRP_HAS(&t, finish) && t.begin && t.observe && t.finish;
     }
-    default: return false;
+    default:
+      return false;
   }
 }
 
@@ -74,7 +75,8 @@ Instance::Instance(const Library& library, const PluginUse& use, std::int32_t ro
 
 Instance::~Instance() {
   try {
-    if (plugin_.self) guard_.call(site("destroy", 0), create_budget_ns, [&] { return plugin_.destroy(plugin_.self), 0; });
+    if (plugin_.self)
+      guard_.call(site("destroy", 0), create_budget_ns, [&] { return plugin_.destroy(plugin_.self), 0; });
   } catch (const PluginFault& fault) {
     log_(DMRP_LOG_ERROR, id_, std::string("destroy: ") + fault.what());
   }

@@ -2,14 +2,14 @@
 // instance.hpp: a plugin instance with a host of its own.
 #pragma once
 
+#include <dmrp/plugin.h>
+
 #include <algorithm>
 #include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <dmrp/plugin.h>
 
 #include "host/experiment/experiment.hpp"
 #include "host/plugins/call_guard.hpp"

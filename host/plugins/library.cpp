@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host/plugins/library.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/dll/shared_library.hpp>
 #include <cstring>
-#include <fmt/format.h>
 #include <stdexcept>
 
 #include "host/plugins/fp_control.hpp"
@@ -35,11 +36,12 @@ dmrp_entry copy_entry(const dmrp_entry& theirs) {
   dmrp_entry ours{};
   std::memcpy(&ours, &theirs, std::min<std::size_t>(theirs.struct_size, sizeof(ours)));
   if (ours.abi_draft != DMRP_ABI_DRAFT)
-    throw std::runtime_error(fmt::format("built for draft {} of the v1 contract, this host has draft {}: build it again",
-                                         ours.abi_draft, DMRP_ABI_DRAFT));
+    throw std::runtime_error(
+        fmt::format("built for draft {} of the v1 contract, this host has draft {}: build it again", ours.abi_draft,
+                    DMRP_ABI_DRAFT));
   if (ours.min_host_minor > DMRP_ABI_MINOR)
-    throw std::runtime_error(fmt::format("needs a host of ABI 1.{} or newer, this is 1.{}", ours.min_host_minor,
-                                         DMRP_ABI_MINOR));
+    throw std::runtime_error(
+        fmt::format("needs a host of ABI 1.{} or newer, this is 1.{}", ours.min_host_minor, DMRP_ABI_MINOR));
   if (!ours.init || !ours.deinit || !ours.plugin_count || !ours.descriptor || !ours.create)
     throw std::runtime_error("its dmrp_entry_v1 lacks a function");
   return ours;
@@ -56,7 +58,8 @@ Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<H
   }
   if (fp_control() != control_bits) {
     set_fp_control(control_bits);
-    warning_ = "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored";
+    warning_ =
+        "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored";
   }
   if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
     throw std::runtime_error("not a dmrp v1 plugin (no symbol " DMRP_ENTRY_SYMBOL "; built with dmrp_add_plugin()?)");

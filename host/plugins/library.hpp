@@ -2,12 +2,12 @@
 // library.hpp: a plugin library in this process. Loaded once, never unloaded while the process runs.
 #pragma once
 
+#include <dmrp/entry.h>
+
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <dmrp/entry.h>
 
 #include "host/plugins/plugin_info.hpp"
 

@@ -2,9 +2,9 @@
 // parameter_table.hpp: parameter values as the C structs that create() reads.
 #pragma once
 
-#include <vector>
-
 #include <dmrp/parameter.h>
+
+#include <vector>
 
 #include "host/plugins/plugin_info.hpp"
 

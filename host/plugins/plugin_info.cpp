@@ -10,7 +10,9 @@ namespace dmrp::host {
 
 namespace {
 
-std::string text_of(const char* text) { return text ? text : ""; }
+std::string text_of(const char* text) {
+  return text ? text : "";
+}
 
 std::vector<std::string> texts_of(const char* const* texts, std::uint32_t count) {
   std::vector<std::string> out;
@@ -36,8 +38,12 @@ ParameterSpec copy_parameter(const dmrp_param_spec& c) {
 }
 
 // JSON has no infinity: no bound is null.
-nlohmann::json bound(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
-double bound(const nlohmann::json& json, double none) { return json.is_null() ? none : json.get<double>(); }
+nlohmann::json bound(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+double bound(const nlohmann::json& json, double none) {
+  return json.is_null() ? none : json.get<double>();
+}
 
 }  // namespace
 
@@ -45,12 +51,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParameterValue, key, type, integer, number, t
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricValueSpec, name, unit, description, direction, subjects, wall_clock, curve)
 
 void to_json(nlohmann::json& json, const ParameterSpec& spec) {
-  json = {{"default", spec.fallback},
-          {"unit", spec.unit},
-          {"doc", spec.doc},
-          {"minimum", bound(spec.minimum)},
-          {"maximum", bound(spec.maximum)},
-          {"choices", spec.choices}};
+  json = {
+      {"default", spec.fallback},       {"unit", spec.unit},      {"doc", spec.doc}, {"minimum", bound(spec.minimum)},
+      {"maximum", bound(spec.maximum)}, {"choices", spec.choices}};
 }
 
 void from_json(const nlohmann::json& json, ParameterSpec& spec) {
@@ -97,11 +100,16 @@ void from_json(const nlohmann::json& json, PluginInfo& info) {
 
 const char* kind_name(std::uint32_t kind) {
   switch (kind) {
-    case DMRP_KIND_GLOBAL_PLANNER: return "global_planner";
-    case DMRP_KIND_LOCAL_CONTROLLER: return "local_controller";
-    case DMRP_KIND_PEDESTRIAN_MODEL: return "pedestrian_model";
-    case DMRP_KIND_METRIC: return "metric";
-    default: return "unknown";
+    case DMRP_KIND_GLOBAL_PLANNER:
+      return "global_planner";
+    case DMRP_KIND_LOCAL_CONTROLLER:
+      return "local_controller";
+    case DMRP_KIND_PEDESTRIAN_MODEL:
+      return "pedestrian_model";
+    case DMRP_KIND_METRIC:
+      return "metric";
+    default:
+      return "unknown";
   }
 }
 

@@ -2,12 +2,12 @@
 // plugin_info.hpp: a plugin's descriptor as the host's own copy, so that it outlives the library and crosses processes.
 #pragma once
 
+#include <dmrp/descriptor.h>
+
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include <dmrp/descriptor.h>
 
 namespace dmrp::host {
 

@@ -2,6 +2,7 @@
 // A library is loaded in a child process first: a truncated .so raises SIGBUS inside dlopen, static initialisers may do
 // anything, and neither may take the experiment with it.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,7 +11,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -67,8 +67,8 @@ Probe probe_library(const std::filesystem::path& file) {
   if (WIFSIGNALED(child.wait_status)) {
     const int signal = WTERMSIG(child.wait_status);
     if (signal == SIGALRM) throw std::runtime_error(fmt::format("hangs while it is loaded ({} s)", probe_limit_s));
-    throw std::runtime_error(fmt::format("crashes while it is loaded (signal {}, {}; a truncated file?)", signal,
-                                         strsignal(signal)));
+    throw std::runtime_error(
+        fmt::format("crashes while it is loaded (signal {}, {}; a truncated file?)", signal, strsignal(signal)));
   }
   const auto json = nlohmann::json::parse(child.output, nullptr, false);
   if (json.is_discarded()) throw std::runtime_error("ends the process while it is loaded");

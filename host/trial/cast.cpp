@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/cast.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
 #include "core/robot_task.hpp"
@@ -21,8 +21,8 @@ std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32
 
 }  // namespace
 
-Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination, const VariantWorld& variant,
-           const core::World& world, std::uint64_t seed)
+Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination,
+           const VariantWorld& variant, const core::World& world, std::uint64_t seed)
     : experiment_(experiment),
       variant_(variant),
       world_(world),
@@ -71,9 +71,8 @@ void Cast::set_paths(const Plan& plan, std::int64_t step) {
     const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
                             waypoints.data()};
     Driver& driver = drivers_[i];
-    driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s), [&] {
-      return driver.table.set_path(driver.controller->self(), &path, plan.revision);
-    });
+    driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
+                            [&] { return driver.table.set_path(driver.controller->self(), &path, plan.revision); });
   }
 }
 
@@ -128,16 +127,11 @@ const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
   if (!pedestrian_model_) return velocities_;
   const auto people = world_.people();
   const auto robots = world_.robot_agents();
-  const dmrp_crowd crowd = {sizeof(crowd),
-                            static_cast<std::uint32_t>(people.size()),
-                            world_.t_ns(),
-                            variant_.simulation.step_ns,
-                            people.data(),
-                            robots.data(),
-                            sizeof(dmrp_person),
-                            static_cast<std::uint32_t>(robots.size()),
-                            sizeof(dmrp_agent),
-                            0};
+  const dmrp_crowd crowd = {sizeof(crowd),       static_cast<std::uint32_t>(people.size()),
+                            world_.t_ns(),       variant_.simulation.step_ns,
+                            people.data(),       robots.data(),
+                            sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
+                            sizeof(dmrp_agent),  0};
   std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
   const auto result = pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
     return pedestrian_table_.step(pedestrian_model_->self(), &crowd, velocities_.data());

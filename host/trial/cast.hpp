@@ -2,14 +2,14 @@
 // cast.hpp: the plugins that play in one trial, each entered through its guarded call.
 #pragma once
 
+#include <dmrp/local_controller.h>
+#include <dmrp/metric.h>
+#include <dmrp/pedestrian_model.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include <dmrp/local_controller.h>
-#include <dmrp/metric.h>
-#include <dmrp/pedestrian_model.h>
 
 #include "core/lidar.hpp"
 #include "core/progress.hpp"

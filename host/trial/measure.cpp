@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/measure.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <dmrp/metric.h>
 #include <fmt/format.h>
 
-#include <dmrp/metric.h>
+#include <algorithm>
+#include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
 namespace dmrp::host {
@@ -17,7 +17,9 @@ struct Collected {
   MetricResult result;
 };
 
-std::optional<double> or_none(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
+std::optional<double> or_none(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional<double>(value);
+}
 
 bool equal_place(const MetricValue& a, const MetricValue& b) {
   return a.metric == b.metric && a.subject_kind == b.subject_kind && a.subject == b.subject &&

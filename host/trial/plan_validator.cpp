@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/plan_validator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <optional>
 
 namespace dmrp::host {
@@ -36,7 +37,9 @@ std::size_t index_of(const dmrp_grid& grid, Cell cell) {
   return static_cast<std::size_t>(cell.row) * grid.width + static_cast<std::size_t>(cell.column);
 }
 
-std::string where(std::size_t robot, std::size_t waypoint) { return fmt::format("robot {}, waypoint {}", robot, waypoint); }
+std::string where(std::size_t robot, std::size_t waypoint) {
+  return fmt::format("robot {}, waypoint {}", robot, waypoint);
+}
 
 // What holds for every planner: finite, from the start, forward in time, through all goals in order, rest at the last.
 std::string check_structure(const dmrp_planning_problem& problem, const dmrp_planning_robot& robot, std::size_t index,
@@ -103,7 +106,9 @@ std::string check_steps(const dmrp_planning_problem& problem, std::size_t index,
   return "";
 }
 
-Cell at(const std::vector<Cell>& cells, std::size_t step) { return cells[std::min(step, cells.size() - 1)]; }
+Cell at(const std::vector<Cell>& cells, std::size_t step) {
+  return cells[std::min(step, cells.size() - 1)];
+}
 
 // The conflict of two robots between `step` and the next one, or nullptr.
 const char* conflict(Cell a0, Cell a1, Cell b0, Cell b1) {
@@ -129,10 +134,11 @@ void count_step_conflicts(const std::vector<std::vector<Cell>>& cells, PlanVerdi
   for (const auto& path : cells) makespan = std::max(makespan, path.size());
   for (std::size_t a = 0; a < cells.size(); ++a)
     for (std::size_t b = a + 1; b < cells.size(); ++b) {
-      if (at(cells[a], 0) == at(cells[b], 0)) note_conflict(verdict, fmt::format("robots {} and {} share a start", a, b));
+      if (at(cells[a], 0) == at(cells[b], 0))
+        note_conflict(verdict, fmt::format("robots {} and {} share a start", a, b));
       for (std::size_t step = 0; step + 1 < makespan; ++step)
-        if (const char* kind = conflict(at(cells[a], step), at(cells[a], step + 1), at(cells[b], step),
-                                        at(cells[b], step + 1)))
+        if (const char* kind =
+                conflict(at(cells[a], step), at(cells[a], step + 1), at(cells[b], step), at(cells[b], step + 1)))
           note_conflict(verdict, fmt::format("{} conflict of robots {} and {} at step {}", kind, a, b, step + 1));
     }
 }
@@ -153,8 +159,7 @@ double least_distance(dmrp_vec2 a0, dmrp_vec2 a1, dmrp_vec2 b0, dmrp_vec2 b1) {
   const dmrp_vec2 offset{a0.x - b0.x, a0.y - b0.y};
   const dmrp_vec2 change{a1.x - a0.x - b1.x + b0.x, a1.y - a0.y - b1.y + b0.y};
   const double square = change.x * change.x + change.y * change.y;
-  const double share =
-      square > 0 ? std::clamp(-(offset.x * change.x + offset.y * change.y) / square, 0.0, 1.0) : 0.0;
+  const double share = square > 0 ? std::clamp(-(offset.x * change.x + offset.y * change.y) / square, 0.0, 1.0) : 0.0;
   return std::hypot(offset.x + share * change.x, offset.y + share * change.y);
 }
 
@@ -202,9 +207,8 @@ PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPat
     const auto& robot = *DMRP_AT(dmrp_planning_robot, problem.robots, problem.robot_stride, i);
     verdict.error = check_structure(problem, robot, i, paths[i]);
     if (verdict.error.empty())
-      verdict.error = connectivity == DMRP_CONNECTIVITY_ANY
-                          ? check_sweeps(robot, i, paths[i], sweep_is_free)
-                          : check_steps(problem, i, paths[i], connectivity, cells[i]);
+      verdict.error = connectivity == DMRP_CONNECTIVITY_ANY ? check_sweeps(robot, i, paths[i], sweep_is_free)
+                                                            : check_steps(problem, i, paths[i], connectivity, cells[i]);
     if (!verdict.error.empty()) return verdict;
   }
   if (connectivity == DMRP_CONNECTIVITY_ANY)

@@ -2,12 +2,12 @@
 // plan_validator.hpp: checks every plan, independently of the planner that made it.
 #pragma once
 
+#include <dmrp/global_planner.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <dmrp/global_planner.h>
 
 namespace dmrp::host {
 

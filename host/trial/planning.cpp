@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/planning.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/snap.hpp>
 
@@ -20,8 +20,8 @@ struct Collected {
   std::vector<Plan::Statistic> statistics;
 };
 
-std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_waypoint* waypoints, std::uint32_t count,
-                          std::uint32_t stride) {
+std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_waypoint* waypoints,
+                          std::uint32_t count, std::uint32_t stride) {
   auto& collected = *static_cast<Collected*>(sink->context);
   if (robot >= collected.paths.size() || collected.given[robot]) return DMRP_ERROR;
   collected.given[robot] = true;
@@ -54,7 +54,8 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
 bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
                   Problem& problem) {
   std::vector<toolkit::SnapRequest> requests;
-  for (const core::RobotState& robot : world.robots()) requests.push_back({{robot.pose.x, robot.pose.y}, toolkit::no_cell});
+  for (const core::RobotState& robot : world.robots())
+    requests.push_back({{robot.pose.x, robot.pose.y}, toolkit::no_cell});
   const auto cells = toolkit::snap_to_cells(
       grid, requests, snap_reach_cells * variant.planning_grid.resolution_m,
       [&](dmrp_vec2 from, dmrp_vec2 to) { return variant.geometry->sweep_is_free(from, to, radius_m); });
@@ -148,9 +149,9 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
   const CallSite site = planner.site("plan", step);
   if (!complete) throw PluginFault(fault_kind::bad_output, site, "returned OK without a path for every robot");
 
-  const PlanVerdict verdict = validate_plan(c, collected.paths, info.connectivity, [&](auto from, auto to, double radius_m) {
-    return variant.geometry->sweep_is_free(from, to, radius_m);
-  });
+  const PlanVerdict verdict = validate_plan(
+      c, collected.paths, info.connectivity,
+      [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); });
   if (!verdict.error.empty()) throw PluginFault(fault_kind::bad_output, site, "invalid plan: " + verdict.error);
   if (verdict.conflicts > 0 && !(info.planner_flags & DMRP_PLANNER_UNCOORDINATED))
     throw PluginFault(fault_kind::bad_output, site,
@@ -165,8 +166,8 @@ std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& plann
   std::vector<dmrp_waypoint> path = planned;
   dmrp_waypoint& last = path.back();
   if (std::hypot(last.x - goal.pose.x, last.y - goal.pose.y) > 1e-9) {
-    const dmrp_waypoint there = {goal.pose.x,     goal.pose.y, goal.pose.theta, last.t_ns + step_duration_ns,
-                                 last.goal_index, 0};
+    const dmrp_waypoint there = {
+        goal.pose.x, goal.pose.y, goal.pose.theta, last.t_ns + step_duration_ns, last.goal_index, 0};
     path.push_back(there);
   } else {
     last.theta = goal.pose.theta;

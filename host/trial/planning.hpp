@@ -2,12 +2,12 @@
 // planning.hpp: asks the global planner for a plan, checks it, and keeps the plan in force.
 #pragma once
 
+#include <dmrp/global_planner.h>
+#include <dmrp/metric.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <dmrp/global_planner.h>
-#include <dmrp/metric.h>
 
 #include "core/world.hpp"
 #include "host/plugins/instance.hpp"

@@ -2,13 +2,13 @@
 // robot_sensors.hpp: what a robot perceives, as the extensions that its controller asks for.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <dmrp/ext/distance_field.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
+
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "core/costmap.hpp"
 #include "core/lidar.hpp"

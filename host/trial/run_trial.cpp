@@ -88,8 +88,8 @@ class Run {
     robots_.clear();
     for (std::size_t i = 0; i < progress_.size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
-      robots_.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index,
-                         progress_[i].progress_m()});
+      robots_.push_back(
+          {robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_[i].progress_m()});
     }
     const auto people = world_.person_agents();
     const auto calls = cast_.take_calls();
@@ -115,13 +115,16 @@ class Run {
   }
 
   dmrp_trial_end end_without_plan() {
-    for (const core::RobotState& robot : world_.robots())
-      ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1});
+    for (const core::RobotState& robot : world_.robots()) ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1});
     return end(DMRP_ENDING_NO_PLAN);
   }
 
   dmrp_trial_end end(std::uint32_t ending) {
-    const dmrp_trial_end c = {sizeof(c),    ending, world_.t_ns(), ends_.data(), static_cast<std::uint32_t>(ends_.size()),
+    const dmrp_trial_end c = {sizeof(c),
+                              ending,
+                              world_.t_ns(),
+                              ends_.data(),
+                              static_cast<std::uint32_t>(ends_.size()),
                               sizeof(dmrp_robot_end)};
     static constexpr const char* const reasons[] = {"", "all robots arrived", "time limit", "deadlock",
                                                     "the planner found no plan"};

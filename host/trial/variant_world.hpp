@@ -24,6 +24,8 @@ struct VariantWorld {
 };
 
 // A number of seconds from the experiment file, as the contract counts them.
-inline std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9 + 0.5); }
+inline std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(seconds * 1e9 + 0.5);
+}
 
 }  // namespace dmrp::host

@@ -40,8 +40,8 @@ bool LineChannel::fill() {
 std::optional<nlohmann::json> LineChannel::take() {
   const auto end = buffer_.find('\n');
   if (end == std::string::npos) return std::nullopt;
-  nlohmann::json message = nlohmann::json::parse(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(end),
-                                                 nullptr, false);
+  nlohmann::json message =
+      nlohmann::json::parse(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
   buffer_.erase(0, end + 1);
   return message;
 }

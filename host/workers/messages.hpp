@@ -24,9 +24,9 @@ inline constexpr int out_of_memory_exit = 86;
 
 struct Job {
   std::uint64_t trial = 0;
-  std::string trace_file;                    // "" for none
+  std::string trace_file;  // "" for none
   bool keep_trace_of_success = true;
-  std::vector<std::uint32_t> skip_metrics;   // that killed a worker before
+  std::vector<std::uint32_t> skip_metrics;  // that killed a worker before
 };
 
 // The end of a trial, without its values.

@@ -2,6 +2,7 @@
 #include "host/workers/supervisor.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/signalfd.h>
@@ -11,13 +12,11 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
-#include <fmt/format.h>
+#include <dmrp/toolkit/random.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
-
-#include <dmrp/toolkit/random.hpp>
 
 #include "host/experiment/digest.hpp"
 #include "host/input_error.hpp"
@@ -215,8 +214,9 @@ class Supervisor {
     if (!slot.trial) return;
     const std::int64_t now = now_ns();
     if (static_cast<double>(now - slot.trial->started_ns) > experiment_.limits.trial_wall_time_s * second_ns) {
-      end_by_fault(slot, fault_kind::hang,
-                   fmt::format("the trial took longer than trial_wall_time_s = {} s", experiment_.limits.trial_wall_time_s));
+      end_by_fault(
+          slot, fault_kind::hang,
+          fmt::format("the trial took longer than trial_wall_time_s = {} s", experiment_.limits.trial_wall_time_s));
       return;
     }
     const NotedCall call = slot.worker->noted_call();
@@ -310,7 +310,9 @@ std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
   const TrialId id = trial_id(trial, all.size());
   // 63 bits, so that it is a positive integer in every database.
   return toolkit::Stream(experiment.seed, "trial", experiment.scenarios[all[id.combination].scenario].label,
-                         id.repetition).next_u64() >> 1;
+                         id.repetition)
+             .next_u64() >>
+         1;
 }
 
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {

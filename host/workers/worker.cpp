@@ -95,7 +95,8 @@ class Worker {
     TrialDone done;
     try {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, guard_, trace);
-      done = {ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed, ending.repeatable, ending.sim_time_s};
+      done = {ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed, ending.repeatable,
+              ending.sim_time_s};
     } catch (const PluginFault& fault) {
       channel_.send(typed("fault", record_of(fault)));
       done.outcome = trial_outcome::fault;

@@ -21,7 +21,9 @@ namespace dmrp::host {
 
 namespace {
 
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
 
 template <std::size_t n>
 std::string text_of(const std::array<char, n>& text) {

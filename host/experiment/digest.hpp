@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// digest.hpp: whether two processes, or two runs, mean the same experiment.
+#pragma once
+
+#include <string>
+
+#include "host/experiment/experiment.hpp"
+
+namespace dmrp::host {
+
+// SHA-256, hexadecimal, over the effective experiment and the contents of its libraries and scenario files.
+std::string experiment_digest(const Experiment& experiment);
+
+}  // namespace dmrp::host

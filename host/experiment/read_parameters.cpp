@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "host/experiment/read_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiment/nearest_name.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+std::string unit_of(const ParameterSpec& spec) {
+  return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit;
+}
+
+void check_range(const TomlValue& value, const ParameterSpec& spec, double number) {
+  if (number >= spec.minimum && number <= spec.maximum) return;
+  const std::string unit = unit_of(spec);
+  if (std::isinf(spec.maximum))
+    value.fail(fmt::format("'{}' must be at least {}{}, not {}", value.key(), spec.minimum, unit, number));
+  if (std::isinf(spec.minimum))
+    value.fail(fmt::format("'{}' must be at most {}{}, not {}", value.key(), spec.maximum, unit, number));
+  value.fail(
+      fmt::format("'{}' must be from {} to {}{}, not {}", value.key(), spec.minimum, spec.maximum, unit, number));
+}
+
+std::string resolve(const TomlValue& value, const std::filesystem::path& base) {
+  const std::filesystem::path path = base / value.text();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    value.fail(fmt::format("'{}' names no file: '{}'", value.key(), value.text()));
+  return std::filesystem::canonical(path).string();
+}
+
+ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, const std::filesystem::path& base) {
+  ParameterValue out;
+  out.key = spec.fallback.key;
+  out.type = spec.fallback.type;
+  switch (out.type) {
+    case DMRP_PARAM_BOOL:
+      out.integer = value.boolean();
+      break;
+    case DMRP_PARAM_INT:
+      out.integer = value.integer();
+      check_range(value, spec, static_cast<double>(out.integer));
+      break;
+    case DMRP_PARAM_DOUBLE:
+      out.number = value.number();
+      check_range(value, spec, out.number);
+      break;
+    case DMRP_PARAM_STRING:
+      out.text = value.text();
+      break;
+    case DMRP_PARAM_CHOICE:
+      out.text = value.choice(spec.choices);
+      break;
+    case DMRP_PARAM_PATH:
+      out.text = resolve(value, base);
+      break;
+    case DMRP_PARAM_DOUBLE_ARRAY:
+      for (const TomlValue& element : value.array()) {
+        out.numbers.push_back(element.number());
+        check_range(element, spec, out.numbers.back());
+      }
+      break;
+    case DMRP_PARAM_STRING_ARRAY:
+      for (const TomlValue& element : value.array()) out.texts.push_back(element.text());
+      break;
+    default:
+      value.fail(fmt::format("'{}' has a type that this host does not know", value.key()));
+  }
+  return out;
+}
+
+// Index of the declared parameter; fails at an unknown key.
+std::size_t index_of(const TomlTable& table, const TomlValue& entry, const PluginInfo& info) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+    known.push_back(info.parameters[i].fallback.key);
+    if (known.back() == entry.key()) return i;
+  }
+  TomlTable asked = table;
+  for (const std::string& key : known) asked.find(key);
+  asked.finish(" for " + info.id);
+  entry.fail("unknown key '" + entry.key() + "'");
+}
+
+std::string label_of(const ParameterValue& value) {
+  switch (value.type) {
+    case DMRP_PARAM_BOOL:
+      return fmt::format("{} {}", value.key, value.integer ? "on" : "off");
+    case DMRP_PARAM_INT:
+      return fmt::format("{} {}", value.key, value.integer);
+    case DMRP_PARAM_DOUBLE:
+      return fmt::format("{} {}", value.key, value.number);
+    case DMRP_PARAM_PATH:
+      return fmt::format("{} {}", value.key, std::filesystem::path(value.text).filename().string());
+    case DMRP_PARAM_DOUBLE_ARRAY:
+      return fmt::format("{} [{}]", value.key, fmt::join(value.numbers, ", "));
+    case DMRP_PARAM_STRING_ARRAY:
+      return fmt::format("{} [{}]", value.key, fmt::join(value.texts, ", "));
+    default:
+      return fmt::format("{} {}", value.key, value.text);
+  }
+}
+
+// The product of what there is with the values of one more swept key.
+std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& variants, std::size_t index,
+                                       const std::vector<ParameterValue>& values) {
+  std::vector<ParameterVariant> out;
+  for (const ParameterVariant& variant : variants)
+    for (const ParameterValue& value : values) {
+      ParameterVariant next = variant;
+      next.values[index] = value;
+      next.label += (next.label.empty() ? "" : ", ") + label_of(value);
+      out.push_back(std::move(next));
+    }
+  return out;
+}
+
+}  // namespace
+
+std::vector<ParameterVariant> read_parameters(TomlTable& use, const PluginInfo& info,
+                                              const std::filesystem::path& base) {
+  std::vector<ParameterVariant> variants(1);
+  for (const ParameterSpec& spec : info.parameters) variants[0].values.push_back(spec.fallback);
+
+  std::vector<bool> set(info.parameters.size());
+  if (const auto params = use.find_table("params"))
+    for (const TomlValue& entry : params->entries()) {
+      const std::size_t index = index_of(*params, entry, info);
+      variants[0].values[index] = read_value(entry, info.parameters[index], base);
+      set[index] = true;
+    }
+  if (const auto sweep = use.find_table("sweep"))
+    for (const TomlValue& entry : sweep->entries()) {
+      const std::size_t index = index_of(*sweep, entry, info);
+      if (set[index]) entry.fail(fmt::format("'{}' is in params already", entry.key()));
+      std::vector<ParameterValue> values;
+      for (const TomlValue& element : entry.array())
+        values.push_back(read_value(element, info.parameters[index], base));
+      if (values.empty()) entry.fail(fmt::format("'{}' sweeps over no values", entry.key()));
+      variants = multiply(variants, index, values);
+    }
+  return variants;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// read_parameters.hpp: a plugin's parameters from the experiment file, checked against the table that it declares.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/experiment/experiment.hpp"
+#include "host/experiment/toml_document.hpp"
+
+namespace dmrp::host {
+
+// One complete table of values and how it differs from the others of its sweep: "" or "suboptimality 1.2".
+struct ParameterVariant {
+  std::vector<ParameterValue> values;
+  std::string label;
+};
+
+// Reads `params` and `sweep` of a plugin's table: one variant without a sweep, else the product of the swept values.
+// Paths are resolved against `base`. Throws InputError.
+std::vector<ParameterVariant> read_parameters(TomlTable& use, const PluginInfo& info,
+                                              const std::filesystem::path& base);
+
+}  // namespace dmrp::host

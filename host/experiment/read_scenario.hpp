@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// read_scenario.hpp: scenario.toml as data, with the places that later checks point at.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "host/experiment/toml_document.hpp"
+
+namespace dmrp::host {
+
+struct ScenarioFile {
+  core::Scenario scenario;
+  std::shared_ptr<TomlDocument> document;
+  std::vector<SourcePosition> robots;   // parallel to scenario.robots
+  std::vector<SourcePosition> regions;  // likewise
+  std::vector<SourcePosition> flows;
+};
+
+// Reads and checks the file by itself (not yet against a robot). `shown_path`: as messages call it.
+ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path);
+
+// Where scenarios are found by name: the shipped ones, then DMRP_SCENARIO_PATH.
+std::vector<std::filesystem::path> scenario_folders();
+
+}  // namespace dmrp::host
