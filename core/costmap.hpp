@@ -7,6 +7,7 @@
 #include <dmrp/ext/local_costmap.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/distance_transform.hpp>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -20,35 +21,54 @@ class LocalCostmap {
  public:
   LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m);
 
+  // Its structs point into it.
+  LocalCostmap(const LocalCostmap&) = delete;
+  LocalCostmap& operator=(const LocalCostmap&) = delete;
+
   // Forgets everything.
   void reset();
 
   // Rolls the window to the sensor, clears, marks, inflates.
   void update(const dmrp_pose& sensor, const dmrp_scan& scan);
 
-  // Valid until the next update.
+  // Valid until the next update. All free before the first.
   const dmrp_costmap& costmap() const { return costmap_; }
 
-  // Derived when first asked for after an update. Valid until the next update.
+  // Distances to the obstacles of the last update, derived when first asked for. Valid until the next update.
   const dmrp_field& distance_field();
 
  private:
+  void make_stamp(double inscribed_radius_m);
   void roll_to(dmrp_vec2 center);
-  void clear_along(const dmrp_pose& sensor, const dmrp_scan& scan);
-  void mark_hits(const dmrp_pose& sensor, const dmrp_scan& scan);
-  void measure_distances();
+  void aim_beams(const dmrp_pose& sensor, const dmrp_scan& scan);
+  void clear_along(dmrp_vec2 from, dmrp_vec2 to);
+  void mark(dmrp_vec2 point);
   void inflate();
 
   CostmapSettings settings_;
-  std::uint32_t side_ = 0;   // cells
+  std::int64_t side_;        // cells
   std::int64_t column_ = 0;  // lattice position of the lower left cell
   std::int64_t row_ = 0;
+  bool is_placed_ = false;
   std::vector<std::uint8_t> lethal_;
+  std::vector<std::uint8_t> rolled_;
+
+  // Of the beams: in the sensor's frame, for scans of this make; and of this scan, in cells a metre.
+  double angle_min_ = 0.0;
+  double angle_increment_ = 0.0;
+  std::vector<dmrp_vec2> directions_;
+  std::vector<dmrp_vec2> cells_per_metre_;
+
+  // The costs that one lethal cell gives to the square about it.
+  std::int64_t stamp_reach_ = 0;   // cells from its middle
+  std::int64_t stamp_stride_ = 0;  // a row, padded with zeros
+  std::vector<std::uint8_t> stamp_;
+  std::vector<std::uint8_t> canvas_;  // the window with room for stamps at its edges
   std::vector<std::uint8_t> costs_;
-  std::vector<float> distances_m_;
-  std::vector<std::uint8_t> cost_of_squared_distance_;  // by squared distance in cells
-  bool distances_are_fresh_ = false;
   dmrp_costmap costmap_{};
+
+  toolkit::DistanceTransform transform_;
+  bool field_is_fresh_ = false;
   dmrp_field field_{};
 };
 

@@ -5,6 +5,7 @@
 #include <dmrp/metric.h>
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,7 @@ class EndingMonitor {
   // A controller gave a command.
   void command_given(std::uint32_t robot, std::int64_t t_ns) { robots_[robot].last_command_ns = t_ns; }
 
-  // The robots after a step, and what each has gained along its paths (PathProgress::gained_m). Every step; times grow.
+  // The robots at t = 0 and after every step, and what each has gained along its paths (PathProgress::gained_m).
   // Returns DMRP_ENDING_* once the trial is over, 0 until then.
   std::uint32_t update(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m);
 
@@ -48,13 +49,15 @@ class EndingMonitor {
     double turned_rad;
   };
   struct Watched {
-    std::vector<Moment> ring;  // the last stall_window_ns
-    std::size_t oldest = 0;
-    Moment now{};
+    std::deque<Moment> history;  // the last stall_window_ns
     dmrp_pose last_pose{};
+    double travelled_m = 0.0;
+    double turned_rad = 0.0;
     std::int64_t last_command_ns = 0;
-    std::uint32_t failure = 0;
+    std::uint32_t failure = DMRP_FAILURE_NONE;
   };
+
+  static bool watch(Watched& watched, std::int64_t t_ns, const RobotState& robot, double gained_m);
 
   std::int64_t time_limit_ns_;
   std::vector<Watched> robots_;

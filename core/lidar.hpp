@@ -5,8 +5,10 @@
 #include <dmrp/ext/lidar.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/ray_cast.hpp>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -33,14 +35,26 @@ class Lidar {
   dmrp_scan describe(std::int64_t t_ns, std::span<const float> ranges) const;
 
  private:
-  void see_segment(const dmrp_pose& sensor, const dmrp_segment& segment);
-  void see_disc(const dmrp_pose& sensor, const Disc& disc);
+  void begin(const dmrp_pose& sensor);
+  void see_shapes();
+  void see_disc(const Disc& disc);
+  void see_polygon(const dmrp_shape& shape, double distance_m);
+  template <class Cast>
+  void look(double from, double width, double distance_m, const Cast& cast);
 
   LidarSettings settings_;
   std::shared_ptr<const StaticGeometry> geometry_;
-  std::vector<dmrp_vec2> directions_;  // of the beams, in the world frame
-  std::vector<double> nearest_;
-  std::vector<std::uint32_t> shapes_;
+  double angle_min_;
+  double angle_increment_;
+  std::vector<dmrp_vec2> directions_;  // of the beams, in the sensor's frame
+
+  // of the scan under way
+  dmrp_vec2 origin_{};
+  double heading_ = 0.0;
+  std::vector<toolkit::Ray> rays_;
+  std::vector<double> nearest_m_;
+  std::vector<std::uint32_t> near_;
+  std::vector<std::pair<double, std::uint32_t>> by_distance_;
 };
 
 }  // namespace dmrp::core
