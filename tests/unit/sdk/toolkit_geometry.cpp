@@ -53,6 +53,11 @@ dmrp_shape circle_shape(dmrp_vec2 center, double radius_m) {
   return shape;
 }
 
+dmrp_shape random_circle(Stream& stream, double radius_max_m) {
+  const dmrp_vec2 center = random_point(stream);
+  return circle_shape(center, stream.uniform(0.1, radius_max_m));
+}
+
 dmrp_shape polygon_shape(const std::vector<dmrp_vec2>& vertices) {
   dmrp_shape shape = {};
   shape.kind = DMRP_SHAPE_POLYGON;
@@ -341,6 +346,9 @@ TEST_CASE("polylines: projection agrees with sampling", "[toolkit]") {
     REQUIRE(place.arc_m <= last);
     REQUIRE(distance(point_at(path, arcs, place.arc_m), place.point) < 1e-9);
     REQUIRE(distance(place.point, point) == place.distance_m);
+    const double look_ahead_m = stream.uniform(0.0, 5.0);
+    const double carrot_m = project(path, arcs, point).arc_m + look_ahead_m;
+    REQUIRE(distance(point_ahead(path, point, look_ahead_m), point_at(path, arcs, carrot_m)) < 1e-9);
   }
 }
 
@@ -351,6 +359,8 @@ TEST_CASE("a carrot runs ahead on the path", "[toolkit]") {
   CHECK(point_ahead(path, dmrp_pose{1.0, 0.5, 0.0}, 0.5) == dmrp_vec2{1.5, 0.0});
   CHECK(point_ahead(path, dmrp_pose{1.0, 0.5, 0.0}, 1.5) == dmrp_vec2{2.0, 0.5});
   CHECK(point_ahead(path, dmrp_pose{1.0, 0.5, 0.0}, 50.0) == dmrp_vec2{2.0, 2.0});
+  CHECK(point_ahead(path, dmrp_pose{-1.0, 0.0, 0.0}, 0.0) == dmrp_vec2{0.0, 0.0});
+  CHECK(point_ahead(std::vector<dmrp_waypoint>(1), dmrp_pose{1.0, 0.5, 0.0}, 1.0) == dmrp_vec2{0.0, 0.0});
   CHECK(point_ahead(std::vector<dmrp_waypoint>{}, dmrp_pose{1.0, 0.5, 0.0}, 1.0) == dmrp_vec2{1.0, 0.5});
 }
 
@@ -398,8 +408,7 @@ TEST_CASE("disc sweeps agree with stepping the disc", "[toolkit]") {
   int blocked = 0;
   for (int i = 0; i < 400; ++i) {
     const std::vector<dmrp_vec2> polygon = random_polygon(stream);
-    const std::vector<dmrp_shape> shapes = {polygon_shape(polygon),
-                                            circle_shape(random_point(stream), stream.uniform(0.1, 1.0))};
+    const std::vector<dmrp_shape> shapes = {polygon_shape(polygon), random_circle(stream, 1.0)};
     const dmrp_segment motion = random_segment(stream);
     const double sampled = least_along(motion, [&](dmrp_vec2 p) { return clearance(shapes, border, p); });
     const double spacing = length(motion) / 800.0 + 1e-12;
@@ -446,7 +455,7 @@ TEST_CASE("rays agree with sphere tracing", "[toolkit]") {
   for (int i = 0; i < 600; ++i) {
     const std::vector<dmrp_vec2> polygon = random_polygon(stream);
     const dmrp_segment segment = random_segment(stream);
-    const dmrp_shape circle = circle_shape(random_point(stream), stream.uniform(0.1, 2.0));
+    const dmrp_shape circle = random_circle(stream, 2.0);
     const dmrp_shape shape = i % 2 == 0 ? polygon_shape(polygon) : circle;
     const Ray ray = {random_point(stream), from_angle(stream.uniform(-pi, pi))};
     const auto trace = [&ray](const auto& body) {

@@ -32,6 +32,7 @@ class DistanceTransform {
     height_ = height;
     resolution_m_ = resolution_m;
     cap_m_ = cap_m;
+    reach_cells_ = static_cast<std::int32_t>(std::min(std::ceil(cap_m / resolution_m), far - 1.0));
     reserve();
     measure_columns(is_obstacle);
     for (std::size_t row = 0; row < height_; ++row) measure_row(row);
@@ -72,7 +73,7 @@ class DistanceTransform {
     std::size_t count = 0;
     for (std::size_t column = 0; column < width_; ++column) {
       const std::int64_t distance = column_distances[column];
-      if (distance >= far) continue;
+      if (distance > reach_cells_) continue;  // beyond the cap, or no obstacle in the column
       const std::int64_t apex = static_cast<std::int64_t>(column);
       const std::int64_t height = distance * distance;
       double begin = -std::numeric_limits<double>::infinity();
@@ -112,6 +113,7 @@ class DistanceTransform {
   std::size_t height_ = 0;
   double resolution_m_ = 1.0;
   double cap_m_ = 0.0;
+  std::int32_t reach_cells_ = 0;
   std::vector<float> distances_m_;
   std::vector<std::int32_t> column_distances_;
   std::vector<std::int64_t> apexes_;

@@ -4,7 +4,7 @@
 // The fast marching method (Sethian 1996): solves |grad T| = cost on the free cells of a grid, so that T is the length
 // of the shortest way (not of a zigzag of grid moves) times the cost of a metre along it. First order: within a few
 // per cent of the true length, and at cell centres never shorter than the straight line but by rounding. It goes from cell to cell
-// only along edges E, N, W, S of the grid's mask and cuts no corner. Cells that are equally near are settled in the
+// only along edges E, N, W, S of the grid's mask (edges are mutual) and cuts no corner. Cells that are equally near are settled in the
 // order of their indices, so equal grids give equal fields.
 #ifndef DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
 #define DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
@@ -40,6 +40,9 @@ class NavigationField {
   // the free cells that it touches: where it touches none, it counts for nothing.
   void compute(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost = {}) {
     grid_ = grid;
+    for (std::size_t i = 0; i < strides_.size(); ++i)
+      strides_[i] =
+          static_cast<std::uint32_t>(direction_dx[i]) + static_cast<std::uint32_t>(direction_dy[i]) * grid.width();
     cost_ = cost;
     targets_ = targets;
     values_.assign(grid.size(), unreachable);
@@ -194,18 +197,23 @@ class NavigationField {
       if (settled_[cell]) continue;
       settled_[cell] = 1;
       for (int direction = 0; direction < direction_count; direction += 2) {
-        const std::uint32_t next = grid_.neighbour(cell, direction);
-        if (next == no_cell || settled_[next] || !grid_.free(next)) continue;
-        if (grid_.edge(next, opposite_direction(direction))) offer(next, upwind_value(next), {0.0, 0.0});
+        if (!grid_.edge(cell, direction)) continue;
+        const std::uint32_t next = across(cell, direction);
+        if (!settled_[next]) offer(next, upwind_value(next), {0.0, 0.0});
       }
     }
+  }
+
+  // The cell on the other side of an edge: always in the grid, so no bounds to look at.
+  std::uint32_t across(std::uint32_t cell, int direction) const {
+    return cell + strides_[static_cast<std::size_t>(direction)];
   }
 
   // The settled value across one edge; `unreachable` where there is none.
   double settled_value(std::uint32_t cell, int direction) const {
     if (!grid_.edge(cell, direction)) return unreachable;
-    const std::uint32_t next = grid_.neighbour(cell, direction);
-    return next != no_cell && settled_[next] ? values_[next] : unreachable;
+    const std::uint32_t next = across(cell, direction);
+    return settled_[next] ? values_[next] : unreachable;
   }
 
   // Solves the eikonal equation at a cell from its settled neighbours.
@@ -274,6 +282,7 @@ class NavigationField {
   }
 
   GridView grid_;
+  std::array<std::uint32_t, 8> strides_ = {};  // from a cell's index to its neighbours', modulo 2^32
   NavigationCost cost_;
   std::vector<Rectangle> targets_;
   std::vector<double> values_;

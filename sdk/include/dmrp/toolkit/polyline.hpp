@@ -110,13 +110,30 @@ PathPlace project(const Path& path, const std::vector<double>& arcs, dmrp_vec2 p
   return project(path, arcs, point, 0.0, std::numeric_limits<double>::infinity());
 }
 
-// The point that lies `look_ahead_m` further along the path than the place nearest to `from` (a pose or a point); the
-// path's end where less is left. Of several places equally near it takes the first. On an empty path: `from` itself.
+// The point that lies `look_ahead_m` >= 0 further along the path than the place nearest to `from` (a pose or a point);
+// the path's end where less is left. Of several places equally near it takes the first. On an empty path: `from` itself.
+// Needs no table and does not allocate; looks at the whole path.
 template <class Path, class From>
 dmrp_vec2 point_ahead(const Path& path, const From& from, double look_ahead_m) {
   if (path.size() == 0) return position(from);
-  const std::vector<double> arcs = arc_lengths(path);
-  return point_at(path, arcs, project(path, arcs, position(from)).arc_m + look_ahead_m);
+  dmrp_vec2 at = position(path[0]);
+  double nearest = squared_distance(at, position(from));
+  std::size_t next = 1;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const dmrp_vec2 candidate = closest_point(dmrp_segment{position(path[i - 1]), position(path[i])}, position(from));
+    if (squared_distance(candidate, position(from)) < nearest) {
+      at = candidate;
+      nearest = squared_distance(candidate, position(from));
+      next = i;
+    }
+  }
+  for (double left_m = look_ahead_m; next < path.size(); ++next) {
+    const double span = distance(at, position(path[next]));
+    if (span > left_m) return lerp(at, position(path[next]), left_m / span);
+    left_m -= span;
+    at = position(path[next]);
+  }
+  return at;
 }
 
 // The direction of travel at this arc length in (-pi, pi]: of the segment that begins there, or at the path's end of

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -63,7 +64,8 @@ inline std::string escape_xml(std::string_view text) {
 // At most two decimals, rounded half away from zero, no trailing zeros, never "-0". Finite, below 1e15.
 inline std::string format_svg_number(double value) {
   const std::int64_t hundredths = std::llround(std::abs(value) * 100.0);
-  std::string text = (value < 0.0 && hundredths != 0 ? "-" : "") + std::to_string(hundredths / 100);
+  std::string text = value < 0.0 && hundredths != 0 ? "-" : "";
+  text += std::to_string(hundredths / 100);
   const auto decimals = static_cast<char>(hundredths % 100);
   if (decimals != 0) {
     text += '.';
@@ -137,17 +139,18 @@ class SvgPlan {
   void scale_bar(double length_m) {
     const dmrp_vec2 from = page(world_.lower) + dmrp_vec2{0.0, 1.2 * margin};
     const double length = scale_ * length_m;
-    body_ += "<path class=\"scale\" d=\"M" + number(from.x) + " " + number(from.y - 3.0) + "v6m0-3h" + number(length) +
-             "m0-3v6\"/>\n";
-    page_text(from + dmrp_vec2{length + 8.0, 4.0}, number(length_m) + " m", "scale-label");
+    append({"<path class=\"scale\" d=\"M", number(from.x), " ", number(from.y - 3.0), "v6m0-3h", number(length),
+            "m0-3v6\"/>\n"});
+    page_text(from + dmrp_vec2{length + 8.0, 4.0}, joined({number(length_m), " m"}), "scale-label");
   }
 
   // The whole document so far.
   std::string document() const {
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width_) + " " + number(height_) +
-           "\" width=\"" + number(width_) + "\" height=\"" + number(height_) + "\">\n<style>\n" +
-           std::string(style_sheet) + "</style>\n<rect class=\"page\" width=\"" + number(width_) + "\" height=\"" +
-           number(height_) + "\"/>\n" + body_ + "</svg>\n";
+    const std::string width = number(width_);
+    const std::string height = number(height_);
+    return joined({"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ", width, " ", height, "\" width=\"", width,
+                   "\" height=\"", height, "\">\n<style>\n", style_sheet, "</style>\n<rect class=\"page\" width=\"",
+                   width, "\" height=\"", height, "\"/>\n", body_, "</svg>\n"});
   }
 
  private:
@@ -175,15 +178,22 @@ class SvgPlan {
 
   static std::string number(double value) { return format_svg_number(value); }
 
+  // Concatenation is spelt out because gcc 12 warns of overlapping memory in `"text" + std::string` (its bug 105651).
+  static std::string joined(std::initializer_list<std::string_view> parts) {
+    std::string whole;
+    for (const std::string_view part : parts) whole += part;
+    return whole;
+  }
+  void append(std::initializer_list<std::string_view> parts) { body_ += joined(parts); }
+
   static std::string attribute(std::string_view name, double value) {
-    return " " + std::string(name) + "=\"" + number(value) + "\"";
+    return joined({" ", name, "=\"", number(value), "\""});
   }
 
   static std::string look(SvgStyle style, bool is_line) {
-    std::string attributes = " class=\"" + escape_xml(style.name) + "\"";
-    if (!style.color.empty())
-      attributes += std::string(" style=\"") + (is_line ? "stroke" : "fill") + ":" + escape_xml(style.color) + "\"";
-    return attributes;
+    const std::string class_attribute = joined({" class=\"", escape_xml(style.name), "\""});
+    if (style.color.empty()) return class_attribute;
+    return joined({class_attribute, " style=\"", is_line ? "stroke" : "fill", ":", escape_xml(style.color), "\""});
   }
 
   dmrp_vec2 page(dmrp_vec2 at) const {
@@ -195,19 +205,24 @@ class SvgPlan {
     std::string list;
     for (std::size_t i = 0; i < path.size(); ++i) {
       const dmrp_vec2 at = page(position(path[i]));
-      list += (i > 0 ? " " : "") + number(at.x) + "," + number(at.y);
+      if (i > 0) list += ' ';
+      list += joined({number(at.x), ",", number(at.y)});
     }
-    return " points=\"" + list + "\"";
+    return joined({" points=\"", list, "\""});
   }
 
   void element(std::string_view name, const std::string& attributes, std::string_view title) {
-    body_ += "<" + std::string(name) + attributes;
-    body_ += title.empty() ? "/>\n" : "><title>" + escape_xml(title) + "</title></" + std::string(name) + ">\n";
+    append({"<", name, attributes});
+    if (title.empty()) {
+      append({"/>\n"});
+    } else {
+      append({"><title>", escape_xml(title), "</title></", name, ">\n"});
+    }
   }
 
   void page_text(dmrp_vec2 at, std::string_view words, std::string_view name, std::string_view color = {}) {
-    body_ += "<text" + attribute("x", at.x) + attribute("y", at.y) + look({name, color}, false) + ">" +
-             escape_xml(words) + "</text>\n";
+    append({"<text", attribute("x", at.x), attribute("y", at.y), look({name, color}, false), ">", escape_xml(words),
+            "</text>\n"});
   }
 
   Rectangle world_;
