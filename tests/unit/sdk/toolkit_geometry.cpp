@@ -159,6 +159,7 @@ TEST_CASE("segments: points and crossings by hand", "[toolkit]") {
   CHECK_FALSE(intersection(flat, {{0.0, 1.0}, {4.0, 1.0}}));  // parallel
   CHECK_FALSE(intersection(flat, {{5.0, 0.0}, {6.0, 0.0}}));  // along one line, apart
   CHECK(*intersection(flat, {{6.0, 0.0}, {3.0, 0.0}}) == dmrp_vec2{3.0, 0.0});
+  CHECK(*intersection(flat, {{4.0, 0.0}, {6.0, 0.0}}) == dmrp_vec2{4.0, 0.0});
   CHECK(*intersection(flat, {{-1.0, 0.0}, {9.0, 0.0}}) == flat.from);
   CHECK(*intersection(flat, {{2.0, 0.0}, {2.0, 0.0}}) == dmrp_vec2{2.0, 0.0});
   CHECK(intersects(dot_at_origin, flat));

@@ -3,9 +3,9 @@
 //
 // The fast marching method (Sethian 1996): solves |grad T| = cost on the free cells of a grid, so that T is the length
 // of the shortest way (not of a zigzag of grid moves) times the cost of a metre along it. First order: within a few
-// per cent of the true length, and at cell centres never shorter than the straight line but by rounding. It goes from cell to cell
-// only along edges E, N, W, S of the grid's mask (edges are mutual) and cuts no corner. Cells that are equally near are settled in the
-// order of their indices, so equal grids give equal fields.
+// per cent of the true length, and at cell centres never shorter than the straight line but by rounding. It goes from
+// cell to cell only along edges E, N, W, S of the grid's mask, which are mutual, and cuts no corner. Cells that are
+// equally near are settled in the order of their indices, so equal grids give equal fields.
 #ifndef DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
 #define DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
 
