@@ -43,6 +43,20 @@ double nose_cells(const WaveFront& front, const Scene& scene, const ArcState& at
 
 }  // namespace
 
+Scene seen_along(const Scene& scene, double heading, const OscillationGuard& oscillation) {
+  return {{scene.pose.x, scene.pose.y, heading},
+          scene.v_max,
+          scene.map,
+          scene.terrain,
+          scene.path,
+          scene.goal,
+          scene.goal_front,
+          scene.front_length_m,
+          scene.follow,
+          scene.align,
+          oscillation};
+}
+
 int simulation_steps(const Sample& sample, const Tuning& tuning) {
   const double straight = std::abs(sample.v) * tuning.sim_time / tuning.sim_granularity;
   const double turning = std::abs(sample.omega) * tuning.sim_time / tuning.angular_sim_granularity;
@@ -60,7 +74,6 @@ double score(const Sample& sample, const Scene& scene, const Tuning& tuning, Foo
 
   // the four grid critics: at the robot's nose, then at its centre
   const double resolution_m = scene.map.resolution_m();
-  const double nose_length_m = tuning.forward_point_distance;
   // (a robot that gets away from something too near may still be on a blocked cell)
   const std::int32_t center =
       scene.terrain.nearest_free(scene.terrain.index_of(scene.map, end.x, end.y), escape_reach_cells);
@@ -68,9 +81,10 @@ double score(const Sample& sample, const Scene& scene, const Tuning& tuning, Foo
   const double goal_scale = tuning.goal_distance_bias * resolution_m;
   const double path_scale = tuning.path_distance_bias * resolution_m;
 
-  sum += goal_scale * nose_cells(scene.goal_front, scene, end, center, nose_length_m);
+  sum += goal_scale * nose_cells(scene.goal_front, scene, end, center, scene.front_length_m);
   if (sum > best) return sum;
-  if (scene.follow && scene.align) sum += path_scale * nose_cells(scene.path, scene, end, center, nose_length_m);
+  if (scene.follow && scene.align)
+    sum += path_scale * nose_cells(scene.path, scene, end, center, tuning.forward_point_distance);
   if (sum > best) return sum;
   if (scene.follow) sum += path_scale * scene.path.cells(center);
   if (sum > best) return sum;

@@ -41,11 +41,15 @@ struct Scene {
   const Terrain& terrain;
   const WaveFront& path;        // from the path in the window
   const WaveFront& goal;        // from the last point of it
-  const WaveFront& goal_front;  // from a point ahead of that
+  const WaveFront& goal_front;  // from a point in front of that ...
+  double front_length_m = 0.0;  // ... by this: the nose's length, or less where that is not free
   bool follow = true;           // whether the path critics count
   bool align = true;            // whether the nose shall be on the path
   const OscillationGuard& oscillation;
 };
+
+// The same scene with the robot turned to another heading, and another memory of turning back and forth.
+Scene seen_along(const Scene& scene, double heading, const OscillationGuard& oscillation);
 
 inline constexpr double rejected = -1.0;
 

@@ -5,18 +5,31 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
+#include <limits>
 
 namespace dmrp::controllers {
 
 namespace {
 
-// Turning in place begins when the way out is further aside than the first, and ends below the second.
-constexpr double turn_begin_rad = 0.5;
-constexpr double turn_back_rad = 1.8;
-constexpr double turn_end_rad = 0.2;
+// Closer to obstacles than this, beyond what the footprint needs, the goal's fronts count steps by their effort.
+constexpr double easy_m = 0.15;
 
-// How far along the goal's front the direction of the way out is taken.
-constexpr double way_out_m = 0.5;
+// Headings looked at where standing still is best, and how far straight ahead in each.
+constexpr int headings_tried = 36;
+constexpr double probe_m = 0.4;
+
+// Turning in place begins when the chosen heading is further aside than the first, and ends below the second.
+constexpr double turn_begin_rad = 0.3;
+constexpr double turn_end_rad = 0.1;
+
+// What a turn must promise to gain, in the critics' sum: the goal's two come to some 1.6 for a metre.
+constexpr double turn_gain = 0.1;
+
+// So near to where the way is cut off, the robot waits.
+constexpr double wait_within_m = 0.15;
+
+// Below this the robot counts as standing.
+constexpr double standing_m_s = 0.05;
 
 }  // namespace
 
@@ -61,37 +74,44 @@ Status Dwa::step(const Observation& now, Command& command) {
     return Status::ok;
   }
 
-  terrain_.read(map, map.highest_cost_at(now.footprint.inscribed_radius_m + footprint_padding));
-  lay_out_plan(map);
-  spread_fronts(now, map);
-  const double aside = way_out(map, now.pose);
-  if (std::abs(aside) > turn_back_rad && std::abs(now.velocity.v_x) < 0.1) turning_ = true;
-  if (turning_ && std::abs(aside) > turn_end_rad) {
-    command = turn_toward(aside, now, footprint);
+  turning_ = turning_ && std::abs(toolkit::difference(now.pose.theta, turn_to_)) > turn_end_rad;
+  if (turning_) {
+    command = turn(now, footprint);
     return Status::ok;
   }
-  turning_ = false;
+
+  const double needed_m = now.footprint.inscribed_radius_m + footprint_padding;
+  terrain_.read(map, map.highest_cost_at(needed_m), map.highest_cost_at(needed_m + easy_m));
+  lay_out_plan(map);
+  spread_fronts(now, map);
+  // as near as it gets to something that stands across the whole way: wait
+  const double to_goal_m = toolkit::distance(toolkit::position(now.pose), goal_);
+  if (goal_is_cut_ && to_goal_m < wait_within_m) return Status::ok;
 
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
   window_.sample(now, static_cast<std::size_t>(*vx_samples), static_cast<std::size_t>(*vth_samples));
-  const bool align = toolkit::distance(toolkit::position(now.pose), goal_) > forward_point_distance;
   // a path is not replanned about people: round something that stands on it, the goal critics lead alone
   const bool follow =
       std::all_of(plan_.begin(), plan_.end(), [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
-  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,    terrain_, path_front_,
-                            goal_front_, nose_front_,      follow, align,    oscillation_};
+  const bool align = to_goal_m > forward_point_distance;
+  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,    terrain_, path_front_, goal_front_,
+                            nose_front_, front_length_m_,  follow, align,    oscillation_};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
     return Status::no_solution;
   }
-  oscillation_.note(now.pose, choice->v, choice->omega);
-  // where standing is best although the way leads aside, turning in place comes first
-  if (choice->v == 0.0 && std::abs(choice->omega) < 0.1 && std::abs(aside) > turn_begin_rad) {
-    turning_ = true;
-    command = turn_toward(aside, now, footprint);
-    return Status::ok;
+  if (choice->v == 0.0 && std::abs(now.velocity.v_x) < standing_m_s) {
+    if (at_goal_.settles(tracker_.stop(), now)) {
+      command = at_goal_.command(tracker_.stop(), now);
+      return Status::ok;
+    }
+    if (begin_turn(scene, footprint)) {
+      command = turn(now, footprint);
+      return Status::ok;
+    }
   }
+  oscillation_.note(now.pose, choice->v, choice->omega);
   command.v_x = choice->v;
   command.omega = choice->omega;
   return Status::ok;
@@ -116,8 +136,7 @@ void Dwa::spread_fronts(const Observation& now, const CostmapView& map) {
   const std::int32_t home = terrain_.nearest_free(here, dwa::escape_reach_cells);
 
   path_front_.begin(terrain_);
-  for (const PlanPoint& point : plan_)
-    if (terrain_.is_free(point.index)) path_front_.seed(point.index);
+  for (const PlanPoint& point : plan_) path_front_.seed(point.index);
   path_front_.spread();
   // cut off from all of the path: stay about here
   if (home >= 0 && !path_front_.reached(home)) {
@@ -129,9 +148,10 @@ void Dwa::spread_fronts(const Observation& now, const CostmapView& map) {
   const std::int32_t goal = choose_goal(home);
   nose_front_.begin(terrain_);
   if (goal < 0) return;
-  const std::int32_t nose = point_in_front(map, toolkit::position(now.pose), goal_, now.pose.theta);
-  nose_front_.seed(nose < 0 ? goal : nose);
-  nose_front_.spread();
+  front_length_m_ = 0.0;
+  const std::int32_t front = point_in_front(map, now.pose);
+  nose_front_.seed(front < 0 ? goal : front);
+  nose_front_.spread_by_effort(terrain_);
 }
 
 // The last point of the plan that the robot can get to; its own place where there is none. Leaves the front spread
@@ -141,8 +161,9 @@ std::int32_t Dwa::choose_goal(std::int32_t home) {
     goal_front_.begin(terrain_);
     if (index < 0) return;
     goal_front_.seed(index);
-    goal_front_.spread();
+    goal_front_.spread_by_effort(terrain_);
   };
+  goal_is_cut_ = false;
   const auto last = std::find_if(plan_.rbegin(), plan_.rend(),
                                  [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
   if (last != plan_.rend()) {
@@ -151,6 +172,7 @@ std::int32_t Dwa::choose_goal(std::int32_t home) {
     if (home < 0 || goal_front_.reached(home)) return last->index;
   }
   // something stands across the whole way: as near as the path leads to it
+  goal_is_cut_ = true;
   spread_from(home);
   const auto nearest = std::find_if(plan_.rbegin(), plan_.rend(),
                                     [this](const PlanPoint& point) { return goal_front_.reached(point.index); });
@@ -160,47 +182,48 @@ std::int32_t Dwa::choose_goal(std::int32_t home) {
   return nearest->index;
 }
 
-// Beyond the goal by the nose's length, as far as that is free.
-std::int32_t Dwa::point_in_front(const CostmapView& map, Vec2 from, Vec2 goal, double fallback_heading) const {
+// A point beyond the goal by the nose's length, as far as that is free; the nose counts as no longer than that then.
+std::int32_t Dwa::point_in_front(const CostmapView& map, const Pose& from) {
   const double step_m = 0.5 * map.resolution_m();
-  Vec2 direction = toolkit::normalized(goal - from);
-  if (direction == Vec2{0.0, 0.0}) direction = toolkit::from_angle(fallback_heading);
+  Vec2 direction = toolkit::normalized(goal_ - toolkit::position(from));
+  if (direction == Vec2{0.0, 0.0}) direction = toolkit::from_angle(from.theta);
   std::int32_t front = -1;
   const int steps = static_cast<int>(forward_point_distance / step_m);
   for (int i = 0; i <= steps; ++i) {
-    const Vec2 point = goal + (i * step_m) * direction;
+    const Vec2 point = goal_ + (i * step_m) * direction;
     const std::int32_t index = terrain_.index_of(map, point.x, point.y);
     if (!terrain_.is_free(index)) break;
     front = index;
+    front_length_m_ = i * step_m;
   }
   return front;
 }
 
-// How far to turn toward where the goal's front falls from here; 0 where it does not.
-double Dwa::way_out(const CostmapView& map, const Pose& from) const {
-  std::int32_t index = terrain_.nearest_free(terrain_.index_of(map, from.x, from.y), dwa::escape_reach_cells);
-  if (!goal_front_.reached(index) || goal_front_.cells(index) == 0) return 0.0;
-  const std::int32_t start = index;
-  const std::int32_t stride = terrain_.stride();
-  const int steps = static_cast<int>(way_out_m / map.resolution_m());
-  for (int i = 0; i < steps && goal_front_.cells(index) > 0; ++i) {
-    // of the neighbours nearer to the goal, the one nearest to the path
-    std::int32_t next = index;
-    for (const std::int32_t offset : {1, -1, stride, -stride}) {
-      const std::int32_t neighbour = index + offset;
-      if (goal_front_.cells(neighbour) >= goal_front_.cells(index)) continue;
-      if (next == index || path_front_.cells(neighbour) < path_front_.cells(next)) next = neighbour;
-    }
-    index = next;
+// Where standing is best, the window's slow arcs may just not reach far enough to show a way on: looks all around for
+// the heading whose straight way scores best, and whether that is aside enough to turn there first.
+bool Dwa::begin_turn(const dwa::Scene& scene, FootprintCheck& footprint) {
+  const dwa::Sample probe = {probe_m / tuning_.sim_time, 0.0};
+  const dwa::OscillationGuard free_to_turn;
+  double best = dwa::score({0.0, 0.0}, scene, tuning_, footprint, std::numeric_limits<double>::infinity());
+  if (best == dwa::rejected) best = std::numeric_limits<double>::infinity();
+  best -= turn_gain;
+  double aside = 0.0;
+  for (int i = 0; i < headings_tried; ++i) {
+    const double angle = toolkit::wrap(i * 2.0 * toolkit::pi / headings_tried);
+    const dwa::Scene turned = dwa::seen_along(scene, toolkit::wrap(scene.pose.theta + angle), free_to_turn);
+    const double cost = dwa::score(probe, turned, tuning_, footprint, best);
+    if (cost == dwa::rejected || !(cost < best)) continue;
+    best = cost;
+    aside = angle;
   }
-  const int columns = index % stride - start % stride;
-  const int rows = index / stride - start / stride;
-  return toolkit::difference(from.theta, std::atan2(rows, columns));
+  turning_ = std::abs(aside) > turn_begin_rad;
+  turn_to_ = toolkit::wrap(scene.pose.theta + aside);
+  return turning_;
 }
 
-Command Dwa::turn_toward(double angle, const Observation& now, FootprintCheck& footprint) const {
+Command Dwa::turn(const Observation& now, FootprintCheck& footprint) const {
   Command command = braking(now);
-  const double omega = turning_rate(angle, now);
+  const double omega = turning_rate(toolkit::difference(now.pose.theta, turn_to_), now);
   footprint.scale(1.0);
   const int steps = dwa::simulation_steps({0.0, omega}, tuning_);
   if (footprint.arc_cost(now.pose, 0.0, omega, tuning_.sim_time, steps) != in_collision) command.omega = omega;

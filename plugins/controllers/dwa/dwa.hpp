@@ -35,7 +35,7 @@ class Dwa final : public LocalController {
                                          .range(0.0, 100.0)
                                          .doc("weight of the distance to the end of the path in the window");
   Param<double> occdist_scale =
-      param("occdist_scale", 0.002).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
+      param("occdist_scale", 0.001).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
   Param<double> twirling_scale =
       param("twirling_scale", 0.0).unit("s/rad").range(0.0, 10.0).doc("weight of the turning rate");
   Param<double> forward_point_distance =
@@ -67,9 +67,9 @@ class Dwa final : public LocalController {
   void lay_out_plan(const CostmapView& map);
   void spread_fronts(const Observation& now, const CostmapView& map);
   std::int32_t choose_goal(std::int32_t home);
-  std::int32_t point_in_front(const CostmapView& map, Vec2 from, Vec2 goal, double fallback_heading) const;
-  double way_out(const CostmapView& map, const Pose& from) const;
-  Command turn_toward(double angle, const Observation& now, FootprintCheck& footprint) const;
+  std::int32_t point_in_front(const CostmapView& map, const Pose& from);
+  bool begin_turn(const dwa::Scene& scene, FootprintCheck& footprint);
+  Command turn(const Observation& now, FootprintCheck& footprint) const;
 
   struct PlanPoint {
     Vec2 at;
@@ -87,8 +87,11 @@ class Dwa final : public LocalController {
   dwa::WaveFront goal_front_;
   dwa::WaveFront nose_front_;
   std::vector<PlanPoint> plan_;
-  Vec2 goal_ = {0.0, 0.0};  // the point of the plan that the robot goes for now
-  bool turning_ = false;    // in place, toward the way out
+  Vec2 goal_ = {0.0, 0.0};       // the point of the plan that the robot goes for now
+  bool goal_is_cut_ = false;     // something stands across the whole way to the path's end in the window
+  double front_length_m_ = 0.0;  // from there to the seed of nose_front_
+  bool turning_ = false;         // in place ...
+  double turn_to_ = 0.0;         // ... to this heading
 };
 
 }  // namespace dmrp::controllers

@@ -6,22 +6,24 @@
 
 namespace dmrp::controllers::dwa {
 
-void Terrain::read(const CostmapView& map, std::uint8_t highest_cost) {
+void Terrain::read(const CostmapView& map, std::uint8_t highest_free_cost, std::uint8_t highest_easy_cost) {
   stride_ = map.width() + 2;
-  marks_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(map.height() + 2));
-  const auto frame_row = [this](std::size_t begin) {
-    std::fill_n(marks_.begin() + static_cast<std::ptrdiff_t>(begin), stride_, blocked);
-  };
-  frame_row(0);
+  const std::size_t size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(map.height() + 2);
+  marks_.resize(size);
+  efforts_.resize(size);
+  std::fill_n(marks_.begin(), stride_, blocked);
   for (std::int32_t row = 0; row < map.height(); ++row) {
     const std::uint8_t* costs = map.costs() + row * map.width();
     std::uint16_t* marks = marks_.data() + (row + 1) * stride_;
+    std::uint8_t* efforts = efforts_.data() + (row + 1) * stride_;
     marks[0] = blocked;
-    for (std::int32_t column = 0; column < map.width(); ++column)
-      marks[column + 1] = costs[column] > highest_cost ? blocked : unreached;
+    for (std::int32_t column = 0; column < map.width(); ++column) {
+      marks[column + 1] = costs[column] > highest_free_cost ? blocked : unreached;
+      efforts[column + 1] = costs[column] > highest_easy_cost ? close_effort : 1;
+    }
     marks[stride_ - 1] = blocked;
   }
-  frame_row(marks_.size() - static_cast<std::size_t>(stride_));
+  std::fill_n(marks_.end() - stride_, stride_, blocked);
 }
 
 std::int32_t Terrain::nearest_free(std::int32_t index, std::int32_t reach) const {
@@ -71,6 +73,29 @@ void WaveFront::spread() {
     }
   }
   queued_ = queued;
+}
+
+// The effort belongs to the cell stepped onto, so the first to reach a cell, in order of distance, reaches it best.
+void WaveFront::spread_by_effort(const Terrain& terrain) {
+  const std::uint8_t* efforts = terrain.efforts().data();
+  std::uint16_t* distances = distances_.data();
+  const std::int32_t offsets[4] = {1, -1, stride_, -stride_};
+  constexpr std::uint16_t ring_count = close_effort + 1;
+  for (std::vector<std::int32_t>& ring : rings_) ring.clear();
+  rings_[0].assign(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queued_));
+  for (std::uint16_t distance = 0, idle = 0; idle < ring_count; ++distance) {
+    std::vector<std::int32_t>& ring = rings_[distance % ring_count];
+    idle = ring.empty() ? static_cast<std::uint16_t>(idle + 1) : std::uint16_t{0};
+    for (const std::int32_t from : ring) {
+      for (const std::int32_t offset : offsets) {
+        const std::int32_t to = from + offset;
+        if (distances[to] != Terrain::unreached) continue;
+        distances[to] = static_cast<std::uint16_t>(distance + efforts[to]);
+        rings_[distances[to] % ring_count].push_back(to);
+      }
+    }
+    ring.clear();
+  }
 }
 
 }  // namespace dmrp::controllers::dwa

@@ -3,6 +3,7 @@
 #ifndef DMRP_CONTROLLERS_DWA_WAVE_FRONT_HPP
 #define DMRP_CONTROLLERS_DWA_WAVE_FRONT_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,8 @@ class Terrain {
   static constexpr std::uint16_t unreached = 0xFFFF;
   static constexpr std::uint16_t blocked = 0xFFFE;
 
-  void read(const CostmapView& map, std::uint8_t highest_cost);
+  // Blocked above the one cost; close to an obstacle above the other, lower one.
+  void read(const CostmapView& map, std::uint8_t highest_free_cost, std::uint8_t highest_easy_cost);
 
   // As an index into marks(); -1 outside the window.
   std::int32_t index_of(const CostmapView& map, double x, double y) const {
@@ -31,19 +33,28 @@ class Terrain {
   std::int32_t nearest_free(std::int32_t index, std::int32_t reach) const;
 
   std::int32_t stride() const { return stride_; }
-  const std::vector<std::uint16_t>& marks() const { return marks_; }  // blocked or unreached
+  const std::vector<std::uint16_t>& marks() const { return marks_; }     // blocked or unreached
+  const std::vector<std::uint8_t>& efforts() const { return efforts_; }  // what a step onto a cell counts
 
  private:
   std::int32_t stride_ = 0;
   std::vector<std::uint16_t> marks_;
+  std::vector<std::uint8_t> efforts_;
 };
+
+// A step onto a cell that is close to an obstacle counts as so many where efforts count.
+inline constexpr std::uint8_t close_effort = 3;
 
 // Steps from every free cell to the nearest seed, over the four sides of cells. Keeps its buffers.
 class WaveFront {
  public:
   void begin(const Terrain& terrain);
-  void seed(std::int32_t index);  // of a free cell
+  void seed(std::int32_t index);  // nothing where that is no free cell
   void spread();
+
+  // The same with steps close to obstacles counted by their effort: the way back to the seeds keeps its distance where
+  // it can. (The way that hugs an obstacle leaves a robot no room to turn away from it.)
+  void spread_by_effort(const Terrain& terrain);
 
   bool reached(std::int32_t index) const { return index >= 0 && cells(index) < Terrain::blocked; }
   std::uint16_t cells(std::int32_t index) const { return distances_[static_cast<std::size_t>(index)]; }
@@ -51,8 +62,9 @@ class WaveFront {
  private:
   std::int32_t stride_ = 0;
   std::vector<std::uint16_t> distances_;
-  std::vector<std::int32_t> queue_;
+  std::vector<std::int32_t> queue_;  // breadth-first, from the seeds on
   std::size_t queued_ = 0;
+  std::vector<std::int32_t> rings_[close_effort + 1];  // cells by distance, modulo the number of rings
 };
 
 }  // namespace dmrp::controllers::dwa

@@ -12,7 +12,8 @@ namespace dmrp::controllers {
 namespace {
 
 // The latch closes at this share of the goal's tolerance, so that the robot rests well inside it.
-constexpr double closing_share = 0.4;
+constexpr double closing_share = 0.5;
+constexpr double settling_share = 0.9;
 
 // Below these the robot counts as standing (trans_stopped_vel and rot_stopped_vel upstream).
 constexpr double standing_m_s = 0.02;
@@ -39,10 +40,16 @@ Command braking(const Observation& now) {
 bool StopAndRotate::reached(const StopPoint& stop, const Observation& now) {
   const double distance_m = toolkit::distance(toolkit::position(now.pose), stop.position);
   if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_m > stop.tolerance_m)) reset();
-  if (!latched_ && distance_m <= closing_share * stop.tolerance_m) {
-    latched_ = true;
-    latched_at_ = stop.position;
-  }
+  return latched_ || close(stop, now, closing_share);
+}
+
+bool StopAndRotate::settles(const StopPoint& stop, const Observation& now) {
+  return close(stop, now, settling_share);
+}
+
+bool StopAndRotate::close(const StopPoint& stop, const Observation& now, double share) {
+  latched_ = toolkit::distance(toolkit::position(now.pose), stop.position) <= share * stop.tolerance_m;
+  latched_at_ = stop.position;
   return latched_;
 }
 

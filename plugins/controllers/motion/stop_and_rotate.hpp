@@ -23,10 +23,15 @@ class StopAndRotate {
   // Whether the robot has reached the stop point, now or since the latch closed.
   bool reached(const StopPoint& stop, const Observation& now);
 
+  // For a robot that comes no nearer: closes the latch if it is within the tolerance, with a little to spare.
+  bool settles(const StopPoint& stop, const Observation& now);
+
   // Brakes to rest, then turns to the stop's heading if it has one.
   Command command(const StopPoint& stop, const Observation& now);
 
  private:
+  bool close(const StopPoint& stop, const Observation& now, double share);
+
   bool latched_ = false;
   bool turning_ = false;
   Vec2 latched_at_ = {0.0, 0.0};
