@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// The least sum of costs by A* over the joint positions of all robots: slow, and obviously right.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "planning_case.hpp"
+
+namespace dmrp::test {
+
+class JointSearch {
+ public:
+  explicit JointSearch(const PlanningCase& c) : case_(c) {
+    for (const CaseRobot& robot : c.robots) {
+      if (robot.state == DMRP_ROBOT_ACTIVE)
+        robots_.push_back(&robot);
+      else
+        resting_.push_back(robot.start);
+    }
+    for (const CaseRobot* robot : robots_) distances_.push_back(distances_to_the_end(*robot));
+  }
+
+  // Nothing if there is no plan.
+  std::optional<int> optimum() {
+    State start;
+    for (const CaseRobot* robot : robots_) start.push_back({robot->start, 0, false});
+    for (std::size_t a = 0; a < start.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (start[a].cell == start[b].cell) return std::nullopt;
+    offer_with_rests(start, 0, 0);
+    while (!open_.empty()) {
+      const auto [f, code] = open_.top();
+      open_.pop();
+      const int cost = best_.at(code);
+      const State state = decode(code);
+      if (cost + estimate(state) != f) continue;
+      if (all_rest(state)) return cost;
+      State next = state;
+      move(state, next, 0, cost);
+    }
+    return std::nullopt;
+  }
+
+  // Of robot `index` among the active ones, alone: nothing if it is cut off.
+  std::optional<int> alone(std::size_t index) const {
+    const int d = distance(index, {robots_[index]->start, 0, false});
+    return d == unreachable ? std::nullopt : std::optional(d);
+  }
+
+ private:
+  struct Place {
+    CellXY cell;
+    int leg;     // goals ticked off before this step
+    bool rests;  // for good
+  };
+  using State = std::vector<Place>;
+  static constexpr int unreachable = 1'000'000;
+
+  bool is_open(CellXY from, CellXY to) const {
+    for (const CellXY& cell : resting_)
+      if (cell == to) return false;
+    return from == to || case_.is_open(from, to);
+  }
+  static std::vector<CellXY> reach(CellXY c) {
+    return {c, {c.x + 1, c.y}, {c.x - 1, c.y}, {c.x, c.y + 1}, {c.x, c.y - 1}};
+  }
+  bool may_rest(std::size_t robot, const Place& place) const {
+    return place.leg + 1 == static_cast<int>(robots_[robot]->goals.size()) &&
+           place.cell == robots_[robot]->goals.back();
+  }
+  int leg_after(const CaseRobot& robot, const Place& place) const {
+    const auto leg = static_cast<std::size_t>(place.leg);
+    return leg + 1 < robot.goals.size() && place.cell == robot.goals[leg] ? place.leg + 1 : place.leg;
+  }
+
+  // By relaxation until nothing changes.
+  std::vector<int> distances_to_the_end(const CaseRobot& robot) const {
+    const std::size_t cells = case_.free.size();
+    std::vector<int> distance(cells * robot.goals.size(), unreachable);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int leg = 0; leg < static_cast<int>(robot.goals.size()); ++leg)
+        for (int y = 0; y < case_.height; ++y)
+          for (int x = 0; x < case_.width; ++x) {
+            const Place place{{x, y}, leg, false};
+            if (!case_.is_free(place.cell)) continue;
+            int& here = distance[static_cast<std::size_t>(leg) * cells + case_.index(place.cell)];
+            int best = here;
+            if (leg + 1 == static_cast<int>(robot.goals.size()) && place.cell == robot.goals.back()) best = 0;
+            const auto next_leg = static_cast<std::size_t>(leg_after(robot, place));
+            for (const CellXY to : reach(place.cell))
+              if (case_.is_free(to) && is_open(place.cell, to))
+                best = std::min(best, 1 + distance[next_leg * cells + case_.index(to)]);
+            changed = changed || best < here;
+            here = best;
+          }
+    }
+    return distance;
+  }
+  int distance(std::size_t robot, const Place& place) const {
+    return place.rests
+               ? 0
+               : distances_[robot][static_cast<std::size_t>(place.leg) * case_.free.size() + case_.index(place.cell)];
+  }
+  int estimate(const State& state) const {
+    int sum = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) sum += distance(i, state[i]);
+    return sum;
+  }
+  static bool all_rest(const State& state) {
+    for (const Place& place : state)
+      if (!place.rests) return false;
+    return true;
+  }
+
+  void move(const State& from, State& to, std::size_t robot, int cost) {
+    if (robot == from.size()) return offer_with_rests(to, 0, cost);
+    if (from[robot].rests) {
+      to[robot] = from[robot];
+      if (!meets(from, to, robot)) move(from, to, robot + 1, cost);
+      return;
+    }
+    const int leg = leg_after(*robots_[robot], from[robot]);
+    for (const CellXY cell : reach(from[robot].cell)) {
+      if (!case_.is_free(cell) || !is_open(from[robot].cell, cell)) continue;
+      to[robot] = {cell, leg, false};
+      if (!meets(from, to, robot)) move(from, to, robot + 1, cost + 1);
+    }
+  }
+  static bool meets(const State& from, const State& to, std::size_t robot) {
+    for (std::size_t other = 0; other < robot; ++other)
+      if (to[other].cell == to[robot].cell ||
+          (to[other].cell == from[robot].cell && to[robot].cell == from[other].cell))
+        return true;
+    return false;
+  }
+
+  // Every robot that is at its end may decide to rest there, or not.
+  void offer_with_rests(State& state, std::size_t robot, int cost) {
+    if (robot == state.size()) return offer(state, cost);
+    offer_with_rests(state, robot + 1, cost);
+    if (state[robot].rests || !may_rest(robot, state[robot])) return;
+    state[robot].rests = true;
+    offer_with_rests(state, robot + 1, cost);
+    state[robot].rests = false;
+  }
+  void offer(const State& state, int cost) {
+    const int rest = estimate(state);
+    if (rest >= unreachable) return;
+    const auto [at, is_new] = best_.emplace(encode(state), cost);
+    if (!is_new && at->second <= cost) return;
+    at->second = cost;
+    open_.push({cost + rest, at->first});
+  }
+
+  uint64_t encode(const State& state) const {
+    uint64_t code = 0;
+    for (const Place& place : state)
+      code = ((code * case_.free.size() + case_.index(place.cell)) * 4 + static_cast<uint64_t>(place.leg)) * 2 +
+             place.rests;
+    return code;
+  }
+  State decode(uint64_t code) const {
+    State state(robots_.size());
+    for (std::size_t i = state.size(); i-- > 0;) {
+      state[i].rests = code % 2;
+      state[i].leg = static_cast<int>(code / 2 % 4);
+      const auto cell = static_cast<int>(code / 8 % case_.free.size());
+      state[i].cell = {cell % case_.width, cell / case_.width};
+      code = code / 8 / case_.free.size();
+    }
+    return state;
+  }
+
+  using Open = std::pair<int, uint64_t>;
+  const PlanningCase& case_;
+  std::vector<const CaseRobot*> robots_;
+  std::vector<CellXY> resting_;
+  std::vector<std::vector<int>> distances_;
+  std::unordered_map<uint64_t, int> best_;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
+};
+
+}  // namespace dmrp::test

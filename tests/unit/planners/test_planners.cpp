@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "joint_optimum.hpp"
+#include "plan_check.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+const char* const library = "libdmrp_planners.so";
+const char* const cbs = "dmrp.planner.cbs";
+const char* const individual = "dmrp.planner.individual";
+
+// SplitMix64.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  int below(int n) {
+    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return static_cast<int>((z ^ (z >> 31)) % static_cast<uint64_t>(n));
+  }
+  bool one_in(int n) { return below(n) == 0; }
+
+ private:
+  uint64_t state_;
+};
+
+// 4x4 to 6x6 cells with obstacles and thin walls; 2 or 3 robots, some with tours, some resting. Starts and last goals
+// are distinct free cells; whether there is a plan is left to chance.
+PlanningCase random_case(uint64_t seed) {
+  Random random(seed);
+  const int width = 4 + random.below(3);
+  const int height = 4 + random.below(3);
+  const int obstacles_of_20 = random.below(7);
+  std::vector<std::string> rows(static_cast<std::size_t>(height), std::string(static_cast<std::size_t>(width), '.'));
+  for (auto& row : rows)
+    for (char& c : row)
+      if (random.below(20) < obstacles_of_20) c = '#';
+  rows[0].replace(0, 4, "....");  // room for all
+  rows[1].replace(0, 4, "....");
+  PlanningCase c(rows);
+  if (random.one_in(2))
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (x + 1 < width && random.one_in(6)) c.thin_wall({x, y}, {x + 1, y});
+        if (y + 1 < height && random.one_in(6)) c.thin_wall({x, y}, {x, y + 1});
+      }
+  const auto free_cell = [&] {
+    for (;;)
+      if (const CellXY cell{random.below(width), random.below(height)}; c.is_free(cell)) return cell;
+  };
+  const int robots = 2 + random.below(2);
+  for (int i = 0; i < robots;) {
+    CaseRobot robot{free_cell(), {}, random.one_in(8) ? uint32_t{DMRP_ROBOT_FINISHED} : uint32_t{DMRP_ROBOT_ACTIVE}};
+    const int goals = random.one_in(4) ? 2 + random.below(2) : 1;
+    for (int g = 0; g < goals; ++g) robot.goals.push_back(free_cell());
+    bool distinct = true;
+    for (const CaseRobot& other : c.robots)
+      distinct = distinct && !(other.start == robot.start) && !(other.goals.back() == robot.goals.back());
+    if (!distinct) continue;
+    c.robots.push_back(robot);
+    ++i;
+  }
+  return c;
+}
+
+bool same_bits(const Plan& a, const Plan& b) {
+  if (a.status != b.status || a.statistics != b.statistics || a.paths.size() != b.paths.size()) return false;
+  for (std::size_t i = 0; i < a.paths.size(); ++i) {
+    if (a.paths[i].size() != b.paths[i].size()) return false;
+    for (std::size_t k = 0; k < a.paths[i].size(); ++k) {
+      const dmrp_waypoint& u = a.paths[i][k];
+      const dmrp_waypoint& v = b.paths[i][k];
+      if (u.x != v.x || u.y != v.y || u.t_ns != v.t_ns || u.goal_index != v.goal_index) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("the library describes its planners") {
+  const dmrp_descriptor* a = PluginLibrary::load(library).find(individual);
+  const dmrp_descriptor* b = PluginLibrary::load(library).find(cbs);
+  REQUIRE(a);
+  REQUIRE(b);
+  CHECK(a->kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(a->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(a->planner_flags == DMRP_PLANNER_UNCOORDINATED);
+  CHECK(b->kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(b->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(b->planner_flags == 0);
+}
+
+TEST_CASE("random small problems: CBS finds the joint optimum, individual each robot's own") {
+  // Some of these problems take CBS millions of nodes: it may give up on very few, and its bound must hold there too.
+  PluginUnderTest cbs_planner(library, cbs, {{"node_limit", 4000}});
+  PluginUnderTest individual_planner(library, individual);
+  int solvable = 0;
+  int coordinated = 0;
+  int unsolvable = 0;
+  int given_up = 0;
+  for (uint64_t seed = 0; seed < 1500; ++seed) {
+    CAPTURE(seed);
+    const PlanningCase c = random_case(seed);
+    JointSearch search(c);
+    const std::optional<int> optimum = search.optimum();
+
+    const Plan plan = run_planner(cbs_planner, c);
+    if (optimum && plan.status == DMRP_TIMEOUT) {
+      ++given_up;
+      REQUIRE(plan.statistics.at("lower_bound") <= *optimum);
+    } else if (optimum) {
+      ++solvable;
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      REQUIRE(plan.cost() == *optimum);
+      REQUIRE(plan.statistics.at("cost") == *optimum);
+      REQUIRE(plan.statistics.at("lower_bound") == *optimum);
+    } else {
+      ++unsolvable;
+      REQUIRE(plan.status == DMRP_NO_SOLUTION);
+    }
+
+    PlanningCase without_resting = c;
+    for (CaseRobot& robot : without_resting.robots) robot.state = DMRP_ROBOT_ACTIVE;
+    const JointSearch alone(without_resting);
+    const Plan own = run_planner(individual_planner, without_resting);
+    bool cut_off = false;
+    for (std::size_t i = 0; i < c.robots.size(); ++i) cut_off = cut_off || !alone.alone(i);
+    REQUIRE(own.status == (cut_off ? DMRP_NO_SOLUTION : DMRP_OK));
+    if (cut_off) continue;
+    REQUIRE(check_paths(without_resting, own) == "");
+    for (std::size_t i = 0; i < c.robots.size(); ++i)
+      REQUIRE(static_cast<int>(own.paths[i].size()) - 1 == *alone.alone(i));
+    if (plan.status == DMRP_OK && plan.cost() > own.cost()) ++coordinated;
+  }
+  // The draw must hold enough of each kind to mean something.
+  CHECK(solvable > 1000);
+  CHECK(coordinated > 100);
+  CHECK(unsolvable > 50);
+  CHECK(given_up < 15);
+}
+
+TEST_CASE("crowded small problems: CBS finds the joint optimum") {
+  PluginUnderTest planner(library, cbs);
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed + 77);
+    PlanningCase c({"....", ".#..", "....", "...#"});
+    std::vector<CellXY> starts;
+    std::vector<CellXY> goals;
+    for (std::vector<CellXY>* cells : {&starts, &goals})
+      while (cells->size() < 4) {
+        const CellXY cell{random.below(4), random.below(4)};
+        if (c.is_free(cell) && std::find(cells->begin(), cells->end(), cell) == cells->end()) cells->push_back(cell);
+      }
+    for (std::size_t i = 0; i < 4; ++i) c.robot(starts[i], {goals[i]});
+    const Plan plan = run_planner(planner, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    REQUIRE(plan.cost() == JointSearch(c).optimum());
+  }
+}
+
+TEST_CASE("one robot takes a shortest path with fewest turns") {
+  for (const char* id : {individual, cbs}) {
+    CAPTURE(id);
+    SECTION(std::string("on an empty grid: at most one turn, ") + id) {
+      for (int x = 0; x < 9; x += 2)
+        for (int y = 0; y < 7; y += 3) {
+          PlanningCase c(std::vector<std::string>(7, "........."));
+          c.robot({4, 3}, {{x, y}});
+          const Plan plan = run_planner(id, c);
+          REQUIRE(plan.status == DMRP_OK);
+          REQUIRE(check_plan(c, plan) == "");
+          REQUIRE(plan.cost() == std::abs(x - 4) + std::abs(y - 3));
+          REQUIRE(turns_of(plan.paths[0]) == (x != 4 && y != 3 ? 1 : 0));
+        }
+    }
+    SECTION(std::string("two turns where a staircase would take five, ") + id) {
+      PlanningCase c({"...##", "....#", "#....", "##..."});
+      c.robot({0, 0}, {{4, 3}});
+      const Plan plan = run_planner(id, c);
+      REQUIRE(plan.status == DMRP_OK);
+      CHECK(plan.cost() == 7);
+      CHECK(turns_of(plan.paths[0]) == 2);
+    }
+    SECTION(std::string("start is goal, ") + id) {
+      PlanningCase c({"..."});
+      c.robot({1, 0}, {{1, 0}});
+      const Plan plan = run_planner(id, c);
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      CHECK(plan.cost() == 0);
+    }
+    SECTION(std::string("round a thin wall, ") + id) {
+      PlanningCase c({"....", "...."});
+      c.thin_wall({1, 0}, {2, 0}).robot({1, 0}, {{2, 0}});
+      const Plan plan = run_planner(id, c);
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      CHECK(plan.cost() == 3);
+    }
+    SECTION(std::string("a one-way edge is taken in its direction only, ") + id) {
+      PlanningCase c({"...", "..."});
+      c.close_one_way({1, 0}, {2, 0});
+      PlanningCase back = c;
+      c.robot({1, 0}, {{2, 0}});
+      back.robot({2, 0}, {{1, 0}});
+      CHECK(run_planner(id, c).cost() == 3);
+      CHECK(run_planner(id, back).cost() == 1);
+    }
+    SECTION(std::string("a tour, ") + id) {
+      PlanningCase c({".....", ".###.", "....."});
+      c.robot({0, 0}, {{4, 0}, {0, 0}, {2, 2}});
+      const Plan plan = run_planner(id, c);
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      CHECK(plan.cost() == 4 + 4 + 4);
+      CHECK(plan.paths[0].back().goal_index == 3 + 2);
+    }
+    SECTION(std::string("equal goals in a row cost a wait each, ") + id) {
+      PlanningCase c({"..."});
+      c.robot({0, 0}, {{2, 0}, {2, 0}, {2, 0}, {1, 0}});
+      const Plan plan = run_planner(id, c);
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      CHECK(plan.cost() == 2 + 2 + 1);
+    }
+    SECTION(std::string("a goal that is cut off, ") + id) {
+      PlanningCase c({"..#.", "..#."});
+      c.robot({0, 0}, {{3, 0}});
+      CHECK(run_planner(id, c).status == DMRP_NO_SOLUTION);
+    }
+    SECTION(std::string("a goal in a wall and one off the map, ") + id) {
+      PlanningCase in_wall({"..#."});
+      in_wall.robot({0, 0}, {{2, 0}});
+      CHECK(run_planner(id, in_wall).status == DMRP_NO_SOLUTION);
+      PlanningCase outside({"..#."});
+      outside.robot({0, 0}, {{-3, 5}});
+      CHECK(run_planner(id, outside).status == DMRP_NO_SOLUTION);
+    }
+    SECTION(std::string("nobody to plan for, ") + id) {
+      PlanningCase c({"..."});
+      CHECK(run_planner(id, c).status == DMRP_OK);
+      c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED);
+      const Plan plan = run_planner(id, c);
+      CHECK(plan.status == DMRP_OK);
+      CHECK(check_plan(c, plan) == "");
+    }
+  }
+}
+
+TEST_CASE("individual ignores the others") {
+  PlanningCase c({"....."});
+  c.robot({0, 0}, {{4, 0}}).robot({4, 0}, {{0, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FAILED);
+  const Plan plan = run_planner(individual, c);
+  REQUIRE(plan.status == DMRP_OK);
+  CHECK(check_paths(c, plan) == "");
+  CHECK(check_conflicts(c, plan) != "");
+  CHECK(plan.cost() == 8);
+}
+
+TEST_CASE("CBS resolves what robots can do to each other") {
+  SECTION("a swap in a corridor with one bay") {
+    PlanningCase c({".......", "###.###"});
+    c.robot({0, 0}, {{6, 0}}).robot({6, 0}, {{0, 0}});
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 6 + 6 + 3);  // into the bay, a wait there, and out again
+    CHECK(plan.cost() == JointSearch(c).optimum());
+  }
+  SECTION("a goal that blocks another's only way: the robot there comes late or steps aside") {
+    PlanningCase c({"....", "#.##", "#.##"});
+    c.robot({3, 0}, {{1, 1}}).robot({0, 0}, {{1, 2}});
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == JointSearch(c).optimum());
+  }
+  SECTION("a robot at its goal makes way and comes back") {
+    PlanningCase c({".....", "##.##"});
+    c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}});
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 4 + 3);
+  }
+  SECTION("four robots turn in a ring without a free cell beside") {
+    PlanningCase c({"..", ".."});
+    c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{1, 1}}).robot({1, 1}, {{0, 1}}).robot({0, 1}, {{0, 0}});
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 4);
+  }
+  SECTION("robots that rest are obstacles") {
+    PlanningCase c({"...", "...", "..."});
+    c.robot({0, 1}, {{2, 1}}).robot({1, 1}, {}, DMRP_ROBOT_FINISHED);
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 4);
+  }
+  SECTION("in a corridor one robot follows another on its tour, to a goal that the other crosses before") {
+    PlanningCase c({".....", "####."});
+    c.robot({0, 0}, {{4, 0}, {0, 0}}).robot({4, 1}, {{2, 0}});
+    const Plan plan = run_planner(cbs, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 8 + 7);  // the second moves when the first turns round, one step behind it
+  }
+}
+
+TEST_CASE("CBS proves that there is no plan") {
+  SECTION("a swap in a corridor without a bay, however long") {
+    PlanningCase c({std::string(200, '.')});
+    c.robot({0, 0}, {{199, 0}}).robot({199, 0}, {{0, 0}});
+    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
+  }
+  SECTION("two robots that end on one cell") {
+    PlanningCase c({"...", "..."});
+    c.robot({0, 0}, {{1, 1}}).robot({2, 0}, {{1, 1}});
+    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
+  }
+  SECTION("a goal under a robot that rests") {
+    PlanningCase c({"...", "..."});
+    c.robot({0, 0}, {{2, 1}}).robot({2, 1}, {}, DMRP_ROBOT_FAILED);
+    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
+  }
+  SECTION("a resting robot cuts the map in two") {
+    PlanningCase c({"....."});
+    c.robot({0, 0}, {{4, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FINISHED);
+    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
+  }
+  SECTION("two of three robots in a ring would have to change places") {
+    PlanningCase c({"..", ".."});
+    c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
+    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
+  }
+}
+
+TEST_CASE("CBS gives up when told to") {
+  // Nobody can pass, but the part is too large for a proof.
+  std::vector<std::string> rows(2, std::string(120, '.'));
+  rows[1].assign(120, '#');
+  rows[1][60] = '.';
+  PlanningCase c(rows);
+  for (int i = 0; i < 4; ++i) c.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
+  SECTION("by its own limit") {
+    const Plan plan = run_planner(cbs, c, {{"node_limit", 50}});
+    CHECK(plan.status == DMRP_TIMEOUT);
+    CHECK(plan.statistics.at("high_level_generated") >= 50);
+    CHECK(plan.statistics.at("high_level_generated") <= 52);
+  }
+  SECTION("by the host") {
+    PluginUnderTest planner(library, cbs);
+    int asked = 0;
+    planner.host().should_stop = [&] { return ++asked > 100; };
+    CHECK(run_planner(planner, c).status == DMRP_TIMEOUT);
+    CHECK(asked == 101);
+    planner.host().should_stop = nullptr;
+    PlanningCase easy({"..."});
+    easy.robot({0, 0}, {{2, 0}});
+    CHECK(run_planner(planner, easy).status == DMRP_OK);
+  }
+  SECTION("the host is asked often: also by individual") {
+    PluginUnderTest planner(library, individual);
+    planner.host().should_stop = [] { return true; };
+    PlanningCase large(std::vector<std::string>(60, std::string(60, '.')));
+    large.robot({0, 0}, {{59, 59}});
+    CHECK(run_planner(planner, large).status == DMRP_TIMEOUT);
+  }
+}
+
+TEST_CASE("the same problem gives the same bits, whatever came before") {
+  PluginUnderTest used(library, cbs);
+  for (uint64_t seed = 2000; seed < 2040; ++seed) {
+    const PlanningCase c = random_case(seed);
+    PluginUnderTest fresh(library, cbs);
+    REQUIRE(same_bits(run_planner(used, c, seed), run_planner(fresh, c, seed)));
+  }
+}
