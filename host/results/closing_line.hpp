@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// closing_line.hpp: the last lines that a run prints, below its table.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "host/results/summary_layout.hpp"
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+// "12 of 12 robots arrived · 0 contacts · 0 faults · repeatable"
+std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecord> trials);
+
+// "runs/quickstart   report.html  results.sqlite  traces/"
+std::string files_line(const std::filesystem::path& run_directory, std::span<const std::string> files);
+
+}  // namespace dmrp::host

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// display_width.hpp: how many columns of a terminal a text takes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace dmrp::host {
+
+// Of UTF-8 text without control characters: combining marks take none, East Asian wide characters and emoji two.
+// The locale does not matter.
+std::size_t display_width(std::string_view text);
+
+// The text with spaces after or before it, so that it takes at least `width` columns.
+std::string pad_right(std::string_view text, std::size_t width);
+std::string pad_left(std::string_view text, std::size_t width);
+
+}  // namespace dmrp::host

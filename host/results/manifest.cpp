@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "host/results/manifest.hpp"
+
+#include <dmrp/abi.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "host/results/sha256.hpp"
+
+namespace dmrp::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string abi_name() {
+  std::string name = std::to_string(DMRP_ABI_MAJOR) + "." + std::to_string(DMRP_ABI_MINOR);
+  if (DMRP_ABI_DRAFT != 0) name += " draft " + std::to_string(DMRP_ABI_DRAFT);
+  return name;
+}
+
+std::string utc_text(std::chrono::system_clock::time_point time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  std::array<char, 32> text;
+  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return {text.data(), length};
+}
+
+Manifest parse(const Json& json) {
+  Manifest manifest;
+  json.at("dmrp_version").get_to(manifest.dmrp_version);
+  json.at("abi").get_to(manifest.abi);
+  json.at("command_line").get_to(manifest.command_line);
+  json.at("started_at").get_to(manifest.started_at);
+  const Json& machine = json.at("machine");
+  machine.at("libc").get_to(manifest.machine.libc);
+  machine.at("cpu_level").get_to(manifest.machine.cpu_level);
+  machine.at("cpu_features").get_to(manifest.machine.cpu_features);
+  machine.at("compiler").get_to(manifest.machine.compiler);
+  for (const Json& file : json.at("files"))
+    manifest.files.push_back({file.at("role"), file.at("path"), file.at("sha256")});
+  return manifest;
+}
+
+void compare(std::vector<std::string>& found, const std::string& what, const std::string& before,
+             const std::string& now) {
+  if (before != now) found.push_back(what + ": " + before + ", now " + now);
+}
+
+std::vector<std::string> only_in(const std::vector<std::string>& some, const std::vector<std::string>& others) {
+  std::vector<std::string> rest;
+  std::set_difference(some.begin(), some.end(), others.begin(), others.end(), std::back_inserter(rest));
+  return rest;
+}
+
+// Flags that glibc's choice of code may hang on: those that a level is made of are told by the level already, but a
+// machine may lack "fma" alone.
+bool decides_on_code(const std::string& feature) {
+  return feature == "fma" || feature == "fma4" || feature.rfind("avx", 0) == 0;
+}
+
+void compare_features(std::vector<std::string>& found, const Machine& before, const Machine& now) {
+  for (const std::string& feature : only_in(before.cpu_features, now.cpu_features))
+    if (decides_on_code(feature)) found.push_back("CPU feature " + feature + " is missing now");
+  for (const std::string& feature : only_in(now.cpu_features, before.cpu_features))
+    if (decides_on_code(feature)) found.push_back("CPU feature " + feature + " is new");
+}
+
+}  // namespace
+
+Manifest new_manifest(std::string dmrp_version, std::vector<std::string> command_line,
+                      std::chrono::system_clock::time_point started_at) {
+  Manifest manifest;
+  manifest.dmrp_version = std::move(dmrp_version);
+  manifest.abi = abi_name();
+  manifest.command_line = std::move(command_line);
+  manifest.started_at = utc_text(started_at);
+  manifest.machine = this_machine();
+  return manifest;
+}
+
+HashedFile hashed_file(std::string role, const std::filesystem::path& path) {
+  return {std::move(role), path.string(), sha256_of_file(path)};
+}
+
+std::string to_json_text(const Manifest& manifest) {
+  Json json;
+  json["dmrp_version"] = manifest.dmrp_version;
+  json["abi"] = manifest.abi;
+  json["command_line"] = manifest.command_line;
+  json["started_at"] = manifest.started_at;
+  json["machine"] = {{"libc", manifest.machine.libc},
+                     {"cpu_level", manifest.machine.cpu_level},
+                     {"cpu_features", manifest.machine.cpu_features},
+                     {"compiler", manifest.machine.compiler}};
+  json["files"] = Json::array();
+  for (const HashedFile& file : manifest.files)
+    json["files"].push_back({{"role", file.role}, {"path", file.path}, {"sha256", file.sha256}});
+  // a path need not be UTF-8
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Manifest read_manifest(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  try {
+    return parse(Json::parse(file));
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+std::vector<std::string> differences(const Manifest& before, const Manifest& now) {
+  std::vector<std::string> found;
+  compare(found, "dmrp", before.dmrp_version, now.dmrp_version);
+  compare(found, "ABI", before.abi, now.abi);
+  compare(found, "libc", before.machine.libc, now.machine.libc);
+  compare(found, "CPU level", before.machine.cpu_level, now.machine.cpu_level);
+  compare(found, "compiler", before.machine.compiler, now.machine.compiler);
+  compare_features(found, before.machine, now.machine);
+  compare(found, "number of files", std::to_string(before.files.size()), std::to_string(now.files.size()));
+  for (std::size_t i = 0; i < std::min(before.files.size(), now.files.size()); ++i)
+    if (before.files[i].role != now.files[i].role || before.files[i].sha256 != now.files[i].sha256)
+      found.push_back(now.files[i].role + " " + now.files[i].path + " has changed");
+  return found;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "host/results/summary_layout.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace dmrp::host {
+namespace {
+
+constexpr std::uint32_t most_decimals = 9;
+
+SummaryTableColumn parse_column(const nlohmann::json& json) {
+  SummaryTableColumn column;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "metric")
+      column.metric = value.get<std::string>();
+    else if (key == "header")
+      column.header = value.get<std::string>();
+    else if (key == "decimals")
+      column.decimals = value.get<std::uint32_t>();
+    else if (key == "spread")
+      column.spread = value.get<std::string>();
+    else
+      throw std::runtime_error("unknown key '" + key + "' of a column");
+  }
+  if (column.metric.empty()) throw std::runtime_error("a column without 'metric'");
+  if (column.header.empty()) column.header = column.metric;
+  if (column.decimals > most_decimals) throw std::runtime_error("'decimals' must be 0 to 9");
+  return column;
+}
+
+SummaryLayout parse(std::string_view text) {
+  const auto json = nlohmann::json::parse(text);
+  if (!json.is_object()) throw std::runtime_error("not a table of keys");
+  SummaryLayout layout;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "columns")
+      for (const auto& column : value) layout.columns.push_back(parse_column(column));
+    else if (key == "arrived")
+      layout.arrived = value.get<std::string>();
+    else if (key == "contacts")
+      layout.contacts = value.get<std::string>();
+    else
+      throw std::runtime_error("unknown key '" + key + "'");
+  }
+  return layout;
+}
+
+}  // namespace
+
+SummaryLayout parse_summary_layout(std::string_view json, const std::string& name) {
+  try {
+    return parse(json);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(name + ": " + error.what());
+  }
+}
+
+SummaryLayout read_summary_layout(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return parse_summary_layout(text, path.string());
+}
+
+}  // namespace dmrp::host
