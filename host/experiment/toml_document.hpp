@@ -93,7 +93,7 @@ class TomlTable {
   // All keys, in the order of the file, without marking them.
   std::vector<TomlValue> entries() const;
 
-  // `whose`: "" or " for dmrp.planner.cbs", for the message.
+  // `whose`: "" or " for ID of a plugin", for the message.
   void finish(const std::string& whose = "") const;
 
  private:
