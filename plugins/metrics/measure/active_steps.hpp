@@ -13,7 +13,6 @@ namespace dmrp::metrics {
 class ActiveSteps {
  public:
   void begin(std::size_t robot_count) {
-    first_ = true;
     before_.assign(robot_count, false);
     now_.assign(robot_count, false);
   }
@@ -22,18 +21,15 @@ class ActiveSteps {
     before_.swap(now_);
     for (std::size_t robot = 0; robot < now_.size(); ++robot)
       now_[robot] = sample.robots[robot].state == DMRP_ROBOT_ACTIVE;
-    if (first_) before_ = now_;
-    first_ = false;
   }
 
-  // In the step that ended with the sample: the step of the arrival is the last active one.
+  // In the step that ended with the sample: the step of the arrival is the last active one; the first sample ends none.
   bool in_step(std::size_t robot) const { return before_[robot]; }
 
   // At the instant of the sample.
   bool at_instant(std::size_t robot) const { return now_[robot]; }
 
  private:
-  bool first_ = true;
   std::vector<char> before_;
   std::vector<char> now_;
 };

@@ -51,7 +51,6 @@ void Ibtr::observe(const Sample& sample) {
     speeds_.push_back(speed_of(sample.robots[robot]));
     if (active_.in_step(robot)) pace_[robot].add(speeds_.back(), sample.dt_ns);
   }
-  if (times_ns_.size() == 1) return;  // no step ended here
 
   const double squared_reach = distance_m * distance_m;
   for (std::uint32_t a = 0; a < robot_count_; ++a) {

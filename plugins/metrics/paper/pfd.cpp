@@ -53,7 +53,7 @@ void Pfd::begin(const dmrp_plan* plan) {
 
 void Pfd::observe(const Sample& sample) {
   active_.observe(sample);
-  if (!sample.control_tick || sample.dt_ns == 0) return;  // the first sample ends no step
+  if (!sample.control_tick) return;
   for (std::size_t robot = 0; robot < in_force_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
     const Vec2 position = toolkit::position(sample.robots[robot].pose);

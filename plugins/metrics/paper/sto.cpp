@@ -45,7 +45,7 @@ bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distan
   for (std::size_t j = from; j <= i + window; ++j) {
     const Vec2 there = other[std::min(j, other.size() - 1)];
     if (toolkit::squared_distance(own[i], there) <= distance_m * distance_m) return true;
-    if (j >= other.size()) return false;  // at rest: later steps are the same
+    if (j + 1 >= other.size()) return false;  // at rest: later steps are the same
   }
   return false;
 }
