@@ -47,7 +47,10 @@ bool FootprintCheck::edge_is_clear(Vec2 from, Vec2 to) const {
 int FootprintCheck::tolerated(const ArcState& at, int cost) const {
   if (!start_collides_) return in_collision;
   const Vec2 point = {at.x, at.y};
-  if (point != start_ && map_.distance_to_lethal(point, footprint_->radius_m + padding_m_) < start_distance_m_)
+  // beside a wall the distance to the nearest cell's centre wavers by so much
+  const double waver_m = 0.05 * map_.resolution_m();
+  if (point != start_ &&
+      map_.distance_to_lethal(point, footprint_->radius_m + padding_m_) < start_distance_m_ - waver_m)
     return in_collision;
   return std::min(cost, DMRP_COST_INSCRIBED - 1);
 }

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "arena.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/polyline.hpp>
+#include <dmrp/toolkit/rectangle.hpp>
+
+namespace dmrp::test {
+
+namespace {
+
+constexpr double step_s = 0.02;
+constexpr std::int64_t step_ns = 20'000'000;
+constexpr std::int64_t period_ns = 100'000'000;
+constexpr std::uint32_t window_cells = 120;
+constexpr double resolution_m = 0.05;
+constexpr double cost_scaling = 5.0;
+constexpr double inflation_radius_m = 0.55;
+
+dmrp_pose moved(const dmrp_pose& from, const dmrp_twist& velocity, double dt) {
+  const double heading = from.theta + 0.5 * velocity.omega * dt;
+  return {from.x + velocity.v_x * dt * std::cos(heading), from.y + velocity.v_x * dt * std::sin(heading),
+          toolkit::wrap(from.theta + velocity.omega * dt)};
+}
+
+double ramp(double value, double target, double step) {
+  return value + std::clamp(target - value, -step, step);
+}
+
+}  // namespace
+
+Walker standing(dmrp_vec2 at) {
+  return {0.3, [at](double, dmrp_vec2) { return at; }};
+}
+
+Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s) {
+  return {0.3, [=](double t_s, dmrp_vec2) {
+            const double share = speed * std::max(0.0, t_s - start_s) / toolkit::distance(from, to);
+            return toolkit::lerp(from, to, std::min(1.0, share));
+          }};
+}
+
+std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
+  std::vector<dmrp_vec2> path = {corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const int metres = std::max(1, static_cast<int>(std::lround(toolkit::distance(corners[i - 1], corners[i]))));
+    for (int k = 1; k <= metres; ++k)
+      path.push_back(toolkit::lerp(corners[i - 1], corners[i], static_cast<double>(k) / metres));
+  }
+  return path;
+}
+
+Trip::Trip(const std::string& controller, Course course, ParamOverrides overrides)
+    : original_(std::move(course)),
+      plugin_(std::make_unique<PluginUnderTest>("libdmrp_controllers.so", controller, std::move(overrides))) {
+  limits_ = {sizeof(limits_), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
+  footprint_ = {sizeof(footprint_), 0, 0.25, 0.25, nullptr};
+  grid_.struct_size = sizeof(grid_);
+  grid_.resolution_m = 1.0;
+  extension_.struct_size = sizeof(extension_);
+  extension_.context = this;
+  extension_.costmap = [](const dmrp_local_costmap* extension) {
+    return static_cast<const dmrp_costmap*>(&static_cast<Trip*>(extension->context)->costmap_);
+  };
+  if (original_.costmap) plugin_->host().extensions[DMRP_EXT_LOCAL_COSTMAP] = &extension_;
+  start();
+}
+
+Trip::~Trip() = default;
+
+void Trip::start() {
+  course_ = original_;
+  drive_ = {};
+  pose_ = course_.start;
+  velocity_ = {0.0, 0.0, 0.0};
+  t_ns_ = 0;
+  settled_ns_ = 0;
+  no_solution_s_ = 0.0;
+  sent_revision_ = 0;
+  observation_ = {};
+  goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
+  goal_.tolerance_m = 0.2;
+  goal_.tolerance_rad = 0.2;
+  goal_.tolerance_speed = 0.1;
+  goal_.settle_ns = 500'000'000;
+  robot_.name = "robot";
+  robot_.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
+  robot_.goals = &goal_;
+  robot_.goal_count = 1;
+  robot_.goal_stride = sizeof(goal_);
+  robot_.limits = &limits_;
+  robot_.footprint = &footprint_;
+  robot_.start = pose_;
+  world_.struct_size = sizeof(world_);
+  world_.lower = {-100.0, -100.0};
+  world_.upper = {100.0, 100.0};
+  world_.step_ns = step_ns;
+  world_.control_period_ns = period_ns;
+  world_.time_limit_ns = static_cast<std::int64_t>(course_.time_limit_s * 1e9);
+  world_.robots = &robot_;
+  world_.robot_count = 1;
+  world_.robot_stride = sizeof(robot_);
+  world_.planning_grid = &grid_;
+  world_.walking_grid = &grid_;
+  if (plugin_->start(world_) != DMRP_OK) drive_.breaches.push_back("start() failed");
+}
+
+bool Trip::finished() const {
+  return drive_.arrived || drive_.time_s >= course_.time_limit_s;
+}
+
+void Trip::control_period() {
+  if (course_.change) course_.change(course_, drive_.time_s, pose_);
+  if (course_.revision != sent_revision_) send_path();
+  build_costmap();
+  observe();
+  command();
+  for (std::int64_t k = 0; k < period_ns / step_ns && !finished(); ++k) drive_on();
+}
+
+void Trip::send_path() {
+  sent_revision_ = course_.revision;
+  waypoints_.clear();
+  for (const dmrp_vec2 point : course_.path) {
+    dmrp_waypoint waypoint{};
+    waypoint.x = point.x;
+    waypoint.y = point.y;
+    waypoint.theta = NAN;
+    waypoint.t_ns = t_ns_ + static_cast<std::int64_t>(waypoints_.size()) * 1'800'000'000;
+    waypoints_.push_back(waypoint);
+  }
+  toolkit::arc_lengths(waypoints_, arcs_);
+  observation_.progress_m = 0.0;
+  goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
+  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints_.size()), sizeof(dmrp_waypoint), 0,
+                          waypoints_.data()};
+  if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &path, course_.revision) != DMRP_OK)
+    drive_.breaches.push_back("set_path() failed");
+  waypoints_.shrink_to_fit();
+}
+
+void Trip::build_costmap() {
+  // the surfaces of boxes and walkers, on the world's lattice
+  const auto lattice = [](double centre) {
+    return static_cast<std::int64_t>(std::floor(centre / resolution_m)) - window_cells / 2;
+  };
+  const std::int64_t column_0 = lattice(pose_.x);
+  const std::int64_t row_0 = lattice(pose_.y);
+  costmap_ = {sizeof(costmap_),
+              window_cells,
+              window_cells,
+              0,
+              t_ns_,
+              resolution_m,
+              {static_cast<double>(column_0) * resolution_m, static_cast<double>(row_0) * resolution_m},
+              footprint_.inscribed_radius_m,
+              inflation_radius_m,
+              cost_scaling,
+              nullptr};
+  lethal_.assign(window_cells * window_cells, 0);
+  const auto mark = [&](double x, double y) {
+    const auto column = static_cast<std::int64_t>(std::floor((x - costmap_.origin.x) / resolution_m));
+    const auto row = static_cast<std::int64_t>(std::floor((y - costmap_.origin.y) / resolution_m));
+    if (column >= 0 && row >= 0 && column < window_cells && row < window_cells)
+      lethal_[static_cast<std::size_t>(row * window_cells + column)] = 1;
+  };
+  const auto mark_line = [&](dmrp_vec2 from, dmrp_vec2 to) {
+    const int steps = 1 + static_cast<int>(toolkit::distance(from, to) / 0.02);
+    for (int i = 0; i <= steps; ++i) {
+      const dmrp_vec2 at = toolkit::lerp(from, to, static_cast<double>(i) / steps);
+      mark(at.x, at.y);
+    }
+  };
+  for (const Box& box : course_.boxes) {
+    const dmrp_vec2 a = box.lower, c = box.upper, b = {c.x, a.y}, d = {a.x, c.y};
+    mark_line(a, b), mark_line(b, c), mark_line(c, d), mark_line(d, a);
+  }
+  for (const Walker& walker : course_.walkers) {
+    const dmrp_vec2 centre = walker.at(drive_.time_s, toolkit::position(pose_));
+    for (int i = 0; i < 120; ++i) {
+      const dmrp_vec2 rim = centre + walker.radius_m * toolkit::from_angle(i * toolkit::pi / 60.0);
+      mark(rim.x, rim.y);
+    }
+  }
+  const std::vector<float>& distances =
+      transform_.compute(window_cells, window_cells, resolution_m, lethal_.data(), 10.0);
+  costs_.resize(lethal_.size());
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    const double distance = distances[i];
+    const double decay = 252.0 * std::exp(-cost_scaling * (distance - footprint_.inscribed_radius_m));
+    costs_[i] = distance <= 0.0                                   ? DMRP_COST_LETHAL
+                : distance < footprint_.inscribed_radius_m - 1e-6 ? DMRP_COST_INSCRIBED
+                : distance > inflation_radius_m + 1e-6            ? DMRP_COST_FREE
+                                                                  : static_cast<std::uint8_t>(std::min(252.0, decay));
+  }
+  costmap_.costs = costs_.data();
+}
+
+void Trip::observe() {
+  dmrp_observation& now = observation_;
+  const double progress_m = now.progress_m;
+  const dmrp_twist applied = now.applied;
+  now = {};
+  now.struct_size = sizeof(now);
+  now.t_ns = t_ns_;
+  now.dt_ns = period_ns;
+  now.pose = pose_;
+  now.velocity = velocity_;
+  now.applied = applied;
+  now.goal = goal_;
+  now.goal_count = 1;
+  const toolkit::PathPlace place =
+      toolkit::project(waypoints_, arcs_, toolkit::position(pose_), progress_m, progress_m + 2.0);
+  now.progress_m = place.arc_m;
+  drive_.path_deviation_m = std::max(drive_.path_deviation_m, place.distance_m);
+  while (now.progress_waypoint + 1 < waypoints_.size() && arcs_[now.progress_waypoint + 1] <= place.arc_m)
+    ++now.progress_waypoint;
+  now.released_waypoint = std::min(course_.released, static_cast<std::uint32_t>(waypoints_.size() - 1));
+  now.limits = &limits_;
+  now.footprint = &footprint_;
+  now.agent_stride = sizeof(dmrp_agent);
+}
+
+void Trip::command() {
+  command_ = {};
+  command_.struct_size = sizeof(command_);
+  const std::int32_t status = plugin_->as<dmrp_local_controller>().step(plugin_->self(), &observation_, &command_);
+  no_solution_s_ = status == DMRP_NO_SOLUTION ? no_solution_s_ + 0.1 : 0.0;
+  drive_.longest_no_solution_s = std::max(drive_.longest_no_solution_s, no_solution_s_);
+  const auto demand = [this](bool held, const char* what) {
+    if (!held) drive_.breaches.push_back(std::string(what) + " at " + std::to_string(drive_.time_s) + " s");
+  };
+  if (status == DMRP_NO_SOLUTION) {
+    command_.v_x = command_.v_y = command_.omega = 0.0;
+  } else {
+    const double rounding = 1e-9;
+    demand(status == DMRP_OK, "a status that is neither OK nor NO_SOLUTION");
+    demand(std::isfinite(command_.v_x) && std::isfinite(command_.omega) && command_.v_y == 0.0, "no finite command");
+    demand(command_.v_x >= limits_.v_min - rounding && command_.v_x <= limits_.v_max + rounding, "v out of limits");
+    demand(std::abs(command_.omega) <= limits_.omega_max + rounding, "omega out of limits");
+    demand(std::abs(command_.v_x - velocity_.v_x) <= limits_.a_max * 0.1 + rounding, "v out of reach");
+    demand(std::abs(command_.omega - velocity_.omega) <= limits_.alpha_max * 0.1 + rounding, "omega out of reach");
+  }
+  drive_.poses.push_back(pose_);
+  drive_.commands.push_back(command_);
+}
+
+void Trip::drive_on() {
+  velocity_.v_x = ramp(velocity_.v_x, command_.v_x, limits_.a_max * step_s);
+  velocity_.omega = ramp(velocity_.omega, command_.omega, limits_.alpha_max * step_s);
+  observation_.applied = velocity_;
+  pose_ = moved(pose_, velocity_, step_s);
+  drive_.turned_rad += std::abs(velocity_.omega) * step_s;
+  t_ns_ += step_ns;
+  drive_.time_s = static_cast<double>(t_ns_) * 1e-9;
+  judge();
+}
+
+double Trip::static_clearance(dmrp_vec2 at) const {
+  double nearest = 1e9;
+  for (const Box& box : course_.boxes) {
+    const toolkit::Rectangle rectangle = {box.lower, box.upper};
+    nearest = std::min(
+        nearest, toolkit::contains(rectangle, at) ? -toolkit::depth(rectangle, at) : toolkit::distance(rectangle, at));
+  }
+  return nearest - footprint_.radius_m;
+}
+
+void Trip::judge() {
+  const dmrp_vec2 at = toolkit::position(pose_);
+  drive_.end = pose_;
+  drive_.static_clearance_m = std::min(drive_.static_clearance_m, static_clearance(at));
+  for (const Walker& walker : course_.walkers) {
+    const dmrp_vec2 other = walker.at(drive_.time_s, at);
+    const double clearance = toolkit::distance(other, at) - walker.radius_m - footprint_.radius_m;
+    drive_.walker_clearance_m = std::min(drive_.walker_clearance_m, clearance);
+    const double approach =
+        velocity_.v_x * toolkit::dot(toolkit::from_angle(pose_.theta), toolkit::normalized(other - at));
+    if (approach > 0.05) drive_.own_walker_clearance_m = std::min(drive_.own_walker_clearance_m, clearance);
+  }
+  drive_.goal_distance_m = toolkit::distance(at, toolkit::position(goal_.pose));
+  const bool there = drive_.goal_distance_m <= goal_.tolerance_m && std::abs(velocity_.v_x) <= goal_.tolerance_speed &&
+                     (std::isnan(goal_.pose.theta) ||
+                      std::abs(toolkit::difference(pose_.theta, goal_.pose.theta)) <= goal_.tolerance_rad);
+  settled_ns_ = there ? settled_ns_ + step_ns : 0;
+  drive_.arrived = settled_ns_ >= goal_.settle_ns;
+}
+
+Drive run(const std::string& controller, const Course& course, const ParamOverrides& overrides) {
+  Trip trip(controller, course, overrides);
+  while (!trip.finished()) trip.control_period();
+  return trip.result();
+}
+
+}  // namespace dmrp::test

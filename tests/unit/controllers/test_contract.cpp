@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What the contract asks of the library and of an instance.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <dmrp/toolkit/angle.hpp>
+
+#include "arena.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+const std::string pure_pursuit = "dmrp.controller.pure_pursuit";
+const std::string dwa = "dmrp.controller.dwa";
+
+// Walls, a standing and a crossing person, a replan.
+Course eventful() {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}, {6.0, 4.0}});
+  course.boxes = {{{-2.0, 1.2}, {4.5, 1.4}}, {{-2.0, -1.4}, {8.0, -1.2}}, {{7.4, -1.2}, {7.6, 6.0}}};
+  course.walkers = {standing({3.0, 0.1}), walking({8.0, 2.0}, {0.0, 2.5}, 1.2, 6.0)};
+  course.change = [](Course& now, double t_s, const dmrp_pose&) {
+    if (t_s < 9.0 || now.revision > 1) return;
+    now.revision = 2;
+    now.path = metre_path({{5.0, 0.0}, {6.0, 0.0}, {6.0, 4.0}});
+  };
+  course.time_limit_s = 40.0;
+  return course;
+}
+
+bool same_bits(const Drive& a, const Drive& b) {
+  if (a.commands.size() != b.commands.size()) return false;
+  for (std::size_t i = 0; i < a.commands.size(); ++i)
+    if (std::memcmp(&a.commands[i], &b.commands[i], sizeof(dmrp_command)) != 0) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("The library describes its controllers") {
+  const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
+  for (const std::string& id : {pure_pursuit, dwa}) {
+    CAPTURE(id);
+    const dmrp_descriptor* descriptor = library.find(id);
+    REQUIRE(descriptor);
+    CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
+    CHECK(std::string(descriptor->license) == "MIT");
+    for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
+      const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);
+      CAPTURE(spec.fallback.key);
+      CHECK(std::strlen(spec.doc) > 0);
+      if (spec.fallback.type == DMRP_PARAM_DOUBLE) {
+        CHECK(std::strlen(spec.unit) > 0);
+        CHECK(spec.minimum <= spec.fallback.number);
+        CHECK(spec.fallback.number <= spec.maximum);
+      }
+    }
+  }
+  CHECK(std::string(library.find(dwa)->requires_[0]) == DMRP_EXT_LOCAL_COSTMAP);
+  CHECK(library.find(pure_pursuit)->requires_count == 0);
+}
+
+TEST_CASE("DWA cannot start without a costmap; pure pursuit drives without one") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
+  course.costmap = false;
+  Trip trip(dwa, course);
+  CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
+  const Drive drive = run(pure_pursuit, course);
+  CHECK(drive.breaches.empty());
+  CHECK(drive.arrived);
+}
+
+TEST_CASE("The same course gives the same bits: fresh, started again, and interleaved with other instances") {
+  const std::string id = GENERATE(pure_pursuit, dwa);
+  CAPTURE(id);
+  const Course course = eventful();
+  const Drive once = run(id, course);
+  CHECK(once.breaches == std::vector<std::string>{});
+  CHECK(same_bits(once, run(id, course)));
+
+  // an instance that has been through another trial, broken off in the middle
+  Trip again(id, course);
+  for (int k = 0; k < 60; ++k) again.control_period();
+  again.start();
+  while (!again.finished()) again.control_period();
+  CHECK(same_bits(once, again.result()));
+
+  Course other;
+  other.path = metre_path({{1.0, 5.0}, {1.0, 1.0}});
+  other.walkers = {standing({1.2, 3.0})};
+  Trip one(id, course);
+  Trip two(id, other);
+  Trip three(id, course);
+  while (!one.finished()) {
+    one.control_period();
+    if (!two.finished()) two.control_period();
+    three.control_period();
+  }
+  CHECK(same_bits(once, one.result()));
+  CHECK(same_bits(once, three.result()));
+}
+
+TEST_CASE("A robot that is already too near to something gets away from it") {
+  // a person has stepped up to 0.02 m from the robot's side, and stays
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
+  course.walkers = {standing({0.0, 0.57})};
+  course.time_limit_s = 20.0;
+  const std::string id = GENERATE(pure_pursuit, dwa);
+  CAPTURE(id);
+  const Drive drive = run(id, course);
+  CHECK(drive.arrived);
+  CHECK(drive.walker_clearance_m > 0.0);
+}
+
+TEST_CASE("A standing robot with an obstacle all around says so calmly") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
+  course.boxes = {{{0.35, -0.5}, {0.45, 0.5}},
+                  {{-0.45, -0.5}, {-0.35, 0.5}},
+                  {{-0.5, 0.35}, {0.5, 0.45}},
+                  {{-0.5, -0.45}, {0.5, -0.35}}};
+  course.time_limit_s = 5.0;
+  const std::string id = GENERATE(pure_pursuit, dwa);
+  CAPTURE(id);
+  const Drive drive = run(id, course);
+  CHECK(drive.breaches == std::vector<std::string>{});
+  CHECK_FALSE(drive.arrived);
+  CHECK(drive.static_clearance_m > 0.0);
+  CHECK(drive.turned_rad < 0.5);
+}
