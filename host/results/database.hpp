@@ -12,8 +12,8 @@
 
 namespace dmrp::host {
 
-// Throws SqliteError. Numbers keep their bits; an undefined value is NULL. Seeds above 2^63 stand in the file as the
-// negative number with the same bits, since SQLite's integers are signed.
+// Throws SqliteError. Numbers keep their bits (but SQLite gives -0.0 back as 0.0); an undefined value is NULL. Seeds
+// above 2^63 stand in the file as the negative number with the same bits, since SQLite's integers are signed.
 class ResultsDatabase {
  public:
   // A new file, which must not exist, for trials that are measured by `metrics`.
