@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::pedestrians {
@@ -48,6 +49,14 @@ inline dmrp_vec2 interaction(const InteractionShape& shape, dmrp_vec2 apart, dou
   const double slowing = std::exp(-decay - slowing_width * slowing_width * squared_theta);
   const double turning = std::exp(-decay - turning_width * turning_width * squared_theta);
   return -slowing * along + (theta < 0.0 ? turning : -turning) * toolkit::perpendicular(along);
+}
+
+// Who walks along `desired` and has to turn the head further than a right angle to see the group's centre slows down by
+// how much further that is.
+inline dmrp_vec2 gaze(dmrp_vec2 desired, dmrp_vec2 velocity, dmrp_vec2 to_center) {
+  const double angle =
+      std::atan2(std::abs(toolkit::cross(desired, to_center)), toolkit::dot(desired, to_center));  // in [0, pi]
+  return -std::max(0.0, angle - 0.5 * toolkit::pi) * velocity;
 }
 
 }  // namespace dmrp::pedestrians

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "social_force.hpp"
+#include "social_force/social_force.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,12 @@ constexpr double wall_reach_m = 1.5;
 // Distances between people in the model are those of bodies of this radius, m; others count by the gap between them.
 constexpr double reference_radius_m = 0.3;
 
+// Between bodies of one group, m.
+constexpr double elbow_room_m = 0.2;
+
+// Over this distance closing up with one's group sets in, m.
+constexpr double cohesion_ramp_m = 0.5;
+
 // Nobody walks faster than this times the desired speed.
 constexpr double speed_cap_factor = 1.3;
 
@@ -29,13 +35,16 @@ Descriptor SocialForce::describe() {
       .vendor("dmrp")
       .license("MIT")
       .summary("people accelerate toward their targets and away from walls, robots and each other")
-      .source("Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405");
+      .source(
+          "Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405; groups: PLoS ONE 5 (2010), "
+          "doi:10.1371/journal.pone.0010047");
 }
 
 Status SocialForce::start(const World& world, std::uint64_t seed) {
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = seed;
   ways_.start(world.walking_grid());
+  groups_.start();
   neighbors_.start(world->lower, world->upper, neighbor_reach_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
@@ -44,11 +53,12 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
 Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   gather(crowd);
   neighbors_.build(bodies_);
+  groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
   for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
     const Person& person = crowd.people[slot];
-    Vec2 velocity = person.velocity + dt * acceleration(slot, person);
+    Vec2 velocity = person.velocity + dt * acceleration(slot, crowd.people);
     if (motion_noise > 0.0) {
       toolkit::Stream chance(seed_, "pedestrian.motion", person.id, crowd.t_ns);
       const double deviation = motion_noise * std::sqrt(dt);
@@ -73,10 +83,11 @@ void SocialForce::gather(const Crowd& crowd) {
       bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
 }
 
-Vec2 SocialForce::acceleration(std::uint32_t slot, const Person& person) {
+Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
+  const Person& person = people[slot];
   const Vec2 desired = person.desired_speed * ways_.direction(slot, person);
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + from_others(slot, person) + from_walls(person);
+  return drive + from_others(slot, person) + from_group(slot, people, desired) + from_walls(person);
 }
 
 // How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world allows
@@ -100,6 +111,29 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
     sum += other.weight * force;
   });
   return sum;
+}
+
+// Who walks in a group slows down for those out of sight behind, closes up where the group has drawn apart, and leaves
+// the others elbow-room.
+Vec2 SocialForce::from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const {
+  const Span<std::uint32_t> members = groups_.members(slot);
+  if (members.size() < 2) return {0.0, 0.0};
+  const Person& person = people[slot];
+  Vec2 center = {0.0, 0.0};
+  Vec2 elbow_room = {0.0, 0.0};
+  for (const std::uint32_t member : members) {
+    const Person& other = people[member];
+    center += other.position / static_cast<double>(members.size());
+    if (member == slot) continue;
+    const double gap_m = toolkit::distance(other.position, person.position) - person.radius_m - other.radius_m;
+    if (gap_m < elbow_room_m) elbow_room += toolkit::normalized(person.position - other.position);
+  }
+  const Vec2 to_center = center - person.position;
+  const double apart_m = toolkit::norm(to_center);
+  const double allowed_m = 0.5 * static_cast<double>(members.size() - 1);
+  const double closing_up = std::clamp((apart_m - allowed_m) / cohesion_ramp_m, 0.0, 1.0);
+  return gaze_weight * gaze(desired, person.velocity, to_center) +
+         cohesion_weight * closing_up * toolkit::normalized(to_center) + repulsion_weight * elbow_room;
 }
 
 // Walls push by their distance. Where several lie in much the same direction (pieces of one wall, the two sides of a

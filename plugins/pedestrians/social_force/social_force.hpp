@@ -6,10 +6,11 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../crowd/neighbor_grid.hpp"
-#include "../crowd/wall_grid.hpp"
-#include "../crowd/way_finding.hpp"
-#include "forces.hpp"
+#include "crowd/groups.hpp"
+#include "crowd/neighbor_grid.hpp"
+#include "crowd/wall_grid.hpp"
+#include "crowd/way_finding.hpp"
+#include "social_force/forces.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -27,6 +28,12 @@ class SocialForce final : public PedestrianModel {
       param("force_factor_obstacle", 10.0).range(0.0, 100.0).doc("weight of keeping off walls and bodies");
   Param<double> obstacle_sigma =
       param("force_sigma_obstacle", 0.2).unit("m").range(0.01, 0.25).doc("range of keeping off walls and bodies");
+  Param<double> gaze_weight =
+      param("force_factor_group_gaze", 3.0).range(0.0, 100.0).doc("weight of slowing down to see one's group");
+  Param<double> cohesion_weight =
+      param("force_factor_group_cohesion", 2.0).range(0.0, 100.0).doc("weight of keeping near one's group");
+  Param<double> repulsion_weight =
+      param("force_factor_group_repulsion", 1.0).range(0.0, 100.0).doc("weight of leaving one's group elbow-room");
   Param<double> lambda =
       param("lambda", 2.0).range(0.0, 10.0).doc("weight of the relative velocity in an interaction's direction");
   Param<double> gamma = param("gamma", 0.35).range(0.01, 5.0).doc("range of an interaction per unit of its strength");
@@ -42,14 +49,16 @@ class SocialForce final : public PedestrianModel {
 
  private:
   void gather(const Crowd& crowd);
-  Vec2 acceleration(std::uint32_t slot, const Person& person);
+  Vec2 acceleration(std::uint32_t slot, const Span<Person>& people);
   double keeping_off(double gap_m) const;
   Vec2 from_others(std::uint32_t slot, const Person& person) const;
+  Vec2 from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const;
   Vec2 from_walls(const Person& person);
 
   InteractionShape shape_ = {};
   std::uint64_t seed_ = 0;
   WayFinder ways_;
+  Groups groups_;
   NeighborGrid neighbors_;
   WallGrid walls_;
   std::vector<Body> bodies_;

@@ -7,9 +7,10 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "../../../plugins/pedestrians/crowd/neighbor_grid.hpp"
-#include "../../../plugins/pedestrians/crowd/wall_grid.hpp"
-#include "../../../plugins/pedestrians/crowd/way_finding.hpp"
+#include "crowd/groups.hpp"
+#include "crowd/neighbor_grid.hpp"
+#include "crowd/wall_grid.hpp"
+#include "crowd/way_finding.hpp"
 #include "walking_world.hpp"
 
 using namespace dmrp::pedestrians;
@@ -111,4 +112,23 @@ TEST_CASE("somebody pushed off the free cells finds the way back") {
   WayFinder ways;
   ways.start(*world.c().walking_grid);
   CHECK(ways.direction(0, dmrp::test::person(1, {9.95, 3.0}, {22.0, 2.0})).x < 0.0);
+}
+
+TEST_CASE("groups are those with the same number, whatever their slots") {
+  std::vector<dmrp_person> people(6);
+  const std::uint32_t numbers[] = {7, 0, 3, 7, 0, 7};
+  for (std::size_t slot = 0; slot < 6; ++slot) people[slot].group = numbers[slot];
+  Groups groups;
+  groups.start();
+  const auto members = [&](std::uint32_t slot) {
+    groups.update({people.data(), people.size()});
+    const auto found = groups.members(slot);
+    return std::vector<std::uint32_t>(found.begin(), found.end());
+  };
+  CHECK(members(3) == std::vector<std::uint32_t>{0, 3, 5});
+  CHECK(members(2) == std::vector<std::uint32_t>{2});
+  CHECK(members(1).empty());
+  people[3].group = 3;
+  CHECK(members(3) == std::vector<std::uint32_t>{2, 3});
+  CHECK(members(0) == std::vector<std::uint32_t>{0, 5});
 }

@@ -288,3 +288,18 @@ TEST_CASE("a new person in a slot finds their own way") {
   taken_over.step();
   CHECK(fresh.velocities[0] == taken_over.velocities[0]);
 }
+
+TEST_CASE("a group stays together where strangers draw apart") {
+  const WalkingWorld world({50.0, 10.0}, {});
+  const auto furthest_apart = [&](uint32_t group) {
+    Walk walk(world, social_force);
+    walk.people = {person(1, {3.0, 4.5}, {48.0, 5.0}, 1.4), person(2, {3.0, 5.5}, {48.0, 5.0}, 1.1)};
+    for (dmrp_person& p : walk.people) p.group = group;
+    walk_for(walk, 20.0);
+    CHECK(walk.people[1].position.x > 20.0);
+    return distance(walk.people[0].position, walk.people[1].position);
+  };
+  CHECK(furthest_apart(0) > 4.0);
+  CHECK(furthest_apart(1) < 2.0);
+  CHECK(furthest_apart(1) > 0.6);
+}
