@@ -14,6 +14,8 @@ target_compile_options(
             -Wcast-align
             $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
             $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+            # False alarms of gcc 12 in its own string and vector at -O3 (its bug 105651 and relatives).
+            "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds;-Wno-stringop-overread>"
             $<$<BOOL:${DMRP_WARNINGS_AS_ERRORS}>:-Werror>)
 
 if(DMRP_SANITIZE)

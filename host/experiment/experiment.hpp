@@ -33,7 +33,7 @@ struct PluginUse {
 // A scenario with a number of robots.
 struct ScenarioVariant {
   core::Scenario scenario;     // holds exactly the robots that take part
-  std::string label;           // the scenario's name; "mall/10" where an experiment asks for several numbers of robots
+  std::string label;           // the scenario's name; "mall/2" where it runs with fewer robots than it lists
   std::filesystem::path file;  // of scenario.toml
 };
 

@@ -133,7 +133,7 @@ class Reader {
         variant.scenario = scenario.scenario;
         variant.scenario.robots.resize(count);
         variant.label = variant.scenario.name;
-        if (counts.size() > 1 || count != scenario.scenario.robots.size()) variant.label += fmt::format("/{}", count);
+        if (count != scenario.scenario.robots.size()) variant.label += fmt::format("/{}", count);
         variant.file = file;
         for (const ScenarioVariant& other : experiment_.scenarios)
           if (other.label == variant.label) use.fail(fmt::format("scenario '{}' is there twice", variant.label));

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace dmrp::host {
@@ -12,131 +11,146 @@ namespace dmrp::host {
 namespace {
 
 constexpr double longest_s = 1e6;
+constexpr double shortest_s = 1e-3;
+constexpr double farthest_m = 1e4;
+constexpr double most_costmap_cells = 2000.0;  // along a side
 
-void read_positive(TomlTable& table, const char* key, double& to) {
-  if (const auto value = table.find(key)) to = value->positive();
+using Read = std::function<void(const TomlValue&)>;
+
+Read positive(double& to, double maximum) {
+  return [&to, maximum](const TomlValue& value) {
+    value.positive();
+    to = value.number(0.0, maximum);
+  };
 }
 
-void read_number(TomlTable& table, const char* key, double& to, double minimum, double maximum) {
-  if (const auto value = table.find(key)) to = value->number(minimum, maximum);
+Read number(double& to, double minimum, double maximum) {
+  return [&to, minimum, maximum](const TomlValue& value) { to = value.number(minimum, maximum); };
 }
 
-void read_seconds(TomlTable& table, const char* key, std::int64_t& to_ns) {
-  if (const auto value = table.find(key)) {
-    const double seconds = value->number(1e-3, longest_s);
-    to_ns = std::llround(seconds * 1e9);
-  }
+Read seconds(std::int64_t& to_ns) {
+  return [&to_ns](const TomlValue& value) { to_ns = std::llround(value.number(shortest_s, longest_s) * 1e9); };
 }
 
-// Settings of the design that later work brings: their default is accepted, anything else refused plainly.
-void refuse_unbuilt(TomlTable& table, const char* key, const std::string& only) {
-  const auto value = table.find(key);
-  if (!value) return;
-  const std::string written = value->type_name() == "a string" ? value->text() : fmt::format("{}", value->number());
-  if (written != only) value->fail(fmt::format("'{}' can only be {} so far: the rest is not built yet", key, only));
+// One of a list, told apart by its place there.
+template <class Enum>
+Read choice(Enum& to, const std::vector<std::string>& choices) {
+  return [&to, choices](const TomlValue& value) {
+    const std::string chosen = value.choice(choices);
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i] == chosen) to = static_cast<Enum>(i);
+  };
 }
 
-void read_simulation(TomlTable& root, Experiment& experiment) {
-  auto found = root.find_table("simulation");
-  if (!found) return;
-  TomlTable& table = *found;
+// A setting of the design of which only the first choice, the default, is built.
+Read first_only(const std::vector<std::string>& choices) {
+  return [choices](const TomlValue& value) {
+    if (const std::string chosen = value.choice(choices); chosen != choices.front())
+      value.fail(fmt::format("'{}' can only be '{}' so far: '{}' is not built yet", value.key(), choices.front(),
+                             chosen));
+  };
+}
+
+void no_replanning(const TomlValue& value) {
+  if (value.number(0.0, longest_s) != 0.0)
+    value.fail(fmt::format("'{}' can only be 0 so far: replanning is not built yet", value.key()));
+}
+
+void check_control_period(const TomlTable& table, const core::SimulationSettings& simulation) {
+  if (simulation.control_period_ns % simulation.step_ns == 0) return;
+  const auto period = table.find("control_period_s");
+  const auto step = table.find("step_s");
+  (period ? *period : *step)
+      .fail(fmt::format("'control_period_s' must be a multiple of 'step_s': {} s is none of {} s",
+                        static_cast<double>(simulation.control_period_ns) / 1e9,
+                        static_cast<double>(simulation.step_ns) / 1e9));
+}
+
+void read_simulation(const TomlTable& root, Experiment& experiment) {
+  const auto table = root.find_table("simulation");
+  if (!table) return;
   core::SimulationSettings& to = experiment.simulation;
-  read_seconds(table, "step_s", to.step_ns);
-  read_seconds(table, "control_period_s", to.control_period_ns);
-  if (to.control_period_ns % to.step_ns != 0)
-    table.fail(fmt::format("control_period_s must be a multiple of step_s, {} s is none of {} s",
-                           static_cast<double>(to.control_period_ns) * 1e-9, static_cast<double>(to.step_ns) * 1e-9));
-  experiment.time_limit_set = table.find("time_limit_s").has_value();
-  read_seconds(table, "time_limit_s", to.time_limit_ns);
-  read_number(table, "grid_resolution_m", to.grid_resolution_m, 0.05, 100.0);
-  read_seconds(table, "step_duration_s", to.step_duration_ns);
-  read_number(table, "planning_margin_m", to.planning_margin_m, 0.0, 10.0);
-  if (const auto tracking = table.find("tracking")) {
-    const std::string choice = tracking->choice({"none", "visible", "all"});
-    to.tracking = choice == "none"      ? core::Tracking::none
-                  : choice == "visible" ? core::Tracking::visible
-                                        : core::Tracking::all;
-  }
-  read_positive(table, "tracking_range_m", to.tracking_range_m);
-  read_positive(table, "goal_tolerance_m", to.goal.tolerance_m);
-  read_positive(table, "goal_tolerance_rad", to.goal.tolerance_rad);
-  read_positive(table, "goal_tolerance_speed", to.goal.tolerance_speed);
-  read_number(table, "goal_settle_s", to.goal.settle_s, 0.0, longest_s);
-  refuse_unbuilt(table, "dispatch", "full_path");
-  refuse_unbuilt(table, "execution", "free");
-  refuse_unbuilt(table, "replan_period_s", "0");
-  table.finish();
+  table->read({{"step_s", seconds(to.step_ns)},
+               {"control_period_s", seconds(to.control_period_ns)},
+               {"time_limit_s", seconds(to.time_limit_ns)},
+               {"grid_resolution_m", number(to.grid_resolution_m, 0.05, 100.0)},
+               {"step_duration_s", seconds(to.step_duration_ns)},
+               {"planning_margin_m", number(to.planning_margin_m, 0.0, 10.0)},
+               {"tracking", choice(to.tracking, {"none", "visible", "all"})},
+               {"tracking_range_m", positive(to.tracking_range_m, farthest_m)},
+               {"goal_tolerance_m", positive(to.goal.tolerance_m, farthest_m)},
+               {"goal_tolerance_rad", positive(to.goal.tolerance_rad, std::numbers::pi)},
+               {"goal_tolerance_speed", positive(to.goal.tolerance_speed, 100.0)},
+               {"goal_settle_s", number(to.goal.settle_s, 0.0, longest_s)},
+               {"dispatch", first_only({"full_path", "waypoint"})},
+               {"execution", first_only({"free", "ordered"})},
+               {"replan_period_s", no_replanning}});
+  experiment.time_limit_set = table->find("time_limit_s").has_value();
+  check_control_period(*table, to);
 }
 
-void read_lidar(TomlTable& robot, core::LidarSettings& to) {
-  auto table = robot.find_table("lidar");
+void read_lidar(const TomlTable& robot, core::LidarSettings& to) {
+  const auto table = robot.find_table("lidar");
   if (!table) return;
-  if (const auto beams = table->find("beams")) to.beams = static_cast<std::uint32_t>(beams->integer(1, 100'000));
-  read_number(*table, "field_of_view_rad", to.field_of_view_rad, 0.01, 2.0 * std::numbers::pi);
-  read_number(*table, "range_min_m", to.range_min_m, 0.0, 1000.0);
-  read_positive(*table, "range_max_m", to.range_max_m);
-  table->finish();
-  if (to.range_min_m >= to.range_max_m) table->fail("'lidar' needs range_min_m < range_max_m");
+  table->read({{"beams", [&](const TomlValue& v) { to.beams = static_cast<std::uint32_t>(v.integer(1, 100'000)); }},
+               {"field_of_view_rad", number(to.field_of_view_rad, 0.01, 2.0 * std::numbers::pi)},
+               {"range_min_m", number(to.range_min_m, 0.0, farthest_m)},
+               {"range_max_m", positive(to.range_max_m, farthest_m)}});
+  if (to.range_min_m >= to.range_max_m)
+    table->fail(fmt::format("'lidar' needs range_min_m < range_max_m, not {} and {}", to.range_min_m, to.range_max_m));
 }
 
-void read_costmap(TomlTable& robot, core::CostmapSettings& to) {
-  auto table = robot.find_table("costmap");
+void read_costmap(const TomlTable& robot, core::CostmapSettings& to) {
+  const auto table = robot.find_table("costmap");
   if (!table) return;
-  read_number(*table, "resolution_m", to.resolution_m, 0.01, 1.0);
-  read_number(*table, "window_m", to.window_m, 1.0, 100.0);
-  read_positive(*table, "obstacle_range_m", to.obstacle_range_m);
-  read_positive(*table, "raytrace_range_m", to.raytrace_range_m);
-  read_positive(*table, "inflation_radius_m", to.inflation_radius_m);
-  read_positive(*table, "cost_scaling", to.cost_scaling);
-  table->finish();
+  table->read({{"resolution_m", number(to.resolution_m, 0.01, 1.0)},
+               {"window_m", number(to.window_m, 1.0, 100.0)},
+               {"obstacle_range_m", positive(to.obstacle_range_m, farthest_m)},
+               {"raytrace_range_m", positive(to.raytrace_range_m, farthest_m)},
+               {"inflation_radius_m", positive(to.inflation_radius_m, 100.0)},
+               {"cost_scaling", positive(to.cost_scaling, 1000.0)}});
+  if (to.window_m / to.resolution_m > most_costmap_cells)
+    table->fail(fmt::format("'costmap' can have at most {} cells along a side: a window of {} m at {} m has {:.0f}",
+                            most_costmap_cells, to.window_m, to.resolution_m, to.window_m / to.resolution_m));
 }
 
-void read_robot(TomlTable& root, core::RobotSettings& to) {
-  auto table = root.find_table("robot");
+void read_robot(const TomlTable& root, core::RobotSettings& to) {
+  const auto table = root.find_table("robot");
   if (!table) return;
-  if (auto footprint = table->find_table("footprint")) {
-    read_number(*footprint, "radius_m", to.radius_m, 0.01, 10.0);
-    footprint->finish();
-  }
-  read_number(*table, "v_min", to.v_min, -100.0, 0.0);
-  read_positive(*table, "v_max", to.v_max);
-  read_positive(*table, "omega_max", to.omega_max);
-  read_positive(*table, "a_max", to.a_max);
-  read_positive(*table, "alpha_max", to.alpha_max);
-  read_lidar(*table, to.lidar);
-  read_costmap(*table, to.costmap);
-  table->finish();
+  const auto footprint = [&](const TomlValue& value) {
+    value.table().read({{"radius_m", number(to.radius_m, 0.01, 10.0)}});
+  };
+  table->read({{"footprint", footprint},
+               {"v_min", number(to.v_min, -100.0, 0.0)},
+               {"v_max", positive(to.v_max, 100.0)},
+               {"omega_max", positive(to.omega_max, 100.0)},
+               {"a_max", positive(to.a_max, 1000.0)},
+               {"alpha_max", positive(to.alpha_max, 1000.0)},
+               {"lidar", [&](const TomlValue&) { read_lidar(*table, to.lidar); }},
+               {"costmap", [&](const TomlValue&) { read_costmap(*table, to.costmap); }}});
 }
 
-void read_record(TomlTable& root, Experiment& experiment) {
-  auto table = root.find_table("record");
-  if (!table) return;
-  if (const auto traces = table->find("traces")) {
-    const std::string choice = traces->choice({"all", "failed", "none"});
-    experiment.traces = choice == "all"      ? RecordTraces::all
-                        : choice == "failed" ? RecordTraces::failed
-                                             : RecordTraces::none;
-  }
-  table->finish();
+void read_record(const TomlTable& root, Experiment& experiment) {
+  if (const auto table = root.find_table("record"))
+    table->read({{"traces", choice(experiment.traces, {"all", "failed", "none"})}});
 }
 
-void read_limits(TomlTable& root, RunLimits& to) {
-  auto table = root.find_table("limits");
+void read_limits(const TomlTable& root, RunLimits& to) {
+  const auto table = root.find_table("limits");
   if (!table) return;
-  read_number(*table, "planner_time_s", to.planner_time_s, 1e-3, longest_s);
-  read_number(*table, "step_time_s", to.step_time_s, 1e-3, longest_s);
-  read_number(*table, "trial_wall_time_s", to.trial_wall_time_s, 1e-3, longest_s);
-  if (const auto memory = table->find("memory_mb")) to.memory_mb = memory->integer(0, 1 << 30);
-  table->finish();
+  table->read({{"planner_time_s", number(to.planner_time_s, shortest_s, longest_s)},
+               {"step_time_s", number(to.step_time_s, shortest_s, longest_s)},
+               {"trial_wall_time_s", number(to.trial_wall_time_s, shortest_s, longest_s)},
+               {"memory_mb", [&](const TomlValue& v) { to.memory_mb = v.integer(0, 1 << 30); }}});
 }
 
 }  // namespace
 
-void read_settings(TomlTable& root, Experiment& experiment) {
-  read_simulation(root, experiment);
-  read_robot(root, experiment.robot);
-  read_record(root, experiment);
-  read_limits(root, experiment.limits);
+std::vector<TomlTable::KeyReader> settings_readers(const TomlTable& root, Experiment& experiment) {
+  return {{"simulation", [&](const TomlValue&) { read_simulation(root, experiment); }},
+          {"robot", [&](const TomlValue&) { read_robot(root, experiment.robot); }},
+          {"record", [&](const TomlValue&) { read_record(root, experiment); }},
+          {"limits", [&](const TomlValue&) { read_limits(root, experiment.limits); }}};
 }
 
 }  // namespace dmrp::host

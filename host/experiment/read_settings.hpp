@@ -2,11 +2,14 @@
 // read_settings.hpp: the tables [simulation], [robot], [record] and [limits] of an experiment file.
 #pragma once
 
+#include <vector>
+
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/toml_document.hpp"
 
 namespace dmrp::host {
 
-void read_settings(TomlTable& root, Experiment& experiment);
+// What root.read() calls for these tables. Both arguments outlive the readers.
+std::vector<TomlTable::KeyReader> settings_readers(const TomlTable& root, Experiment& experiment);
 
 }  // namespace dmrp::host

@@ -18,6 +18,16 @@ SourcePosition position_of(const toml::source_region& region) {
   return {std::max<std::uint32_t>(region.begin.line, 1), std::max<std::uint32_t>(region.begin.column, 1)};
 }
 
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+// Messages quote what the file says, and it may say line breaks.
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  return text;
+}
+
 }  // namespace
 
 TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : shown_path_(std::move(shown_path)) {
@@ -39,7 +49,7 @@ std::string TomlDocument::place(SourcePosition at) const {
 }
 
 void TomlDocument::fail(SourcePosition at, const std::string& text) const {
-  throw InputError(place(at) + ": " + text);
+  throw InputError(one_line(place(at) + ": " + text));
 }
 
 SourcePosition TomlValue::position() const {
@@ -61,7 +71,7 @@ std::string TomlValue::type_name() const {
     case toml::node_type::integer:
       return "an integer";
     case toml::node_type::floating_point:
-      return "a number";
+      return "a float";
     case toml::node_type::boolean:
       return "a boolean";
     default:
@@ -109,6 +119,14 @@ std::string TomlValue::text() const {
   return node_->as_string()->get();
 }
 
+std::string TomlValue::line() const {
+  const std::string value = text();
+  if (value.empty()) fail(fmt::format("'{}' must not be empty", key_));
+  if (std::any_of(value.begin(), value.end(), is_control))
+    fail(fmt::format("'{}' must not have line breaks or other control characters", key_));
+  return value;
+}
+
 std::string TomlValue::choice(const std::vector<std::string>& choices) const {
   const std::string value = text();
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
@@ -120,7 +138,7 @@ std::string TomlValue::choice(const std::vector<std::string>& choices) const {
 std::vector<TomlValue> TomlValue::array() const {
   if (!node_->is_array()) fail(fmt::format("'{}' must be an array, not {}", key_, type_name()));
   std::vector<TomlValue> out;
-  for (const toml::node& element : *node_->as_array()) out.emplace_back(*document_, element, key_);
+  for (const toml::node& element : *node_->as_array()) out.emplace_back(*document_, element, key_, position_of(element.source()));
   return out;
 }
 
@@ -140,24 +158,40 @@ void TomlTable::fail(const std::string& text) const {
   document_->fail(position(), text);
 }
 
-std::optional<TomlValue> TomlTable::find(const std::string& key) {
-  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
-  const toml::node* node = table_->get(key);
-  if (!node) return std::nullopt;
-  return TomlValue(*document_, *node, key);
+void TomlTable::refuse_key(const TomlValue& entry, const std::vector<std::string>& known,
+                           const std::string& whose) const {
+  const std::string in = whose.empty() && !title_.empty() ? " in " + title_ : whose;
+  document_->fail(entry.key_position(),
+                  fmt::format("unknown key '{}'{}{}", entry.key(), in, did_you_mean(entry.key(), known)));
 }
 
-TomlValue TomlTable::need(const std::string& key) {
-  if (auto value = find(key)) return *value;
-  // A misspelt key is the likelier mistake than a missing one.
+void TomlTable::read(const std::vector<KeyReader>& readers) const {
+  std::vector<std::string> known;
+  for (const KeyReader& reader : readers) known.push_back(reader.first);
+  for (const TomlValue& entry : entries()) {
+    const auto found = std::find(known.begin(), known.end(), entry.key());
+    if (found == known.end()) refuse_key(entry, known, "");
+    readers[static_cast<std::size_t>(found - known.begin())].second(entry);
+  }
+}
+
+void TomlTable::allow_only(const std::vector<std::string>& keys, const std::string& whose) const {
   for (const TomlValue& entry : entries())
-    if (nearest_name(entry.key(), {key}) == key && std::find(asked_.begin(), asked_.end(), entry.key()) == asked_.end())
-      document_->fail(entry.position(), fmt::format("unknown key '{}' in {} (did you mean '{}'?)", entry.key(),
-                                                    title_.empty() ? "the file" : title_, key));
+    if (std::find(keys.begin(), keys.end(), entry.key()) == keys.end()) refuse_key(entry, keys, whose);
+}
+
+std::optional<TomlValue> TomlTable::find(const std::string& key) const {
+  const auto entry = table_->find(key);
+  if (entry == table_->end()) return std::nullopt;
+  return TomlValue(*document_, entry->second, key, position_of(entry->first.source()));
+}
+
+TomlValue TomlTable::need(const std::string& key) const {
+  if (const auto value = find(key)) return *value;
   fail(title_.empty() ? fmt::format("the file needs [{}]", key) : fmt::format("{} needs '{}'", title_, key));
 }
 
-std::optional<TomlTable> TomlTable::find_table(const std::string& key) {
+std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
   const auto value = find(key);
   if (!value) return std::nullopt;
   TomlTable table = value->table();
@@ -165,7 +199,7 @@ std::optional<TomlTable> TomlTable::find_table(const std::string& key) {
   return table;
 }
 
-std::vector<TomlTable> TomlTable::tables(const std::string& key) {
+std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   std::vector<TomlTable> out;
   const auto value = find(key);
   if (!value) return out;
@@ -179,23 +213,15 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
 }
 
 std::vector<TomlValue> TomlTable::entries() const {
-  std::vector<std::pair<toml::source_position, TomlValue>> found;
-  for (const auto& [key, node] : *table_)
-    found.emplace_back(key.source().begin, TomlValue(*document_, node, std::string(key.str())));
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<TomlValue> out;
-  for (auto& entry : found) out.push_back(std::move(entry.second));
+  for (const auto& [key, node] : *table_)
+    out.emplace_back(*document_, node, std::string(key.str()), position_of(key.source()));
+  std::sort(out.begin(), out.end(), [](const TomlValue& a, const TomlValue& b) {
+    const SourcePosition p = a.key_position();
+    const SourcePosition q = b.key_position();
+    return p.line != q.line ? p.line < q.line : p.column < q.column;
+  });
   return out;
-}
-
-void TomlTable::finish(const std::string& whose) const {
-  for (const auto& [key, node] : *table_) {
-    const std::string name(key.str());
-    if (std::find(asked_.begin(), asked_.end(), name) != asked_.end()) continue;
-    const std::string in = whose.empty() ? (title_.empty() ? "" : " in " + title_) : whose;
-    document_->fail(position_of(key.source()),
-                    fmt::format("unknown key '{}'{}{}", name, in, did_you_mean(name, asked_)));
-  }
 }
 
 }  // namespace dmrp::host

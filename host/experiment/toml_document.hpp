@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace toml {
@@ -47,11 +49,12 @@ class TomlDocument {
 // A value of the document. The accessors say what was expected when it is something else.
 class TomlValue {
  public:
-  TomlValue(const TomlDocument& document, const toml::v3::node& node, std::string key)
-      : document_(&document), node_(&node), key_(std::move(key)) {}
+  TomlValue(const TomlDocument& document, const toml::v3::node& node, std::string key, SourcePosition key_position)
+      : document_(&document), node_(&node), key_(std::move(key)), key_position_(key_position) {}
 
   const std::string& key() const { return key_; }
   SourcePosition position() const;
+  SourcePosition key_position() const { return key_position_; }
   [[noreturn]] void fail(const std::string& text) const;
 
   bool boolean() const;
@@ -61,6 +64,7 @@ class TomlValue {
                 double maximum = std::numeric_limits<double>::infinity()) const;  // finite; an integer will do
   double positive() const;                                                        // a number > 0
   std::string text() const;
+  std::string line() const;  // a text that can stand in a message or a table: not empty, no control characters
   std::string choice(const std::vector<std::string>& choices) const;
   std::vector<TomlValue> array() const;
   TomlTable table() const;
@@ -73,9 +77,10 @@ class TomlValue {
   const TomlDocument* document_;
   const toml::v3::node* node_;
   std::string key_;
+  SourcePosition key_position_;
 };
 
-// A table whose keys are asked for one by one; finish() refuses those that nobody asked for.
+// A table. Who reads it says first which keys it can have.
 class TomlTable {
  public:
   // `title`: as messages call it, "[experiment]"; "" for the root.
@@ -85,22 +90,28 @@ class TomlTable {
   [[noreturn]] void fail(const std::string& text) const;
   const std::string& title() const { return title_; }
 
-  std::optional<TomlValue> find(const std::string& key);
-  TomlValue need(const std::string& key);
-  std::optional<TomlTable> find_table(const std::string& key);
-  std::vector<TomlTable> tables(const std::string& key);  // [[key]]; empty if there are none
+  // Reads every key in the order of the file, so that the first mistake is the one told; refuses other keys.
+  using KeyReader = std::pair<std::string, std::function<void(const TomlValue&)>>;
+  void read(const std::vector<KeyReader>& readers) const;
 
-  // All keys, in the order of the file, without marking them.
+  // Refuses the first key that is none of these. `whose`: "" or " for dmrp.planner.cbs", for the message.
+  void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;
+
+  std::optional<TomlValue> find(const std::string& key) const;
+  TomlValue need(const std::string& key) const;
+  std::optional<TomlTable> find_table(const std::string& key) const;
+  std::vector<TomlTable> tables(const std::string& key) const;  // [[key]]; empty if there are none
+
+  // All keys, in the order of the file.
   std::vector<TomlValue> entries() const;
 
-  // `whose`: "" or " for ID of a plugin", for the message.
-  void finish(const std::string& whose = "") const;
-
  private:
+  [[noreturn]] void refuse_key(const TomlValue& entry, const std::vector<std::string>& known,
+                               const std::string& whose) const;
+
   const TomlDocument* document_;
   const toml::v3::table* table_;
   std::string title_;
-  std::vector<std::string> asked_;
 };
 
 }  // namespace dmrp::host

@@ -5,11 +5,6 @@
 
 namespace dmrp::host {
 
-const std::vector<std::string>& offered_extensions() {
-  static const std::vector<std::string> ids = {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD};
-  return ids;
-}
-
 RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar)
     : world_(world), robot_(robot), lidar_(lidar), ranges_(lidar.beams()) {
   lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {

@@ -17,7 +17,10 @@
 namespace dmrp::host {
 
 // The ids of the extensions that this host offers to local controllers.
-const std::vector<std::string>& offered_extensions();
+inline const std::vector<std::string>& offered_extensions() {
+  static const std::vector<std::string> ids = {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD};
+  return ids;
+}
 
 // One robot's sensors in one trial. Nothing is computed that nobody asked for: scans when they are read, the costmap
 // on every scan from the moment it is subscribed to (it has a history), its distance field when it is read.

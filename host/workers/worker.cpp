@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/mcap_writer.hpp"
 #include "core/trace_encoder.hpp"
+#include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
 #include "host/experiment/digest.hpp"
 #include "host/trial/measure.hpp"
@@ -86,7 +86,7 @@ class Worker {
     const VariantWorld& world = variant(combination.scenario);
     const std::uint64_t seed = trial_seed(experiment_, job.trial);
 
-    std::optional<core::McapWriter> file;
+    std::optional<core::TraceFileWriter> file;
     if (!job.trace_file.empty()) file.emplace(job.trace_file);
     core::TraceEncoder trace(world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
       if (file) file->write(t_ns, record);
@@ -102,7 +102,7 @@ class Worker {
       done.outcome = trial_outcome::fault;
       pool_.clear();
     }
-    if (file) file->close();
+    if (file) file->finish();
     if (done.outcome != trial_outcome::fault) measure_all(trace.bytes(), seed, job);
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
       std::filesystem::remove(job.trace_file);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// commands.hpp: what `dmrp-host` can do. Each returns the exit status; InputErrors are main()'s.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dmrp::host {
+
+namespace exit_status {
+inline constexpr int done = 0;
+inline constexpr int faults = 1;  // some trials ended in a fault
+inline constexpr int bad_input = 2;
+inline constexpr int interrupted = 130;
+}  // namespace exit_status
+
+// Trials k with k % count == index.
+struct Shard {
+  std::uint64_t index = 0;
+  std::uint64_t count = 1;
+};
+
+struct RunOptions {
+  std::filesystem::path experiment;
+  std::filesystem::path out;  // empty: runs/NAME, or runs/NAME-2, ...
+  unsigned jobs = 1;
+  bool resume = false;
+  Shard shard;
+  std::uint32_t trials = 0;  // 0: as the file says
+  bool quiet = false;
+};
+int run_command(const RunOptions& options, const std::vector<std::string>& command_line);
+
+int validate_command(const std::filesystem::path& experiment);
+
+// All libraries of the plugin path if none is named.
+int plugins_command(const std::vector<std::string>& libraries, bool json);
+
+struct DrawOptions {
+  std::string scenario;
+  std::string planner;                // id; empty: no plan
+  std::vector<std::string> plugins;   // libraries beside those of the plugin path
+  std::vector<std::string> settings;  // key=value for the planner
+  std::filesystem::path svg;          // empty: standard output
+};
+int draw_command(const DrawOptions& options);
+
+}  // namespace dmrp::host

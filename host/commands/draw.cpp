@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Draws a scenario; with a planner, its paths as well, planned as a trial would plan them, but in this process.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <dmrp/toolkit/svg.hpp>
+#include <memory>
+
+#include "core/robot_task.hpp"
+#include "core/world.hpp"
+#include "host/commands/commands.hpp"
+#include "host/experiment/adhoc_use.hpp"
+#include "host/experiment/read_scenario.hpp"
+#include "host/input_error.hpp"
+#include "host/plugins/library.hpp"
+#include "host/results/atomic_file.hpp"
+#include "host/trial/instance_pool.hpp"
+#include "host/trial/planning.hpp"
+#include "host/trial/variant_world.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double tall_m = 2.0;  // shapes this tall are walls, lower ones furniture
+
+void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+  for (const core::Shape& shape : scenario.shapes) {
+    const char* look = shape.height_m >= tall_m ? "wall" : "furniture";
+    if (shape.kind == core::Shape::Kind::circle)
+      picture.circle(shape.center, shape.radius_m, {look}, shape.name);
+    else
+      picture.polygon(shape.vertices, {look}, shape.name);
+  }
+}
+
+void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+  for (const core::Region& region : scenario.regions)
+    picture.rectangle({region.lower, region.upper}, {"region"}, region.name);
+}
+
+void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const Plan* plan) {
+  const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const core::RobotTask& task = scenario.robots[i];
+    const auto color = toolkit::series_color(i);
+    if (plan) {
+      std::vector<dmrp_vec2> points;
+      for (const dmrp_waypoint& w : plan->paths[i]) points.push_back({w.x, w.y});
+      picture.polyline(points, {"path", color}, fmt::format("path of {}", task.name));
+    }
+    for (const dmrp_pose& goal : task.goals)
+      picture.circle({goal.x, goal.y}, experiment.robot.radius_m, {"goal", color},
+                     fmt::format("goal of {}", task.name));
+    const dmrp_pose start = core::start_of(task);
+    picture.circle({start.x, start.y}, experiment.robot.radius_m, {"robot", color}, task.name);
+    picture.arrow({start.x, start.y}, {start.x + 0.6 * std::cos(start.theta), start.y + 0.6 * std::sin(start.theta)},
+                  {"heading", color});
+    picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i + 1), {"label", color});
+  }
+}
+
+// Plans once with the planner's own parameters; says what came out on standard error.
+Plan plan_once(const Experiment& experiment) {
+  auto note = std::make_unique<CallNote>();
+  CallGuard guard(*note);
+  InstancePool pool(experiment.libraries, guard, [](std::int32_t, const std::string& plugin, const std::string& text) {
+    fmt::print(stderr, "{}: {}\n", plugin, text);
+  });
+  const VariantWorld variant(experiment, experiment.scenarios[0]);
+  const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, experiment.seed);
+  const PluginUse& use = experiment.global_planners[0];
+  Instance& planner = pool.get(use, -1);
+  const std::int64_t budget_ns = nanoseconds(experiment.limits.planner_time_s);
+  planner.start(variant.view.world(), experiment.seed, budget_ns);
+  Plan plan = make_plan(planner, use.info, variant, world, 1, budget_ns, 0);
+  if (!plan.exists()) throw std::runtime_error(use.info.id + " found no plan");
+
+  double total_m = 0.0;
+  for (const auto& path : plan.paths)
+    for (std::size_t i = 1; i < path.size(); ++i)
+      total_m += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+  fmt::print(stderr, "{}: {:.2f} m in all, {:.2f} ms", use.info.id, total_m,
+             static_cast<double>(plan.planning_ns) * 1e-6);
+  for (const Plan::Statistic& statistic : plan.statistics)
+    fmt::print(stderr, ", {} {}", statistic.name, statistic.value);
+  fmt::print(stderr, "\n");
+  return plan;
+}
+
+}  // namespace
+
+int draw_command(const DrawOptions& options) {
+  const Experiment experiment = adhoc_experiment(options.scenario, options.planner, options.plugins, options.settings);
+  const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);
+  draw_flows(picture, scenario);
+  draw_shapes(picture, scenario);
+  if (options.planner.empty()) {
+    draw_robots(picture, experiment, nullptr);
+  } else {
+    const Plan plan = plan_once(experiment);
+    draw_robots(picture, experiment, &plan);
+  }
+  picture.scale_bar(5.0);
+  if (options.svg.empty())
+    fmt::print("{}", picture.document());
+  else
+    write_file_atomically(options.svg, picture.document());
+  return exit_status::done;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "host/commands/commands.hpp"
+#include "host/input_error.hpp"
+#include "host/plugins/library.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> libraries_of_path() {
+  std::vector<fs::path> out;
+  for (const fs::path& folder : plugin_path()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".so") out.push_back(fs::canonical(entry.path()));
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::string text_of(const ParameterValue& value) {
+  switch (value.type) {
+    case DMRP_PARAM_BOOL:
+      return value.integer ? "true" : "false";
+    case DMRP_PARAM_INT:
+      return fmt::format("{}", value.integer);
+    case DMRP_PARAM_DOUBLE:
+      return fmt::format("{}", value.number);
+    case DMRP_PARAM_DOUBLE_ARRAY:
+      return fmt::format("[{}]", fmt::join(value.numbers, ", "));
+    case DMRP_PARAM_STRING_ARRAY:
+      return fmt::format("[{}]", fmt::join(value.texts, ", "));
+    default:
+      return '"' + value.text + '"';
+  }
+}
+
+std::string range_of(const ParameterSpec& spec) {
+  if (!spec.choices.empty()) return fmt::format("one of {}", fmt::join(spec.choices, ", "));
+  const bool low = std::isfinite(spec.minimum);
+  const bool high = std::isfinite(spec.maximum);
+  if (low && high) return fmt::format("{} to {}", spec.minimum, spec.maximum);
+  if (low) return fmt::format(">= {}", spec.minimum);
+  if (high) return fmt::format("<= {}", spec.maximum);
+  return "";
+}
+
+void print_plugin(const PluginInfo& info) {
+  fmt::print("  {}  {} {}  ({})\n", info.id, info.name, info.version, kind_name(info.kind));
+  if (!info.summary.empty()) fmt::print("      {}\n", info.summary);
+  if (!info.source.empty()) fmt::print("      source: {}\n", info.source);
+  if (!info.needs.empty()) fmt::print("      needs: {}\n", fmt::join(info.needs, ", "));
+  if (!info.uses.empty()) fmt::print("      uses: {}\n", fmt::join(info.uses, ", "));
+  for (const MetricValueSpec& value : info.values)
+    fmt::print("      gives {:<24} {:<5} {}\n", value.name, value.unit, value.description);
+  for (const ParameterSpec& spec : info.parameters) {
+    const std::string range = range_of(spec);
+    fmt::print("      {:<30} {} = {}{}{}  {}\n", spec.fallback.key, parameter_type_name(spec.fallback.type),
+               text_of(spec.fallback), spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit,
+               range.empty() ? "" : " [" + range + "]", spec.doc);
+  }
+}
+
+}  // namespace
+
+int plugins_command(const std::vector<std::string>& named, bool json) {
+  std::vector<fs::path> files;
+  for (const std::string& name : named) {
+    files.push_back(find_library(name, fs::current_path()));
+    if (files.back().empty()) throw InputError(name + ": there is no such library");
+  }
+  if (named.empty()) files = libraries_of_path();
+
+  nlohmann::json all = nlohmann::json::array();
+  for (const fs::path& file : files) {
+    Probe probe;
+    try {
+      probe = probe_library(file);
+    } catch (const std::runtime_error& error) {
+      throw InputError(file.string() + ": " + error.what());
+    }
+    if (!probe.warning.empty()) fmt::print(stderr, "warning: {}: {}\n", file.string(), probe.warning);
+    if (json) {
+      all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
+      continue;
+    }
+    fmt::print("{}\n", file.string());
+    for (const PluginInfo& info : probe.plugins) print_plugin(info);
+  }
+  if (json) fmt::print("{}\n", all.dump(2));
+  return exit_status::done;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "host/commands/commands.hpp"
+#include "host/commands/run_directory.hpp"
+#include "host/executable.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/input_error.hpp"
+#include "host/results/atomic_file.hpp"
+#include "host/results/closing_line.hpp"
+#include "host/results/database.hpp"
+#include "host/results/manifest.hpp"
+#include "host/results/summary.hpp"
+#include "host/results/summary_table.hpp"
+#include "host/results/trials_csv.hpp"
+#include "host/terminal/progress.hpp"
+#include "host/version.hpp"
+#include "host/workers/supervisor.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<MetricColumn> columns_of(const Experiment& experiment) {
+  std::vector<MetricColumn> columns;
+  for (const PluginUse& use : experiment.metrics)
+    for (const MetricValueSpec& value : use.info.values)
+      columns.push_back({value.name, value.unit, value.direction, value.wall_clock, value.description});
+  return columns;
+}
+
+std::vector<std::uint64_t> trials_of_shard(std::uint64_t count, const Shard& shard) {
+  std::vector<std::uint64_t> trials;
+  for (std::uint64_t k = shard.index; k < count; k += shard.count) trials.push_back(k);
+  return trials;
+}
+
+std::string plural(std::uint64_t n, const std::string& noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+// "quickstart · mall · 4 robots, 12 people · 3 trials"
+std::string heading(const Experiment& experiment, std::size_t trials) {
+  std::string out = experiment.name;
+  if (experiment.scenarios.size() == 1) {
+    const core::Scenario& scenario = experiment.scenarios[0].scenario;
+    out += fmt::format(" · {} · {}", scenario.name, plural(scenario.robots.size(), "robot"));
+    const auto people = core::person_count(scenario);
+    out += people == 0 ? ", no people" : fmt::format(", {} people", people);
+  } else {
+    out += " · " + plural(experiment.scenarios.size(), "scenario");
+  }
+  return out + " · " + plural(trials, "trial");
+}
+
+// A line for the log of the terminal where a trial ended in a fault.
+std::string fault_note(const TrialRecord& trial) {
+  if (trial.faults.empty()) return "";
+  const FaultRecord& fault = trial.faults.front();
+  std::string note = fmt::format("trial {}: {}", trial.id, fault.kind);
+  if (!fault.plugin.empty()) note += fmt::format(" in {} {}()", fault.plugin, fault.function);
+  if (fault.robot >= 0) note += fmt::format(", robot {}", fault.robot);
+  return note + ": " + fault.detail;
+}
+
+// The manifest: what this run depends on beside the experiment's text.
+Manifest manifest_of(const Experiment& experiment, const std::vector<std::string>& command_line) {
+  Manifest manifest = new_manifest(version, command_line, std::chrono::system_clock::now());
+  for (const LibraryUse& library : experiment.libraries)
+    manifest.files.push_back(hashed_file("plugin library", library.file));
+  std::set<fs::path> scenarios;
+  for (const ScenarioVariant& variant : experiment.scenarios) scenarios.insert(variant.file);
+  for (const fs::path& file : scenarios) manifest.files.push_back(hashed_file("scenario", file));
+  std::set<fs::path> parameters;
+  for (const auto* uses :
+       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+    for (const PluginUse& use : *uses)
+      for (const ParameterValue& value : use.parameters)
+        if (value.type == DMRP_PARAM_PATH && !value.text.empty()) parameters.insert(value.text);
+  for (const fs::path& file : parameters) manifest.files.push_back(hashed_file("parameter", file));
+  return manifest;
+}
+
+class RunFiles {
+ public:
+  RunFiles(const RunOptions& options, const Experiment& experiment, const std::vector<std::string>& command_line)
+      : directory_(options.resume ? existing_run_directory(options.out)
+                                  : choose_run_directory(options.out, experiment.name)) {
+    const Manifest manifest = manifest_of(experiment, command_line);
+    if (options.resume)
+      check_same(experiment, manifest);
+    else
+      begin(experiment, manifest);
+  }
+
+  const fs::path& directory() const { return directory_; }
+  fs::path database() const { return directory_ / "results.sqlite"; }
+
+  // The tables for people, from all that the database has.
+  void write_tables(const ResultsDatabase& database) const {
+    const auto metrics = database.metrics();
+    const auto trials = database.trials();
+    write_file_atomically(directory_ / "trials.csv", trials_csv(metrics, trials));
+    write_file_atomically(directory_ / "summary.csv", summary_csv(metrics, summarise(metrics, trials)));
+  }
+
+ private:
+  void begin(const Experiment& experiment, const Manifest& manifest) const {
+    fs::create_directories(directory_);
+    if (experiment.traces != RecordTraces::none) fs::create_directories(directory_ / "traces");
+    write_file_atomically(directory_ / "experiment.toml", experiment.text);
+    write_file_atomically(directory_ / "effective.toml", effective_toml(experiment));
+    write_file_atomically(directory_ / "manifest.json", to_json_text(manifest));
+    ResultsDatabase::create(database(), columns_of(experiment));
+  }
+
+  // A run may only go on where it would give the same bits.
+  void check_same(const Experiment& experiment, const Manifest& manifest) const {
+    std::ifstream before(directory_ / "effective.toml", std::ios::binary);
+    std::ostringstream text;
+    text << before.rdbuf();
+    if (text.str() != effective_toml(experiment))
+      throw InputError(
+          fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory_.string()));
+    const auto reasons = differences(read_manifest(directory_ / "manifest.json"), manifest);
+    if (!reasons.empty())
+      throw InputError(fmt::format("--out {}: cannot go on: {}", directory_.string(), reasons.front()));
+  }
+
+  fs::path directory_;
+};
+
+void print_results(const ResultsDatabase& database, const fs::path& directory, const Experiment& experiment) {
+  const auto metrics = database.metrics();
+  const auto trials = database.trials();
+  const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
+  TableStyle style;
+  style.width = terminal_width();
+  style.ansi = style.width > 0;
+  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials), style),
+             closing_line(layout, trials));
+  std::vector<std::string> files = {"results.sqlite", "trials.csv", "summary.csv"};
+  if (experiment.traces != RecordTraces::none) files.push_back("traces/");
+  fmt::print("  {}\n", files_line(directory, files));
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
+  const Experiment experiment = load_experiment(options.experiment, options.trials);
+  if (!options.quiet)
+    for (const std::string& warning : experiment.warnings) fmt::print(stderr, "warning: {}\n", warning);
+
+  const std::uint64_t count = combinations(experiment).size() * experiment.trials;
+  const RunFiles files(options, experiment, command_line);
+  ResultsDatabase database = ResultsDatabase::open(files.database());
+  std::vector<std::uint64_t> trials = trials_of_shard(count, options.shard);
+  const auto finished = database.finished_trials();
+  std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
+
+  bool faults = false;
+  Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet);
+  const SupervisorSettings settings = {options.jobs, files.directory(), count};
+  const RunEnding ending = supervise(
+      experiment, trials, settings,
+      [&](TrialRecord&& trial) {
+        database.write(trial);
+        faults = faults || !trial.faults.empty();
+        progress.add(fault_note(trial));
+      },
+      [&] { progress.refresh(); });
+  progress.finish();
+  files.write_tables(database);
+  if (!options.quiet) print_results(database, files.directory(), experiment);
+  if (ending == RunEnding::interrupted) {
+    fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
+               files.directory().string());
+    return exit_status::interrupted;
+  }
+  return faults ? exit_status::faults : exit_status::done;
+}
+
+}  // namespace dmrp::host

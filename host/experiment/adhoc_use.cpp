@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "host/experiment/adhoc_use.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/experiment/check_worlds.hpp"
+#include "host/experiment/nearest_name.hpp"
+#include "host/experiment/read_parameters.hpp"
+#include "host/experiment/read_scenario.hpp"
+#include "host/input_error.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Libraries to search for the planner: named ones first, then all of the plugin path.
+std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named) {
+  std::vector<fs::path> files;
+  for (const std::string& name : named) {
+    files.push_back(find_library(name, fs::current_path()));
+    if (files.back().empty()) throw InputError(name + ": there is no such library");
+  }
+  std::vector<fs::path> of_path;
+  for (const fs::path& folder : plugin_path()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".so") of_path.push_back(fs::canonical(entry.path()));
+  }
+  std::sort(of_path.begin(), of_path.end());
+  files.insert(files.end(), of_path.begin(), of_path.end());
+  return files;
+}
+
+PluginUse find_planner(const std::string& id, const std::vector<std::string>& libraries, Experiment& experiment) {
+  std::vector<std::string> known;
+  for (const fs::path& file : candidate_libraries(libraries)) {
+    Probe probe;
+    try {
+      probe = probe_library(file);
+    } catch (const std::runtime_error& error) {
+      throw InputError(file.string() + ": " + error.what());
+    }
+    for (const PluginInfo& info : probe.plugins) {
+      if (info.kind != DMRP_KIND_GLOBAL_PLANNER) continue;
+      known.push_back(info.id);
+      if (info.id != id) continue;
+      experiment.libraries = {{file.string(), file, probe.plugins}};
+      PluginUse use;
+      use.info = info;
+      use.label = info.name;
+      return use;
+    }
+  }
+  throw InputError(
+      fmt::format("--planner {}: no such planner (there: {}){}", id, join_names(known), did_you_mean(id, known)));
+}
+
+// "k=v" as a line of TOML; a value that is neither number, boolean nor quoted is a string.
+std::string toml_line(const std::string& setting) {
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) throw InputError("--set " + setting + ": needs KEY=VALUE");
+  std::string value = setting.substr(equals + 1);
+  const bool plain = value == "true" || value == "false" || value.find_first_of("\"[") == 0 ||
+                     (!value.empty() && value.find_first_not_of("0123456789+-.eE_") == std::string::npos);
+  if (!plain) value = '"' + value + '"';
+  return setting.substr(0, equals) + " = " + value + "\n";
+}
+
+}  // namespace
+
+Experiment adhoc_experiment(const std::string& scenario, const std::string& planner,
+                            const std::vector<std::string>& libraries, const std::vector<std::string>& settings) {
+  const fs::path file = find_scenario(scenario, fs::current_path());
+  if (file.empty()) {
+    const auto shipped = shipped_scenarios();
+    throw InputError(fmt::format("no scenario '{}' (shipped: {}){}", scenario, join_names(shipped),
+                                 did_you_mean(scenario, shipped)));
+  }
+  Experiment experiment;
+  const ScenarioFile read = read_scenario_file(file, scenario);
+  experiment.scenarios.push_back({read.scenario, read.scenario.name, file});
+  check_world(read, experiment);
+  if (planner.empty()) return experiment;
+
+  PluginUse use = find_planner(planner, libraries, experiment);
+  std::string text = "[params]\n";
+  for (const std::string& setting : settings) text += toml_line(setting);
+  const TomlDocument document("--set", text);
+  TomlTable root = document.root();
+  use.parameters = read_parameters(root, use.info, fs::current_path()).front().values;
+  experiment.global_planners.push_back(std::move(use));
+  return experiment;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "host/experiment/check_worlds.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <dmrp/toolkit/grid_view.hpp>
+#include <vector>
+
+#include "core/planning_grid.hpp"
+#include "core/static_geometry.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
+
+class WorldCheck {
+ public:
+  WorldCheck(const ScenarioFile& file, Experiment& experiment)
+      : file_(file),
+        experiment_(experiment),
+        scenario_(file.scenario),
+        radius_m_(experiment.robot.radius_m),
+        needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
+        geometry_(scenario_),
+        planning_(core::build_planning_grid(geometry_, experiment.simulation.grid_resolution_m, radius_m_,
+                                            experiment.simulation.planning_margin_m)),
+        walking_(core::build_walking_grid(geometry_)) {}
+
+  void run() {
+    for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
+    for (std::size_t a = 0; a < scenario_.robots.size(); ++a)
+      for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
+      if (scenario_.flows[i].people > 0) check_flow(i);
+    const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
+    if (experiment_.simulation.grid_resolution_m < safe_cell_m)
+      warn({}, fmt::format("cells of {} m are smaller than 2 sqrt(2) r = {:.3f} m: robots that follow a valid plan can "
+                           "touch",
+                           experiment_.simulation.grid_resolution_m, safe_cell_m));
+  }
+
+ private:
+  void warn(SourcePosition at, const std::string& text) {
+    experiment_.warnings.push_back(file_.document->place(at) + ": " + text);
+  }
+  [[noreturn]] void fail_robot(std::size_t robot, const std::string& text) const {
+    file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot + 1, text));
+  }
+
+  // A pose must stand on the cell that planners know it by.
+  void check_place(std::size_t robot, const char* verb, const char* noun, dmrp_vec2 point) const {
+    if (!geometry_.inside_world(point))
+      fail_robot(robot, fmt::format("{} outside the world, at ({}, {})", verb, point.x, point.y));
+    const core::NearestShape nearest = geometry_.nearest(point);
+    const std::string shape(geometry_.shape_name(nearest.shape));
+    const bool border = nearest.shape == geometry_.border();
+    const std::string name = border ? shape : "'" + shape + "'";
+    if (nearest.clearance_m < radius_m_)
+      fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m)", verb,
+                                    nearest.clearance_m == 0.0 ? "inside" : "too near to", name, nearest.clearance_m,
+                                    needed_m_));
+    const dmrp_grid view = planning_.view();
+    const toolkit::GridView grid(view);
+    const toolkit::Cell cell = grid.cell_of(point);
+    const dmrp_vec2 center = grid.center(cell);
+    if (!grid.contains(cell) || !grid.free(cell))
+      fail_robot(robot,
+                 fmt::format("has its {} ({}, {}) on a planning cell that is not free (centre ({}, {}), clearance "
+                             "{:.2f} m, needs {:.2f} m)",
+                             noun, point.x, point.y, center.x, center.y, geometry_.clearance(center), needed_m_));
+    if (!geometry_.sweep_is_free(center, point, radius_m_))
+      fail_robot(robot,
+                 fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
+  }
+
+  // Cells that can be reached over open edges, orthogonal ones alone: what every planner can use.
+  static std::vector<bool> reachable(const toolkit::GridView& grid, std::uint32_t from) {
+    std::vector<bool> seen(grid.size());
+    std::vector<std::uint32_t> open = {from};
+    seen[from] = true;
+    while (!open.empty()) {
+      const std::uint32_t cell = open.back();
+      open.pop_back();
+      for (int direction = 0; direction < 8; direction += 2) {
+        if (!grid.edge(cell, direction)) continue;
+        const std::uint32_t next = grid.neighbour(cell, direction);
+        if (!seen[next]) {
+          seen[next] = true;
+          open.push_back(next);
+        }
+      }
+    }
+    return seen;
+  }
+
+  void check_robot(std::size_t robot) const {
+    const core::RobotTask& task = scenario_.robots[robot];
+    const dmrp_vec2 start = {task.start.x, task.start.y};
+    check_place(robot, "starts", "start", start);
+    const dmrp_grid view = planning_.view();
+    const toolkit::GridView grid(view);
+    const auto seen = reachable(grid, grid.index(grid.cell_of(start)));
+    for (const dmrp_pose& goal : task.goals) {
+      const dmrp_vec2 point = {goal.x, goal.y};
+      check_place(robot, "has its goal", "goal", point);
+      if (!seen[grid.index(grid.cell_of(point))])
+        fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid",
+                                      goal.x, goal.y, start.x, start.y));
+    }
+  }
+
+  void check_pair(std::size_t a, std::size_t b) {
+    const core::RobotTask& first = scenario_.robots[a];
+    const core::RobotTask& second = scenario_.robots[b];
+    check_distance(a, b, "start", first.start, second.start);
+    check_distance(a, b, "goal", first.goals.back(), second.goals.back());
+  }
+
+  void check_distance(std::size_t a, std::size_t b, const char* noun, const dmrp_pose& p, const dmrp_pose& q) {
+    const dmrp_grid view = planning_.view();
+    const toolkit::GridView grid(view);
+    const double distance_m = std::hypot(p.x - q.x, p.y - q.y);
+    if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})) || distance_m < 2.0 * radius_m_)
+      fail_robot(b, fmt::format("shares its {} with robot {}", noun, a + 1));
+    if (distance_m <= start_distance_m)
+      warn(file_.robots[b],
+           fmt::format("the {}s of robots {} and {} are {:.2f} m apart; the method wants more than {} m", noun, a + 1,
+                       b + 1, distance_m, start_distance_m));
+  }
+
+  // Cells of the walking grid in a region, free ones.
+  std::vector<std::uint32_t> free_cells(const toolkit::GridView& grid, const core::Region& region) const {
+    std::vector<std::uint32_t> cells;
+    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+      const dmrp_vec2 c = grid.center(cell);
+      const double half = 0.5 * grid.resolution_m();
+      if (grid.free(cell) && c.x >= region.lower.x - half && c.x <= region.upper.x + half &&
+          c.y >= region.lower.y - half && c.y <= region.upper.y + half)
+        cells.push_back(cell);
+    }
+    return cells;
+  }
+
+  void check_flow(std::size_t index) const {
+    const core::Flow& flow = scenario_.flows[index];
+    const dmrp_grid view = walking_.view();
+    const toolkit::GridView grid(view);
+    std::vector<bool> seen;
+    for (const std::uint32_t region_index : flow.regions) {
+      const core::Region& region = scenario_.regions[region_index];
+      const auto cells = free_cells(grid, region);
+      if (cells.empty())
+        file_.document->fail(file_.regions[region_index],
+                             fmt::format("region '{}' has no free place for a person", region.name));
+      if (seen.empty()) seen = reachable(grid, cells.front());
+      bool any = false;
+      for (const std::uint32_t cell : cells) any = any || seen[cell];
+      if (!any)
+        file_.document->fail(file_.flows[index],
+                             fmt::format("flow '{}': nobody can walk from '{}' to '{}'", flow.name,
+                                         scenario_.regions[flow.regions.front()].name, region.name));
+    }
+  }
+
+  const ScenarioFile& file_;
+  Experiment& experiment_;
+  const core::Scenario& scenario_;
+  double radius_m_;
+  double needed_m_;
+  core::StaticGeometry geometry_;
+  core::PlanningGrid planning_;
+  core::PlanningGrid walking_;
+};
+
+}  // namespace
+
+void check_world(const ScenarioFile& file, Experiment& experiment) {
+  WorldCheck(file, experiment).run();
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/commands/commands.hpp"
+#include "host/input_error.hpp"
+#include "host/plugins/library.hpp"
+#include "host/version.hpp"
+#include "host/workers/worker.hpp"
+
+namespace {
+
+using namespace dmrp::host;
+
+// The processes that dmrp-host starts of itself: not for people, and never documented.
+std::optional<int> run_as_child(int argc, char** argv) {
+  if (argc == 4 && std::strcmp(argv[1], "probe") == 0) return run_probe(argv[2], std::atoi(argv[3]));
+  if (argc == 7 && std::strcmp(argv[1], "worker") == 0)
+    return run_worker(argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)), std::atoi(argv[4]),
+                      std::atoi(argv[5]), std::atoi(argv[6]));
+  return std::nullopt;
+}
+
+// `dmrp-host EXPERIMENT.toml` is `dmrp-host run EXPERIMENT.toml`.
+std::vector<std::string> arguments_with_command(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (const std::string& argument : arguments) {
+    if (argument.starts_with("-")) continue;
+    if (argument.ends_with(".toml")) arguments.insert(arguments.begin(), "run");
+    break;
+  }
+  return arguments;
+}
+
+std::string check_shard(const std::string& text) {
+  unsigned long long index = 0;
+  unsigned long long count = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%llu/%llu%c", &index, &count, &rest) == 2 && index < count) return "";
+  return "needs I/N with 0 <= I < N";
+}
+
+void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
+  CLI::App* command = app.add_subcommand("run", "run an experiment (also: dmrp-host EXPERIMENT.toml)");
+  command->add_option("experiment", options.experiment, "experiment file")->required()->type_name("EXPERIMENT.toml");
+  command->add_option("--out", options.out, "the run directory (default: runs/NAME, or runs/NAME-2, ... if taken)")
+      ->type_name("DIR");
+  command->add_option("--jobs", options.jobs, "worker processes (default: one a core)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  command->add_flag("--resume", options.resume, "go on with the run in --out: only trials that are not there yet");
+  command->add_option("--shard", shard, "only the trials k with k mod N = I")->check(check_shard)->type_name("I/N");
+  command->add_option("--trials", options.trials, "repetitions of each combination, in place of the file's number")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("K");
+  command->add_flag("--quiet", options.quiet, "no progress, no table");
+}
+
+int run_main(int argc, char** argv) {
+  CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
+  app.set_version_flag("--version", std::string("dmrp-host ") + version);
+  app.require_subcommand(1);
+
+  RunOptions run;
+  run.jobs = std::max(1u, std::thread::hardware_concurrency());
+  std::string shard;
+  add_run(app, run, shard);
+
+  std::filesystem::path validated;
+  CLI::App* validate = app.add_subcommand("validate", "all checks of an experiment that need no run");
+  validate->add_option("experiment", validated, "experiment file")->required()->type_name("EXPERIMENT.toml");
+
+  std::vector<std::string> libraries;
+  bool json = false;
+  CLI::App* plugins = app.add_subcommand("plugins", "what plugin libraries hold, with parameters");
+  plugins->add_option("libraries", libraries, "libraries (default: all of the plugin path)")->type_name("LIB.so");
+  plugins->add_flag("--json", json, "as JSON");
+
+  DrawOptions draw;
+  CLI::App* drawing = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
+  drawing->add_option("scenario", draw.scenario, "a shipped one, or a path to scenario.toml")->required();
+  drawing->add_option("--planner", draw.planner, "plan with this global planner")->type_name("ID");
+  drawing->add_option("--plugin", draw.plugins, "another plugin library")->type_name("LIB.so");
+  drawing->add_option("--set", draw.settings, "a parameter of the planner")->type_name("KEY=VALUE");
+  drawing->add_option("--svg", draw.svg, "where to (default: standard output)")->type_name("FILE");
+
+  std::vector<std::string> arguments = arguments_with_command(argc, argv);
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_status::done : exit_status::bad_input;
+  }
+
+  if (validate->parsed()) return validate_command(validated);
+  if (plugins->parsed()) return plugins_command(libraries, json);
+  if (drawing->parsed()) return draw_command(draw);
+  if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
+  return run_command(run, std::vector<std::string>(argv, argv + argc));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (const auto status = run_as_child(argc, argv)) return *status;
+  try {
+    return run_main(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return exit_status::bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "dmrp-host: %s\n", error.what());
+    return exit_status::bad_input;
+  }
+}

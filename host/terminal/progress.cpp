@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "host/terminal/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "host/plugins/call_guard.hpp"
+#include "host/results/display_width.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr unsigned bar_cells = 16;
+constexpr std::int64_t redraw_ns = 200'000'000;
+
+std::string duration(double s) {
+  if (s < 99.95) return fmt::format("{:.1f} s", s);
+  const auto whole = static_cast<long>(s + 0.5);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+unsigned terminal_width() {
+  winsize size{};
+  if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
+  return size.ws_col;
+}
+
+Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
+    : heading_(std::move(heading)),
+      total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDOUT_FILENO)),
+      start_ns_(monotonic_ns()) {
+  if (!quiet_ && !terminal_) fmt::print("{}\n", heading_);
+  refresh();
+}
+
+double Progress::elapsed_s() const {
+  return static_cast<double>(monotonic_ns() - start_ns_) * 1e-9;
+}
+
+void Progress::draw() const {
+  const double share = total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
+  const auto full = static_cast<unsigned>(share * bar_cells + 0.5);
+  std::string bar;
+  for (unsigned i = 0; i < bar_cells; ++i) bar += i < full ? "█" : "░";
+  const double elapsed = elapsed_s();
+  std::string tail = fmt::format("{} {}/{}  {}", bar, done_, total_, duration(elapsed));
+  if (done_ > 0 && done_ < total_)
+    tail +=
+        fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
+  const std::size_t width = std::max<std::size_t>(terminal_width(), 40) - 1;
+  const std::size_t used = display_width(heading_) + display_width(tail);
+  const std::string gap(used + 2 < width ? std::min<std::size_t>(width - used, 24) : 2, ' ');
+  // On a narrow terminal the heading gives way: a line that wraps cannot be drawn over.
+  const std::string line = used + 2 <= width ? heading_ + gap + tail : tail;
+  fmt::print("\r\x1b[2K{}", line);
+  std::fflush(stdout);
+}
+
+void Progress::refresh() {
+  if (quiet_ || !terminal_ || monotonic_ns() - drawn_ns_ < redraw_ns) return;
+  draw();
+  drawn_ns_ = monotonic_ns();
+}
+
+void Progress::add(const std::string& note) {
+  ++done_;
+  if (quiet_) return;
+  if (terminal_) {
+    if (!note.empty()) fmt::print("\r\x1b[2K{}\n", note);
+    draw();
+    return;
+  }
+  if (!note.empty()) fmt::print("  {}\n", note);
+  fmt::print("  {}/{}  {}\n", done_, total_, duration(elapsed_s()));
+  std::fflush(stdout);
+}
+
+void Progress::finish() {
+  if (quiet_ || !terminal_) return;
+  draw();
+  fmt::print("\n");
+}
+
+}  // namespace dmrp::host
