@@ -38,7 +38,7 @@
 #define DMRP_ABI_DRAFT 1
 
 // Whether the struct behind `pointer` is long enough to hold `field`.
-#define DMRP_HAS(pointer, field) \
+#define DMRP_HAS(pointer, field)     \
   ((size_t)(pointer)->struct_size >= \
    (size_t)((const char*)&(pointer)->field - (const char*)(pointer)) + sizeof((pointer)->field))
 

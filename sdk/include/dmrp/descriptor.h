@@ -53,11 +53,11 @@ typedef struct dmrp_descriptor {
   const char* name;     // for people
   const char* version;  // of the plugin, semantic
   const char* vendor;
-  const char* license;            // SPDX expression
-  const char* summary;            // one line
-  const char* source;             // paper, section, equation; "" where there is none
-  const char* const* requires_;   // extensions without which it cannot run; requires_count
-  const char* const* uses;        // extensions that it uses when there; uses_count
+  const char* license;           // SPDX expression
+  const char* summary;           // one line
+  const char* source;            // paper, section, equation; "" where there is none
+  const char* const* requires_;  // extensions without which it cannot run; requires_count
+  const char* const* uses;       // extensions that it uses when there; uses_count
   uint32_t requires_count;
   uint32_t uses_count;
   const dmrp_param_spec* params;  // may be NULL when param_count is 0
@@ -66,8 +66,8 @@ typedef struct dmrp_descriptor {
   const dmrp_metric_value_spec* values;  // metrics only
   uint32_t value_count;
   uint32_t value_stride;
-  uint32_t connectivity;  // planners only: DMRP_CONNECTIVITY_*
-  uint32_t channels;      // metrics only: DMRP_CHANNEL_* bits
+  uint32_t connectivity;   // planners only: DMRP_CONNECTIVITY_*
+  uint32_t channels;       // metrics only: DMRP_CHANNEL_* bits
   uint32_t planner_flags;  // planners only: DMRP_PLANNER_* bits
   uint32_t reserved;
 } dmrp_descriptor;

@@ -3,8 +3,8 @@
 #ifndef DMRP_GLOBAL_PLANNER_H
 #define DMRP_GLOBAL_PLANNER_H
 
-#include "plugin.h"
 #include "path.h"
+#include "plugin.h"
 #include "world.h"
 
 // A robot as the planner sees it. Array element.
@@ -25,14 +25,14 @@ typedef struct dmrp_planning_problem {
   uint32_t robot_count;
   const dmrp_planning_robot* robots;
   uint32_t robot_stride;
-  uint32_t in_force_count;   // robot_count, or 0 when this is the first plan
-  uint64_t revision;         // of the plan to be made: 1 for the first
-  int64_t now_ns;            // simulated time
-  int64_t effective_from_ns; // when the plan takes effect: t of every first waypoint
-  int64_t step_duration_ns;  // the time that one step of a step-wise planner takes
-  int64_t time_budget_ns;    // wall time; should_stop() says 1 after it. Plugins read no clock
-  const dmrp_grid* grid;     // world.planning_grid
-  const dmrp_path* in_force; // the plan in force, a path a robot
+  uint32_t in_force_count;    // robot_count, or 0 when this is the first plan
+  uint64_t revision;          // of the plan to be made: 1 for the first
+  int64_t now_ns;             // simulated time
+  int64_t effective_from_ns;  // when the plan takes effect: t of every first waypoint
+  int64_t step_duration_ns;   // the time that one step of a step-wise planner takes
+  int64_t time_budget_ns;     // wall time; should_stop() says 1 after it. Plugins read no clock
+  const dmrp_grid* grid;      // world.planning_grid
+  const dmrp_path* in_force;  // the plan in force, a path a robot
   uint32_t in_force_stride;
   uint32_t reserved;
 } dmrp_planning_problem;

@@ -19,17 +19,17 @@ typedef struct dmrp_statistic {
 // A plan and how it came to be. Array element.
 typedef struct dmrp_plan {
   uint32_t struct_size;
-  uint32_t path_count;       // one a robot
+  uint32_t path_count;  // one a robot
   const dmrp_path* paths;
   uint32_t path_stride;
   uint32_t statistic_count;
   const dmrp_statistic* statistics;
   uint32_t statistic_stride;
-  int32_t status;            // what plan() returned
-  uint64_t revision;         // 1 for the first plan
-  int64_t from_ns;           // when it took effect
+  int32_t status;     // what plan() returned
+  uint64_t revision;  // 1 for the first plan
+  int64_t from_ns;    // when it took effect
   int64_t step_duration_ns;
-  int64_t planning_ns;       // wall time that plan() took
+  int64_t planning_ns;  // wall time that plan() took
 } dmrp_plan;
 
 // What is known before the first sample. The plans and all they point to live until finish() returns.
@@ -42,11 +42,11 @@ typedef struct dmrp_metric_trial {
 // A robot at one sample. Array element.
 typedef struct dmrp_robot_sample {
   dmrp_pose pose;
-  dmrp_twist velocity;   // actual
-  dmrp_twist command;    // in force, clipped to v and omega limits; `velocity` follows it within a_max, alpha_max
-  uint32_t state;        // DMRP_ROBOT_*
-  uint32_t goal_index;   // the current goal
-  double progress_m;     // along its path in force
+  dmrp_twist velocity;  // actual
+  dmrp_twist command;   // in force, clipped to v and omega limits; `velocity` follows it within a_max, alpha_max
+  uint32_t state;       // DMRP_ROBOT_*
+  uint32_t goal_index;  // the current goal
+  double progress_m;    // along its path in force
 } dmrp_robot_sample;
 
 #define DMRP_CONTACT_STATIC 1  // `a` a robot, `b` an index into world.shapes, or shape_count for the border
@@ -74,9 +74,9 @@ typedef struct dmrp_contact {
 
 // A call of a plugin since the last sample. Array element.
 typedef struct dmrp_call {
-  uint32_t kind;        // DMRP_CALL_*
-  uint32_t robot;       // DMRP_CALL_CONTROL: whose; 0 otherwise
-  int32_t status;       // what it returned
+  uint32_t kind;   // DMRP_CALL_*
+  uint32_t robot;  // DMRP_CALL_CONTROL: whose; 0 otherwise
+  int32_t status;  // what it returned
   uint32_t reserved;
   int64_t duration_ns;  // wall time
 } dmrp_call;
@@ -102,23 +102,23 @@ typedef struct dmrp_sample {
   uint32_t call_stride;
 } dmrp_sample;
 
-#define DMRP_ENDING_ARRIVED 1     // all robots arrived
+#define DMRP_ENDING_ARRIVED 1  // all robots arrived
 #define DMRP_ENDING_TIME_LIMIT 2
-#define DMRP_ENDING_DEADLOCK 3    // no unfinished robot gained 0.2 m along its path for 20 s
-#define DMRP_ENDING_NO_PLAN 4     // the planner found none: nothing moved
+#define DMRP_ENDING_DEADLOCK 3  // no unfinished robot gained 0.2 m along its path for 20 s
+#define DMRP_ENDING_NO_PLAN 4   // the planner found none: nothing moved
 
 #define DMRP_FAILURE_NONE 0
 #define DMRP_FAILURE_TIMEOUT 1
 #define DMRP_FAILURE_OSCILLATION 2  // 20 s with over 1 m of travel or 4 pi of turning but under 0.2 m of progress
 #define DMRP_FAILURE_DEADLOCK 3
-#define DMRP_FAILURE_CONTROLLER 4   // no command for 5 s
+#define DMRP_FAILURE_CONTROLLER 4  // no command for 5 s
 #define DMRP_FAILURE_NO_PLAN 5
 
 // How a robot ended. Array element.
 typedef struct dmrp_robot_end {
-  uint32_t state;     // DMRP_ROBOT_*
-  uint32_t failure;   // DMRP_FAILURE_*
-  int64_t arrival_ns; // final arrival; -1 if it did not arrive
+  uint32_t state;      // DMRP_ROBOT_*
+  uint32_t failure;    // DMRP_FAILURE_*
+  int64_t arrival_ns;  // final arrival; -1 if it did not arrive
 } dmrp_robot_end;
 
 typedef struct dmrp_trial_end {
@@ -141,13 +141,13 @@ struct dmrp_metric_sink {
   // system; `coordinate` is NaN where the value is no curve; `value` is NaN where it is undefined.
   // Returns DMRP_OK, or DMRP_ERROR for an undeclared name or subject, an infinite value or one given twice.
   // [step]
-  int32_t (*value)(dmrp_metric_sink* sink, const char* name, uint32_t subject_kind, uint64_t subject,
-                   double coordinate, double value);
+  int32_t (*value)(dmrp_metric_sink* sink, const char* name, uint32_t subject_kind, uint64_t subject, double coordinate,
+                   double value);
 
   // Something that happened from `from_ns` to `to_ns`, for the time line. `robots` are indices.
   // [step]
-  int32_t (*event)(dmrp_metric_sink* sink, const char* name, int64_t from_ns, int64_t to_ns,
-                   const uint32_t* robots, uint32_t robot_count, const char* text);
+  int32_t (*event)(dmrp_metric_sink* sink, const char* name, int64_t from_ns, int64_t to_ns, const uint32_t* robots,
+                   uint32_t robot_count, const char* text);
 };
 
 typedef struct dmrp_metric {

@@ -43,11 +43,11 @@ typedef struct dmrp_params {
 
 // One declared parameter. Static data of the plugin. Array element.
 typedef struct dmrp_param_spec {
-  dmrp_param_value fallback;  // key, type and the default. (Frozen inside this struct: it cannot grow here.)
-  const char* unit;           // "m", "rad/s", "1" for a ratio, "" where there is none
-  const char* doc;            // one line
-  double minimum;             // for INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY where there is none
-  double maximum;             // likewise, INFINITY
+  dmrp_param_value fallback;   // key, type and the default. (Frozen inside this struct: it cannot grow here.)
+  const char* unit;            // "m", "rad/s", "1" for a ratio, "" where there is none
+  const char* doc;             // one line
+  double minimum;              // for INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY where there is none
+  double maximum;              // likewise, INFINITY
   const char* const* choices;  // for CHOICE, choice_count texts
   uint32_t choice_count;
   uint32_t reserved;

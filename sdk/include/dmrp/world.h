@@ -12,10 +12,10 @@
 // A static body: a wall, a shelf, a planter. Array element.
 typedef struct dmrp_shape {
   const char* name;
-  uint32_t kind;          // DMRP_SHAPE_*
-  uint32_t vertex_count;  // polygon
-  dmrp_vec2 center;       // circle
-  double radius_m;        // circle
+  uint32_t kind;              // DMRP_SHAPE_*
+  uint32_t vertex_count;      // polygon
+  dmrp_vec2 center;           // circle
+  double radius_m;            // circle
   const dmrp_vec2* vertices;  // polygon: convex, counter-clockwise
   double height_m;
 } dmrp_shape;
@@ -23,9 +23,9 @@ typedef struct dmrp_shape {
 // Lives, with all it points to, from start() until the next start() or destroy(); never changes in between.
 typedef struct dmrp_world {
   uint32_t struct_size;
-  uint32_t person_count;  // constant population
-  dmrp_vec2 lower;        // the world is the rectangle from lower ...
-  dmrp_vec2 upper;        // ... to upper; its border is a wall
+  uint32_t person_count;      // constant population
+  dmrp_vec2 lower;            // the world is the rectangle from lower ...
+  dmrp_vec2 upper;            // ... to upper; its border is a wall
   int64_t step_ns;            // one physics step
   int64_t control_period_ns;  // between two calls of a controller's step()
   int64_t time_limit_ns;      // of the trial, simulated
@@ -38,7 +38,7 @@ typedef struct dmrp_world {
   uint32_t shape_stride;
   const dmrp_segment* segments;  // outlines of all shapes and of the border, as walls for people; circles as polygons
   uint32_t segment_count;
-  int32_t self;  // index of the robot that this local controller drives; -1 for the other kinds
+  int32_t self;                    // index of the robot that this local controller drives; -1 for the other kinds
   const dmrp_grid* planning_grid;  // cells of the global planners; free for every robot of the trial
   const dmrp_grid* walking_grid;   // finer cells for the way-finding of people; free for a disc of 0.3 m
 } dmrp_world;
