@@ -103,12 +103,10 @@ std::vector<Ibtr::Congestion> Ibtr::congestions() const {
 
 void Ibtr::finish(const TrialEnd& end, MetricSink& sink) {
   // what is still open ends with the trial
-  if (!times_ns_.empty()) {
-    for (std::uint32_t a = 0; a < robot_count_; ++a)
-      for (std::uint32_t b = a + 1; b < robot_count_; ++b)
-        if (const std::size_t since = open_since_[a * robot_count_ + b]; since != none)
-          encounters_.push_back({a, b, since, times_ns_.size() - 1});
-  }
+  for (std::uint32_t a = 0; a < robot_count_; ++a)
+    for (std::uint32_t b = a + 1; b < robot_count_; ++b)
+      if (const std::size_t since = open_since_[a * robot_count_ + b]; since != none)
+        encounters_.push_back({a, b, since, times_ns_.size() - 1});
 
   UnionLength blocked;
   std::vector<UnionLength> blocked_of(robot_count_);
