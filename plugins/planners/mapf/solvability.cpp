@@ -13,15 +13,10 @@ struct Component {
   std::vector<std::size_t> agents;
 };
 
-// The neighbors by moves in either direction, each once.
-std::vector<Location> linked_with(const GridGraph& graph, Location location) {
-  std::vector<Location> linked;
-  for (Direction d = 0; d < GridGraph::direction_count; ++d) {
-    Location other = graph.neighbor(location, d);
-    if (other == nowhere) other = graph.predecessor(location, opposite(d));
-    if (other != nowhere) linked.push_back(other);
-  }
-  return linked;
+// The neighbor by a move in either direction, or nowhere.
+Location linked(const GridGraph& graph, Location location, Direction d) {
+  const Location to = graph.neighbor(location, d);
+  return to != nowhere ? to : graph.predecessor(location, opposite(d));
 }
 
 Component component_of(const GridGraph& graph, Location start, std::vector<std::int32_t>& component_at,
@@ -30,8 +25,9 @@ Component component_of(const GridGraph& graph, Location start, std::vector<std::
   component.locations.push_back(start);
   component_at[static_cast<std::size_t>(start)] = number;
   for (std::size_t i = 0; i < component.locations.size(); ++i)
-    for (const Location to : linked_with(graph, component.locations[i])) {
-      if (component_at[static_cast<std::size_t>(to)] >= 0) continue;
+    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+      const Location to = linked(graph, component.locations[i], d);
+      if (to == nowhere || component_at[static_cast<std::size_t>(to)] >= 0) continue;
       component_at[static_cast<std::size_t>(to)] = number;
       component.locations.push_back(to);
     }
@@ -57,7 +53,8 @@ std::vector<Component> components_with_agents(const Problem& problem) {
 std::vector<Location> as_corridor(const GridGraph& graph, const Component& component) {
   Location end = nowhere;
   for (const Location location : component.locations) {
-    const std::size_t degree = linked_with(graph, location).size();
+    int degree = 0;
+    for (Direction d = 0; d < GridGraph::direction_count; ++d) degree += linked(graph, location, d) != nowhere ? 1 : 0;
     if (degree > 2) return {};
     if (degree <= 1) end = location;
   }
@@ -65,8 +62,8 @@ std::vector<Location> as_corridor(const GridGraph& graph, const Component& compo
   std::vector<Location> ordered = {end};
   for (Location before = nowhere;;) {
     Location next = nowhere;
-    for (const Location to : linked_with(graph, ordered.back()))
-      if (to != before) next = to;
+    for (Direction d = 0; d < GridGraph::direction_count; ++d)
+      if (const Location to = linked(graph, ordered.back(), d); to != before && to != nowhere) next = to;
     if (next == nowhere) return ordered;
     before = ordered.back();
     ordered.push_back(next);

@@ -5,12 +5,6 @@
 
 namespace dmrp::planners {
 
-bool SpaceTimeAStar::is_worse(const OpenEntry& a, const OpenEntry& b) {
-  if (b.key < a.key) return true;
-  if (a.key < b.key) return false;
-  return a.state < b.state;
-}
-
 SpaceTimeAStar::Result SpaceTimeAStar::search(const Agent& agent, const TourTable& table,
                                               const ConstraintTable& constraints, const ConflictTable& others,
                                               StopSignal& stop, std::vector<Location>& path) {
@@ -21,19 +15,16 @@ SpaceTimeAStar::Result SpaceTimeAStar::search(const Agent& agent, const TourTabl
                   std::max(constraints.free_from(), others.rest_from() + 1),
                   constraints.rest_from(agent.last_goal())};
   begin();
-  generate(task, agent.start, 0, GridGraph::no_direction, 0, 0, 0, -1);
+  generate(task, {agent.start, -1, 0, 0, 0, 0, GridGraph::no_direction, false});
   while (!open_.empty()) {
     if (stop.poll()) return Result::stopped;
-    std::pop_heap(open_.begin(), open_.end(), is_worse);
+    std::pop_heap(open_.begin(), open_.end(), IsWorse());
     const std::int32_t best = open_.back().state;
     open_.pop_back();
     const State& state = states_[static_cast<std::size_t>(best)];
     if (state.superseded) continue;
     if (is_end(task, state)) {
-      path.resize(static_cast<std::size_t>(state.key.t) + 1);
-      for (std::int32_t i = best; i >= 0; i = states_[static_cast<std::size_t>(i)].parent)
-        path[static_cast<std::size_t>(states_[static_cast<std::size_t>(i)].key.t)] =
-            states_[static_cast<std::size_t>(i)].location;
+      trace_back(best, path);
       return Result::found;
     }
     ++expanded_;
@@ -42,66 +33,79 @@ SpaceTimeAStar::Result SpaceTimeAStar::search(const Agent& agent, const TourTabl
   return Result::none;
 }
 
-bool SpaceTimeAStar::is_end(const Task& task, const State& state) const {
-  return state.location == task.agent.last_goal() && state.leg == task.agent.last_leg() &&
-         state.key.t >= task.rest_from;
+bool SpaceTimeAStar::is_end(const Task& task, const State& state) {
+  return state.location == task.agent.last_goal() && state.leg == task.agent.last_leg() && state.t >= task.rest_from;
 }
 
 void SpaceTimeAStar::generate_successors(const Task& task, std::int32_t parent) {
   const State state = states_[static_cast<std::size_t>(parent)];
   const std::int32_t leg = task.agent.leg_after(state.leg, state.location);
-  const std::int32_t t = state.key.t + 1;
-  const auto arrive = [&](Location to, Direction heading, std::int32_t turns) {
+  const std::int32_t t = state.t + 1;
+  const auto arrive = [&](Location to, std::int8_t heading, std::int32_t turns) {
     if (!task.constraints.allows(state.location, to, t)) return;
-    const std::int32_t conflicts = state.key.conflicts + task.others.count_at(state.location, to, t);
-    generate(task, to, leg, heading, turns, conflicts, t, parent);
+    const std::int32_t conflicts = state.conflicts + task.others.count_at(state.location, to, t);
+    generate(task, {to, parent, leg, t, conflicts, turns, heading, false});
   };
   arrive(state.location, state.heading, state.turns);
   for (Direction d = 0; d < GridGraph::direction_count; ++d) {
     const Location to = graph_.neighbor(state.location, d);
     const bool turn = state.heading != GridGraph::no_direction && state.heading != d;
-    if (to != nowhere) arrive(to, d, state.turns + (turn ? 1 : 0));
+    if (to != nowhere) arrive(to, static_cast<std::int8_t>(d), state.turns + (turn ? 1 : 0));
   }
 }
 
-void SpaceTimeAStar::generate(const Task& task, Location location, std::int32_t leg, Direction heading,
-                              std::int32_t turns, std::int32_t conflicts, std::int32_t t, std::int32_t parent) {
-  const std::int32_t distance = task.table.distance(leg, location);
-  if (distance >= TourTable::unreachable) return;
+void SpaceTimeAStar::generate(const Task& task, const State& state) {
+  const std::int32_t distance = task.table.distance(state.leg, state.location);
+  if (distance >= TourTable::unreachable || !enter(task, state)) return;
+  const std::int32_t steps = std::max(state.t + distance, task.rest_from);
   // With time to spare a longer way may have fewer turns than the shortest: then nothing is known of them.
-  const bool in_haste = t + distance >= task.rest_from;
-  const std::int32_t turns_left = in_haste ? task.table.turns(leg, location, heading) : 0;
-  State state{{std::max(t + distance, task.rest_from), conflicts, turns + turns_left, t},
-              location,
-              parent,
-              leg,
-              turns,
-              static_cast<std::int8_t>(heading),
-              false};
-  if (is_end(task, state)) state.key.conflicts += task.others.count_after(location, t);
+  const bool in_haste = state.t + distance == steps;
+  const std::int32_t turns_left = in_haste ? task.table.turns(state.leg, state.location, state.heading) : 0;
+  const std::int32_t at_rest = is_end(task, state) ? task.others.count_after(state.location, state.t) : 0;
 
-  Slot& slot = find_slot(identity_of(task, state));
-  if (slot.epoch == epoch_) {
-    State& known = states_[static_cast<std::size_t>(slot.state)];
-    if (!(state.key < known.key)) return;
-    known.superseded = true;
-  } else {
-    slot.epoch = epoch_;
-    slot.identity = identity_of(task, state);
-  }
-  slot.state = static_cast<std::int32_t>(states_.size());
+  open_.push_back({Key(steps, state.conflicts + at_rest, state.turns + turns_left, state.t),
+                   static_cast<std::int32_t>(states_.size())});
+  std::push_heap(open_.begin(), open_.end(), IsWorse());
   states_.push_back(state);
-  open_.push_back({state.key, slot.state});
-  std::push_heap(open_.begin(), open_.end(), is_worse);
-  if (states_.size() * 2 > slots_.size()) grow_slots();
+}
+
+// Notes a state that is about to be the next in states_; false if a known one is as good.
+bool SpaceTimeAStar::enter(const Task& task, const State& state) {
+  if (slots_used_ * 2 >= slots_.size()) grow_slots();
+  const std::uint64_t identity = identity_of(task, state);
+  Slot& slot = find_slot(identity);
+  if (slot.epoch != epoch_) {
+    slot.identity = identity;
+    slot.epoch = epoch_;
+    slot.states.fill(-1);
+    ++slots_used_;
+  }
+  for (std::int32_t& known : slot.states) {
+    if (known < 0) continue;
+    State& other = states_[static_cast<std::size_t>(known)];
+    if (is_as_good(other, state)) return false;
+    if (!is_as_good(state, other)) continue;
+    other.superseded = true;
+    known = -1;
+  }
+  slot.states[static_cast<std::size_t>(state.heading)] = static_cast<std::int32_t>(states_.size());
+  return true;
+}
+
+// Whether every way on from `b` is as good from `a`, which is at the same location on the same leg at a time that
+// makes no difference. Another heading costs at most one turn more.
+bool SpaceTimeAStar::is_as_good(const State& a, const State& b) {
+  if (a.t != b.t) return a.t < b.t;
+  if (a.conflicts != b.conflicts) return a.conflicts < b.conflicts;
+  const bool may_turn_more = a.heading != b.heading && a.heading != GridGraph::no_direction;
+  return a.turns + (may_turn_more ? 1 : 0) <= b.turns;
 }
 
 std::uint64_t SpaceTimeAStar::identity_of(const Task& task, const State& state) const {
-  const auto time = static_cast<std::uint64_t>(std::min(state.key.t, task.static_from));
+  const auto time = static_cast<std::uint64_t>(std::min(state.t, task.static_from));
   const auto place = static_cast<std::uint64_t>(state.leg) * static_cast<std::uint64_t>(graph_.location_count()) +
                      static_cast<std::uint64_t>(state.location);
-  const auto times = static_cast<std::uint64_t>(task.static_from) + 1;
-  return (place * times + time) * (GridGraph::direction_count + 1) + static_cast<std::uint64_t>(state.heading);
+  return place * (static_cast<std::uint64_t>(task.static_from) + 1) + time;
 }
 
 SpaceTimeAStar::Slot& SpaceTimeAStar::find_slot(std::uint64_t identity) {
@@ -112,17 +116,25 @@ SpaceTimeAStar::Slot& SpaceTimeAStar::find_slot(std::uint64_t identity) {
 }
 
 void SpaceTimeAStar::grow_slots() {
-  std::vector<Slot> old(slots_.size() * 2, Slot{0, 0, -1});
+  std::vector<Slot> old(std::max<std::size_t>(slots_.size() * 2, 1 << 10), Slot{0, 0, {}});
   old.swap(slots_);
   for (const Slot& slot : old)
     if (slot.epoch == epoch_) find_slot(slot.identity) = slot;
 }
 
 void SpaceTimeAStar::begin() {
-  if (slots_.empty()) slots_.assign(1 << 12, Slot{0, 0, -1});
   ++epoch_;
+  slots_used_ = 0;
   states_.clear();
   open_.clear();
+}
+
+void SpaceTimeAStar::trace_back(std::int32_t last, std::vector<Location>& path) const {
+  path.resize(static_cast<std::size_t>(states_[static_cast<std::size_t>(last)].t) + 1);
+  for (std::int32_t i = last; i >= 0; i = states_[static_cast<std::size_t>(i)].parent) {
+    const State& state = states_[static_cast<std::size_t>(i)];
+    path[static_cast<std::size_t>(state.t)] = state.location;
+  }
 }
 
 }  // namespace dmrp::planners

@@ -2,6 +2,8 @@
 #include "tour_table.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 namespace dmrp::planners {
 
@@ -49,17 +51,23 @@ void TourTable::fill_turns(std::int32_t leg, Location location) {
   const std::int32_t next_leg = agent_->leg_after(leg, location);
   const std::int32_t next_distance = distance(leg, location) - 1;
   std::uint16_t* turns_here = &turns_[index(leg, location) * heading_count];
-  for (Direction heading = 0; heading <= GridGraph::no_direction; ++heading) {
-    std::int32_t fewest = INT16_MAX;
-    if (distance(next_leg, location) == next_distance) fewest = turns(next_leg, location, heading);
-    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
-      const Location to = graph_->neighbor(location, d);
-      if (to == nowhere || distance(next_leg, to) != next_distance) continue;
-      const bool turn = heading != GridGraph::no_direction && d != heading;
-      fewest = std::min(fewest, turns(next_leg, to, d) + (turn ? 1 : 0));
-    }
-    turns_here[heading] = static_cast<std::uint16_t>(fewest);
+  // straight[d]: fewest turns for a robot that goes on in direction d, if that is a shortest way
+  constexpr std::int32_t no_way = INT16_MAX;
+  std::array<std::int32_t, GridGraph::direction_count> straight;
+  std::int32_t fewest = no_way;
+  for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+    const Location to = graph_->neighbor(location, d);
+    const bool is_shortest = to != nowhere && distance(next_leg, to) == next_distance;
+    straight[static_cast<std::size_t>(d)] = is_shortest ? turns(next_leg, to, d) : no_way;
+    fewest = std::min(fewest, straight[static_cast<std::size_t>(d)]);
   }
+  for (Direction heading = 0; heading < GridGraph::direction_count; ++heading)
+    turns_here[heading] = static_cast<std::uint16_t>(std::min(straight[static_cast<std::size_t>(heading)], fewest + 1));
+  turns_here[GridGraph::no_direction] = static_cast<std::uint16_t>(fewest);
+  if (distance(next_leg, location) != next_distance) return;
+  // a wait, between equal goals
+  for (Direction heading = 0; heading <= GridGraph::no_direction; ++heading)
+    turns_here[heading] = std::min(turns_here[heading], static_cast<std::uint16_t>(turns(next_leg, location, heading)));
 }
 
 std::vector<Location> TourTable::shortest_path() const {
