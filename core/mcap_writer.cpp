@@ -19,6 +19,11 @@ constexpr int compression_level = 1;
 
 using Bytes = std::vector<std::uint8_t>;
 
+template <class More>
+void append(Bytes& bytes, const More& more) {
+  ByteWriter(bytes).put_array(more.data(), more.size());
+}
+
 std::uint32_t crc32(const Bytes& bytes) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes.data(), bytes.size());
@@ -79,7 +84,8 @@ void McapWriter::TimeRange::add(std::uint64_t t) {
 
 McapWriter::McapWriter(const std::filesystem::path& path)
     : path_(path), file_(path, std::ios::binary | std::ios::trunc) {
-  Bytes begin(mcap_magic.begin(), mcap_magic.end());
+  Bytes begin;
+  append(begin, mcap_magic);
   put_record(begin, McapOpcode::header, [](ByteWriter& out) {
     out.put_text("");  // no profile
     out.put_text("dmrp");
@@ -96,8 +102,8 @@ std::uint16_t McapWriter::add_schema(const McapSchema& schema) {
     out.put_text(schema.encoding);
     out.put_text(schema.data);
   });
-  chunk_.insert(chunk_.end(), record.begin(), record.end());
-  schemas_.insert(schemas_.end(), record.begin(), record.end());
+  append(chunk_, record);
+  append(schemas_, record);
   return id;
 }
 
@@ -117,8 +123,8 @@ std::uint16_t McapWriter::add_channel(const McapChannel& channel) {
       }
     });
   });
-  chunk_.insert(chunk_.end(), record.begin(), record.end());
-  channels_.insert(channels_.end(), record.begin(), record.end());
+  append(chunk_, record);
+  append(channels_, record);
   return id;
 }
 
@@ -219,7 +225,7 @@ void McapWriter::write_summary() {
       out.put(summary_begin + summary.size());
       out.put(std::uint64_t{records.size()});
     });
-    summary.insert(summary.end(), records.begin(), records.end());
+    append(summary, records);
   };
   Bytes statistics;
   put_statistics(statistics);
@@ -229,7 +235,7 @@ void McapWriter::write_summary() {
   add_group(McapOpcode::statistics, statistics);
 
   const std::uint64_t offsets_begin = summary_begin + summary.size();
-  summary.insert(summary.end(), summary_offsets.begin(), summary_offsets.end());
+  append(summary, summary_offsets);
   put_record(summary, McapOpcode::footer, [&](ByteWriter& out) {
     out.put(summary_begin);
     out.put(offsets_begin);
@@ -237,7 +243,7 @@ void McapWriter::write_summary() {
   });
   summary.resize(summary.size() - sizeof(std::uint32_t));  // the checksum is over all before it
   ByteWriter(summary).put(crc32(summary));
-  summary.insert(summary.end(), mcap_magic.begin(), mcap_magic.end());
+  append(summary, mcap_magic);
   to_file(summary);
 }
 
