@@ -2,6 +2,7 @@
 #include "core/costmap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/vec2.hpp>
@@ -23,6 +24,16 @@ std::uint8_t cost_at(double distance_m, double inscribed_radius_m, const Costmap
   if (distance_m > settings.inflation_radius_m) return DMRP_COST_FREE;
   const double share = std::exp(-settings.cost_scaling * (distance_m - inscribed_radius_m));
   return static_cast<std::uint8_t>((DMRP_COST_INSCRIBED - 1) * share);
+}
+
+// One vector's worth of costs to the larger ones.
+void raise(std::uint8_t* costs, const std::uint8_t* others) {
+  std::array<std::uint8_t, vector_bytes> mine;
+  std::array<std::uint8_t, vector_bytes> theirs;
+  std::memcpy(mine.data(), costs, vector_bytes);
+  std::memcpy(theirs.data(), others, vector_bytes);
+  for (std::size_t i = 0; i < vector_bytes; ++i) mine[i] = std::max(mine[i], theirs[i]);
+  std::memcpy(costs, mine.data(), vector_bytes);
 }
 
 // Where a line from inside the square [0, side]^2 leaves it.
@@ -175,6 +186,8 @@ void LocalCostmap::mark(dmrp_vec2 point) {
 void LocalCostmap::inflate() {
   std::fill(canvas_.begin(), canvas_.end(), std::uint8_t{DMRP_COST_FREE});
   const std::int64_t canvas_stride = side_ + stamp_stride_;
+  const std::int64_t stamp_stride = stamp_stride_;
+  const std::int64_t stamp_rows = 2 * stamp_reach_ + 1;
   const std::uint8_t* const begin = lethal_.data();
   const std::uint8_t* const end = begin + lethal_.size();
   for (const std::uint8_t* cell = begin; cell < end; ++cell) {
@@ -183,10 +196,10 @@ void LocalCostmap::inflate() {
     // the canvas begins stamp_reach_ cells before the window on either axis
     std::uint8_t* target = canvas_.data() + (cell - begin) / side_ * canvas_stride + (cell - begin) % side_;
     const std::uint8_t* source = stamp_.data();
-    for (std::int64_t row = 0; row <= 2 * stamp_reach_; ++row) {
-      for (std::int64_t i = 0; i < stamp_stride_; ++i) target[i] = std::max(target[i], source[i]);
+    for (std::int64_t row = 0; row < stamp_rows; ++row) {
+      for (std::int64_t i = 0; i < stamp_stride; i += vector_bytes) raise(target + i, source + i);
       target += canvas_stride;
-      source += stamp_stride_;
+      source += stamp_stride;
     }
   }
   for (std::int64_t row = 0; row < side_; ++row) {
