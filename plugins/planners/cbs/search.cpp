@@ -166,6 +166,7 @@ const Conflict& CbsSearch::choose_conflict(NodeId id) {
   std::uint32_t chosen = conflicts_.front();
   Cardinality best = Cardinality::unknown;
   for (const std::uint32_t index : conflicts_) {
+    if (stop_.poll_now()) break;
     NodeConflict& candidate = tree_.conflict(index);
     if (candidate.cardinality == Cardinality::unknown) candidate.cardinality = classify(id, candidate.conflict);
     if (candidate.cardinality > best) {

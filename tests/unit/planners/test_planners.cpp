@@ -3,6 +3,7 @@
 
 #include "joint_optimum.hpp"
 #include "plan_check.hpp"
+#include "random.hpp"
 
 using namespace dmrp::test;
 
@@ -11,22 +12,6 @@ namespace {
 const char* const library = "libdmrp_planners.so";
 const char* const cbs = "dmrp.planner.cbs";
 const char* const individual = "dmrp.planner.individual";
-
-// SplitMix64.
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed) {}
-  int below(int n) {
-    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return static_cast<int>((z ^ (z >> 31)) % static_cast<uint64_t>(n));
-  }
-  bool one_in(int n) { return below(n) == 0; }
-
- private:
-  uint64_t state_;
-};
 
 // 4x4 to 6x6 cells with obstacles and thin walls; 2 or 3 robots, some with tours, some resting. Starts and last goals
 // are distinct free cells; whether there is a plan is left to chance.
@@ -97,7 +82,7 @@ TEST_CASE("the library describes its planners") {
 
 TEST_CASE("random small problems: CBS finds the joint optimum, individual each robot's own") {
   // Some of these problems take CBS millions of nodes: it may give up on very few, and its bound must hold there too.
-  PluginUnderTest cbs_planner(library, cbs, {{"node_limit", 4000}});
+  PluginUnderTest cbs_planner(library, cbs, {{"node_limit", 2000}});
   PluginUnderTest individual_planner(library, individual);
   int solvable = 0;
   int coordinated = 0;
