@@ -5,7 +5,7 @@
 //   simulation/mall_bare/real_time_factor    4 robots, 12 people, 50 Hz
 //   simulation/mall_lidar/real_time_factor   the same with lidars of 360 beams at 10 Hz
 //   simulation/mall_costmap/real_time_factor the same with local costmaps on these
-//   simulation/crowd_bare/real_time_factor   100 robots, 400 people
+//   simulation/hall_bare/real_time_factor    100 robots, 1,000 people, 50 Hz
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -36,8 +36,7 @@ struct Row {
 enum class Sensors { none, lidar, costmap };
 
 struct Setup {
-  std::uint32_t robots;
-  std::uint32_t people;
+  core::Scenario scenario;
   Sensors sensors;
   double duration_s;
 };
@@ -57,7 +56,7 @@ void sense(const core::World& world, core::Lidar& lidar, std::vector<std::unique
 
 // Simulated over used time.
 double real_time_factor(const Setup& setup) {
-  const core::Scenario scenario = bench::make_mall(setup.robots, setup.people);
+  const core::Scenario& scenario = setup.scenario;
   const core::RobotSettings robot;
   const core::SimulationSettings settings;
   const auto geometry = std::make_shared<const core::StaticGeometry>(scenario);
@@ -67,19 +66,20 @@ double real_time_factor(const Setup& setup) {
   std::vector<float> ranges(lidar.beams());
   std::vector<std::unique_ptr<core::LocalCostmap>> costmaps;
   if (setup.sensors == Sensors::costmap)
-    for (std::uint32_t i = 0; i < setup.robots; ++i)
+    for (std::size_t i = 0; i < scenario.robots.size(); ++i)
       costmaps.push_back(std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m));
 
   const std::clock_t start = std::clock();
-  std::vector<dmrp_vec2> velocities(setup.people);
+  std::vector<dmrp_vec2> velocities(core::person_count(scenario));
   const std::int64_t steps_per_tick = settings.control_period_ns / settings.step_ns;
   const auto steps = static_cast<std::int64_t>(setup.duration_s * 1e9) / settings.step_ns;
   for (std::int64_t step = 0; step < steps; ++step) {
     if (step % steps_per_tick == 0) {
       if (setup.sensors != Sensors::none) sense(world, lidar, costmaps, ranges);
-      for (std::uint32_t i = 0; i < setup.robots; ++i) world.set_command(i, {0.6, 0.0, i % 2 == 0 ? 0.15 : -0.15});
+      for (std::uint32_t i = 0; i < scenario.robots.size(); ++i)
+        world.set_command(i, {0.6, 0.0, i % 2 == 0 ? 0.15 : -0.15});
     }
-    for (std::uint32_t i = 0; i < setup.people; ++i) {
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
       const dmrp_person& person = world.people()[i];
       velocities[i] = person.desired_speed * toolkit::normalized(person.target - person.position);
     }
@@ -99,11 +99,13 @@ double median_of_three(const Setup& setup) {
 
 int main(int argc, char** argv) {
   const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const core::Scenario mall = bench::make_mall(4, 12);
+  const core::Scenario hall = bench::make_hall(100, 1000);
   const std::vector<Row> rows = {
-      {"simulation/mall_bare/real_time_factor", median_of_three({4, 12, Sensors::none, 600.0}), "1"},
-      {"simulation/mall_lidar/real_time_factor", median_of_three({4, 12, Sensors::lidar, 120.0}), "1"},
-      {"simulation/mall_costmap/real_time_factor", median_of_three({4, 12, Sensors::costmap, 120.0}), "1"},
-      {"simulation/crowd_bare/real_time_factor", median_of_three({100, 400, Sensors::none, 20.0}), "1"}};
+      {"simulation/mall_bare/real_time_factor", median_of_three({mall, Sensors::none, 600.0}), "1"},
+      {"simulation/mall_lidar/real_time_factor", median_of_three({mall, Sensors::lidar, 120.0}), "1"},
+      {"simulation/mall_costmap/real_time_factor", median_of_three({mall, Sensors::costmap, 120.0}), "1"},
+      {"simulation/hall_bare/real_time_factor", median_of_three({hall, Sensors::none, 20.0}), "1"}};
   if (json) std::printf("[");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (json) {

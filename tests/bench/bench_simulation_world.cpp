@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench_simulation_world.hpp"
 
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -48,6 +47,15 @@ void add_furniture(core::Scenario& scenario) {
   }
 }
 
+void add_robot(core::Scenario& scenario, dmrp_vec2 start, dmrp_vec2 goal) {
+  constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
+  core::RobotTask task;
+  task.name = "robot " + std::to_string(scenario.robots.size());
+  task.start = {start.x, start.y, free_heading};
+  task.goals = {{goal.x, goal.y, free_heading}};
+  scenario.robots.push_back(task);
+}
+
 }  // namespace
 
 core::Scenario make_mall(std::uint32_t robots, std::uint32_t people) {
@@ -60,16 +68,32 @@ core::Scenario make_mall(std::uint32_t robots, std::uint32_t people) {
   add_furniture(scenario);
 
   for (std::uint32_t i = 0; i < robots; ++i) {
-    core::RobotTask task;
-    task.name = "robot " + std::to_string(i);
     const double x = 2.5 + 36.0 * (i / 2 + 0.5) / (robots / 2.0 + 0.5);
-    const double y = i % 2 == 0 ? 15.0 : 25.0;
-    task.start = {x, y, std::numeric_limits<double>::quiet_NaN()};
-    task.goals = {{x, 40.0 - y, std::numeric_limits<double>::quiet_NaN()}};
-    scenario.robots.push_back(task);
+    add_robot(scenario, {x, i % 2 == 0 ? 15.0 : 25.0}, {x, i % 2 == 0 ? 25.0 : 15.0});
   }
   scenario.regions = {{"west", {1.0, 15.0}, {3.0, 25.0}}, {"east", {37.0, 15.0}, {39.0, 25.0}}};
   scenario.flows = {{"eastward", {0, 1}, people - people / 2}, {"westward", {1, 0}, people / 2}};
+  return scenario;
+}
+
+core::Scenario make_hall(std::uint32_t robots, std::uint32_t people) {
+  core::Scenario scenario;
+  scenario.name = "hall";
+  scenario.upper = {100.0, 60.0};
+  for (int column = 0; column < 9; ++column)
+    for (int row = 0; row < 5; ++row) scenario.shapes.push_back(planter(10.0 + 10.0 * column, 10.0 + 10.0 * row, 0.4));
+  for (std::uint32_t i = 0; i < robots; ++i) {
+    const double x = 1.0 + 98.0 * (i / 2 + 0.5) / (robots / 2.0 + 0.5);
+    add_robot(scenario, {x, i % 2 == 0 ? 2.0 : 58.0}, {x, i % 2 == 0 ? 58.0 : 2.0});
+  }
+  // five lanes, both ways
+  for (std::uint32_t lane = 0; lane < 5; ++lane) {
+    const double y = 6.0 + 10.0 * lane;
+    scenario.regions.push_back({"west", {1.0, y}, {4.0, y + 8.0}});
+    scenario.regions.push_back({"east", {96.0, y}, {99.0, y + 8.0}});
+    scenario.flows.push_back({"eastward", {2 * lane, 2 * lane + 1}, people / 10});
+    scenario.flows.push_back({"westward", {2 * lane + 1, 2 * lane}, people / 10});
+  }
   return scenario;
 }
 
