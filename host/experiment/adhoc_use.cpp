@@ -90,8 +90,7 @@ Experiment adhoc_experiment(const std::string& scenario, const std::string& plan
   std::string text = "[params]\n";
   for (const std::string& setting : settings) text += toml_line(setting);
   const TomlDocument document("--set", text);
-  TomlTable root = document.root();
-  use.parameters = read_parameters(root, use.info, fs::current_path()).front().values;
+  use.parameters = read_parameters(document.root(), use.info, fs::current_path()).front().values;
   experiment.global_planners.push_back(std::move(use));
   return experiment;
 }

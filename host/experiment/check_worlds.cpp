@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <vector>
@@ -15,6 +16,17 @@ namespace dmrp::host {
 namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
+constexpr double most_cells = 1 << 24;
+
+void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
+  const core::Scenario& scenario = file.scenario;
+  const double cells =
+      (scenario.upper.x - scenario.lower.x) * (scenario.upper.y - scenario.lower.y) / (resolution_m * resolution_m);
+  if (cells > most_cells)
+    file.document->fail(file.size, fmt::format("the world is too large: {} of {} m cells would have {:.0f} of them, at "
+                                               "most {:.0f}",
+                                               grid, resolution_m, cells, most_cells));
+}
 
 class WorldCheck {
  public:
@@ -26,20 +38,19 @@ class WorldCheck {
         needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
         geometry_(scenario_),
         planning_(core::build_planning_grid(geometry_, experiment.simulation.grid_resolution_m, radius_m_,
-                                            experiment.simulation.planning_margin_m)),
-        walking_(core::build_walking_grid(geometry_)) {}
+                                            experiment.simulation.planning_margin_m)) {}
 
   void run() {
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
     for (std::size_t a = 0; a < scenario_.robots.size(); ++a)
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
-      if (scenario_.flows[i].people > 0) check_flow(i);
+    if (core::person_count(scenario_) > 0) check_flows();
     const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
     if (experiment_.simulation.grid_resolution_m < safe_cell_m)
-      warn({}, fmt::format("cells of {} m are smaller than 2 sqrt(2) r = {:.3f} m: robots that follow a valid plan can "
-                           "touch",
-                           experiment_.simulation.grid_resolution_m, safe_cell_m));
+      warn(file_.size,
+           fmt::format("cells of {} m are smaller than 2 sqrt(2) r = {:.3f} m: robots that follow a valid plan can "
+                       "touch",
+                       experiment_.simulation.grid_resolution_m, safe_cell_m));
   }
 
  private:
@@ -123,8 +134,11 @@ class WorldCheck {
     const dmrp_grid view = planning_.view();
     const toolkit::GridView grid(view);
     const double distance_m = std::hypot(p.x - q.x, p.y - q.y);
-    if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})) || distance_m < 2.0 * radius_m_)
-      fail_robot(b, fmt::format("shares its {} with robot {}", noun, a + 1));
+    if (distance_m < 2.0 * radius_m_)
+      fail_robot(b, fmt::format("overlaps robot {} at its {} (distance {:.2f} m, needs {:.2f} m)", a + 1, noun,
+                                distance_m, 2.0 * radius_m_));
+    if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})))
+      fail_robot(b, fmt::format("has its {} on the same planning cell as robot {}", noun, a + 1));
     if (distance_m <= start_distance_m)
       warn(file_.robots[b],
            fmt::format("the {}s of robots {} and {} are {:.2f} m apart; the method wants more than {} m", noun, a + 1,
@@ -144,11 +158,19 @@ class WorldCheck {
     return cells;
   }
 
-  void check_flow(std::size_t index) const {
+  // Broad people need more room than the grid on which all find their way leaves them.
+  void check_flows() const {
+    const core::PlanningGrid walking = core::build_planning_grid(
+        geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
+    const dmrp_grid view = walking.view();
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
+      if (scenario_.flows[i].people > 0) check_flow(toolkit::GridView(view), i);
+  }
+
+  void check_flow(const toolkit::GridView& grid, std::size_t index) const {
     const core::Flow& flow = scenario_.flows[index];
-    const dmrp_grid view = walking_.view();
-    const toolkit::GridView grid(view);
     std::vector<bool> seen;
+    std::string last;
     for (const std::uint32_t region_index : flow.regions) {
       const core::Region& region = scenario_.regions[region_index];
       const auto cells = free_cells(grid, region);
@@ -156,12 +178,10 @@ class WorldCheck {
         file_.document->fail(file_.regions[region_index],
                              fmt::format("region '{}' has no free place for a person", region.name));
       if (seen.empty()) seen = reachable(grid, cells.front());
-      bool any = false;
-      for (const std::uint32_t cell : cells) any = any || seen[cell];
-      if (!any)
+      if (std::none_of(cells.begin(), cells.end(), [&](std::uint32_t cell) { return seen[cell]; }))
         file_.document->fail(file_.flows[index],
-                             fmt::format("flow '{}': nobody can walk from '{}' to '{}'", flow.name,
-                                         scenario_.regions[flow.regions.front()].name, region.name));
+                             fmt::format("flow '{}': nobody can walk from '{}' to '{}'", flow.name, last, region.name));
+      last = region.name;
     }
   }
 
@@ -172,12 +192,13 @@ class WorldCheck {
   double needed_m_;
   core::StaticGeometry geometry_;
   core::PlanningGrid planning_;
-  core::PlanningGrid walking_;
 };
 
 }  // namespace
 
 void check_world(const ScenarioFile& file, Experiment& experiment) {
+  check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
+  check_size(file, core::walking_resolution_m, "the grid for people");
   WorldCheck(file, experiment).run();
 }
 

@@ -9,6 +9,11 @@ std::string experiment_digest(const Experiment& experiment) {
   std::string all = effective_toml(experiment);
   for (const LibraryUse& library : experiment.libraries) all += sha256_of_file(library.file);
   for (const ScenarioVariant& variant : experiment.scenarios) all += sha256_of_file(variant.file);
+  for (const auto* uses :
+       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+    for (const PluginUse& use : *uses)
+      for (const ParameterValue& value : use.parameters)
+        if (value.type == DMRP_PARAM_PATH && !value.text.empty()) all += sha256_of_file(value.text);
   return sha256_of_bytes(all);
 }
 

@@ -8,7 +8,7 @@
 
 namespace dmrp::host {
 
-// SHA-256, hexadecimal, over the effective experiment and the contents of its libraries and scenario files.
+// SHA-256, hexadecimal, over the effective experiment and the contents of its libraries, scenario and parameter files.
 std::string experiment_digest(const Experiment& experiment);
 
 }  // namespace dmrp::host

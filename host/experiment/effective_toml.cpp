@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 
 #include "host/experiment/experiment.hpp"
 
@@ -27,7 +29,7 @@ std::string quoted(const std::string& text) {
 // The shortest text that reads back as the same double, and as a float of TOML.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
   return text;
 }
 
@@ -59,12 +61,25 @@ std::string parameter(const ParameterValue& value) {
   }
 }
 
+bool is_finite(const ParameterValue& value) {
+  return std::isfinite(value.number) &&
+         std::all_of(value.numbers.begin(), value.numbers.end(), [](double number) { return std::isfinite(number); });
+}
+
+// Bare where TOML allows it.
+std::string key(const std::string& name) {
+  const auto bare = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-'); };
+  return std::all_of(name.begin(), name.end(), bare) ? name : quoted(name);
+}
+
 void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses) {
   for (const PluginUse& use : uses) {
     out += fmt::format("\n[[{}]]\nuse   = {}\nlabel = {}\n", kind_name(kind), quoted(use.info.id), quoted(use.label));
     if (use.parameters.empty()) continue;
     out += fmt::format("[{}.params]\n", kind_name(kind));
-    for (const ParameterValue& value : use.parameters) out += fmt::format("{} = {}\n", value.key, parameter(value));
+    // A default may be infinite or undefined, which nobody can write: told in a comment.
+    for (const ParameterValue& value : use.parameters)
+      out += fmt::format("{}{} = {}\n", is_finite(value) ? "" : "# ", key(value.key), parameter(value));
   }
 }
 

@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "host/experiment/check_worlds.hpp"
@@ -37,21 +36,22 @@ class Reader {
   }
 
   Experiment take() {
-    TomlTable root = document_.root();
+    const TomlTable root = document_.root();
     read_header(root);
-    read_settings(root, experiment_);
-    read_scenarios(root);
-    read_uses(root, DMRP_KIND_GLOBAL_PLANNER, experiment_.global_planners);
-    read_uses(root, DMRP_KIND_LOCAL_CONTROLLER, experiment_.local_controllers);
-    read_uses(root, DMRP_KIND_PEDESTRIAN_MODEL, experiment_.pedestrian_models);
-    read_uses(root, DMRP_KIND_METRIC, experiment_.metrics);
-    root.finish();
-    if (experiment_.metrics.empty()) use_every_metric();
-    check_metric_names(root);
-    if (experiment_.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
-    if (experiment_.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
-    check_people();
-    for (std::size_t i = 0; i < files_.size(); ++i) check_world(files_[i], experiment_);
+    std::vector<TomlTable::KeyReader> readers = settings_readers(root, experiment_);
+    readers.emplace_back("experiment", [](const TomlValue&) {});
+    readers.emplace_back("scenario", [&](const TomlValue&) { read_scenarios(root); });
+    for (const auto& [kind, uses] : std::initializer_list<std::pair<std::uint32_t, std::vector<PluginUse>*>>{
+             {DMRP_KIND_GLOBAL_PLANNER, &experiment_.global_planners},
+             {DMRP_KIND_LOCAL_CONTROLLER, &experiment_.local_controllers},
+             {DMRP_KIND_PEDESTRIAN_MODEL, &experiment_.pedestrian_models},
+             {DMRP_KIND_METRIC, &experiment_.metrics}})
+      readers.emplace_back(kind_name(kind),
+                           [this, &root, kind = kind, uses = uses](const TomlValue&) { read_uses(root, kind, *uses); });
+    root.read(readers);
+    check_complete(root);
+    if (experiment_.metrics.empty()) use_every_metric(root);
+    for (const ScenarioFile& file : files_) check_world(file, experiment_);
     return std::move(experiment_);
   }
 
@@ -69,20 +69,26 @@ class Reader {
 
   fs::path base() const { return experiment_.file.parent_path(); }
 
-  void read_header(TomlTable& root) {
-    auto header = root.find_table("experiment");
-    if (!header) root.fail("the file needs [experiment]");
-    const auto name = header->find("name");
-    experiment_.name = name ? name->text() : experiment_.file.stem().string();
-    if (experiment_.name.empty() || experiment_.name.find('/') != std::string::npos)
-      name->fail("'name' names the run directory: it must not be empty or have a '/'");
+  void read_header(const TomlTable& root) {
+    const auto header = root.find_table("experiment");
+    if (!header) {
+      root.allow_only({"scenario", "global_planner", "local_controller", "pedestrian_model", "metric", "simulation",
+                       "robot", "record", "limits", "experiment"});
+      root.fail("the file needs [experiment]");
+    }
+    header->allow_only({"name", "seed", "trials", "plugins"});
+    experiment_.name = experiment_.file.stem().string();
+    if (const auto name = header->find("name")) {
+      experiment_.name = name->line();
+      if (experiment_.name.find('/') != std::string::npos || experiment_.name.front() == '.')
+        name->fail("'name' names the run directory: it can have no '/' and not begin with '.'");
+    }
     if (const auto seed = header->find("seed")) experiment_.seed = static_cast<std::uint64_t>(seed->integer(0));
     if (const auto trials = header->find("trials"))
       experiment_.trials = static_cast<std::uint32_t>(trials->integer(1, 1'000'000));
     const TomlValue plugins = header->need("plugins");
     for (const TomlValue& library : plugins.array()) read_library(library);
     if (experiment_.libraries.empty()) plugins.fail("'plugins' must name at least one library");
-    header->finish();
   }
 
   void read_library(const TomlValue& value) {
@@ -94,21 +100,33 @@ class Reader {
     Probe probe;
     try {
       probe = source_(file);
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       value.fail(fmt::format("{}: {}", name, error.what()));
     }
     if (!probe.warning.empty())
       experiment_.warnings.push_back(document_.place(value.position()) + ": " + name + ": " + probe.warning);
-    for (const PluginInfo& plugin : probe.plugins)
-      for (const LibraryUse& other : experiment_.libraries)
-        for (const PluginInfo& known : other.plugins)
-          if (known.id == plugin.id) value.fail(fmt::format("{}: {} is in {} too", name, plugin.id, other.written));
     experiment_.libraries.push_back({name, file, probe.plugins});
+    for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, name, i);
   }
 
-  [[noreturn]] static void fail_missing_library(const TomlValue& value, const std::string& name) {
+  // Whether the plugin `index` of the last library is the first of its id.
+  void check_new_id(const TomlValue& value, const std::string& name, std::size_t index) const {
+    const std::string& id = experiment_.libraries.back().plugins[index].id;
+    for (const LibraryUse& other : experiment_.libraries) {
+      const bool is_last = &other == &experiment_.libraries.back();
+      for (std::size_t i = 0; i < (is_last ? index : other.plugins.size()); ++i)
+        if (other.plugins[i].id == id)
+          value.fail(is_last ? fmt::format("{}: has {} twice", name, id)
+                             : fmt::format("{}: has {}, which is in {} already", name, id, other.written));
+    }
+  }
+
+  [[noreturn]] void fail_missing_library(const TomlValue& value, const std::string& name) const {
+    if (name.empty()) value.fail("a library's name must not be empty");
     if (name.find('/') != std::string::npos)
-      value.fail(fmt::format("no library '{}' (relative to the experiment file)", name));
+      value.fail(fmt::format("no library '{}' (there is no file {})", name, shown((base() / name).lexically_normal())));
+    if (std::error_code ignored; fs::is_regular_file(base() / name, ignored))
+      value.fail(fmt::format("no library '{0}' in the plugin path (did you mean './{0}'?)", name));
     std::vector<std::string> known;
     std::string folders;
     for (const fs::path& folder : plugin_path()) {
@@ -117,38 +135,44 @@ class Reader {
       for (const auto& entry : fs::directory_iterator(folder, ignored)) known.push_back(entry.path().filename());
     }
     std::sort(known.begin(), known.end());
-    value.fail(fmt::format("no library '{}' in {}{}", name, folders, did_you_mean(name, known)));
+    value.fail(fmt::format("no library '{}' (searched: {}){}", name, folders, did_you_mean(name, known)));
   }
 
-  void read_scenarios(TomlTable& root) {
-    for (TomlTable& table : root.tables("scenario")) {
+  void read_scenarios(const TomlTable& root) {
+    for (const TomlTable& table : root.tables("scenario")) {
+      table.allow_only({"use", "robots"});
       const TomlValue use = table.need("use");
       const fs::path file = find_scenario(use.text(), base());
       if (file.empty()) fail_missing_scenario(use);
       ScenarioFile scenario = read_scenario_file(file, shown(file));
-      const std::vector<std::uint32_t> counts = robot_counts(table, scenario.scenario);
-      table.finish();
-      for (const std::uint32_t count : counts) {
+      const std::size_t listed = scenario.scenario.robots.size();
+      std::size_t most = 0;
+      for (const RobotCount& count : robot_counts(table, use, scenario.scenario)) {
         ScenarioVariant variant;
         variant.scenario = scenario.scenario;
-        variant.scenario.robots.resize(count);
+        variant.scenario.robots.resize(count.robots);
         variant.label = variant.scenario.name;
-        if (count != scenario.scenario.robots.size()) variant.label += fmt::format("/{}", count);
+        if (count.robots != listed) variant.label += fmt::format("/{}", count.robots);
         variant.file = file;
         for (const ScenarioVariant& other : experiment_.scenarios)
-          if (other.label == variant.label) use.fail(fmt::format("scenario '{}' is there twice", variant.label));
+          if (other.label == variant.label)
+            count.value.fail(fmt::format("scenario '{}' is there twice", variant.label));
+        scenario_uses_.push_back(use);
         experiment_.scenarios.push_back(std::move(variant));
+        most = std::max(most, count.robots);
       }
+      scenario.scenario.robots.resize(most);  // the others take no part, so nothing is asked of them
       files_.push_back(std::move(scenario));
     }
-    if (experiment_.scenarios.empty()) root.fail("the experiment needs a [[scenario]]");
   }
 
   [[noreturn]] static void fail_missing_scenario(const TomlValue& use) {
+    const std::string name = use.text();
+    if (name.find('/') != std::string::npos || name.ends_with(".toml"))
+      use.fail(fmt::format("no scenario '{}' (there is no such file beside the experiment file)", name));
     const auto shipped = shipped_scenarios();
-    const auto more = folders_text();
-    use.fail(fmt::format("no scenario '{}' (shipped: {}; {}){}", use.text(), join_names(shipped), more,
-                         did_you_mean(use.text(), shipped)));
+    use.fail(fmt::format("no scenario '{}' (shipped: {}; {}){}", name, join_names(shipped), folders_text(),
+                         did_you_mean(name, shipped)));
   }
 
   static std::string folders_text() {
@@ -156,45 +180,66 @@ class Reader {
     return path && *path ? std::string("DMRP_SCENARIO_PATH is ") + path : "DMRP_SCENARIO_PATH is empty";
   }
 
-  static std::vector<std::uint32_t> robot_counts(TomlTable& table, const core::Scenario& scenario) {
-    const auto listed = static_cast<std::int64_t>(scenario.robots.size());
+  struct RobotCount {
+    std::size_t robots;
+    TomlValue value;  // where it is asked for
+  };
+
+  static std::vector<RobotCount> robot_counts(const TomlTable& table, const TomlValue& use,
+                                              const core::Scenario& scenario) {
+    const std::size_t listed = scenario.robots.size();
+    if (listed == 0) use.fail(fmt::format("scenario '{}' lists no robots", scenario.name));
     const auto value = table.find("robots");
-    if (!value) {
-      if (listed == 0) table.fail(fmt::format("scenario '{}' lists no robots", scenario.name));
-      return {static_cast<std::uint32_t>(listed)};
-    }
-    std::vector<std::uint32_t> counts;
+    if (!value) return {{listed, use}};
+    std::vector<RobotCount> counts;
     for (const TomlValue& count : value->is_array() ? value->array() : std::vector<TomlValue>{*value}) {
-      const std::int64_t n = count.integer(1);
-      if (n > listed)
-        count.fail(fmt::format("scenario '{}' lists {} robots; drawing more is not built yet", scenario.name, listed));
-      counts.push_back(static_cast<std::uint32_t>(n));
+      const auto robots = static_cast<std::size_t>(count.integer(1));
+      if (robots > listed)
+        count.fail(fmt::format("scenario '{}' lists {} robot{}, not {}: drawing more is not built yet", scenario.name,
+                               listed, listed == 1 ? "" : "s", robots));
+      counts.push_back({robots, count});
     }
     if (counts.empty()) value->fail("'robots' must have at least one number");
     return counts;
   }
 
-  void read_uses(TomlTable& root, std::uint32_t kind, std::vector<PluginUse>& uses) {
-    for (TomlTable& table : root.tables(kind_name(kind))) {
+  void read_uses(const TomlTable& root, std::uint32_t kind, std::vector<PluginUse>& uses) {
+    for (const TomlTable& table : root.tables(kind_name(kind))) {
+      table.allow_only({"use", "label", "params", "sweep"});
       const TomlValue use = table.need("use");
       const auto [library, info] = find_plugin(use, kind);
       check_extensions(use, *info);
       const auto label = table.find("label");
-      const std::string name = label ? label->text() : info->name;
+      const std::string name = label ? label->line() : info->name;
       for (ParameterVariant& variant : read_parameters(table, *info, base())) {
         PluginUse made;
         made.library = library;
         made.info = *info;
         made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
         made.parameters = std::move(variant.values);
-        for (const PluginUse& other : uses)
-          if (other.label == made.label)
-            (label ? *label : use)
-                .fail(fmt::format("two of [[{}]] are called '{}': give one a 'label'", kind_name(kind), made.label));
+        if (label_taken(uses, made.label))
+          (label ? *label : use)
+              .fail(
+                  fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));
+        if (kind == DMRP_KIND_METRIC) check_value_names(use, made);
         uses.push_back(std::move(made));
       }
-      table.finish();
     }
+  }
+
+  static bool label_taken(const std::vector<PluginUse>& uses, const std::string& label) {
+    return std::any_of(uses.begin(), uses.end(), [&](const PluginUse& use) { return use.label == label; });
+  }
+
+  // Values are told apart by name in the results.
+  void check_value_names(const TomlValue& at, const PluginUse& metric) const {
+    for (const PluginUse& other : experiment_.metrics)
+      for (const MetricValueSpec& known : other.info.values)
+        for (const MetricValueSpec& value : metric.info.values)
+          if (known.name == value.name)
+            at.fail(fmt::format("two metrics give a value '{}': {} and {}", value.name,
+                                other.info.id == metric.info.id ? other.label : other.info.id,
+                                other.info.id == metric.info.id ? metric.label : metric.info.id));
   }
 
   std::pair<std::uint32_t, const PluginInfo*> find_plugin(const TomlValue& use, std::uint32_t kind) const {
@@ -220,34 +265,32 @@ class Reader {
                              id, kind_name(info.kind), join_names(offered)));
   }
 
-  void use_every_metric() {
+  void use_every_metric(const TomlTable& root) {
+    const TomlValue plugins = root.find_table("experiment")->need("plugins");
     for (std::uint32_t i = 0; i < experiment_.libraries.size(); ++i)
       for (const PluginInfo& info : experiment_.libraries[i].plugins) {
         if (info.kind != DMRP_KIND_METRIC) continue;
+        check_extensions(plugins, info);
         PluginUse use;
         use.library = i;
         use.info = info;
-        use.label = info.name;
+        use.label = label_taken(experiment_.metrics, info.name) ? info.id : info.name;
         for (const ParameterSpec& spec : info.parameters) use.parameters.push_back(spec.fallback);
+        check_value_names(plugins, use);
         experiment_.metrics.push_back(std::move(use));
       }
   }
 
-  // Values are told apart by name in the results.
-  void check_metric_names(const TomlTable& root) const {
-    std::set<std::string> names;
-    for (const PluginUse& use : experiment_.metrics)
-      for (const MetricValueSpec& value : use.info.values)
-        if (!names.insert(value.name).second)
-          root.fail(fmt::format("two metrics give a value '{}' (one is {})", value.name, use.info.id));
-  }
-
-  void check_people() {
+  void check_complete(const TomlTable& root) const {
+    if (experiment_.scenarios.empty()) root.fail("the experiment needs a [[scenario]]");
+    if (experiment_.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
+    if (experiment_.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
     if (!experiment_.pedestrian_models.empty()) return;
-    for (const ScenarioVariant& variant : experiment_.scenarios)
-      if (const auto count = core::person_count(variant.scenario); count > 0)
-        document_.root().fail(fmt::format("scenario '{}' has {} people: the experiment needs a [[pedestrian_model]]",
-                                          variant.scenario.name, count));
+    for (std::size_t i = 0; i < experiment_.scenarios.size(); ++i)
+      if (const auto count = core::person_count(experiment_.scenarios[i].scenario); count > 0)
+        scenario_uses_[i].fail(fmt::format("scenario '{}' has {} {}: the experiment needs a [[pedestrian_model]]",
+                                           experiment_.scenarios[i].scenario.name, count,
+                                           count == 1 ? "person" : "people"));
   }
 
   const PluginSource& source_;
@@ -255,6 +298,7 @@ class Reader {
   TomlDocument document_;
   Experiment experiment_;
   std::vector<ScenarioFile> files_;
+  std::vector<TomlValue> scenario_uses_;  // parallel to experiment_.scenarios
 };
 
 }  // namespace

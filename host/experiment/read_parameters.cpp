@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/experiment/nearest_name.hpp"
-
 namespace dmrp::host {
 
 namespace {
+
+constexpr std::size_t most_variants = 1000;
 
 std::string unit_of(const ParameterSpec& spec) {
   return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit;
@@ -27,7 +27,9 @@ void check_range(const TomlValue& value, const ParameterSpec& spec, double numbe
       fmt::format("'{}' must be from {} to {}{}, not {}", value.key(), spec.minimum, spec.maximum, unit, number));
 }
 
-std::string resolve(const TomlValue& value, const std::filesystem::path& base) {
+// The default may name no file: it stays as it is.
+std::string resolve(const TomlValue& value, const ParameterSpec& spec, const std::filesystem::path& base) {
+  if (value.text() == spec.fallback.text) return value.text();
   const std::filesystem::path path = base / value.text();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -58,7 +60,7 @@ ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, con
       out.text = value.choice(spec.choices);
       break;
     case DMRP_PARAM_PATH:
-      out.text = resolve(value, base);
+      out.text = resolve(value, spec, base);
       break;
     case DMRP_PARAM_DOUBLE_ARRAY:
       for (const TomlValue& element : value.array()) {
@@ -75,17 +77,15 @@ ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, con
   return out;
 }
 
-// Index of the declared parameter; fails at an unknown key.
-std::size_t index_of(const TomlTable& table, const TomlValue& entry, const PluginInfo& info) {
+// The entries of `params` or `sweep` in the order of the file, each with the index of its declared parameter.
+std::vector<std::pair<TomlValue, std::size_t>> declared_entries(const TomlTable& table, const PluginInfo& info) {
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-    known.push_back(info.parameters[i].fallback.key);
-    if (known.back() == entry.key()) return i;
-  }
-  TomlTable asked = table;
-  for (const std::string& key : known) asked.find(key);
-  asked.finish(" for " + info.id);
-  entry.fail("unknown key '" + entry.key() + "'");
+  for (const ParameterSpec& spec : info.parameters) known.push_back(spec.fallback.key);
+  table.allow_only(known, " for " + info.id);
+  std::vector<std::pair<TomlValue, std::size_t>> out;
+  for (const TomlValue& entry : table.entries())
+    out.emplace_back(entry, std::find(known.begin(), known.end(), entry.key()) - known.begin());
+  return out;
 }
 
 std::string label_of(const ParameterValue& value) {
@@ -121,28 +121,39 @@ std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& vari
   return out;
 }
 
+// The values of a swept key, told apart by their labels.
+std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSpec& spec,
+                                       const std::filesystem::path& base) {
+  std::vector<ParameterValue> values;
+  for (const TomlValue& element : entry.array()) {
+    ParameterValue value = read_value(element, spec, base);
+    for (const ParameterValue& other : values)
+      if (label_of(other) == label_of(value)) element.fail(fmt::format("'{}' twice in a sweep", label_of(value)));
+    values.push_back(std::move(value));
+  }
+  if (values.empty()) entry.fail(fmt::format("'{}' sweeps over no values", entry.key()));
+  return values;
+}
+
 }  // namespace
 
-std::vector<ParameterVariant> read_parameters(TomlTable& use, const PluginInfo& info,
+std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info,
                                               const std::filesystem::path& base) {
   std::vector<ParameterVariant> variants(1);
   for (const ParameterSpec& spec : info.parameters) variants[0].values.push_back(spec.fallback);
 
   std::vector<bool> set(info.parameters.size());
   if (const auto params = use.find_table("params"))
-    for (const TomlValue& entry : params->entries()) {
-      const std::size_t index = index_of(*params, entry, info);
+    for (const auto& [entry, index] : declared_entries(*params, info)) {
       variants[0].values[index] = read_value(entry, info.parameters[index], base);
       set[index] = true;
     }
   if (const auto sweep = use.find_table("sweep"))
-    for (const TomlValue& entry : sweep->entries()) {
-      const std::size_t index = index_of(*sweep, entry, info);
-      if (set[index]) entry.fail(fmt::format("'{}' is in params already", entry.key()));
-      std::vector<ParameterValue> values;
-      for (const TomlValue& element : entry.array())
-        values.push_back(read_value(element, info.parameters[index], base));
-      if (values.empty()) entry.fail(fmt::format("'{}' sweeps over no values", entry.key()));
+    for (const auto& [entry, index] : declared_entries(*sweep, info)) {
+      if (set[index]) entry.fail_at_key(fmt::format("'{}' stands in 'params' already", entry.key()));
+      const auto values = read_sweep(entry, info.parameters[index], base);
+      if (variants.size() * values.size() > most_variants)
+        entry.fail(fmt::format("the sweep has more than {} variants", most_variants));
       variants = multiply(variants, index, values);
     }
   return variants;

@@ -2,7 +2,6 @@
 // read_parameters.hpp: a plugin's parameters from the experiment file, checked against the table that it declares.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ struct ParameterVariant {
 
 // Reads `params` and `sweep` of a plugin's table: one variant without a sweep, else the product of the swept values.
 // Paths are resolved against `base`. Throws InputError.
-std::vector<ParameterVariant> read_parameters(TomlTable& use, const PluginInfo& info,
+std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info,
                                               const std::filesystem::path& base);
 
 }  // namespace dmrp::host

@@ -22,13 +22,17 @@ namespace {
 
 constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr double longest_side_m = 10'000.0;
+constexpr double farthest_m = 1e6;  // of a coordinate
+constexpr double longest_s = 1e6;
+constexpr std::int64_t most_people = 10'000;  // of a flow
 
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
-  for (const TomlValue& element : value.array()) out.push_back(element.number());
+  for (const TomlValue& element : value.array()) out.push_back(element.number(-farthest_m, farthest_m));
   if (out.size() < least || out.size() > most)
-    value.fail(least == most ? fmt::format("'{}' must have {} numbers, not {}", value.key(), least, out.size())
-                             : fmt::format("'{}' must be [x, y] or [x, y, theta]", value.key()));
+    value.fail(fmt::format("'{}' must be {}, not {} number{}", value.key(),
+                           least == most ? "[x, y]" : "[x, y] or [x, y, theta]", out.size(),
+                           out.size() == 1 ? "" : "s"));
   return out;
 }
 
@@ -39,7 +43,8 @@ dmrp_vec2 point(const TomlValue& value) {
 
 dmrp_vec2 size(const TomlValue& value) {
   const dmrp_vec2 out = point(value);
-  if (out.x <= 0.0 || out.y <= 0.0) value.fail(fmt::format("'{}' must be positive", value.key()));
+  if (out.x <= 0.0 || out.y <= 0.0)
+    value.fail(fmt::format("'{}' must be positive, not [{}, {}]", value.key(), out.x, out.y));
   return out;
 }
 
@@ -48,28 +53,43 @@ dmrp_pose pose(const TomlValue& value) {
   return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : free_heading};
 }
 
-core::Shape read_box(TomlTable& table) {
+// At most `maximum`, and more than nothing.
+double positive(const TomlValue& value, double maximum) {
+  value.positive();
+  return value.number(0.0, maximum);
+}
+
+void refuse_twice(const TomlValue& name, const char* what, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name.text()) != names.end())
+    name.fail(fmt::format("there are two {} '{}'", what, name.text()));
+}
+
+core::Shape read_box(const TomlTable& table) {
+  table.allow_only({"name", "center_m", "size_m", "angle_rad", "height_m"});
   core::Shape shape;
   const dmrp_vec2 center = point(table.need("center_m"));
-  const dmrp_vec2 half = size(table.need("size_m"));
+  const dmrp_vec2 extent = size(table.need("size_m"));
   const auto angle = table.find("angle_rad");
-  const double theta = angle ? angle->number() : 0.0;
+  const double theta = angle ? angle->number(-farthest_m, farthest_m) : 0.0;
   const double c = std::cos(theta);
   const double s = std::sin(theta);
   for (const auto& [i, j] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-    shape.vertices.push_back({center.x + c * i * half.x - s * j * half.y, center.y + s * i * half.x + c * j * half.y});
+    shape.vertices.push_back(
+        {center.x + c * i * extent.x - s * j * extent.y, center.y + s * i * extent.x + c * j * extent.y});
   return shape;
 }
 
-core::Shape read_circle(TomlTable& table) {
+core::Shape read_circle(const TomlTable& table) {
+  table.allow_only({"name", "center_m", "radius_m", "height_m"});
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
   shape.center = point(table.need("center_m"));
-  shape.radius_m = table.need("radius_m").positive();
+  shape.radius_m = positive(table.need("radius_m"), farthest_m);
   return shape;
 }
 
-core::Shape read_polygon(TomlTable& table) {
+core::Shape read_polygon(const TomlTable& table) {
+  table.allow_only({"name", "vertices_m", "height_m"});
   core::Shape shape;
   const TomlValue vertices = table.need("vertices_m");
   for (const TomlValue& vertex : vertices.array()) shape.vertices.push_back(point(vertex));
@@ -80,64 +100,74 @@ core::Shape read_polygon(TomlTable& table) {
 }
 
 template <class Read>
-void read_shapes(TomlTable& root, const std::string& kind, Read&& read, ScenarioFile& out) {
-  for (TomlTable& table : root.tables(kind)) {
-    const std::string name = table.need("name").text();
+void read_shapes(const TomlTable& root, const std::string& kind, Read&& read, ScenarioFile& out) {
+  for (const TomlTable& table : root.tables(kind)) {
     core::Shape shape = read(table);
-    shape.name = name;
-    if (const auto height = table.find("height_m")) shape.height_m = height->positive();
-    table.finish();
+    const TomlValue name = table.need("name");
+    shape.name = name.line();
+    for (const core::Shape& other : out.scenario.shapes)
+      if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
+    if (const auto height = table.find("height_m")) shape.height_m = positive(*height, farthest_m);
     out.scenario.shapes.push_back(std::move(shape));
   }
 }
 
-void read_robots(TomlTable& root, ScenarioFile& out) {
-  for (TomlTable& table : root.tables("robot")) {
+std::vector<dmrp_pose> read_goals(const TomlTable& robot) {
+  const auto goals = robot.find("goals");
+  const auto goal = robot.find("goal");
+  if (goals && goal) goal->fail_at_key("a robot has either 'goal' or 'goals'");
+  if (!goals) return {pose(robot.need("goal"))};
+  std::vector<dmrp_pose> out;
+  for (const TomlValue& element : goals->array()) out.push_back(pose(element));
+  if (out.empty()) goals->fail("'goals' must have at least one");
+  return out;
+}
+
+void read_robots(const TomlTable& root, ScenarioFile& out) {
+  std::vector<std::string> names;
+  for (const TomlTable& table : root.tables("robot")) {
+    table.allow_only({"name", "start", "goal", "goals"});
     core::RobotTask task;
-    const auto name = table.find("name");
-    task.name = name ? name->text() : fmt::format("robot {}", out.scenario.robots.size() + 1);
-    task.start = pose(table.need("start"));
-    if (const auto goals = table.find("goals")) {
-      for (const TomlValue& goal : goals->array()) task.goals.push_back(pose(goal));
-      if (task.goals.empty()) goals->fail("'goals' must have at least one");
-      if (const auto goal = table.find("goal")) goal->fail("a robot has either 'goal' or 'goals'");
+    if (const auto name = table.find("name")) {
+      task.name = name->line();
+      refuse_twice(*name, "robots", names);
     } else {
-      task.goals.push_back(pose(table.need("goal")));
+      task.name = fmt::format("robot {}", out.scenario.robots.size() + 1);
     }
-    table.finish();
+    task.start = pose(table.need("start"));
+    task.goals = read_goals(table);
+    names.push_back(task.name);
     out.scenario.robots.push_back(std::move(task));
     out.robots.push_back(table.position());
   }
 }
 
-void read_people(TomlTable& root, core::PeopleSettings& people) {
-  auto table = root.find_table("people");
+void read_people(const TomlTable& root, core::PeopleSettings& people) {
+  const auto table = root.find_table("people");
   if (!table) return;
-  const auto number = [&](const char* key, double& to) {
-    if (const auto value = table->find(key)) to = value->positive();
+  const auto read_positive = [](double& to, double maximum) {
+    return [&to, maximum](const TomlValue& value) { to = positive(value, maximum); };
   };
-  number("radius_m", people.radius_m);
-  number("speed_mean", people.speed_mean);
-  if (const auto value = table->find("speed_sd")) people.speed_sd = value->number(0.0);
-  number("speed_min", people.speed_min);
-  number("speed_max", people.speed_max);
-  table->finish();
+  table->read({{"radius_m", read_positive(people.radius_m, 10.0)},
+               {"speed_mean", read_positive(people.speed_mean, 100.0)},
+               {"speed_sd", [&](const TomlValue& value) { people.speed_sd = value.number(0.0, 100.0); }},
+               {"speed_min", read_positive(people.speed_min, 100.0)},
+               {"speed_max", read_positive(people.speed_max, 100.0)}});
   if (people.speed_min > people.speed_mean || people.speed_mean > people.speed_max)
     table->fail(fmt::format("[people] needs speed_min <= speed_mean <= speed_max, not {}, {}, {}", people.speed_min,
                             people.speed_mean, people.speed_max));
 }
 
-std::vector<std::string> read_regions(TomlTable& root, ScenarioFile& out) {
+std::vector<std::string> read_regions(const TomlTable& root, ScenarioFile& out) {
   std::vector<std::string> names;
-  for (TomlTable& table : root.tables("region")) {
+  for (const TomlTable& table : root.tables("region")) {
+    table.allow_only({"name", "lower_m", "upper_m"});
     core::Region region;
     const TomlValue name = table.need("name");
-    region.name = name.text();
-    if (std::find(names.begin(), names.end(), region.name) != names.end())
-      name.fail(fmt::format("there are two regions '{}'", region.name));
+    region.name = name.line();
+    refuse_twice(name, "regions", names);
     region.lower = point(table.need("lower_m"));
     region.upper = point(table.need("upper_m"));
-    table.finish();
     if (region.lower.x > region.upper.x || region.lower.y > region.upper.y)
       table.fail(fmt::format("region '{}' needs lower_m <= upper_m", region.name));
     names.push_back(region.name);
@@ -150,46 +180,55 @@ std::vector<std::string> read_regions(TomlTable& root, ScenarioFile& out) {
 std::uint32_t region_index(const TomlValue& value, const std::vector<std::string>& names) {
   const std::string name = value.text();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) value.fail(fmt::format("no region '{}'{}", name, did_you_mean(name, names)));
+  if (found == names.end())
+    value.fail(fmt::format("no region '{}' (there: {}){}", name, join_names(names), did_you_mean(name, names)));
   return static_cast<std::uint32_t>(found - names.begin());
 }
 
-void read_flows(TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
-  for (TomlTable& table : root.tables("flow")) {
+void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
+  std::vector<std::string> names;
+  for (const TomlTable& table : root.tables("flow")) {
+    table.allow_only({"name", "from", "via", "to", "people"});
     core::Flow flow;
-    flow.name = table.need("name").text();
+    const TomlValue name = table.need("name");
+    flow.name = name.line();
+    refuse_twice(name, "flows", names);
+    names.push_back(flow.name);
     flow.regions.push_back(region_index(table.need("from"), regions));
     if (const auto via = table.find("via"))
       for (const TomlValue& region : via->array()) flow.regions.push_back(region_index(region, regions));
     flow.regions.push_back(region_index(table.need("to"), regions));
-    flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, 100'000));
-    table.finish();
+    flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, most_people));
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
   }
 }
 
-void read_header(TomlTable& root, core::Scenario& scenario) {
-  auto header = root.find_table("scenario");
+void read_header(const TomlTable& root, const std::filesystem::path& file, core::Scenario& scenario) {
+  const auto header = root.find_table("scenario");
   if (!header) root.fail("the file needs [scenario]");
-  scenario.name = header->need("name").text();
-  scenario.title = header->need("title").text();
-  scenario.description = header->need("description").text();
+  header->allow_only({"name", "title", "description", "size_m", "origin_m", "time_limit_s"});
+  const TomlValue name = header->need("name");
+  scenario.name = name.line();
+  const std::string folder = file.parent_path().filename().string();
+  if (file.filename() == "scenario.toml" && scenario.name != folder)
+    name.fail(fmt::format("'name' must be that of the folder, '{}', not '{}'", folder, scenario.name));
+  scenario.title = header->need("title").line();
+  scenario.description = header->need("description").line();
   const TomlValue size_value = header->need("size_m");
   const dmrp_vec2 extent = size(size_value);
   if (extent.x > longest_side_m || extent.y > longest_side_m)
-    size_value.fail(fmt::format("'size_m' must be at most {} m", longest_side_m));
+    size_value.fail(fmt::format("'size_m' must be at most [{0}, {0}]", longest_side_m));
   if (const auto origin = header->find("origin_m")) scenario.lower = point(*origin);
   scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
-  if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = limit->positive();
-  header->finish();
+  if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, longest_s);
 }
 
 std::string read_text(const std::filesystem::path& file, const std::string& shown) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (!stream) throw InputError(shown + ":1:1: cannot be read");
+  if (!stream) throw InputError(shown + ":1:1: the file cannot be read");
   return text.str();
 }
 
@@ -198,8 +237,9 @@ std::string read_text(const std::filesystem::path& file, const std::string& show
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;
   out.document = std::make_shared<TomlDocument>(shown_path, read_text(file, shown_path));
-  TomlTable root = out.document->root();
-  read_header(root, out.scenario);
+  const TomlTable root = out.document->root();
+  root.allow_only({"scenario", "box", "circle", "polygon", "robot", "people", "region", "flow"});
+  read_header(root, file, out.scenario);
   read_shapes(root, "box", read_box, out);
   read_shapes(root, "circle", read_circle, out);
   read_shapes(root, "polygon", read_polygon, out);
@@ -207,7 +247,7 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   read_people(root, out.scenario.people);
   const auto regions = read_regions(root, out);
   read_flows(root, regions, out);
-  root.finish();
+  out.size = root.find_table("scenario")->need("size_m").position();
   return out;
 }
 

@@ -14,13 +14,15 @@ namespace dmrp::host {
 
 struct ScenarioFile {
   core::Scenario scenario;
-  std::shared_ptr<TomlDocument> document;
+  std::shared_ptr<const TomlDocument> document;
+  SourcePosition size;                  // of the world
   std::vector<SourcePosition> robots;   // parallel to scenario.robots
   std::vector<SourcePosition> regions;  // likewise
   std::vector<SourcePosition> flows;
 };
 
-// Reads and checks the file by itself (not yet against a robot). `shown_path`: as messages call it.
+// Reads and checks the file, `file` being its absolute path, by itself: not yet against a robot. `shown_path`: as
+// messages call it.
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path);
 
 // Where scenarios are found by name: the shipped ones, then DMRP_SCENARIO_PATH.

@@ -46,8 +46,8 @@ Read choice(Enum& to, const std::vector<std::string>& choices) {
 Read first_only(const std::vector<std::string>& choices) {
   return [choices](const TomlValue& value) {
     if (const std::string chosen = value.choice(choices); chosen != choices.front())
-      value.fail(fmt::format("'{}' can only be '{}' so far: '{}' is not built yet", value.key(), choices.front(),
-                             chosen));
+      value.fail(
+          fmt::format("'{}' can only be '{}' so far: '{}' is not built yet", value.key(), choices.front(), chosen));
   };
 }
 

@@ -60,6 +60,10 @@ void TomlValue::fail(const std::string& text) const {
   document_->fail(position(), text);
 }
 
+void TomlValue::fail_at_key(const std::string& text) const {
+  document_->fail(key_position_, text);
+}
+
 std::string TomlValue::type_name() const {
   switch (node_->type()) {
     case toml::node_type::table:
@@ -138,7 +142,8 @@ std::string TomlValue::choice(const std::vector<std::string>& choices) const {
 std::vector<TomlValue> TomlValue::array() const {
   if (!node_->is_array()) fail(fmt::format("'{}' must be an array, not {}", key_, type_name()));
   std::vector<TomlValue> out;
-  for (const toml::node& element : *node_->as_array()) out.emplace_back(*document_, element, key_, position_of(element.source()));
+  for (const toml::node& element : *node_->as_array())
+    out.emplace_back(*document_, element, key_, position_of(element.source()));
   return out;
 }
 

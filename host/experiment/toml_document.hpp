@@ -56,6 +56,7 @@ class TomlValue {
   SourcePosition position() const;
   SourcePosition key_position() const { return key_position_; }
   [[noreturn]] void fail(const std::string& text) const;
+  [[noreturn]] void fail_at_key(const std::string& text) const;
 
   bool boolean() const;
   std::int64_t integer(std::int64_t minimum = std::numeric_limits<std::int64_t>::min(),
