@@ -11,7 +11,11 @@ function(dmrp_add_plugin name)
   endif()
   add_library(${name} MODULE ${plugin_SOURCES})
   target_link_libraries(${name} PRIVATE dmrp::sdk ${plugin_LIBRARIES})
-  target_compile_features(${name} PRIVATE cxx_std_17)
+  # What the C++ layer needs; a plugin in C is welcome to a project without C++.
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(CXX IN_LIST languages)
+    target_compile_features(${name} PRIVATE cxx_std_17)
+  endif()
   # -ffp-contract=off: results must not depend on which instructions the compiler fuses.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_options(${name} PRIVATE -Wl,--version-script=${version_script})
