@@ -5,10 +5,19 @@
 
 namespace dmrp::host {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Job, trial, trace_file, keep_trace_of_success, skip_metrics)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrialDone, outcome, repeatable, sim_time_s)
+// As nlohmann's own macro, but not inline: these are declared in the header, which stays light.
+#define DMRP_FIELDS(Type, ...)                                                   \
+  void to_json(nlohmann::json& nlohmann_json_j, const Type& nlohmann_json_t) {   \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))     \
+  }                                                                              \
+  void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) { \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))   \
+  }
+
+DMRP_FIELDS(Job, trial, trace_file, keep_trace_of_success, skip_metrics)
+DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricEvent, metric, from_ns, to_ns, robots, text)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
+DMRP_FIELDS(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
 
 namespace {
 
@@ -32,6 +41,6 @@ void from_json(const nlohmann::json& json, MetricValue& v) {
        from_null<double>(json.at(3)), from_null<double>(json.at(4))};
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricResult, index, values, events)
+DMRP_FIELDS(MetricResult, index, values, events)
 
 }  // namespace dmrp::host
