@@ -10,7 +10,6 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::size_t indent = 2;
 constexpr const char* separator = " · ";
 
 std::string counted(std::uint64_t count, const std::string& noun) {
@@ -44,19 +43,19 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
       contacts = contacts.value_or(0.0) + *count;
   }
 
-  std::string line(indent, ' ');
+  std::string line;
   if (arrival_measured) line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
   if (contacts) line += counted(static_cast<std::uint64_t>(std::llround(*contacts)), "contact") + separator;
   line += counted(faults, "fault") + separator;
   if (skipped > 0) line += counted(skipped, "trial") + " skipped" + separator;
   line += not_repeatable == 0 ? "repeatable" : counted(not_repeatable, "trial") + " not repeatable";
-  return line + "\n";
+  return line;
 }
 
 std::string files_line(const std::filesystem::path& run_directory, std::span<const std::string> files) {
-  std::string line = std::string(indent, ' ') + run_directory.string() + " ";
+  std::string line = run_directory.string() + " ";
   for (const std::string& file : files) line += "  " + file;
-  return line + "\n";
+  return line;
 }
 
 }  // namespace dmrp::host

@@ -141,7 +141,7 @@ TEST_CASE("no trials, no table", "[results]") {
 TEST_CASE("the closing line counts", "[results]") {
   const SummaryLayout layout = example_layout();
   std::vector<TrialRecord> trials = two_planners();
-  CHECK(closing_line(layout, trials) == "  7 of 8 robots arrived · 0 contacts · 0 faults · repeatable\n");
+  CHECK(closing_line(layout, trials) == "7 of 8 robots arrived · 0 contacts · 0 faults · repeatable");
 
   trials[0].repeatable = false;
   trials[0].values.back().value = 1.0;
@@ -149,16 +149,16 @@ TEST_CASE("the closing line counts", "[results]") {
   trials[1].faults.push_back({"crash", "x", "step", 1, 0, 11, "", ""});
   trials[2].outcome = trial_outcome::skipped;
   CHECK(closing_line(layout, trials) ==
-        "  5 of 6 robots arrived · 1 contact · 1 fault · 1 trial skipped · 1 trial not repeatable\n");
+        "5 of 6 robots arrived · 1 contact · 1 fault · 1 trial skipped · 1 trial not repeatable");
 
   for (TrialRecord& trial : trials) trial.values.clear();
   trials[0].repeatable = true;
-  CHECK(closing_line(layout, trials) == "  1 fault · 1 trial skipped · repeatable\n");
+  CHECK(closing_line(layout, trials) == "1 fault · 1 trial skipped · repeatable");
 }
 
 TEST_CASE("the run directory comes with its files", "[results]") {
   const std::vector<std::string> files{"results.sqlite", "traces/"};
-  CHECK(files_line("runs/quickstart", files) == "  runs/quickstart   results.sqlite  traces/\n");
+  CHECK(files_line("runs/quickstart", files) == "runs/quickstart   results.sqlite  traces/");
 }
 
 TEST_CASE("layouts are checked", "[results]") {
