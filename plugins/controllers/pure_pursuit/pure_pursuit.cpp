@@ -42,6 +42,9 @@ Status PurePursuit::step(const Observation& now, Command& command) {
   // a shorter look-ahead cuts the corner less; the published controller would stand here for good
   command = pursue(now, min_lookahead_dist, map);
   if (!is_blocked(now, command, map)) return Status::ok;
+  command = braking(now);
+  // standing before what blocks the way is waiting, not a failure to find a command
+  if (now.velocity.v_x == 0.0 && now.velocity.omega == 0.0) return Status::ok;
   set_error("the arc to the look-ahead point runs into an obstacle");
   return Status::no_solution;
 }
