@@ -18,15 +18,15 @@ struct Library::Handle {
 
 namespace {
 
-// The loader's own message without the path in front, which the caller prints better.
+// The loader's own message without the path in front, which the caller prints better, and Boost's words around it.
 std::string loader_message(const std::exception& error, const std::filesystem::path& file) {
   std::string text = error.what();
   if (const auto at = text.find(file.string()); at != std::string::npos) {
     text = text.substr(at + file.string().size());
     text.erase(0, text.find_first_not_of(": "));
   }
-  const auto end = text.find_last_not_of("\n \"]");
-  text.erase(end == std::string::npos ? 0 : end + 1);
+  // Boost says "... (dlerror system message: WHY): Bad file descriptor [system:9]" whatever the reason
+  if (const auto end = text.rfind("): "); end != std::string::npos) text.erase(end);
   return text;
 }
 

@@ -16,7 +16,8 @@ class Run {
  public:
   Run(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace)
       : settings_(trial.variant.simulation),
-        world_(trial.variant.scenario, trial.experiment.robot, settings_, trial.variant.geometry, trial.seed),
+        world_(trial.variant.scenario, trial.experiment.robot, settings_, trial.variant.geometry, trial.variant.routes,
+               trial.seed),
         cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed),
         trace_(trace),
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
@@ -30,7 +31,7 @@ class Run {
     take_up_plan();
     record({});
 
-    std::uint32_t ending = 0;
+    std::uint32_t ending = monitor_.update(0, world_.robots(), gained_m_);
     while (ending == 0) {
       if (control_due()) control();  // sees the state that was recorded last
       const auto contacts = world_.step(cast_.walk(step_));

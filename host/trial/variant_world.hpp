@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/flow_routes.hpp"
 #include "core/planning_grid.hpp"
 #include "core/settings.hpp"
 #include "core/static_geometry.hpp"
@@ -20,6 +21,7 @@ struct VariantWorld {
   std::shared_ptr<const core::StaticGeometry> geometry;
   core::PlanningGrid planning_grid;
   core::PlanningGrid walking_grid;
+  core::FlowRoutes routes;  // of the people
   core::WorldView view;
 };
 
