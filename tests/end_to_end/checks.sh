@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+# Sourced by the end-to-end tests, which are called as: TEST.sh DMRP_HOST. Gives them
+#   host, here, scratch   the executable, this folder, a folder that goes when the test ends
+#   fail, expect_status, query, values_of
+set -uo pipefail
+
+host=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export DMRP_SCENARIO_PATH=$here/worlds
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# expect_status STATUS COMMAND...: standard output and error go to files of the scratch folder.
+expect_status() {
+  local expected=$1 status=0
+  shift
+  "$@" >"$scratch/stdout" 2>"$scratch/stderr" || status=$?
+  ((status == expected)) && return
+  cat "$scratch/stdout" "$scratch/stderr"
+  fail "exit status $status, not $expected: $*"
+}
+
+# query RUN_DIR SQL
+query() {
+  sqlite3 -batch "$1/results.sqlite" "$2" || fail "sqlite3 on $1: $2"
+}
+
+# All that must be the same bits whenever these trials are run: values with 17 digits, events, trials.
+values_of() {
+  query "$1" "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, seed, outcome,
+                repeatable, printf('%!.17g', sim_time_s) FROM trial ORDER BY id;
+              SELECT trial_id, metric, subject_kind, subject, printf('%!.17g', coordinate),
+                coalesce(printf('%!.17g', value.value), 'NULL'), value.value IS NULL
+                FROM value JOIN metric ON metric.name = value.metric WHERE wall_clock = 0
+                ORDER BY trial_id, metric, subject_kind, subject, coordinate;
+              SELECT trial_id, metric, printf('%!.17g', from_s), printf('%!.17g', to_s), subjects, text
+                FROM event ORDER BY trial_id, metric, from_s, subjects, text;"
+}

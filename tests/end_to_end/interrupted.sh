@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# SIGINT ends a run with status 130, keeps what was finished, and leaves no worker behind; --resume completes it.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+run=$scratch/run
+"$host" "$here/crossing.toml" --quiet --jobs 2 --trials 100 --out "$run" >"$scratch/stdout" 2>"$scratch/stderr" &
+host_process=$!
+
+finished() { sqlite3 -batch "$run/results.sqlite" "SELECT count(*) FROM trial" 2>/dev/null || echo 0; }
+for ((i = 0; i < 600; ++i)); do
+  (($(finished) >= 3)) && break
+  sleep 0.05
+done
+(($(finished) >= 3)) || fail "no trial finished within 30 s"
+workers=$(pgrep -P "$host_process")
+[[ -n $workers ]] || fail "there should be worker processes"
+kill -INT "$host_process"
+status=0
+wait "$host_process" || status=$?
+((status == 130)) || fail "exit status $status after SIGINT, not 130: $(cat "$scratch/stderr")"
+for worker in $workers; do
+  ! kill -0 "$worker" 2>/dev/null || fail "worker $worker outlives the run"
+done
+
+kept=$(query "$run" "SELECT count(*) FROM trial")
+((kept >= 3 && kept < 400)) || fail "$kept trials were kept of 400"
+[[ $(query "$run" "SELECT count(*) FROM fault") == 0 ]] || fail "an interruption is no fault"
+[[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "one line should say how to go on: $(cat "$scratch/stderr")"
+[[ -s $run/trials.csv && -s $run/summary.csv ]] || fail "the tables of what was finished are missing"
+
+expect_status 2 "$host" "$here/crossing.toml" --quiet --resume --trials 99 --out "$run"

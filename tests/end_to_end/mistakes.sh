@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# A mistake of the user gets one line that says where and what, exit status 2, and nothing is written.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+work=$scratch/work
+plugins=$(dirname "$host")/../lib/dmrp/plugins
+mkdir -p "$work/worlds"
+cd "$work" || exit 1
+cp -r "$here/worlds/crossing" worlds/
+export DMRP_SCENARIO_PATH=$work/worlds
+echo "no library" >libtext.so
+head -c 20000 "$plugins/libdmrp_planners.so" >libtruncated.so
+contents() { find "$work" -type f -not -name experiment.toml -exec sha256sum {} + | sort; }
+
+# expect_mistake NAME SED_ON_EXPERIMENT SED_ON_SCENARIO PATTERN: what is answered to the crossing, so changed
+expect_mistake() {
+  local name=$1 pattern=$4
+  sed "$2" "$here/crossing.toml" >experiment.toml
+  sed "$3" "$here/worlds/crossing/scenario.toml" >worlds/crossing/scenario.toml
+  [[ $pattern == "" || -n $2$3 ]] || fail "$name: nothing was changed"
+  local before call
+  before=$(contents)
+  for call in "experiment.toml --out out" "validate experiment.toml" "experiment.toml"; do
+    # shellcheck disable=SC2086
+    expect_status 2 "$host" $call
+    [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "$name: not one line but: $(cat "$scratch/stderr")"
+    [[ ! -s $scratch/stdout ]] || fail "$name: wrote to standard output: $(cat "$scratch/stdout")"
+    grep -Eq "$pattern" "$scratch/stderr" || fail "$name: '$(cat "$scratch/stderr")' does not match '$pattern'"
+    [[ $(contents) == "$before" && ! -e out && ! -e runs ]] || fail "$name: something was written"
+  done
+  echo "$name: $(cat "$scratch/stderr")"
+}
+
+sed -n p "$here/crossing.toml" >experiment.toml
+expect_status 0 "$host" validate experiment.toml
+
+line='^experiment\.toml:[0-9]+:[0-9]+: '
+robot='scenario\.toml:[0-9]+:[0-9]+: robot 1 '
+expect_mistake "misspelt key" 's/^trials /trails /' '' "$line.*'trails'.*did you mean 'trials'"
+expect_mistake "misspelt table" 's/global_planner/global_planer/' '' "$line.*'global_planer'.*did you mean 'global_planner'"
+expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"
+expect_mistake "missing key" '/^plugins/d' '' "$line.*plugins"
+expect_mistake "missing table" '/global_planner/d;/planner\./d' '' "$line.*global_planner"
+expect_mistake "wrong type" 's/^trials .*/trials = "three"/' '' "$line.*trials"
+expect_mistake "value out of range" 's/^trials .*/trials = 0/' '' "$line.*trials"
+expect_mistake "parameter out of range" '/pure_pursuit/aparams = { lookahead_time = -1.0 }' '' "$line.*lookahead_time"
+expect_mistake "no TOML" 's/^trials .*/trials = = 3/' '' "$line"
+expect_mistake "unknown plugin" 's/planner.cbs/planner.csb/' '' "$line.*'dmrp.planner.csb'.*did you mean 'dmrp.planner.cbs'"
+expect_mistake "plugin of another kind" 's/planner.cbs/controller.dwa/' '' "$line.*dmrp.controller.dwa is a"
+expect_mistake "missing library" 's/libdmrp_planners/libdmrp_planers/' '' "$line.*libdmrp_planers.so.*did you mean 'libdmrp_planners.so'"
+expect_mistake "missing library by its path" 's|libdmrp_planners|./libmine|' '' "$line.*libmine.so"
+expect_mistake "text as library" 's|libdmrp_planners|./libtext|' '' "$line.*libtext.so: cannot be loaded: [a-zA-Z ]+\$"
+expect_mistake "truncated library" 's|libdmrp_planners|./libtruncated|' '' "$line.*libtruncated.so: "
+expect_mistake "unknown scenario" 's/"crossing"$/"crosing"/' '' "$line.*'crosing'"
+expect_mistake "people without a model" '/pedestrian_model/d;/pedestrian\.social/d' '' "$line.*2 people.*pedestrian_model"
+expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$robot.*inside 'pillar'"
+expect_mistake "start too near to a wall" '' 's/^start = \[0.5, 2.5/start = [2.4, 3.6/' "$robot.*pillar.*clearance"
+expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
+expect_mistake "misspelt key of the scenario" '' 's/^size_m = \[8/siez_m = [8/' "scenario\.toml:[0-9]+:[0-9]+: .*'siez_m'.*did you mean 'size_m'"
+
+rm experiment.toml
+expect_status 2 "$host" experiment.toml
+[[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "a missing experiment file gets one line"

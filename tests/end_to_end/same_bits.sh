@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# However a run is divided among workers, processes and sittings, it leaves the same bits.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+experiment=$here/crossing.toml
+run() {
+  expect_status 0 "$host" "$experiment" --quiet "$@"
+}
+
+run --jobs 1 --out "$scratch/alone"
+run --jobs 2 --out "$scratch/two"
+run --jobs 2 --out "$scratch/again"
+expected=$(values_of "$scratch/alone")
+[[ $(query "$scratch/alone" "SELECT count(*) FROM trial WHERE outcome IN ('succeeded', 'failed')") == 12 ]] ||
+  fail "12 trials should be finished"
+[[ $(query "$scratch/alone" "SELECT count(*) FROM value WHERE value IS NOT NULL") -gt 100 ]] ||
+  fail "there should be values to compare"
+[[ $(query "$scratch/alone" "SELECT count(DISTINCT seed) FROM trial") == 3 ]] ||
+  fail "a seed belongs to a repetition, not to a combination"
+[[ $(values_of "$scratch/two") == "$expected" ]] || fail "--jobs 2 differs from --jobs 1"
+[[ $(values_of "$scratch/again") == "$expected" ]] || fail "a second run differs from the first"
+
+# trials that are missing are run by --resume, the others stay as they are
+query "$scratch/two" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id IN (0, 5, 11);"
+[[ $(values_of "$scratch/two") != "$expected" ]] || fail "deleting rows should show"
+kept="SELECT id, wall_time_s FROM trial WHERE id NOT IN (0, 5, 11) ORDER BY id"
+before=$(query "$scratch/two" "$kept")
+run --resume --jobs 2 --out "$scratch/two"
+[[ $(values_of "$scratch/two") == "$expected" ]] || fail "--resume differs from a run in one go"
+[[ $(query "$scratch/two" "$kept") == "$before" ]] || fail "--resume ran finished trials again"
+
+# shards: disjoint, complete, the same trials
+run --shard 0/2 --out "$scratch/even"
+run --shard 1/2 --out "$scratch/odd"
+ids() { query "$1" "SELECT group_concat(id, ' ') FROM (SELECT id FROM trial ORDER BY id)"; }
+[[ $(ids "$scratch/even") == "0 2 4 6 8 10" ]] || fail "shard 0/2 has the trials $(ids "$scratch/even")"
+[[ $(ids "$scratch/odd") == "1 3 5 7 9 11" ]] || fail "shard 1/2 has the trials $(ids "$scratch/odd")"
+query "$scratch/even" "ATTACH '$scratch/odd/results.sqlite' AS odd; INSERT INTO trial SELECT * FROM odd.trial;
+  INSERT INTO value SELECT * FROM odd.value; INSERT INTO event SELECT * FROM odd.event;"
+[[ $(values_of "$scratch/even") == "$expected" ]] || fail "the shards together differ from a run in one go"
+
+# a run with another experiment cannot be gone on with
+sed 's/^seed .*/seed = 8/' "$experiment" >"$scratch/other.toml"
+expect_status 2 "$host" "$scratch/other.toml" --quiet --resume --out "$scratch/two"
+# nor does a run write where something is
+expect_status 2 "$host" "$experiment" --quiet --out "$scratch/two"
