@@ -34,7 +34,7 @@ constexpr double standing_m_s = 0.05;
 }  // namespace
 
 Descriptor Dwa::describe() {
-  return Descriptor("dmrp.controller.dwa", "Dynamic window approach", "1.0.0")
+  return Descriptor("dmrp.controller.dwa", "DWA", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
       .summary("tries the velocities within reach on the costmap and takes the arc that scores best")

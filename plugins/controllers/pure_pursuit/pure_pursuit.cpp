@@ -9,7 +9,7 @@
 namespace dmrp::controllers {
 
 Descriptor PurePursuit::describe() {
-  return Descriptor("dmrp.controller.pure_pursuit", "Regulated pure pursuit", "1.0.0")
+  return Descriptor("dmrp.controller.pure_pursuit", "Pure pursuit", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
       .summary("steers along arcs to a point ahead on the path, slower in curves, near obstacles and at the end")

@@ -58,7 +58,7 @@ class PurePursuit final : public LocalController {
                                                   .doc("turn in place when the look-ahead point is further aside");
   Param<bool> use_collision_detection =
       param("use_collision_detection", true).doc("stop where the arc ahead runs into an obstacle");
-  Param<double> max_allowed_time_to_collision_up_to_carrot = param("max_allowed_time_to_collision_up_to_carrot", 1.0)
+  Param<double> max_allowed_time_to_collision_up_to_carrot = param("max_allowed_time_to_collision_up_to_carrot", 1.5)
                                                                  .unit("s")
                                                                  .range(0.1, 10.0)
                                                                  .doc("how far ahead in time the arc is checked");

@@ -7,7 +7,7 @@
 namespace dmrp::planners {
 
 Descriptor Cbs::describe() {
-  return Descriptor("dmrp.planner.cbs", "Conflict-based search", "1.0.0")
+  return Descriptor("dmrp.planner.cbs", "CBS", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
       .summary("paths without conflicts, of least sum of costs")

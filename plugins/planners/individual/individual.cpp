@@ -7,7 +7,7 @@
 namespace dmrp::planners {
 
 Descriptor Individual::describe() {
-  return Descriptor("dmrp.planner.individual", "Individual shortest paths", "1.0.0")
+  return Descriptor("dmrp.planner.individual", "Individual paths", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
       .summary("each robot's own shortest path with fewest turns, regardless of the others")
