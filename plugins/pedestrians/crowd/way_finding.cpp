@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "way_finding.hpp"
 
+#include <algorithm>
 #include <dmrp/toolkit/grid_line.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -12,12 +13,37 @@ namespace {
 // People rather walk a little further than along a wall or round a corner's very edge.
 constexpr toolkit::NavigationCost walking_cost = {1.0, 2.0};
 
+// More than any scenario has; fields of places that nobody goes to any more must not pile up.
+constexpr std::size_t most_places_kept = 64;
+
 }  // namespace
 
 void WayFinder::start(const dmrp_grid& walking_grid) {
-  grid_ = toolkit::GridView(walking_grid);
-  places_.clear();
   ways_.clear();
+  if (!is_known(walking_grid) || places_.size() > most_places_kept) {
+    places_.clear();
+    copy(walking_grid);
+  }
+}
+
+bool WayFinder::is_known(const dmrp_grid& grid) const {
+  const std::size_t size = free_.size();
+  return grid.width == grid_.width() && grid.height == grid_.height() && grid.resolution_m == grid_.resolution_m() &&
+         grid.origin == grid_.lower() && std::equal(grid.free, grid.free + size, free_.begin()) &&
+         std::equal(grid.edges, grid.edges + size, edges_.begin()) &&
+         std::equal(grid.clearance, grid.clearance + size, clearance_.begin());
+}
+
+void WayFinder::copy(const dmrp_grid& grid) {
+  const std::size_t size = std::size_t{grid.width} * grid.height;
+  free_.assign(grid.free, grid.free + size);
+  edges_.assign(grid.edges, grid.edges + size);
+  clearance_.assign(grid.clearance, grid.clearance + size);
+  dmrp_grid own = grid;
+  own.free = free_.data();
+  own.edges = edges_.data();
+  own.clearance = clearance_.data();
+  grid_ = toolkit::GridView(own);
 }
 
 dmrp_vec2 WayFinder::direction(std::size_t slot, const Person& person) {

@@ -12,10 +12,14 @@
 
 namespace dmrp::pedestrians {
 
-// Shares one navigation field among all who walk to the same place; it is computed when somebody first needs it.
+// Shares one navigation field among all who walk to the same place; it is computed when somebody first needs it. Fields
+// depend on the grid and the place alone, so they are kept over trials on the same grid.
 class WayFinder {
  public:
-  // The grid must live until the next start().
+  WayFinder() = default;
+  WayFinder(const WayFinder&) = delete;
+  WayFinder& operator=(const WayFinder&) = delete;
+
   void start(const dmrp_grid& walking_grid);
 
   // The unit vector in which the person in this slot should set out; zero on the target. Where no way leads to the
@@ -37,10 +41,15 @@ class WayFinder {
     const toolkit::NavigationField* field = nullptr;  // null: straight
   };
 
+  bool is_known(const dmrp_grid& grid) const;
+  void copy(const dmrp_grid& grid);
   Way find_way(const Person& person, std::uint32_t cell);
   const toolkit::NavigationField& field_to_target_of(const Person& person);
 
-  toolkit::GridView grid_;
+  toolkit::GridView grid_;  // of the arrays below
+  std::vector<std::uint8_t> free_;
+  std::vector<std::uint8_t> edges_;
+  std::vector<float> clearance_;
   std::deque<Place> places_;  // never move
   std::vector<Way> ways_;     // by slot
 };

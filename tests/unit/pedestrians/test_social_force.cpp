@@ -246,9 +246,12 @@ TEST_CASE("the same seed gives the same walk, whatever the instance did before")
 
   const auto expected = where_they_end(first);
   const auto repeated = where_they_end(second);
+  second.restart(world, 42);
+  const auto on_the_same_world = where_they_end(second);
   const auto differing = where_they_end(of_another_seed);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     CHECK(expected[i].position == repeated[i].position);
+    CHECK(expected[i].position == on_the_same_world[i].position);
     CHECK(expected[i].position != differing[i].position);
   }
 }
