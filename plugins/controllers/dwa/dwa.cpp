@@ -7,6 +7,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
+#include "../motion/annotate_arc.hpp"
+
 namespace dmrp::controllers {
 
 namespace {
@@ -41,7 +43,8 @@ Descriptor Dwa::describe() {
       .source(
           "Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation "
           "Magazine 4 (1997); critics as in ROS's dwa_local_planner")
-      .needs(DMRP_EXT_LOCAL_COSTMAP);
+      .needs(DMRP_EXT_LOCAL_COSTMAP)
+      .uses(DMRP_EXT_ANNOTATE);
 }
 
 Status Dwa::start(const World&, std::uint64_t) {
@@ -50,6 +53,7 @@ Status Dwa::start(const World&, std::uint64_t) {
     set_error("the host has no " DMRP_EXT_LOCAL_COSTMAP);
     return Status::error;
   }
+  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tuning_ = {sim_time,      sim_granularity, angular_sim_granularity, path_distance_bias, goal_distance_bias,
              occdist_scale, twirling_scale,  forward_point_distance,  scaling_speed,      max_scaling_factor};
   tracker_.clear();
@@ -114,6 +118,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   oscillation_.note(now.pose, choice->v, choice->omega);
   command.v_x = choice->v;
   command.omega = choice->omega;
+  annotate_arc(annotate_, now.pose, choice->v, choice->omega, tuning_.sim_time);
   return Status::ok;
 }
 

@@ -5,6 +5,7 @@
 #ifndef DMRP_CONTROLLERS_DWA_DWA_HPP
 #define DMRP_CONTROLLERS_DWA_DWA_HPP
 
+#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 
 #include <dmrp/plugin.hpp>
@@ -77,6 +78,7 @@ class Dwa final : public LocalController {
   };
 
   const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
   PathTracker tracker_;
   StopAndRotate at_goal_;
   dwa::Tuning tuning_;

@@ -6,6 +6,8 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "../motion/annotate_arc.hpp"
+
 namespace dmrp::controllers {
 
 Descriptor PurePursuit::describe() {
@@ -16,11 +18,13 @@ Descriptor PurePursuit::describe() {
       .source(
           "Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 "
           "(2023)")
-      .uses(DMRP_EXT_LOCAL_COSTMAP);
+      .uses(DMRP_EXT_LOCAL_COSTMAP)
+      .uses(DMRP_EXT_ANNOTATE);
 }
 
 Status PurePursuit::start(const World&, std::uint64_t) {
   costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
+  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tracker_.clear();
   at_goal_.reset();
   return Status::ok;
@@ -38,10 +42,16 @@ Status PurePursuit::step(const Observation& now, Command& command) {
   }
   const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_) : nullptr;
   command = pursue(now, look_ahead(now), map);
-  if (!use_collision_detection || !map || !is_blocked(now, command, map)) return Status::ok;
-  // a shorter look-ahead cuts the corner less; the published controller would stand here for good
-  command = pursue(now, min_lookahead_dist, map);
-  if (!is_blocked(now, command, map)) return Status::ok;
+  bool blocked = use_collision_detection && map && is_blocked(now, command, map);
+  if (blocked) {
+    // a shorter look-ahead cuts the corner less; the published controller would stand here for good
+    command = pursue(now, min_lookahead_dist, map);
+    blocked = is_blocked(now, command, map);
+  }
+  if (!blocked) {
+    annotate_arc(annotate_, now.pose, command.v_x, command.omega, max_allowed_time_to_collision_up_to_carrot);
+    return Status::ok;
+  }
   command = braking(now);
   // standing before what blocks the way is waiting, not a failure to find a command
   if (now.velocity.v_x == 0.0 && now.velocity.omega == 0.0) return Status::ok;

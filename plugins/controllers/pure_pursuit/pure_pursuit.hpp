@@ -6,6 +6,7 @@
 #ifndef DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
 #define DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
 
+#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 
 #include <dmrp/plugin.hpp>
@@ -77,6 +78,7 @@ class PurePursuit final : public LocalController {
   bool is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
   PathTracker tracker_;
   StopAndRotate at_goal_;
 };
