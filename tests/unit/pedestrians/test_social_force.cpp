@@ -9,7 +9,6 @@
 
 using namespace dmrp::test;
 using dmrp::toolkit::distance;
-using dmrp::toolkit::norm;
 
 namespace {
 
@@ -187,7 +186,8 @@ TEST_CASE("RiMEA 6: twenty people round a corner stay in the free space") {
   const WalkingWorld world({12.0, 12.0}, {{{0.0, 2.0}, {10.0, 12.0}}});
   Walk walk(world, social_force);
   for (uint64_t i = 0; i < 20; ++i) {
-    const dmrp_vec2 at = {0.6 + 0.7 * static_cast<double>(i / 2), i % 2 == 0 ? 0.6 : 1.4};
+    const uint64_t rank = i / 2;
+    const dmrp_vec2 at = {0.6 + 0.7 * static_cast<double>(rank), i % 2 == 0 ? 0.6 : 1.4};
     walk.people.push_back(person(i + 1, at, {11.0, 11.5}, 1.2));
     walk.people.back().target_id = 1;
     walk.people.back().area_lower = {10.0, 11.0};
