@@ -72,8 +72,9 @@ class Reader {
   void read_header(const TomlTable& root) {
     const auto header = root.find_table("experiment");
     if (!header) {
-      root.allow_only({"scenario", "global_planner", "local_controller", "pedestrian_model", "metric", "simulation",
-                       "robot", "record", "limits", "experiment"});
+      for (const TomlValue& entry : root.entries())
+        if (const std::string meant = did_you_mean(entry.key(), {"experiment"}); !meant.empty())
+          entry.fail_at_key(fmt::format("unknown key '{}'{}", entry.key(), meant));
       root.fail("the file needs [experiment]");
     }
     header->allow_only({"name", "seed", "trials", "plugins"});
