@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// faulty_metric.hpp: counts samples, and does one thing wrong. One class a fault: names of values are unique in a run.
+#pragma once
+
+#include <limits>
+
+#include "misbehave.hpp"
+
+namespace dmrp::test {
+
+enum class MetricFault { none, crash, exit, memory, rounding, silent, infinite, undeclared, throw_in_begin, recovers };
+
+constexpr const char* name_of(MetricFault fault) {
+  constexpr const char* names[] = {"none",   "crash",    "exit",       "memory",         "rounding",
+                                   "silent", "infinite", "undeclared", "throw_in_begin", "recovers"};
+  return names[static_cast<int>(fault)];
+}
+
+template <MetricFault fault>
+class FaultyMetric final : public dmrp::Metric {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.metric." + name(), "Faulty metric, " + name(), "1.0.0")
+        .license("MIT")
+        .value("test_" + name(), "1", dmrp::Direction::none, dmrp::Subjects::system, "number of samples");
+  }
+
+  void begin(const dmrp_plan*) override {
+    samples_ = 0;
+    if (fault == MetricFault::throw_in_begin) throw std::runtime_error("thrown on purpose");
+    // a fault in the first trial of the process only: start() and begin() are the way back
+    if (fault == MetricFault::recovers && !failed_once_) {
+      failed_once_ = true;
+      throw std::runtime_error("thrown on purpose");
+    }
+  }
+  void observe(const dmrp::Sample&) override {
+    if (++samples_ == 10) misbehave(name());
+  }
+  void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
+    if (fault == MetricFault::silent) return;
+    const std::string value = fault == MetricFault::undeclared ? "test_other" : "test_" + name();
+    sink.system(value.c_str(), fault == MetricFault::infinite ? std::numeric_limits<double>::infinity() : samples_);
+  }
+
+ private:
+  static std::string name() { return name_of(fault); }
+  int samples_ = 0;
+  bool failed_once_ = false;
+};
+
+}  // namespace dmrp::test

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// faulty_pedestrians.hpp: people who stand, until one does what no person can.
+#pragma once
+
+#include <limits>
+
+#include "misbehave.hpp"
+
+namespace dmrp::test {
+
+class FaultyPedestrians final : public dmrp::PedestrianModel {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.pedestrian.faulty", "Faulty pedestrians", "1.0.0").license("MIT");
+  }
+
+  dmrp::Param<std::string> fault = param("fault", "none").doc("what is wrong with them");
+
+  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Vec2* velocities) override {
+    for (std::size_t i = 0; i < crowd.people.size(); ++i) velocities[i] = {0.0, 0.0};
+    if (dmrp::seconds(crowd.t_ns) < 1.0) return dmrp::Status::ok;
+    if (*fault == "nan") velocities[1].y = std::numeric_limits<double>::quiet_NaN();
+    if (*fault == "too_fast") velocities[1].x = 5.5;
+    return misbehave(fault);
+  }
+};
+
+}  // namespace dmrp::test

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// libdmrp_test_faults.so: one plugin of each kind that breaks its contract as its parameters say.
+#include "faulty_controller.hpp"
+#include "faulty_metric.hpp"
+#include "faulty_pedestrians.hpp"
+#include "faulty_planner.hpp"
+
+using namespace dmrp::test;
+
+DMRP_PLUGINS(FaultyController, FaultyPlanner, FaultyPedestrians, FaultyMetric<MetricFault::none>,
+             FaultyMetric<MetricFault::crash>, FaultyMetric<MetricFault::exit>, FaultyMetric<MetricFault::memory>,
+             FaultyMetric<MetricFault::rounding>, FaultyMetric<MetricFault::silent>,
+             FaultyMetric<MetricFault::infinite>, FaultyMetric<MetricFault::undeclared>,
+             FaultyMetric<MetricFault::throw_in_begin>, FaultyMetric<MetricFault::recovers>)

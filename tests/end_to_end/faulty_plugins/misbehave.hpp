@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// misbehave.hpp: what any plugin can do wrong in any of its functions.
+#pragma once
+
+#include <fenv.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <dmrp/plugin.hpp>
+#include <list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dmrp::test {
+
+// Faults beyond these are of one kind of plugin: wrong outputs.
+inline dmrp::Status misbehave(const std::string& fault) {
+  if (fault == "crash") std::raise(SIGSEGV);
+  if (fault == "abort") std::abort();
+  if (fault == "exit") std::exit(0);
+  if (fault == "throw") throw std::runtime_error("thrown on purpose");
+  if (fault == "throw_number") throw 42;
+  if (fault == "rounding") std::fesetround(FE_UPWARD);
+  if (fault == "unknown_status") return static_cast<dmrp::Status>(42);
+  if (fault == "hang")
+    for (volatile bool on = true; on;) {
+    }
+  if (fault == "memory") {
+    constexpr std::size_t chunk = 16u << 20;
+    for (std::list<std::vector<char>> all;;) all.emplace_back(chunk);
+  }
+  return dmrp::Status::ok;
+}
+
+}  // namespace dmrp::test
