@@ -185,6 +185,8 @@ class Supervisor {
       trial.skip_metrics.push_back(result.index);
     } else if (type == "fault") {
       add_fault(trial, message.get<FaultRecord>());
+      // should a later metric kill the worker, this one need not fail a second time
+      if (trial.measuring) trial.skip_metrics.push_back(*trial.measuring);
     } else if (type == "done") {
       const auto done = message.get<TrialDone>();
       trial.record.outcome = done.outcome;
