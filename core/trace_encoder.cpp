@@ -115,11 +115,17 @@ void put_robot_sample(ByteWriter& out, const dmrp_robot_sample& robot) {
   out.put(robot.progress_m);
 }
 
-void put_person(ByteWriter& out, const dmrp_agent& person) {
+void put_person(ByteWriter& out, const dmrp_person& person) {
   out.put(person.id);
-  out.put(person.pose);
+  out.put(person.group);
+  out.put(person.target_id);
+  out.put(person.position);
   out.put(person.velocity);
   out.put(person.radius_m);
+  out.put(person.desired_speed);
+  out.put(person.target);
+  out.put(person.area_lower);
+  out.put(person.area_upper);
 }
 
 void put_contact(ByteWriter& out, const dmrp_contact& contact) {
@@ -195,7 +201,7 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
       put_robot_sample(out, *DMRP_AT(dmrp_robot_sample, sample.robots, sample.robot_stride, i));
     out.put(sample.person_count);
     for (std::uint32_t i = 0; i < sample.person_count; ++i)
-      put_person(out, *DMRP_AT(dmrp_agent, sample.people, sample.person_stride, i));
+      put_person(out, *DMRP_AT(dmrp_person, sample.people, sample.person_stride, i));
     out.put(sample.contact_count);
     for (std::uint32_t i = 0; i < sample.contact_count; ++i)
       put_contact(out, *DMRP_AT(dmrp_contact, sample.contacts, sample.contact_stride, i));

@@ -18,7 +18,7 @@ constexpr std::size_t shape_bytes = 4 + 4 + 16 + 8 + 8 + 4;
 constexpr std::size_t waypoint_bytes = 36;
 constexpr std::size_t statistic_bytes = 12;
 constexpr std::size_t robot_sample_bytes = 88;
-constexpr std::size_t person_bytes = 56;
+constexpr std::size_t person_bytes = 112;
 constexpr std::size_t contact_bytes = 40;
 constexpr std::size_t call_bytes = 20;
 constexpr std::size_t robot_end_bytes = 16;
@@ -220,13 +220,18 @@ dmrp_robot_sample take_robot_sample(ByteCursor& in) {
   return robot;
 }
 
-dmrp_agent take_person(ByteCursor& in) {
-  dmrp_agent person{};
-  person.kind = DMRP_AGENT_PERSON;
+dmrp_person take_person(ByteCursor& in) {
+  dmrp_person person{};
   person.id = in.take<std::uint64_t>();
-  person.pose = in.take<dmrp_pose>();
+  person.group = in.take<std::uint32_t>();
+  person.target_id = in.take<std::uint32_t>();
+  person.position = in.take<dmrp_vec2>();
   person.velocity = in.take<dmrp_vec2>();
   person.radius_m = in.take<double>();
+  person.desired_speed = in.take<double>();
+  person.target = in.take<dmrp_vec2>();
+  person.area_lower = in.take<dmrp_vec2>();
+  person.area_upper = in.take<dmrp_vec2>();
   return person;
 }
 
@@ -377,7 +382,7 @@ void TraceReader::read_sample(std::size_t body_begin, std::size_t body_end) {
   sample_.robot_stride = sizeof(dmrp_robot_sample);
   sample_.people = people_.data();
   sample_.person_count = static_cast<std::uint32_t>(people_.size());
-  sample_.person_stride = sizeof(dmrp_agent);
+  sample_.person_stride = sizeof(dmrp_person);
   sample_.contacts = contacts_.data();
   sample_.contact_count = static_cast<std::uint32_t>(contacts_.size());
   sample_.contact_stride = sizeof(dmrp_contact);

@@ -90,7 +90,7 @@ class TraceReader {
   std::size_t next_sample_ = 0;
   dmrp_sample sample_{};
   std::vector<dmrp_robot_sample> robots_;
-  std::vector<dmrp_agent> people_;
+  std::vector<dmrp_person> people_;
   std::vector<dmrp_contact> contacts_;
   std::vector<dmrp_call> calls_;
 };

@@ -92,7 +92,7 @@ class Run {
       robots_.push_back(
           {robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_[i].progress_m()});
     }
-    const auto people = world_.person_agents();
+    const auto people = world_.people();
     const auto calls = cast_.take_calls();
     dmrp_sample sample{};
     sample.struct_size = sizeof(sample);
@@ -105,7 +105,7 @@ class Run {
     sample.robot_stride = sizeof(dmrp_robot_sample);
     sample.people = people.data();
     sample.person_count = static_cast<std::uint32_t>(people.size());
-    sample.person_stride = sizeof(dmrp_agent);
+    sample.person_stride = sizeof(dmrp_person);
     sample.contacts = contacts.data();
     sample.contact_count = static_cast<std::uint32_t>(contacts.size());
     sample.contact_stride = sizeof(dmrp_contact);

@@ -12,5 +12,6 @@
 #include "local_controller.h"
 #include "metric.h"
 #include "pedestrian_model.h"
+#include "person.h"
 
 #endif

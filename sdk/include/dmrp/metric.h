@@ -6,8 +6,8 @@
 #ifndef DMRP_METRIC_H
 #define DMRP_METRIC_H
 
-#include "observation.h"
 #include "path.h"
+#include "person.h"
 #include "plugin.h"
 
 // A named number that a planner gave. Array element.
@@ -91,7 +91,7 @@ typedef struct dmrp_sample {
   const dmrp_robot_sample* robots;
   uint32_t robot_count;
   uint32_t robot_stride;
-  const dmrp_agent* people;
+  const dmrp_person* people;  // ordered by slot, as a pedestrian model sees them
   uint32_t person_count;
   uint32_t person_stride;
   const dmrp_contact* contacts;

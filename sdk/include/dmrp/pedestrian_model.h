@@ -6,21 +6,8 @@
 #define DMRP_PEDESTRIAN_MODEL_H
 
 #include "observation.h"
+#include "person.h"
 #include "plugin.h"
-
-// A person. Array element.
-typedef struct dmrp_person {
-  uint64_t id;         // stable; a respawned person has a new one
-  uint32_t group;      // people of one group walk together; 0: alone
-  uint32_t target_id;  // people with the same id walk to the same place: a key for cached navigation fields
-  dmrp_vec2 position;  // m
-  dmrp_vec2 velocity;  // m/s, as the world let it happen in the last step
-  double radius_m;
-  double desired_speed;  // m/s
-  dmrp_vec2 target;      // where this person wants to go now
-  dmrp_vec2 area_lower;  // the place that target_id names: an axis-aligned rectangle that holds `target`
-  dmrp_vec2 area_upper;
-} dmrp_person;
 
 // The crowd at one physics step; made by the host for one call.
 typedef struct dmrp_crowd {
@@ -47,7 +34,6 @@ typedef struct dmrp_pedestrian_model {
   int32_t (*step)(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_vec2* velocities);
 } dmrp_pedestrian_model;
 
-DMRP_ASSERT_SIZE(dmrp_person, 112);
 DMRP_ASSERT_SIZE(dmrp_crowd, 56);
 DMRP_ASSERT_SIZE(dmrp_pedestrian_model, 16);
 

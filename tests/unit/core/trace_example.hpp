@@ -95,7 +95,7 @@ struct ExamplePlan {
 // The state at step `k`: awkward numbers that depend on k.
 struct ExampleSample {
   std::array<dmrp_robot_sample, 2> robots{};
-  std::array<dmrp_agent, 2> people{};
+  std::array<dmrp_person, 2> people{};
   std::array<dmrp_contact, 2> contacts{};
   std::array<dmrp_call, 3> calls{};
   dmrp_sample sample{};
@@ -104,8 +104,9 @@ struct ExampleSample {
     const double x = static_cast<double>(k) / 3.0;
     robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x};
     robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0};
-    people[0] = {41, DMRP_AGENT_PERSON, 0, {1.0, x, 1.5}, {0.1, 1.1}, 0.3};
-    people[1] = {static_cast<std::uint64_t>(100 + k), DMRP_AGENT_PERSON, 0, {2.0, x, -1.5}, {0.1, -1.1}, 0.3};
+    people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}};
+    people[1] = {
+        static_cast<std::uint64_t>(100 + k), 0, 8, {2.0, x}, {0.1, -1.1}, 0.3, 0.7, {x, 4.0}, {0.0, 3.0}, {5.0, 5.0}};
     contacts[0] = {DMRP_CONTACT_STATIC, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 2, 0.0011, {0.0, 0.5}};
     contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}};
     calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
@@ -121,7 +122,7 @@ struct ExampleSample {
     sample.robot_stride = sizeof(dmrp_robot_sample);
     sample.people = people.data();
     sample.person_count = 2;
-    sample.person_stride = sizeof(dmrp_agent);
+    sample.person_stride = sizeof(dmrp_person);
     sample.contacts = contacts.data();
     sample.contact_count = k % 3 == 0 ? 2 : 0;
     sample.contact_stride = sizeof(dmrp_contact);

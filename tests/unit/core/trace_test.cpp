@@ -48,7 +48,7 @@ double touch(TraceReader& trace) {
   while (const dmrp_sample* sample = trace.next_sample()) {
     for (std::uint32_t c = 0; c < sample->contact_count; ++c) {
       sum += sample->robots[sample->contacts[c].a].pose.x;
-      if (sample->contacts[c].kind == DMRP_CONTACT_PERSON) sum += sample->people[sample->contacts[c].b].pose.x;
+      if (sample->contacts[c].kind == DMRP_CONTACT_PERSON) sum += sample->people[sample->contacts[c].b].position.x;
     }
     if (sample->plan) sum += static_cast<double>(sample->plan->planning_ns);
   }

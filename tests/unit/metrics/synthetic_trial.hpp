@@ -126,7 +126,6 @@ class SyntheticTrial {
     for (const std::uint64_t id : ids) {
       samples_.back().people.push_back({});
       samples_.back().people.back().element.id = id;
-      samples_.back().people.back().element.kind = DMRP_AGENT_PERSON;
     }
     return *this;
   }
@@ -178,7 +177,7 @@ class SyntheticTrial {
       c.contact_stride = sizeof(Longer<dmrp_contact>);
       c.people = stored.people.empty() ? nullptr : &stored.people.front().element;
       c.person_count = static_cast<std::uint32_t>(stored.people.size());
-      c.person_stride = sizeof(Longer<dmrp_agent>);
+      c.person_stride = sizeof(Longer<dmrp_person>);
       use(c);
     }
   }
@@ -204,7 +203,7 @@ class SyntheticTrial {
     dmrp_sample c{};
     std::vector<Longer<dmrp_robot_sample>> robots;
     std::vector<Longer<dmrp_contact>> contacts;
-    std::vector<Longer<dmrp_agent>> people;
+    std::vector<Longer<dmrp_person>> people;
   };
 
   std::vector<dmrp_robot> robots_;

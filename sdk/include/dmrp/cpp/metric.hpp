@@ -12,7 +12,7 @@
 
 namespace dmrp {
 
-using Agent = dmrp_agent;
+using Person = dmrp_person;
 using RobotSample = dmrp_robot_sample;
 using Contact = dmrp_contact;
 using Call = dmrp_call;
@@ -53,7 +53,7 @@ struct Sample {
   bool control_tick;
   const dmrp_plan* plan;  // in force; nullptr if there is none. Plan(*plan) views it
   Span<RobotSample> robots;
-  Span<Agent> people;
+  Span<Person> people;
   Span<Contact> contacts;
   Span<Call> calls;
 };
