@@ -29,7 +29,7 @@ struct dmrp_host {
   // [any]
   void (*set_error)(const dmrp_host* host, const char* text);
 
-  // Whether the call under way should return soon: 1 once its time budget is used up or the run is being interrupted.
+  // Whether the call under way should return soon: 1 once its time budget is used up.
   // Costs a few nanoseconds; ask at least every millisecond. A trial in which this has said 1 is not repeatable.
   // [any]
   int32_t (*should_stop)(const dmrp_host* host);
