@@ -63,9 +63,11 @@ void print_plugin(const PluginInfo& info) {
   if (!info.uses.empty()) fmt::print("      uses: {}\n", fmt::join(info.uses, ", "));
   for (const MetricValueSpec& value : info.values)
     fmt::print("      gives {:<24} {:<5} {}\n", value.name, value.unit, value.description);
+  std::size_t key_width = 0;
+  for (const ParameterSpec& spec : info.parameters) key_width = std::max(key_width, spec.fallback.key.size());
   for (const ParameterSpec& spec : info.parameters) {
     const std::string range = range_of(spec);
-    fmt::print("      {:<30} {} = {}{}{}  {}\n", spec.fallback.key, parameter_type_name(spec.fallback.type),
+    fmt::print("      {:<{}}  {} = {}{}{}  {}\n", spec.fallback.key, key_width, parameter_type_name(spec.fallback.type),
                text_of(spec.fallback), spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit,
                range.empty() ? "" : " [" + range + "]", spec.doc);
   }
