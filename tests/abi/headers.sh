@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Every header of the SDK compiles alone, and twice in a row, in the languages that it promises, by gcc and clang,
+# without a warning. The C headers also have no padding that the compiler put in. Called as: headers.sh INCLUDE_DIR
+set -uo pipefail
+include=$1
+
+# compile COMPILER STANDARD HEADER...: prints what went wrong
+compile() {
+  local compiler=$1 standard=$2 language=c extra=""
+  [[ $standard == *++* ]] && language=c++
+  [[ $standard == c11 ]] && extra=-Wpadded
+  printf '#include <dmrp/%s>\n' "${@:3}" "${@:3}" |
+    "$compiler" -x "$language" -std="$standard" -pedantic -Wall -Wextra -Werror $extra -I "$include" -fsyntax-only - ||
+    echo "FAILED: ${*:3} as $standard by $compiler"
+}
+export -f compile
+export include
+
+compilers=()
+for compiler in gcc clang; do
+  if command -v "$compiler" >/dev/null; then
+    compilers+=("$compiler")
+  else
+    echo "skipped: $compiler is not there"
+  fi
+done
+((${#compilers[@]} > 0)) || exit 1
+
+cd "$include/dmrp" || exit 1
+mapfile -t c_headers < <(find . -name '*.h' -printf '%P\n' | sort)
+mapfile -t cpp_headers < <(find . -name '*.hpp' -printf '%P\n' | sort)
+((${#c_headers[@]} > 0 && ${#cpp_headers[@]} > 0)) || { echo "FAILED: no headers in $include/dmrp"; exit 1; }
+
+# The C++ headers take longer to read: one by one in C++17, which they are written for; all at once in C++20.
+list_compilations() {
+  local compiler standard
+  for compiler in "${compilers[@]}"; do
+    for standard in c99 c11 c17 c++11 c++17 c++20; do printf "$compiler $standard %s\n" "${c_headers[@]}"; done
+    printf "$compiler c++17 %s\n" "${cpp_headers[@]}"
+    echo "$compiler c++20 ${cpp_headers[*]}"
+  done
+}
+problems=$(list_compilations | xargs -P 2 -L 1 bash -c 'compile "$@"' _ 2>&1)
+[[ -z $problems ]] || { echo "$problems"; exit 1; }
+echo "$(list_compilations | wc -l) compilations of ${#c_headers[@]} C and ${#cpp_headers[@]} C++ headers by ${compilers[*]}"

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# layout.sh notices what it is there for: a field that is new, moved or of another type, and a constant.
+# Called as: layout_catches_changes.sh INCLUDE_DIR C_COMPILER
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+include=$1 compiler=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+expect_notice() {
+  rm -rf "$scratch/include"
+  cp -r "$include" "$scratch/include"
+  sed -i "$2" "$scratch/include/dmrp/$1"
+  ! diff -rq "$include" "$scratch/include" >/dev/null || { echo "FAILED: '$2' changes nothing in $1"; exit 1; }
+  if "$here/layout.sh" "$scratch/include" "$compiler" >/dev/null 2>&1; then
+    echo "FAILED: '$2' in $1 goes unnoticed"
+    exit 1
+  fi
+}
+expect_notice abi.h 's/DMRP_ABI_DRAFT 1/DMRP_ABI_DRAFT 2/'
+expect_notice status.h 's/DMRP_TIMEOUT 3/DMRP_TIMEOUT 7/'
+expect_notice local_controller.h 's/  double omega;.*/&\n  double jerk;/;s/DMRP_ASSERT_SIZE(dmrp_command.*//'
+expect_notice local_controller.h 's/  double v_x; .*/  double omega;/;s/  double omega;  \/\/.*/  double v_x;/'
+expect_notice entry.h 's/int32_t (\*init)/int32_t (*prepare)/'
+expect_notice metric.h 's/  int64_t duration_ns;.*/  int32_t duration_ms;\n  int32_t more;/'
