@@ -38,12 +38,22 @@ std::int64_t monotonic_ns() {
 
 bool CallGuard::should_stop() {
   const bool over = monotonic_ns() >= deadline_ns_;
-  stopped_ = stopped_ || over;
+  if (over) stopped_ = true;
   return over;
 }
 
+void CallGuard::set_error(const char* text) {
+  const std::lock_guard lock(error_mutex_);
+  error_ = text ? text : "";
+}
+
+std::string CallGuard::error() const {
+  const std::lock_guard lock(error_mutex_);
+  return error_;
+}
+
 void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
-  error_.clear();
+  set_error("");
   copy_text(note_.plugin, site.plugin);
   copy_text(note_.function, site.function);
   note_.step.store(site.step, std::memory_order_relaxed);
@@ -58,7 +68,7 @@ void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
 
 CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bool threw) {
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
-  note_.call_number.fetch_add(1, std::memory_order_release);
+  note_.call_number.fetch_add(1);  // before the next call's note is written
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
     throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");
@@ -71,11 +81,11 @@ CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bo
     case DMRP_TIMEOUT:
       return {status, duration_ns};
     case DMRP_OUT_OF_MEMORY:
-      throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error_));
+      throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error()));
     case DMRP_ERROR:
-      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_ERROR", error_));
+      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_ERROR", error()));
     case DMRP_FATAL:
-      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_FATAL", error_));
+      throw PluginFault(fault_kind::error_status, site, status_detail("DMRP_FATAL", error()), true);
     default:
       throw PluginFault(fault_kind::abi_breach, site, fmt::format("returned the unknown status {}", status));
   }

@@ -5,7 +5,9 @@
 
 #include <dmrp/status.h>
 
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "host/plugins/call_note.hpp"
@@ -38,25 +40,28 @@ class CallGuard {
     return leave(site, status, threw);
   }
 
-  // What host.h offers to the plugin that is being called.
+  // What host.h offers to the plugin that is being called, on any of its threads.
   bool should_stop();
-  void set_error(const char* text) { error_ = text ? text : ""; }
+  void set_error(const char* text);
 
   // Whether should_stop() has said yes since the last reset.
   bool stopped() const { return stopped_; }
   void reset_stopped() { stopped_ = false; }
-  const std::string& error() const { return error_; }
+
+  // The last text of set_error() since the call began.
+  std::string error() const;
 
  private:
   void enter(const CallSite& site, std::int64_t budget_ns);
   Result leave(const CallSite& site, std::int32_t status, bool threw);
 
   CallNote& note_;
+  mutable std::mutex error_mutex_;
   std::string error_;
   std::int64_t start_ns_ = 0;
-  std::int64_t deadline_ns_ = 0;
+  std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
-  bool stopped_ = false;
+  std::atomic<bool> stopped_ = false;
 };
 
 // Nanoseconds of the monotonic clock that worker and supervisor share.

@@ -30,18 +30,29 @@ struct CallSite {
 
 class PluginFault : public std::runtime_error {
  public:
-  PluginFault(const char* kind, const CallSite& site, const std::string& detail)
-      : std::runtime_error(detail), kind_(kind), plugin_(site.plugin), site_(site) {}
+  // `fatal`: the library is unusable, no function of it may be called again.
+  PluginFault(const char* kind, const CallSite& site, const std::string& detail, bool fatal = false)
+      : std::runtime_error(detail),
+        kind_(kind),
+        plugin_(site.plugin),
+        function_(site.function),
+        step_(site.step),
+        robot_(site.robot),
+        fatal_(fatal) {}
   const char* kind() const { return kind_; }
   const std::string& plugin() const { return plugin_; }
-  const char* function() const { return site_.function; }
-  std::int64_t step() const { return site_.step; }
-  std::int32_t robot() const { return site_.robot; }
+  const char* function() const { return function_; }
+  std::int64_t step() const { return step_; }
+  std::int32_t robot() const { return robot_; }
+  bool fatal() const { return fatal_; }
 
  private:
   const char* kind_;
   std::string plugin_;
-  CallSite site_;
+  const char* function_;
+  std::int64_t step_;
+  std::int32_t robot_;
+  bool fatal_;
 };
 
 }  // namespace dmrp::host

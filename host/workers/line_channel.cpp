@@ -11,7 +11,12 @@ namespace dmrp::host {
 
 LineChannel::~LineChannel() {
   close(read_end_);
-  close(write_end_);
+  hang_up();
+}
+
+void LineChannel::hang_up() {
+  if (write_end_ >= 0) close(write_end_);
+  write_end_ = -1;
 }
 
 bool LineChannel::send(const nlohmann::json& message) {

@@ -21,6 +21,9 @@ class LineChannel {
   // Blocks until it is written; false if the other side is gone.
   bool send(const nlohmann::json& message);
 
+  // Says that nothing more will be sent: the other side's receive() ends.
+  void hang_up();
+
   // The next message; blocks for it. Nothing when the other side has closed or sent something that is no JSON.
   std::optional<nlohmann::json> receive();
 

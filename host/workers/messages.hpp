@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // messages.hpp: what supervisor and worker say to each other.
 //
-//   worker  -> {"type": "ready", "digest": ...}           the experiment as it reads it
-//   supervisor -> Job                                      one trial
-//   worker  -> {"type": "metric", "index", "values", "events"}   as each metric finishes
-//   worker  -> {"type": "fault", ...}                      a plugin broke its contract; the worker goes on
-//   worker  -> {"type": "done", ...}                       the trial is over
+//   worker  -> {"type": "ready", "digest"}           the experiment as it reads it
+//   supervisor -> Job                                one trial
+//   worker  -> {"type": "measuring", "index"}        as each metric begins
+//   worker  -> {"type": "metric"} + MetricResult     as each metric finishes
+//   worker  -> {"type": "fault", "fatal"} + FaultRecord   a plugin broke its contract; the worker goes on unless the
+//                                                    fault is fatal: the library is unusable, another worker must
+//   worker  -> {"type": "done"} + TrialDone          the trial is over
+//   worker  -> {"type": "error", "text"}             the run cannot go on: a file is gone, the disk is full
 //
 // A worker that cannot go on just dies: the supervisor knows from the call note where.
 #pragma once

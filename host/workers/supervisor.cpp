@@ -20,6 +20,7 @@
 
 #include "host/experiment/digest.hpp"
 #include "host/input_error.hpp"
+#include "host/plugins/call_guard.hpp"
 #include "host/plugins/plugin_fault.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/worker_process.hpp"
@@ -28,15 +29,12 @@ namespace dmrp::host {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int poll_interval_ms = 100;
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
-
-std::int64_t now_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * second_ns + now.tv_nsec;
-}
+constexpr std::int64_t farewell_ns = 2 * second_ns;  // for plugins' deinit() when a run is over
 
 // A trial that is waited for: what is known of it so far, and which metrics need not be asked (again).
 struct OpenTrial {
@@ -48,11 +46,12 @@ struct OpenTrial {
 
 struct Slot {
   std::unique_ptr<WorkerProcess> worker;
+  std::int64_t worker_started_ns = 0;
   bool ready = false;
   std::optional<OpenTrial> trial;
 };
 
-// SIGINT and SIGTERM as a descriptor to poll, while it lives.
+// SIGINT, SIGTERM and SIGHUP (unless nohup took it away) as a descriptor to poll, while it lives.
 class StopSignals {
  public:
   StopSignals() {
@@ -60,6 +59,9 @@ class StopSignals {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    struct sigaction hangup {};
+    sigaction(SIGHUP, nullptr, &hangup);
+    if (hangup.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
     sigprocmask(SIG_BLOCK, &set, &before_);
     descriptor_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   }
@@ -96,11 +98,15 @@ class Supervisor {
     signal(SIGPIPE, SIG_IGN);
     while (open_trials_ > 0) {
       for (Slot& slot : slots_) supply(slot);
+      const std::int64_t before_ns = monotonic_ns();
       if (wait_for_news(stop.descriptor())) return RunEnding::interrupted;
+      // a terminal's Ctrl-Z stops the workers too: the time until it goes on is nobody's hang
+      if (monotonic_ns() - before_ns > second_ns) awake_since_ns_ = monotonic_ns();
       for (Slot& slot : slots_)
         if (slot.worker) watch(slot);
       on_idle();
     }
+    dismiss_workers();
     return RunEnding::done;
   }
 
@@ -110,15 +116,26 @@ class Supervisor {
     if (slot.trial || waiting_.empty()) return;
     if (!slot.worker) {
       slot.worker = std::make_unique<WorkerProcess>(experiment_.file, experiment_.trials, log_);
+      slot.worker_started_ns = monotonic_ns();
       slot.ready = false;
     }
     if (!slot.ready) return;
     slot.trial = std::move(waiting_.front());
     waiting_.pop_front();
-    slot.trial->started_ns = now_ns();
+    slot.trial->started_ns = monotonic_ns();
     slot.trial->measuring.reset();
     // A worker that died in between is noticed by its closed pipe.
     slot.worker->channel().send(job_of(*slot.trial));
+  }
+
+  // Lets plugins say goodbye: destroy() and deinit().
+  void dismiss_workers() {
+    for (Slot& slot : slots_)
+      if (slot.worker) slot.worker->channel().hang_up();
+    const std::int64_t until_ns = monotonic_ns() + farewell_ns;
+    for (Slot& slot : slots_)
+      if (slot.worker)
+        slot.worker->ends_within(static_cast<int>(std::max<std::int64_t>(until_ns - monotonic_ns(), 0) / 1'000'000));
   }
 
   nlohmann::json job_of(const OpenTrial& trial) const {
@@ -127,7 +144,8 @@ class Supervisor {
     job.skip_metrics = trial.skip_metrics;
     job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
     if (experiment_.traces != RecordTraces::none)
-      job.trace_file = (settings_.run_directory / "traces" / fmt::format("trial_{:06}.mcap", trial.record.id)).string();
+      job.trace_file =
+          fs::absolute(settings_.run_directory / "traces" / fmt::format("trial_{:06}.mcap", trial.record.id)).string();
     return job;
   }
 
@@ -154,8 +172,10 @@ class Supervisor {
         else
           break;
     } catch (const nlohmann::json::exception&) {
-      end_by_fault(slot, fault_kind::abi_breach, "the worker process sent a message that cannot be read");
-      return;
+      FaultRecord fault = fault_at(slot.worker->noted_call());
+      fault.kind = fault_kind::abi_breach;
+      fault.detail = "the worker process sent a message that cannot be read";
+      return end_by_fault(slot, std::move(fault));
     }
     if (!alive && slot.worker) bury(slot);
   }
@@ -184,6 +204,7 @@ class Supervisor {
       std::move(result.events.begin(), result.events.end(), std::back_inserter(trial.record.events));
       trial.skip_metrics.push_back(result.index);
     } else if (type == "fault") {
+      if (message.at("fatal").get<bool>()) return end_by_fault(slot, message.get<FaultRecord>());
       add_fault(trial, message.get<FaultRecord>());
       // should a later metric kill the worker, this one need not fail a second time
       if (trial.measuring) trial.skip_metrics.push_back(*trial.measuring);
@@ -204,44 +225,40 @@ class Supervisor {
 
   void finish(Slot& slot) {
     slot.trial->record.wall_time_s =
-        static_cast<double>(now_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
+        static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
     TrialRecord record = std::move(slot.trial->record);
     slot.trial.reset();
     --open_trials_;
     on_trial_(std::move(record));
   }
 
-  // Looks for calls and trials that take too long. The note is only believed where it is possible.
+  // Looks for calls, trials and starts that take too long. The note is only believed where it is possible.
   void watch(Slot& slot) {
-    if (!slot.trial) return;
-    const std::int64_t now = now_ns();
-    if (static_cast<double>(now - slot.trial->started_ns) > experiment_.limits.trial_wall_time_s * second_ns) {
-      end_by_fault(
-          slot, fault_kind::hang,
-          fmt::format("the trial took longer than trial_wall_time_s = {} s", experiment_.limits.trial_wall_time_s));
-      return;
-    }
-    const NotedCall call = slot.worker->noted_call();
-    const std::int64_t longest_ns =
+    if (slot.ready && !slot.trial) return;
+    const auto longest_ns =
         static_cast<std::int64_t>(experiment_.limits.trial_wall_time_s * static_cast<double>(second_ns));
+    const std::int64_t began_ns = slot.trial ? slot.trial->started_ns : slot.worker_started_ns;
+    const NotedCall call = slot.worker->noted_call();
+    const std::int64_t now = monotonic_ns();
+    FaultRecord fault = fault_at(call);
+    fault.kind = fault_kind::hang;
+    if (now - std::max(began_ns, awake_since_ns_) > longest_ns) {
+      fault.detail = fmt::format("the {} took longer than trial_wall_time_s = {} s",
+                                 slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
+      return end_by_fault(slot, std::move(fault));
+    }
+    if (!call.inside || call.start_ns < began_ns || call.start_ns > now) return;
     const std::int64_t limit_ns = call.limit_ns > 0 ? std::min(call.limit_ns, longest_ns) : longest_ns;
-    if (call.inside && call.start_ns >= slot.trial->started_ns && now - call.start_ns > limit_ns)
-      end_by_fault(slot, fault_kind::hang,
-                   fmt::format("did not return within {:.1f} s", static_cast<double>(now - call.start_ns) * 1e-9));
+    if (now - std::max(call.start_ns, awake_since_ns_) <= limit_ns) return;
+    fault.detail = fmt::format("did not return within {:.1f} s", static_cast<double>(now - call.start_ns) * 1e-9);
+    end_by_fault(slot, std::move(fault));
   }
 
   // The worker died by itself.
   void bury(Slot& slot) {
-    const NotedCall call = slot.worker->noted_call();
+    FaultRecord fault = fault_at(slot.worker->noted_call());
+    slot.worker->kill();  // it may have closed its channel and live on; one that is dying keeps its status
     const int status = slot.worker->wait();
-    slot.worker.reset();
-    if (!slot.trial) {
-      if (++failed_starts_ >= start_attempts)
-        throw std::runtime_error("worker processes die as they start; see " +
-                                 (settings_.run_directory / "log.txt").string());
-      return;
-    }
-    FaultRecord fault = fault_at(call);
     if (WIFSIGNALED(status)) {
       fault.kind = fault_kind::crash;
       fault.signal = WTERMSIG(status);
@@ -253,15 +270,18 @@ class Supervisor {
       fault.kind = fault_kind::exit;
       fault.detail = fmt::format("the process ended with status {}", WEXITSTATUS(status));
     }
-    conclude(slot, std::move(fault));
+    end_by_fault(slot, std::move(fault));
   }
 
-  void end_by_fault(Slot& slot, const char* kind, const std::string& detail) {
-    FaultRecord fault = fault_at(slot.worker->noted_call());
-    fault.kind = kind;
-    fault.detail = detail;
+  // Ends the worker, and with it what it was about.
+  void end_by_fault(Slot& slot, FaultRecord fault) {
     slot.worker.reset();
-    if (slot.trial) conclude(slot, std::move(fault));
+    if (slot.trial)
+      conclude(slot, std::move(fault));
+    else if (!slot.ready && ++failed_starts_ >= start_attempts)
+      throw std::runtime_error(fmt::format("worker processes fail as they start: {}{}; see {}",
+                                           fault.plugin.empty() ? "" : fault.plugin + " " + fault.function + "(): ",
+                                           fault.detail, (settings_.run_directory / "log.txt").string()));
   }
 
   static FaultRecord fault_at(const NotedCall& call) {
@@ -277,6 +297,7 @@ class Supervisor {
   // A metric that killed the worker loses only itself: the trial is run again without it. Otherwise it is over.
   void conclude(Slot& slot, FaultRecord fault) {
     OpenTrial& trial = *slot.trial;
+    if (fault.kind == fault_kind::hang) trial.record.repeatable = false;
     add_fault(trial, std::move(fault));
     if (trial.measuring) {
       trial.skip_metrics.push_back(*trial.measuring);
@@ -297,6 +318,7 @@ class Supervisor {
   std::vector<Slot> slots_;
   std::size_t open_trials_ = 0;
   int failed_starts_ = 0;
+  std::int64_t awake_since_ns_ = 0;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/workers/worker.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <map>
@@ -24,8 +26,14 @@ namespace dmrp::host {
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool address_space_is_ours = false;  // sanitizers reserve terabytes
+// Sanitizers reserve terabytes.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DMRP_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(DMRP_SANITIZED)
+constexpr bool address_space_is_ours = false;
 #else
 constexpr bool address_space_is_ours = true;
 #endif
@@ -92,21 +100,32 @@ class Worker {
       if (file) file->write(t_ns, record);
     });
 
+    guard_.reset_stopped();
     TrialDone done;
     try {
-      const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, guard_, trace);
-      done = {ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed, ending.repeatable,
-              ending.sim_time_s};
+      const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
+      done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
+      done.sim_time_s = ending.sim_time_s;
+      if (file) file->finish();
     } catch (const PluginFault& fault) {
-      channel_.send(typed("fault", record_of(fault)));
       done.outcome = trial_outcome::fault;
+      if (file) file->finish();
+      report(fault);
       pool_.clear();
     }
-    if (file) file->finish();
     if (done.outcome != trial_outcome::fault) measure_all(trace.bytes(), seed, job);
+    done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
       std::filesystem::remove(job.trace_file);
     channel_.send(typed("done", done));
+  }
+
+  void report(const PluginFault& fault) {
+    nlohmann::json message = typed("fault", record_of(fault));
+    message["fatal"] = fault.fatal();
+    channel_.send(message);
+    // The library is unusable, its destroy() included: a fresh process goes on.
+    if (fault.fatal()) _exit(1);
   }
 
   void measure_all(const core::TraceBytes& bytes, std::uint64_t seed, const Job& job) {
@@ -120,7 +139,7 @@ class Worker {
                                             static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
         channel_.send(typed("metric", result));
       } catch (const PluginFault& fault) {
-        channel_.send(typed("fault", record_of(fault)));
+        report(fault);
       }
     }
   }
@@ -129,8 +148,8 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   CallGuard guard_;
+  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances see these worlds until they go
   InstancePool pool_;
-  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;
 };
 
 // Descriptors without a probe: the supervisor's probe has survived these libraries.
@@ -142,6 +161,8 @@ Probe read_descriptors(const std::filesystem::path& file) {
 }  // namespace
 
 int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
+  // Inherited, but not for what a plugin may start.
+  for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   LineChannel channel(read_end, write_end);
   try {
     const Experiment experiment = load_experiment(file, trials, &read_descriptors);
@@ -150,6 +171,9 @@ int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;
+  } catch (const PluginFault& fault) {
+    channel.send({{"type", "error"}, {"text", fault.plugin() + ": " + fault.function() + "(): " + fault.what()}});
+    return 1;
   } catch (const std::exception& error) {
     channel.send({{"type", "error"}, {"text", error.what()}});
     return 1;

@@ -2,6 +2,7 @@
 #include "host/workers/worker_process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -46,12 +47,16 @@ Pipe make_pipe() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the supervisor decides
+  // Ctrl-C and the like reach the whole group; the supervisor decides what becomes of a trial.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(number, SIG_IGN);
   signal(SIGPIPE, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != supervisor) _exit(127);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  // whatever else the supervisor has open or was given itself is none of a plugin's business
+  close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   for (const int descriptor : inherited) fcntl(descriptor, F_SETFD, 0);
   execv(arguments[0], const_cast<char* const*>(arguments));
   _exit(127);
@@ -62,13 +67,13 @@ Pipe make_pipe() {
 CallNote& map_call_note(int descriptor) {
   void* memory = mmap(nullptr, sizeof(CallNote), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   if (memory == MAP_FAILED) fail("mmap");
+  close(descriptor);  // nobody shall shorten the file below the mapping
   return *static_cast<CallNote*>(memory);
 }
 
 WorkerProcess::WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log) {
   const int note = memfd_create("dmrp-call-note", MFD_CLOEXEC);
   if (note < 0 || ftruncate(note, sizeof(CallNote)) != 0) fail("memfd_create");
-  note_ = &map_call_note(note);
   const Pipe to_worker = make_pipe();
   const Pipe from_worker = make_pipe();
 
@@ -86,9 +91,9 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& experiment, std::uint3
   pid_ = fork();
   if (pid_ < 0) fail("fork");
   if (pid_ == 0) become_worker(arguments.data(), supervisor, log, {to_worker.read_end, from_worker.write_end, note});
+  note_ = &map_call_note(note);
   close(to_worker.read_end);
   close(from_worker.write_end);
-  close(note);
   channel_ = std::make_unique<LineChannel>(from_worker.read_end, to_worker.write_end);
   pid_descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
 }
@@ -108,6 +113,11 @@ void WorkerProcess::kill() {
     ::kill(pid_, SIGKILL);
 }
 
+bool WorkerProcess::ends_within(int wait_ms) const {
+  pollfd watched = {pid_descriptor_, POLLIN, 0};
+  return pid_descriptor_ >= 0 && poll(&watched, 1, wait_ms) > 0;
+}
+
 int WorkerProcess::wait() {
   if (pid_ < 0) return 0;
   int status = 0;
@@ -119,14 +129,16 @@ int WorkerProcess::wait() {
 
 NotedCall WorkerProcess::noted_call() const {
   NotedCall call;
-  call.call_number = note_->call_number.load(std::memory_order_acquire);
-  call.inside = call.call_number % 2 == 1;
+  const std::uint64_t number = note_->call_number.load(std::memory_order_acquire);
   call.plugin = text_of(note_->plugin);
   call.function = text_of(note_->function);
   call.step = note_->step.load(std::memory_order_relaxed);
   call.robot = note_->robot.load(std::memory_order_relaxed);
   call.start_ns = note_->start_ns.load(std::memory_order_relaxed);
   call.limit_ns = note_->limit_ns.load(std::memory_order_relaxed);
+  // a note that changed while it was read mixes two calls: the one that was looked for has returned
+  std::atomic_thread_fence(std::memory_order_acquire);
+  call.inside = number % 2 == 1 && note_->call_number.load(std::memory_order_relaxed) == number;
   return call;
 }
 

@@ -14,10 +14,9 @@
 
 namespace dmrp::host {
 
-// What a call note said, checked: texts end, numbers are possible.
+// What a call note said. Its texts end; its numbers may still be anything.
 struct NotedCall {
-  std::uint64_t call_number = 0;
-  bool inside = false;  // a plugin function was running
+  bool inside = false;  // a plugin function was running; else the rest means nothing
   std::string plugin;
   std::string function;
   std::int64_t step = 0;
@@ -28,7 +27,9 @@ struct NotedCall {
 
 class WorkerProcess {
  public:
-  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`; its output goes to the descriptor `log`.
+  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`; its output goes to the descriptor `log`. It inherits no other
+  // descriptor but its channel and its note, and outlives neither the supervisor nor this object. Throws
+  // std::system_error.
   WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log);
   ~WorkerProcess();  // kills it
   WorkerProcess(const WorkerProcess&) = delete;
@@ -38,6 +39,8 @@ class WorkerProcess {
   NotedCall noted_call() const;
 
   void kill();
+  // Whether it is over by itself, now or in the next `wait_ms`.
+  bool ends_within(int wait_ms) const;
   // Waits for its end; the status as waitpid() gives it.
   int wait();
 
@@ -48,7 +51,8 @@ class WorkerProcess {
   std::unique_ptr<LineChannel> channel_;
 };
 
-// The worker's side: the call note behind a descriptor that it inherited.
+// Maps the call note behind a descriptor, for as long as the process lives, and closes the descriptor.
+// Throws std::system_error.
 CallNote& map_call_note(int descriptor);
 
 }  // namespace dmrp::host
