@@ -95,7 +95,7 @@ class TomlTable {
   using KeyReader = std::pair<std::string, std::function<void(const TomlValue&)>>;
   void read(const std::vector<KeyReader>& readers) const;
 
-  // Refuses the first key that is none of these. `whose`: "" or " for dmrp.planner.cbs", for the message.
+  // Refuses the first key that is none of these. `whose`: "" or " for org.example.planner", for the message.
   void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;
 
   std::optional<TomlValue> find(const std::string& key) const;
