@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
@@ -37,10 +38,14 @@ Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& 
   drivers_.reserve(world.robots().size());  // controllers keep the address of their view
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
     Instance& controller = pool.get(controller_use, static_cast<std::int32_t>(i));
-    drivers_.push_back({&controller, std::make_unique<RobotSensors>(world, i, lidar_),
+    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world, i, lidar_),
                         variant.view.seen_by(static_cast<std::int32_t>(i)), controller.table<dmrp_local_controller>()});
     Driver& driver = drivers_.back();
-    controller.offer([sensors = driver.sensors.get()](const char* id) { return sensors->extension(id); });
+    // the instance outlives the trial
+    controller.offer([sensors = std::weak_ptr(driver.sensors)](const char* id) -> const void* {
+      const auto here = sensors.lock();
+      return here ? here->extension(id) : nullptr;
+    });
     controller.start(driver.view, instance_seed(seed, "local_controller", i), step_budget_ns);
   }
 
@@ -64,16 +69,13 @@ Plan Cast::plan(std::uint64_t revision, std::int64_t step) {
   return plan;
 }
 
-void Cast::set_paths(const Plan& plan, std::int64_t step) {
-  for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
-    if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-    const auto waypoints = path_to_drive(plan.paths[i], world_.goals(i).back(), plan.step_duration_ns);
-    const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
-                            waypoints.data()};
-    Driver& driver = drivers_[i];
-    driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
-                            [&] { return driver.table.set_path(driver.controller->self(), &path, plan.revision); });
-  }
+void Cast::set_path(std::uint32_t robot, const std::vector<dmrp_waypoint>& waypoints, std::uint64_t revision,
+                    std::int64_t step) {
+  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
+                          waypoints.data()};
+  Driver& driver = drivers_[robot];
+  driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
+                          [&] { return driver.table.set_path(driver.controller->self(), &path, revision); });
 }
 
 void Cast::sense() {

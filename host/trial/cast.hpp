@@ -32,8 +32,9 @@ class Cast {
   // Plans from where the robots are.
   Plan plan(std::uint64_t revision, std::int64_t step);
 
-  // Hands each active robot's controller its path.
-  void set_paths(const Plan& plan, std::int64_t step);
+  // Hands a robot's controller its path; `revision` is the plan's.
+  void set_path(std::uint32_t robot, const std::vector<dmrp_waypoint>& waypoints, std::uint64_t revision,
+                std::int64_t step);
 
   // A control tick begins: sensors look.
   void sense();
@@ -59,7 +60,7 @@ class Cast {
   Instance* pedestrian_model_ = nullptr;
   struct Driver {
     Instance* controller;
-    std::unique_ptr<RobotSensors> sensors;
+    std::shared_ptr<RobotSensors> sensors;
     dmrp_world view;
     dmrp_local_controller table;
   };

@@ -21,6 +21,7 @@ class Run {
         cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed),
         trace_(trace),
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
+        paths_(world_.robots().size()),
         progress_(world_.robots().size()),
         gained_m_(world_.robots().size()) {}
 
@@ -55,10 +56,12 @@ class Run {
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
   void take_up_plan() {
-    cast_.set_paths(plan_, step_);
-    for (std::size_t i = 0; i < progress_.size(); ++i) {
-      const dmrp_pose& pose = world_.robots()[i].pose;
-      progress_[i].set_path(plan_.paths[i], {pose.x, pose.y});
+    for (std::uint32_t i = 0; i < progress_.size(); ++i) {
+      const core::RobotState& robot = world_.robots()[i];
+      if (robot.state != DMRP_ROBOT_ACTIVE) continue;
+      paths_[i] = path_to_drive(plan_.paths[i], world_.goals(i).back(), plan_.step_duration_ns);
+      progress_[i].set_path(paths_[i], {robot.pose.x, robot.pose.y});
+      cast_.set_path(i, paths_[i], plan_.revision, step_);
     }
   }
 
@@ -66,7 +69,7 @@ class Run {
     cast_.sense();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
       if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-      const auto last_waypoint = static_cast<std::uint32_t>(plan_.paths[i].size() - 1);
+      const auto last_waypoint = static_cast<std::uint32_t>(paths_[i].size() - 1);
       if (const auto command = cast_.drive(i, progress_[i], last_waypoint, step_)) {
         world_.set_command(i, *command);
         monitor_.command_given(i, world_.t_ns());
@@ -138,6 +141,7 @@ class Run {
   Cast cast_;
   core::TraceEncoder& trace_;
   core::EndingMonitor monitor_;
+  PlannedPaths paths_;  // as the controllers have them: progress is counted along these
   std::vector<core::PathProgress> progress_;
   std::vector<double> gained_m_;
   Plan plan_;
@@ -148,13 +152,11 @@ class Run {
 
 }  // namespace
 
-TrialEnding run_trial(const Trial& trial, InstancePool& pool, CallGuard& guard, core::TraceEncoder& trace) {
-  guard.reset_stopped();
+TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace) {
   Run run(trial, pool, trace);
   const dmrp_trial_end end = run.run();
   TrialEnding ending;
   ending.succeeded = run.succeeded();
-  ending.repeatable = !guard.stopped();
   ending.sim_time_s = static_cast<double>(end.t_ns) * 1e-9;
   return ending;
 }

@@ -20,11 +20,10 @@ struct Trial {
 
 struct TrialEnding {
   bool succeeded = false;
-  bool repeatable = true;  // no plugin was told to stop by the clock
   double sim_time_s = 0.0;
 };
 
 // Runs it. The trace has the world's record already. Throws PluginFault; the trace then ends where it happened.
-TrialEnding run_trial(const Trial& trial, InstancePool& pool, CallGuard& guard, core::TraceEncoder& trace);
+TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace);
 
 }  // namespace dmrp::host
