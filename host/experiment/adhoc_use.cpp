@@ -78,7 +78,7 @@ Experiment adhoc_experiment(const std::string& scenario, const std::string& plan
   if (file.empty()) {
     const auto shipped = shipped_scenarios();
     throw InputError(fmt::format("no scenario '{}' (shipped: {}){}", scenario, join_names(shipped),
-                                 did_you_mean(scenario, shipped)));
+                                 did_you_mean(scenario, known_scenarios())));
   }
   Experiment experiment;
   const ScenarioFile read = read_scenario_file(file, scenario);

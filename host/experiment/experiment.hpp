@@ -95,6 +95,7 @@ Experiment load_experiment(const std::filesystem::path& file, std::uint32_t tria
 // none.
 std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base);
 std::vector<std::string> shipped_scenarios();
+std::vector<std::string> known_scenarios();  // these and those of DMRP_SCENARIO_PATH
 
 // The experiment with every default written out; reads back as the same experiment.
 std::string effective_toml(const Experiment& experiment);

@@ -173,7 +173,7 @@ class Reader {
       use.fail(fmt::format("no scenario '{}' (there is no such file beside the experiment file)", name));
     const auto shipped = shipped_scenarios();
     use.fail(fmt::format("no scenario '{}' (shipped: {}; {}){}", name, join_names(shipped), folders_text(),
-                         did_you_mean(name, shipped)));
+                         did_you_mean(name, known_scenarios())));
   }
 
   static std::string folders_text() {

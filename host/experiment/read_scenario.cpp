@@ -269,14 +269,27 @@ std::filesystem::path find_scenario(const std::string& name_or_path, const std::
   return {};
 }
 
-std::vector<std::string> shipped_scenarios() {
+namespace {
+
+std::vector<std::string> scenarios_in(const std::vector<std::filesystem::path>& folders) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(shared_data_path() / "scenarios", ignored))
-    if (std::filesystem::is_regular_file(entry.path() / "scenario.toml", ignored))
-      names.push_back(entry.path().filename().string());
+  for (const std::filesystem::path& folder : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (std::filesystem::is_regular_file(entry.path() / "scenario.toml", ignored))
+        names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_scenarios() {
+  return scenarios_in({shared_data_path() / "scenarios"});
+}
+
+std::vector<std::string> known_scenarios() {
+  return scenarios_in(scenario_folders());
 }
 
 }  // namespace dmrp::host

@@ -59,6 +59,13 @@ std::string check_structure(const dmrp_planning_problem& problem, const dmrp_pla
   if (robot.state != DMRP_ROBOT_ACTIVE)
     return path.size() == 1 ? "" : fmt::format("robot {} is not active, but its path moves", index);
 
+  std::uint32_t heads_for = robot.first_goal_index;
+  for (const dmrp_waypoint& w : path) {
+    if (w.goal_index < heads_for) return fmt::format("robot {} goes back to goal {}", index, w.goal_index);
+    if (w.goal_index - robot.first_goal_index >= robot.goal_count)
+      return fmt::format("robot {} heads for goal {}, which it does not have", index, w.goal_index);
+    heads_for = w.goal_index;
+  }
   std::uint32_t reached = 0;
   for (const dmrp_waypoint& w : path) {
     if (reached == robot.goal_count) break;

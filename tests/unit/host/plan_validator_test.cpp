@@ -219,6 +219,10 @@ TEST_CASE("a tour visits its goals in order") {
     way[5].goal_index = 0;
     CHECK(error_of(c) == "robot 0 goes back to goal 0");
   }
+  SECTION("a goal index beyond the last") {
+    way[6].goal_index = 3;
+    CHECK(error_of(c) == "robot 0 heads for goal 3, which it does not have");
+  }
 }
 
 TEST_CASE("moves on the grid") {
