@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "sample_library.hpp"
+
+#include <dmrp/plugin.hpp>
+#include <new>
+#include <stdexcept>
+
+namespace dmrp::test {
+
+Seen& seen() {
+  static Seen it;
+  return it;
+}
+
+namespace {
+
+// Leaves a call by the way that `does` names.
+dmrp::Status leave(const std::string& does) {
+  if (does == "throw") throw std::runtime_error("thrown on purpose");
+  if (does == "throw bad_alloc") throw std::bad_alloc();
+  if (does == "throw number") throw 42;
+  if (does == "warning") return dmrp::Status::warning;
+  if (does == "no solution") return dmrp::Status::no_solution;
+  return dmrp::Status::ok;
+}
+
+class SampleController final : public dmrp::LocalController {
+ public:
+  SampleController() { ++seen().alive; }
+  ~SampleController() override { --seen().alive; }
+
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("sample.controller", "Sample controller", "1.2.3")
+        .vendor("Somebody")
+        .license("MIT")
+        .summary("what it does")
+        .source("a paper, section 4")
+        .needs("dmrp.lidar/1")
+        .uses("dmrp.local_costmap/1")
+        .uses("dmrp.annotate/1");
+  }
+
+  dmrp::Param<std::string> does = param("does", "nothing");
+  dmrp::Param<bool> flag = param("flag", true).doc("a flag");
+  dmrp::Param<std::int64_t> integer = param("integer", 7).range(1, 9).unit("1");
+  dmrp::Param<std::int64_t> large = param("large", std::int64_t{1} << 60);
+  dmrp::Param<double> number = param("number", 0.25).unit("m").range(0.0, 0.5).doc("a number");
+  dmrp::Param<std::string> text = param("text", "as it is");
+  dmrp::Param<std::string> choice = param("choice", "red").choices({"red", "green", "blue"});
+  dmrp::Param<std::string> file = param("file", "data.csv").path();
+  dmrp::Param<std::vector<double>> numbers = param("numbers", std::vector<double>{1.5, -2.0});
+  dmrp::Param<std::vector<std::string>> texts = param("texts", std::vector<std::string>{"a", "b", "c"});
+
+  dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
+    // what create() brought
+    seen().numbers = {flag ? 1.0 : 0.0, static_cast<double>(integer), static_cast<double>(large), number};
+    seen().numbers.insert(seen().numbers.end(), numbers->begin(), numbers->end());
+    seen().texts = {text, choice, file};
+    seen().texts.insert(seen().texts.end(), texts->begin(), texts->end());
+    // what start() brought
+    seen().numbers.push_back(static_cast<double>(seed));
+    seen().numbers.push_back(static_cast<double>(world.robots().size()));
+    seen().numbers.push_back(this->world()->time_limit_ns == world->time_limit_ns ? 1.0 : 0.0);
+    return leave(does);
+  }
+
+  void set_path(dmrp::Path path, std::uint64_t revision) override {
+    seen().numbers = {static_cast<double>(revision)};
+    for (const dmrp::Waypoint& waypoint : path) seen().numbers.push_back(waypoint.x);
+    leave(does);
+  }
+
+  dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
+    seen().numbers = {now.pose.x, now.limits.v_max, now.footprint.radius_m, dmrp::seconds(now.t_ns)};
+    for (const dmrp::Agent& agent : now.agents) seen().numbers.push_back(static_cast<double>(agent.id));
+    command.v_x = 0.5;
+    command.omega = -0.25;
+    if (should_stop()) log(dmrp::LogLevel::warning, "asked to stop");
+    if (*does == "ask") {
+      const auto* asked = extension<int>("dmrp.lidar/1");
+      log(dmrp::LogLevel::debug, asked ? std::to_string(*asked) : "nothing");
+    }
+    return leave(does);
+  }
+
+  const void* offered_extension(const char* id) override {
+    static const int offered = 5;
+    return std::string(id) == "sample/1" ? &offered : nullptr;
+  }
+};
+
+// Its constructor throws when `seen().texts` says so: parameters are not there yet.
+class SampleThatCannotBeMade final : public dmrp::LocalController {
+ public:
+  SampleThatCannotBeMade() {
+    if (!seen().texts.empty()) leave(seen().texts.front());
+  }
+  static dmrp::Descriptor describe() { return dmrp::Descriptor("sample.unmakeable", "Unmakeable", "1.0.0"); }
+  void set_path(dmrp::Path, std::uint64_t) override {}
+  dmrp::Status step(const dmrp::Observation&, dmrp::Command&) override { return dmrp::Status::ok; }
+};
+
+class SamplePlanner final : public dmrp::GlobalPlanner {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("sample.planner", "Sample planner", "1.0.0")
+        .connectivity(DMRP_CONNECTIVITY_8)
+        .uncoordinated();
+  }
+  dmrp::Param<std::string> does = param("does", "nothing");
+
+  dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
+    seen().numbers = {static_cast<double>(problem.grid.width), static_cast<double>(problem.in_force.size())};
+    for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
+      std::vector<dmrp::Waypoint> path = {{problem.robots[i].start.x, problem.robots[i].start.y, 0.0, 0, 0, 0}};
+      for (const dmrp::Goal& goal : dmrp::goals(problem.robots[i]))
+        path.push_back({goal.pose.x, goal.pose.y, 0.0, 1, 0, 0});
+      sink.path(i, path);
+    }
+    sink.statistic("cost", 3.0);
+    return leave(does);
+  }
+};
+
+class SamplePedestrians final : public dmrp::PedestrianModel {
+ public:
+  static dmrp::Descriptor describe() { return dmrp::Descriptor("sample.pedestrian", "Sample pedestrians", "1.0.0"); }
+  dmrp::Param<std::string> does = param("does", "nothing");
+
+  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Vec2* velocities) override {
+    for (std::size_t i = 0; i < crowd.people.size(); ++i)
+      velocities[i] = {static_cast<double>(crowd.people[i].id), static_cast<double>(crowd.robots.size())};
+    return leave(does);
+  }
+};
+
+class SampleMetric final : public dmrp::Metric {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("sample.metric", "Sample metric", "1.0.0")
+        .channels(DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS)
+        .value("plain", "m", dmrp::Direction::lower_is_better, dmrp::Subjects::system, "one number")
+        .value("timed", "s", dmrp::Direction::none, dmrp::Subjects::system_and_robots, "a time")
+        .wall_clock()
+        .value("curved", "1", dmrp::Direction::higher_is_better, dmrp::Subjects::system_and_pedestrians, "a curve")
+        .curve();
+  }
+  dmrp::Param<std::string> does = param("does", "nothing");
+
+  void begin(const dmrp_plan* plan) override {
+    seen().numbers = {plan ? static_cast<double>(dmrp::Plan(*plan).path(1).size()) : -1.0};
+    leave(does);
+  }
+  void observe(const dmrp::Sample& sample) override {
+    seen().numbers = {sample.control_tick ? 1.0 : 0.0};
+    for (const dmrp::RobotSample& robot : sample.robots) seen().numbers.push_back(robot.pose.x);
+    for (const dmrp::Person& person : sample.people) seen().numbers.push_back(person.position.x);
+    for (const dmrp::Contact& contact : sample.contacts) seen().numbers.push_back(contact.depth_m);
+    for (const dmrp::Call& call : sample.calls) seen().numbers.push_back(static_cast<double>(call.duration_ns));
+    leave(does);
+  }
+  void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {
+    sink.system("plain", dmrp::seconds(end.t_ns));
+    sink.robot("timed", end.robots.size() - 1, dmrp::undefined);
+    sink.pedestrian("curved", 12, 1.0);
+    sink.curve("curved", 0.5, 2.0);
+    sink.event("plain", 1, 2, {0, 3}, "an event");
+    leave(does);
+  }
+};
+
+}  // namespace
+
+RecordingHost::RecordingHost() {
+  c.struct_size = sizeof(c);
+  c.context = this;
+  c.name = "recording-host";
+  c.version = "0.0.0";
+  c.log = [](const dmrp_host* host, std::int32_t level, const char* text) {
+    static_cast<RecordingHost*>(host->context)->log.push_back(std::to_string(level) + " " + text);
+  };
+  c.set_error = [](const dmrp_host* host, const char* text) {
+    static_cast<RecordingHost*>(host->context)->error = text;
+  };
+  c.should_stop = [](const dmrp_host* host) { return static_cast<RecordingHost*>(host->context)->stop; };
+  c.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
+    static const int offered = 17;
+    static_cast<RecordingHost*>(host->context)->asked_extension = id;
+    return &offered;
+  };
+}
+
+ParamList::ParamList(std::vector<dmrp_param_value> values) {
+  for (const dmrp_param_value& value : values) values_.push_back({value, 0xAAAAAAAAAAAAAAAAu});
+  c_.struct_size = sizeof(c_);
+  c_.count = static_cast<std::uint32_t>(values_.size());
+  c_.stride = sizeof(Longer);
+  c_.values = &values_.front().known;
+}
+
+dmrp_param_value text_value(const char* key, const char* text) {
+  dmrp_param_value value{};
+  value.key = key;
+  value.type = DMRP_PARAM_STRING;
+  value.text = text;
+  return value;
+}
+
+Sample::Sample(const char* id, const char* does) {
+  const ParamList params({text_value("does", does)});
+  c.struct_size = sizeof(c);
+  if (dmrp_entry_v1.create(&host.c, id, params.c(), &c) != DMRP_OK) throw std::runtime_error(host.error);
+}
+
+}  // namespace dmrp::test
+
+using namespace dmrp::test;
+
+DMRP_PLUGINS(SampleController, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade)

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// sample_library.hpp: a plugin library inside the test program, and what its plugins were last told.
+#pragma once
+
+#include <dmrp/dmrp.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// As exported by a library. Holds sample.controller, sample.planner, sample.pedestrian and sample.metric; their
+// parameter `does` says what they do in each call: see sample_library.cpp.
+extern "C" const dmrp_entry dmrp_entry_v1;
+
+namespace dmrp::test {
+
+// What the plugins saw, for the test to look at.
+struct Seen {
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+  int alive = 0;  // instances
+};
+Seen& seen();
+
+// A dmrp_host that keeps what it is told.
+class RecordingHost {
+ public:
+  RecordingHost();
+  RecordingHost(const RecordingHost&) = delete;
+  RecordingHost& operator=(const RecordingHost&) = delete;
+
+  dmrp_host c{};
+  std::vector<std::string> log;  // "LEVEL text"
+  std::string error;             // the last text of set_error, "" if there was none
+  std::int32_t stop = 0;
+  std::string asked_extension;
+};
+
+// Values as a host passes them: each in `stride` bytes, more than the plugin knows of.
+class ParamList {
+ public:
+  explicit ParamList(std::vector<dmrp_param_value> values);
+  ParamList(const ParamList&) = delete;
+  ParamList& operator=(const ParamList&) = delete;
+  const dmrp_params* c() const { return &c_; }
+
+ private:
+  struct Longer {
+    dmrp_param_value known;
+    std::uint64_t unknown;
+  };
+  std::vector<Longer> values_;
+  dmrp_params c_{};
+};
+
+dmrp_param_value text_value(const char* key, const char* text);
+
+// An instance that is destroyed with this object. create() must succeed.
+class Sample {
+ public:
+  Sample(const char* id, const char* does);
+  ~Sample() { c.destroy(c.self); }
+  Sample(const Sample&) = delete;
+  Sample& operator=(const Sample&) = delete;
+
+  template <class Interface>
+  const Interface& as() const {
+    return *static_cast<const Interface*>(c.interface_);
+  }
+
+  RecordingHost host;
+  dmrp_plugin c{};
+};
+
+}  // namespace dmrp::test
