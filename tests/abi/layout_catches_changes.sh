@@ -24,3 +24,5 @@ expect_notice local_controller.h 's/  double omega;.*/&\n  double jerk;/;s/DMRP_
 expect_notice local_controller.h 's/  double v_x; .*/  double omega;/;s/  double omega;  \/\/.*/  double v_x;/'
 expect_notice entry.h 's/int32_t (\*init)/int32_t (*prepare)/'
 expect_notice metric.h 's/  int64_t duration_ns;.*/  int32_t duration_ms;\n  int32_t more;/'
+expect_notice metric.h 's/const dmrp_person\* people/const dmrp_agent* people/'
+expect_notice plugin.h 's/const dmrp_world\* world, uint64_t seed/uint64_t seed, const dmrp_world* world/'
