@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The quickstart does what it is there to show: called as quickstart.sh DMRP_HOST SOURCE_DIR.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+source_dir=$2
+
+expect_status 0 "$host" "$source_dir/examples/quickstart.toml" --out "$scratch/run"
+grep -q "CBS + DWA" "$scratch/stdout" || fail "the table has no row for CBS + DWA"
+grep -q "$scratch/run" "$scratch/stdout" || fail "the run directory is not named"
+
+for file in experiment.toml effective.toml manifest.json trials.csv summary.csv traces/trial_000002.mcap; do
+  [[ -s $scratch/run/$file ]] || fail "$file is missing or empty"
+done
+[[ $(query "$scratch/run" "SELECT count(*) FROM trial WHERE outcome IN ('succeeded', 'failed') AND repeatable") == 3 ]] ||
+  fail "three repeatable trials should be there"
+arrived=$(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'success' AND subject_kind = 'robot'")
+(($(printf '%.0f' "$arrived") >= 10)) || fail "$arrived of 12 robots arrived, at least 10 should"
+[[ $(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'collisions_static' AND subject_kind = 'system'") == 0.0 ]] ||
+  fail "a robot touched something static"
+
+# every metric has a system value for every trial; only what nobody finished may be undefined
+[[ -z $(query "$scratch/run" "SELECT t.id, m.name FROM trial t, metric m WHERE NOT EXISTS (SELECT 1 FROM value v
+   WHERE v.trial_id = t.id AND v.metric = m.name AND v.subject_kind = 'system')") ]] || fail "a metric has no value"
+[[ -z $(query "$scratch/run" "SELECT metric FROM value WHERE value IS NULL AND metric <> 'completion_time'") ]] ||
+  fail "a value is undefined that should not be"
