@@ -5,7 +5,8 @@
 
 #include "values.h"
 
-// Bits of an edge mask: the eight moves out of a cell, counter-clockwise from +x.
+// Bits of an edge mask: the eight moves out of a cell, counter-clockwise from +x. Mutual: a move that is open one way
+// is open the other way.
 #define DMRP_EDGE_E 0x01u
 #define DMRP_EDGE_NE 0x02u
 #define DMRP_EDGE_N 0x04u
