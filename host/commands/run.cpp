@@ -92,51 +92,49 @@ Manifest manifest_of(const Experiment& experiment, const std::vector<std::string
 
 class RunFiles {
  public:
-  RunFiles(const RunOptions& options, const Experiment& experiment, const std::vector<std::string>& command_line)
-      : directory_(options.resume ? existing_run_directory(options.out)
-                                  : choose_run_directory(options.out, experiment.name)) {
-    const Manifest manifest = manifest_of(experiment, command_line);
+  RunFiles(const RunOptions& options, const Experiment& experiment, const Manifest& manifest)
+      : directory_(options.resume ? RunDirectory::reopen(options.out)
+                                  : RunDirectory::make(options.out, experiment.name)) {
     if (options.resume)
       check_same(experiment, manifest);
     else
       begin(experiment, manifest);
   }
 
-  const fs::path& directory() const { return directory_; }
-  fs::path database() const { return directory_ / "results.sqlite"; }
+  const fs::path& directory() const { return directory_.path(); }
+  fs::path database() const { return directory() / "results.sqlite"; }
 
   // The tables for people, from all that the database has.
   void write_tables(const ResultsDatabase& database) const {
     const auto metrics = database.metrics();
     const auto trials = database.trials();
-    write_file_atomically(directory_ / "trials.csv", trials_csv(metrics, trials));
-    write_file_atomically(directory_ / "summary.csv", summary_csv(metrics, summarise(metrics, trials)));
+    write_file_atomically(directory() / "trials.csv", trials_csv(metrics, trials));
+    write_file_atomically(directory() / "summary.csv", summary_csv(metrics, summarise(metrics, trials)));
   }
 
  private:
   void begin(const Experiment& experiment, const Manifest& manifest) const {
-    fs::create_directories(directory_);
-    if (experiment.traces != RecordTraces::none) fs::create_directories(directory_ / "traces");
-    write_file_atomically(directory_ / "experiment.toml", experiment.text);
-    write_file_atomically(directory_ / "effective.toml", effective_toml(experiment));
-    write_file_atomically(directory_ / "manifest.json", to_json_text(manifest));
+    if (experiment.traces != RecordTraces::none) fs::create_directories(directory() / "traces");
+    write_file_atomically(directory() / "experiment.toml", experiment.text);
+    write_file_atomically(directory() / "effective.toml", effective_toml(experiment));
+    write_file_atomically(directory() / "manifest.json", to_json_text(manifest));
     ResultsDatabase::create(database(), columns_of(experiment));
   }
 
   // A run may only go on where it would give the same bits.
   void check_same(const Experiment& experiment, const Manifest& manifest) const {
-    std::ifstream before(directory_ / "effective.toml", std::ios::binary);
+    std::ifstream before(directory() / "effective.toml", std::ios::binary);
     std::ostringstream text;
     text << before.rdbuf();
     if (text.str() != effective_toml(experiment))
       throw InputError(
-          fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory_.string()));
-    const auto reasons = differences(read_manifest(directory_ / "manifest.json"), manifest);
+          fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory().string()));
+    const auto reasons = differences(read_manifest(directory() / "manifest.json"), manifest);
     if (!reasons.empty())
-      throw InputError(fmt::format("--out {}: cannot go on: {}", directory_.string(), reasons.front()));
+      throw InputError(fmt::format("--out {}: cannot go on: {}", directory().string(), reasons.front()));
   }
 
-  fs::path directory_;
+  RunDirectory directory_;
 };
 
 void print_results(const ResultsDatabase& database, const fs::path& directory, const Experiment& experiment) {
@@ -161,20 +159,18 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
     for (const std::string& warning : experiment.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
-  const RunFiles files(options, experiment, command_line);
+  const RunFiles files(options, experiment, manifest_of(experiment, command_line));
   ResultsDatabase database = ResultsDatabase::open(files.database());
   std::vector<std::uint64_t> trials = trials_of_shard(count, options.shard);
   const auto finished = database.finished_trials();
   std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
 
-  bool faults = false;
   Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet);
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
   const RunEnding ending = supervise(
       experiment, trials, settings,
       [&](TrialRecord&& trial) {
         database.write(trial);
-        faults = faults || !trial.faults.empty();
         progress.add(fault_note(trial));
       },
       [&] { progress.refresh(); });
@@ -186,6 +182,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                files.directory().string());
     return exit_status::interrupted;
   }
+  const auto all = database.trials();
+  const bool faults = std::any_of(all.begin(), all.end(), [](const TrialRecord& t) { return !t.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;
 }
 

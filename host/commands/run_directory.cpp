@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host/commands/run_directory.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
 
 #include "host/input_error.hpp"
 
@@ -11,32 +18,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_taken(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !(fs::is_directory(path, ignored) && fs::is_empty(path, ignored));
+// There once this returns, whoever made it.
+void make_directory(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw InputError(fmt::format("{}: cannot make the run directory: {}", path.string(), error.message()));
 }
 
 }  // namespace
 
-fs::path choose_run_directory(const fs::path& out, const std::string& name) {
-  if (!out.empty()) {
-    if (is_taken(out))
-      throw InputError(
-          fmt::format("--out {}: is there already and not empty (go on with it by --resume)", out.string()));
-    return out;
-  }
-  const fs::path first = fs::path("runs") / name;
-  if (!is_taken(first)) return first;
-  for (int i = 2;; ++i)
-    if (const fs::path next = fs::path("runs") / fmt::format("{}-{}", name, i); !is_taken(next)) return next;
+RunDirectory::RunDirectory(fs::path path) : path_(std::move(path)) {
+  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw InputError(fmt::format("{}: cannot be opened: {}", path_.string(), std::strerror(errno)));
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems know no locks
+  close(lock_);
+  lock_ = -1;
 }
 
-fs::path existing_run_directory(const fs::path& out) {
+RunDirectory::RunDirectory(RunDirectory&& other) noexcept
+    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+
+RunDirectory::~RunDirectory() {
+  if (lock_ >= 0) close(lock_);
+}
+
+RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
+  for (int i = 1;; ++i) {
+    const fs::path path = !out.empty() ? out : fs::path("runs") / (i == 1 ? name : fmt::format("{}-{}", name, i));
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) {
+      make_directory(path);
+      RunDirectory directory(path);
+      if (directory.locked() && fs::is_empty(path, ignored)) return directory;
+    }
+    if (!out.empty())
+      throw InputError(
+          fmt::format("--out {}: is there already and not empty (go on with it by --resume)", out.string()));
+  }
+}
+
+RunDirectory RunDirectory::reopen(const fs::path& out) {
   if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to go on with");
   std::error_code ignored;
   if (!fs::is_regular_file(out / "results.sqlite", ignored))
     throw InputError(fmt::format("--out {}: is no run directory (no results.sqlite)", out.string()));
-  return out;
+  RunDirectory directory(out);
+  if (!directory.locked()) throw InputError(fmt::format("--out {}: another dmrp-host is running in it", out.string()));
+  return directory;
 }
 
 }  // namespace dmrp::host

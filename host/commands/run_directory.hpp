@@ -7,11 +7,29 @@
 
 namespace dmrp::host {
 
-// The directory for a new run: `out` itself, which must be missing or empty; else runs/NAME, or runs/NAME-2, ... if
-// taken. Nothing is made yet. Throws InputError.
-std::filesystem::path choose_run_directory(const std::filesystem::path& out, const std::string& name);
+// A directory that this process alone runs in, until the object goes.
+class RunDirectory {
+ public:
+  // For a new run: `out` itself, which must be missing or empty; without it runs/NAME, or runs/NAME-2, ... if taken.
+  // Makes the directory. Throws InputError.
+  static RunDirectory make(const std::filesystem::path& out, const std::string& name);
 
-// The directory of a run to go on with. Throws InputError.
-std::filesystem::path existing_run_directory(const std::filesystem::path& out);
+  // Of a run to go on with. Throws InputError.
+  static RunDirectory reopen(const std::filesystem::path& out);
+
+  RunDirectory(RunDirectory&& other) noexcept;
+  RunDirectory& operator=(RunDirectory&&) = delete;
+  ~RunDirectory();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  // Locks it, so that two runs that begin at the same moment do not share one: locked() says whether it is ours.
+  explicit RunDirectory(std::filesystem::path path);
+  bool locked() const { return lock_ >= 0; }
+
+  std::filesystem::path path_;
+  int lock_ = -1;
+};
 
 }  // namespace dmrp::host
