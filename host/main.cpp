@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -27,22 +31,29 @@ std::optional<int> run_as_child(int argc, char** argv) {
   return std::nullopt;
 }
 
-// `dmrp-host EXPERIMENT.toml` is `dmrp-host run EXPERIMENT.toml`.
+// `dmrp-host EXPERIMENT.toml` is `dmrp-host run EXPERIMENT.toml`, also with options before it.
 std::vector<std::string> arguments_with_command(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  for (const std::string& argument : arguments) {
-    if (argument.starts_with("-")) continue;
-    if (argument.ends_with(".toml")) arguments.insert(arguments.begin(), "run");
-    break;
-  }
+  const auto is_file = [](const std::string& argument) { return argument.ends_with(".toml"); };
+  if (!arguments.empty() && (arguments[0].starts_with("-") || is_file(arguments[0])) &&
+      std::any_of(arguments.begin(), arguments.end(), is_file))
+    arguments.insert(arguments.begin(), "run");
   return arguments;
 }
 
+// Started with its standard streams closed, the first files that it opened would take their place.
+void open_standard_streams() {
+  int descriptor = open("/dev/null", O_RDWR);
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
+  if (descriptor >= 0) close(descriptor);
+}
+
 std::string check_shard(const std::string& text) {
-  unsigned long long index = 0;
-  unsigned long long count = 0;
+  unsigned long index = 0;
+  unsigned long count = 0;
+  const bool plain = text.find_first_not_of("0123456789/") == std::string::npos;  // no sign, no space
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%llu/%llu%c", &index, &count, &rest) == 2 && index < count) return "";
+  if (plain && std::sscanf(text.c_str(), "%lu/%lu%c", &index, &count, &rest) == 2 && index < count) return "";
   return "needs I/N with 0 <= I < N";
 }
 
@@ -108,6 +119,7 @@ int run_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   if (const auto status = run_as_child(argc, argv)) return *status;
   try {
     return run_main(argc, argv);

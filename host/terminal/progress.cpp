@@ -40,7 +40,13 @@ Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
       terminal_(isatty(STDOUT_FILENO)),
       start_ns_(monotonic_ns()) {
   if (!quiet_ && !terminal_) fmt::print("{}\n", heading_);
+  std::fflush(stdout);
   refresh();
+}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_ && drawn_ns_ > 0) fmt::print("\n");  // what is said of an error begins on a line of its own
+  std::fflush(stdout);
 }
 
 double Progress::elapsed_s() const {
@@ -53,15 +59,20 @@ void Progress::draw() const {
   std::string bar;
   for (unsigned i = 0; i < bar_cells; ++i) bar += i < full ? "█" : "░";
   const double elapsed = elapsed_s();
-  std::string tail = fmt::format("{} {}/{}  {}", bar, done_, total_, duration(elapsed));
+  const std::string count = fmt::format("{}/{}", done_, total_);
+  std::string times = "  " + duration(elapsed);
   if (done_ > 0 && done_ < total_)
-    tail +=
+    times +=
         fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
-  const std::size_t width = std::max<std::size_t>(terminal_width(), 40) - 1;
-  const std::size_t used = display_width(heading_) + display_width(tail);
-  const std::string gap(used + 2 < width ? std::min<std::size_t>(width - used, 24) : 2, ' ');
-  // On a narrow terminal the heading gives way: a line that wraps cannot be drawn over.
-  const std::string line = used + 2 <= width ? heading_ + gap + tail : tail;
+  const unsigned columns = terminal_width();  // 0 where the terminal does not say
+  const std::size_t width = (columns > 0 ? columns : 80) - 1;
+  // On a narrow terminal first the heading gives way, then the bar: a line that wraps cannot be drawn over.
+  std::string line = fmt::format("{} {}{}", bar, count, times);
+  const std::size_t used = display_width(heading_) + display_width(line);
+  if (used + 2 <= width)
+    line = heading_ + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
+  else if (display_width(line) > width)
+    line = count.size() + times.size() <= width ? count + times : count;
   fmt::print("\r\x1b[2K{}", line);
   std::fflush(stdout);
 }
@@ -89,6 +100,7 @@ void Progress::finish() {
   if (quiet_ || !terminal_) return;
   draw();
   fmt::print("\n");
+  drawn_ns_ = 0;
 }
 
 }  // namespace dmrp::host

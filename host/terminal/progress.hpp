@@ -11,6 +11,9 @@ class Progress {
  public:
   // `heading`: what is being run. Writes to standard output.
   Progress(std::string heading, std::uint64_t total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
   // One more trial is done. `note`: a line worth keeping, or "".
   void add(const std::string& note);
@@ -31,7 +34,7 @@ class Progress {
   bool quiet_;
   bool terminal_;
   std::int64_t start_ns_;
-  std::int64_t drawn_ns_ = 0;
+  std::int64_t drawn_ns_ = 0;  // 0: not, or it is finished
 };
 
 // Columns of the terminal behind standard output; 0 if it is none.
