@@ -69,7 +69,7 @@ Instance::Instance(const Library& library, const PluginUse& use, std::int32_t ro
   call("create", 0, create_budget_ns,
        [&] { return library.entry().create(&host_, id_.c_str(), &parameters.get(), &made); });
   if (!made.self || !made.start || !made.destroy || !table_is_whole(made.interface_, use.info.kind))
-    throw PluginFault(fault_kind::abi_breach, site("create", 0), "returned OK but left a needed function out");
+    throw PluginFault(fault_kind::abi_breach, site("create", 0), "returned OK but did not fill in all of dmrp_plugin");
   plugin_ = made;
 }
 

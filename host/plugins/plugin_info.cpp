@@ -2,6 +2,7 @@
 #include "host/plugins/plugin_info.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -45,9 +46,41 @@ double bound(const nlohmann::json& json, double none) {
   return json.is_null() ? none : json.get<double>();
 }
 
+// A default may be infinite or NaN all the same: a text then, as TOML writes it.
+nlohmann::json any_number(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+}
+double any_number(const nlohmann::json& json) {
+  return json.is_string() ? std::strtod(json.get<std::string>().c_str(), nullptr) : json.get<double>();
+}
+
+// Elements have the size that v1.0 gave them, or more.
+void check_stride(std::uint32_t count, std::uint32_t stride, std::size_t least, const char* what) {
+  if (count > 0 && stride < least)
+    throw std::runtime_error(std::string("has a descriptor with ") + what + " that are shorter than v1.0's");
+}
+
 }  // namespace
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParameterValue, key, type, integer, number, text, numbers, texts)
+void to_json(nlohmann::json& json, const ParameterValue& value) {
+  nlohmann::json numbers = nlohmann::json::array();
+  for (const double number : value.numbers) numbers.push_back(any_number(number));
+  json = {{"key", value.key},   {"type", value.type}, {"integer", value.integer}, {"number", any_number(value.number)},
+          {"text", value.text}, {"numbers", numbers}, {"texts", value.texts}};
+}
+
+void from_json(const nlohmann::json& json, ParameterValue& value) {
+  json.at("key").get_to(value.key);
+  json.at("type").get_to(value.type);
+  json.at("integer").get_to(value.integer);
+  value.number = any_number(json.at("number"));
+  json.at("text").get_to(value.text);
+  value.numbers.clear();
+  for (const nlohmann::json& number : json.at("numbers")) value.numbers.push_back(any_number(number));
+  json.at("texts").get_to(value.texts);
+}
+
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricValueSpec, name, unit, description, direction, subjects, wall_clock, curve)
 
 void to_json(nlohmann::json& json, const ParameterSpec& spec) {
@@ -135,10 +168,14 @@ PluginInfo copy_descriptor(const dmrp_descriptor& c) {
   out.source = text_of(c.source);
   out.needs = texts_of(c.requires_, c.requires_count);
   out.uses = texts_of(c.uses, c.uses_count);
+  check_stride(c.param_count, c.param_stride, sizeof(dmrp_param_spec), "parameters");
+  check_stride(c.value_count, c.value_stride, sizeof(dmrp_metric_value_spec), "values");
   for (std::uint32_t i = 0; i < c.param_count; ++i)
     out.parameters.push_back(copy_parameter(*DMRP_AT(dmrp_param_spec, c.params, c.param_stride, i)));
   for (std::uint32_t i = 0; i < c.value_count; ++i) {
     const auto& v = *DMRP_AT(dmrp_metric_value_spec, c.values, c.value_stride, i);
+    if (!(v.subjects & (1u << DMRP_SUBJECT_SYSTEM)))
+      throw std::runtime_error("'" + out.id + "' declares a value without the system among its subjects");
     out.values.push_back({text_of(v.name), text_of(v.unit), text_of(v.description), v.direction, v.subjects,
                           v.wall_clock != 0, v.curve != 0});
   }

@@ -31,16 +31,18 @@ struct ChildResult {
 
 ChildResult run_child(const std::filesystem::path& file) {
   std::array<int, 2> pipe_ends{};
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe for probing it");
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error(fmt::format("cannot be probed (pipe: {})", std::strerror(errno)));
   const std::string executable = executable_path().string();
   const std::string descriptor = std::to_string(pipe_ends[1]);
   const std::string path = file.string();
   const char* const arguments[] = {executable.c_str(), "probe", path.c_str(), descriptor.c_str(), nullptr};
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process for probing it");
+  if (child < 0) throw std::runtime_error(fmt::format("cannot be probed (fork: {})", std::strerror(errno)));
   if (child == 0) {
     fcntl(pipe_ends[1], F_SETFD, 0);
-    alarm(probe_limit_s);  // an initialiser that hangs ends by SIGALRM
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // what it prints shall not end up in our answer
+    alarm(probe_limit_s);                // an initialiser that hangs ends by SIGALRM
     execv(arguments[0], const_cast<char* const*>(arguments));
     _exit(127);
   }

@@ -19,7 +19,8 @@ class InstancePool {
   InstancePool(const InstancePool&) = delete;
   InstancePool& operator=(const InstancePool&) = delete;
 
-  // The instance for this use of a plugin, made when first asked for. `robot`: of a local controller, -1 otherwise.
+  // The instance for this use of a plugin, made when first asked for; `use` is known by its address and outlives the
+  // pool. `robot`: of a local controller, -1 otherwise. Throws PluginFault.
   Instance& get(const PluginUse& use, std::int32_t robot);
 
   // Forgets the instances of all uses: after an error, fresh ones are safer.

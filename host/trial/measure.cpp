@@ -7,23 +7,26 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
+#include <set>
+#include <stdexcept>
+#include <tuple>
 
 namespace dmrp::host {
 
 namespace {
 
+// Where a value belongs: the declared name, the subject, the coordinate.
+using Place = std::tuple<std::size_t, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>;
+
 struct Collected {
   const PluginInfo& info;
+  std::uint32_t robot_count;
   MetricResult result;
+  std::set<Place> given;
 };
 
 std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
-}
-
-bool equal_place(const MetricValue& a, const MetricValue& b) {
-  return a.metric == b.metric && a.subject_kind == b.subject_kind && a.subject == b.subject &&
-         a.coordinate == b.coordinate;
 }
 
 std::int32_t collect_value(dmrp_metric_sink* sink, const char* name, std::uint32_t subject_kind, std::uint64_t subject,
@@ -31,16 +34,14 @@ std::int32_t collect_value(dmrp_metric_sink* sink, const char* name, std::uint32
   auto& collected = *static_cast<Collected*>(sink->context);
   const auto& specs = collected.info.values;
   const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return name && s.name == name; });
-  if (spec == specs.end() || subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec->subjects & (1u << subject_kind)) ||
-      std::isinf(value) || std::isinf(coordinate))
+  if (spec == specs.end() || subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec->subjects & (1u << subject_kind)))
     return DMRP_ERROR;
-  MetricValue given = {spec->name, subject_kind,
-                       subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional<std::uint64_t>(subject),
-                       or_none(coordinate), or_none(value)};
-  auto& values = collected.result.values;
-  if (std::any_of(values.begin(), values.end(), [&](const MetricValue& v) { return equal_place(v, given); }))
-    return DMRP_ERROR;
-  values.push_back(std::move(given));
+  if (subject_kind == DMRP_SUBJECT_ROBOT && subject >= collected.robot_count) return DMRP_ERROR;
+  if (std::isinf(value) || std::isinf(coordinate) || (!spec->curve && !std::isnan(coordinate))) return DMRP_ERROR;
+  const auto whom = subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional<std::uint64_t>(subject);
+  const auto place = static_cast<std::size_t>(spec - specs.begin());
+  if (!collected.given.emplace(place, subject_kind, whom, or_none(coordinate)).second) return DMRP_ERROR;
+  collected.result.values.push_back({spec->name, subject_kind, whom, or_none(coordinate), or_none(value)});
   return DMRP_OK;
 }
 
@@ -48,6 +49,8 @@ std::int32_t collect_event(dmrp_metric_sink* sink, const char* name, std::int64_
                            const std::uint32_t* robots, std::uint32_t robot_count, const char* text) {
   auto& collected = *static_cast<Collected*>(sink->context);
   if (!name || to_ns < from_ns) return DMRP_ERROR;
+  if (std::any_of(robots, robots + robot_count, [&](std::uint32_t r) { return r >= collected.robot_count; }))
+    return DMRP_ERROR;
   collected.result.events.push_back(
       {name, from_ns, to_ns, std::vector<std::uint32_t>(robots, robots + robot_count), text ? text : ""});
   return DMRP_OK;
@@ -68,6 +71,7 @@ void check_complete(const Collected& collected, const CallSite& site) {
 
 MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInfo& info, std::uint32_t index,
                      std::uint64_t seed, std::int64_t call_budget_ns) {
+  if (!trace.end()) throw std::invalid_argument("the trace was cut short: it has no end");
   const auto table = metric.table<dmrp_metric>();
   metric.start(trace.world(), toolkit::Stream(seed, "metric", info.id).next_u64(), call_budget_ns);
 
@@ -79,7 +83,7 @@ MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInf
   while (const dmrp_sample* sample = trace.next_sample())
     metric.call("observe", step++, call_budget_ns, [&] { return table.observe(metric.self(), sample); });
 
-  Collected collected = {info, {index, {}, {}}};
+  Collected collected = {info, trace.world().robot_count, {index, {}, {}}, {}};
   dmrp_metric_sink sink = {sizeof(sink), 0, &collected, &collect_value, &collect_event};
   metric.call("finish", step, call_budget_ns, [&] { return table.finish(metric.self(), trace.end(), &sink); });
   check_complete(collected, metric.site("finish", step));

@@ -10,7 +10,9 @@
 
 namespace dmrp::host {
 
-// Rewinds the trace and measures it. Throws PluginFault; values that the metric gave before are lost.
+// Rewinds the trace, which outlives the call, and measures it; the metric is started on the trace's world. `info`
+// describes the metric, `index` goes into the result. Throws PluginFault; values that the metric gave before are lost.
+// Throws std::invalid_argument where the trace has no end.
 MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInfo& info, std::uint32_t index,
                      std::uint64_t seed, std::int64_t call_budget_ns);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/snap.hpp>
@@ -24,6 +25,7 @@ std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_
                           std::uint32_t count, std::uint32_t stride) {
   auto& collected = *static_cast<Collected*>(sink->context);
   if (robot >= collected.paths.size() || collected.given[robot]) return DMRP_ERROR;
+  if (stride < sizeof(dmrp_waypoint) || (count > 0 && !waypoints)) return DMRP_ERROR;
   collected.given[robot] = true;
   for (std::uint32_t i = 0; i < count; ++i)
     collected.paths[robot].push_back(*DMRP_AT(dmrp_waypoint, waypoints, stride, i));

@@ -44,11 +44,14 @@ class Plan {
   dmrp_plan c_{};
 };
 
-// Plans for the robots where they are now. A plan that breaks the contract is a PluginFault (bad_output).
+// Plans for the robots where they are now; `time_budget_ns` is wall time, `step` the physics steps since the start.
+// No plan (NO_SOLUTION, TIMEOUT, or robots that cannot be put on distinct cells) is a Plan that does not exist().
+// Throws PluginFault, of kind bad_output where the plan breaks the contract.
 Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
                std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step);
 
-// A robot's path as its controller gets it: where a goal lies off its cell's centre, the way to it is the last leg.
+// A robot's path (at least one waypoint) as its controller gets it: where its last goal lies off its cell's centre, the
+// way to it is one leg more, which takes `step_duration_ns`.
 std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, const dmrp_goal& goal,
                                          std::int64_t step_duration_ns);
 
