@@ -36,6 +36,13 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
 constexpr std::int64_t farewell_ns = 2 * second_ns;  // for plugins' deinit() when a run is over
 
+std::string for_shell(const std::string& word) {
+  if (word.find_first_of(" \t\"'\\$&;()<>|*?`~#!") == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 // A trial that is waited for: what is known of it so far, and which metrics need not be asked (again).
 struct OpenTrial {
   TrialRecord record;
@@ -218,8 +225,9 @@ class Supervisor {
   }
 
   void add_fault(OpenTrial& trial, FaultRecord fault) const {
-    fault.rerun = fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}", experiment_.file.string(),
-                              experiment_.trials, trial.record.id, settings_.trial_count, trial.record.id);
+    fault.rerun =
+        fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}", for_shell(experiment_.file.string()),
+                    experiment_.trials, trial.record.id, settings_.trial_count, trial.record.id);
     trial.record.faults.push_back(std::move(fault));
   }
 
