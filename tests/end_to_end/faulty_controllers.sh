@@ -7,6 +7,7 @@ begin_experiment faults local_controller
 use faults metric dmrp.metric.success
 use faults metric dmrp.metric.path_length
 use faults local_controller dmrp.controller.pure_pursuit
+echo 'label = "pursuit"' >>"$scratch/faults.toml"
 faults=(crash abort exit throw throw_number rounding unknown_status hang nan infinite error)
 $limited && faults+=(memory)
 for fault in "${faults[@]}"; do use faults local_controller test.controller.faulty "$fault"; done
@@ -19,8 +20,8 @@ run_with_faults faults 1
 # at 1 s, the fiftieth step of physics, in the controller of robot 1 (both planners' trials: two rows each)
 site='test.controller.faulty|step|50|1'
 expect() {
-  expect_fault faults "local_controller = '$1' AND global_planner LIKE 'Conflict%'" "$2" "$3"
-  expect_fault faults "local_controller = '$1' AND global_planner LIKE 'Individual%'" "$2" "$3"
+  expect_fault faults "local_controller = '$1' AND global_planner = 'together'" "$2" "$3"
+  expect_fault faults "local_controller = '$1' AND global_planner = 'each alone'" "$2" "$3"
 }
 expect crash "crash|$site|11" "Segmentation fault"
 expect abort "crash|$site|6" "Aborted"
@@ -50,20 +51,20 @@ begin_experiment alone local_controller
 use alone metric dmrp.metric.success
 use alone metric dmrp.metric.path_length
 use alone local_controller dmrp.controller.pure_pursuit
+echo 'label = "pursuit"' >>"$scratch/alone.toml"
 run_with_faults alone 0
 values() {
   query "$1" "SELECT global_planner, outcome, metric, subject_kind, subject, printf('%!.17g', value.value)
     FROM value JOIN trial ON trial.id = trial_id JOIN metric ON metric.name = metric
-    WHERE local_controller LIKE '%pursuit%' AND wall_clock = 0 ORDER BY 1, 3, 4, 5"
+    WHERE local_controller = 'pursuit' AND wall_clock = 0 ORDER BY 1, 3, 4, 5"
 }
 [[ -n $(values "$scratch/alone") ]] || fail "there should be values to compare"
 [[ $(values "$run") == "$(values "$scratch/alone")" ]] || fail "faults of one controller change another's values"
 
 # the command in the row runs that trial again
 rerun=$(query "$run" "SELECT rerun FROM fault JOIN trial ON trial.id = trial_id WHERE local_controller = 'crash'
-  AND global_planner LIKE 'Conflict%'")
+  AND global_planner = 'together'")
 cd "$scratch" || exit 1
-# shellcheck disable=SC2086
-expect_status 1 "$host" ${rerun#dmrp-host }
+expect_status 1 env PATH="$(dirname "$host"):$PATH" bash -c "$rerun"
 again=$(ls -d rerun-*)
 [[ $(query "$again" "SELECT count(*), kind, signal FROM fault") == "1|crash|11" ]] || fail "'$rerun' shows no crash"

@@ -7,6 +7,7 @@ begin_experiment faults global_planner local_controller
 use faults local_controller dmrp.controller.dwa
 use faults metric dmrp.metric.success
 use faults global_planner dmrp.planner.cbs
+echo 'label = "sound"' >>"$scratch/faults.toml"
 faults=(none no_solution timeout crash throw rounding conflict teleport wrong_start wrong_end beside_centre into_wall nan
   no_time path_twice missing_path)
 $limited && faults+=(memory)
@@ -32,7 +33,7 @@ if $limited; then expect memory out_of_memory "."; fi
 outcomes=$(query "$scratch/faults" "SELECT global_planner, outcome, (SELECT count(*) FROM fault WHERE trial_id = trial.id),
   (SELECT count(*) FROM value WHERE trial_id = trial.id AND metric = 'success' AND subject_kind = 'system'
   AND value = (outcome = 'succeeded')) FROM trial WHERE outcome <> 'fault' ORDER BY id")
-[[ $outcomes == "Conflict-based search|succeeded|0|1
+[[ $outcomes == "sound|succeeded|0|1
 none|succeeded|0|1
 no_solution|failed|0|1
 timeout|failed|0|1" ]] || fail "these are results, no faults: $outcomes"
