@@ -41,7 +41,7 @@ expect_mistake "misspelt key" 's/^trials /trails /' '' "$line.*'trails'.*did you
 expect_mistake "misspelt table" 's/global_planner/global_planer/' '' "$line.*'global_planer'.*did you mean 'global_planner'"
 expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"
 expect_mistake "missing key" '/^plugins/d' '' "$line.*plugins"
-expect_mistake "missing table" '/global_planner/d;/planner\./d' '' "$line.*global_planner"
+expect_mistake "missing table" '/^\[\[global_planner/,/^$/d' '' "$line.*global_planner"
 expect_mistake "wrong type" 's/^trials .*/trials = "three"/' '' "$line.*trials"
 expect_mistake "value out of range" 's/^trials .*/trials = 0/' '' "$line.*trials"
 expect_mistake "parameter out of range" '/pure_pursuit/aparams = { lookahead_time = -1.0 }' '' "$line.*lookahead_time"
