@@ -12,12 +12,17 @@
 namespace dmrp::host {
 
 #if defined(__x86_64__)
-constexpr std::uint32_t fp_control_mask = 0xffc0;  // all of MXCSR but the exception flags
+// The x87 control word (long double, fegetround()) above all of MXCSR but the exception flags.
+constexpr std::uint32_t fp_control_mask = 0xffc0;
 inline std::uint32_t fp_control() {
-  return _mm_getcsr() & fp_control_mask;
+  std::uint16_t x87;
+  __asm__ volatile("fnstcw %0" : "=m"(x87));
+  return static_cast<std::uint32_t>(x87) << 16 | (_mm_getcsr() & fp_control_mask);
 }
 inline void set_fp_control(std::uint32_t bits) {
-  _mm_setcsr((_mm_getcsr() & ~fp_control_mask) | bits);
+  const auto x87 = static_cast<std::uint16_t>(bits >> 16);
+  __asm__ volatile("fldcw %0" : : "m"(x87));
+  _mm_setcsr((_mm_getcsr() & ~fp_control_mask) | (bits & fp_control_mask));
 }
 #elif defined(__aarch64__)
 inline std::uint32_t fp_control() {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// The one way into a plugin function: what it lets through, what it makes a fault, what it notes for the watchdog.
+#include <catch2/catch.hpp>
+#include <cfenv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "host/plugins/call_guard.hpp"
+#include "host/trial/planning.hpp"
+
+using namespace dmrp::host;
+
+namespace {
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+struct Guarded {
+  CallNote note{};
+  CallGuard guard{note};
+
+  // The fault that a call of `function` becomes.
+  template <class Function>
+  PluginFault fault(Function&& function) {
+    try {
+      guard.call({"test.plugin", "step", 7, 3}, second_ns, function);
+    } catch (const PluginFault& fault) {
+      return fault;
+    }
+    throw std::runtime_error("no fault");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("statuses that leave the plugin usable come back with the time that the call took") {
+  Guarded guarded;
+  for (const std::int32_t status : {DMRP_OK, DMRP_WARNING, DMRP_NO_SOLUTION, DMRP_TIMEOUT}) {
+    const auto result = guarded.guard.call({"test.plugin", "plan", 0, -1}, second_ns, [&] { return status; });
+    CHECK(result.status == status);
+    CHECK(result.duration_ns >= 0);
+  }
+}
+
+TEST_CASE("statuses that end a trial are faults with the plugin's own words") {
+  Guarded guarded;
+  const auto says = [&](std::int32_t status) {
+    return guarded.fault([&guarded, status] { return guarded.guard.set_error("the tank is empty"), status; });
+  };
+  const PluginFault error = says(DMRP_ERROR);
+  CHECK(error.kind() == std::string(fault_kind::error_status));
+  CHECK(error.what() == std::string("the tank is empty"));
+  CHECK(error.plugin() == "test.plugin");
+  CHECK(error.function() == std::string("step"));
+  CHECK(error.step() == 7);
+  CHECK(error.robot() == 3);
+  CHECK_FALSE(error.fatal());
+
+  CHECK(says(DMRP_OUT_OF_MEMORY).kind() == std::string(fault_kind::out_of_memory));
+  CHECK(says(DMRP_FATAL).kind() == std::string(fault_kind::error_status));
+  CHECK(says(DMRP_FATAL).fatal());
+  CHECK(says(7).kind() == std::string(fault_kind::abi_breach));
+  CHECK(says(-1).kind() == std::string(fault_kind::abi_breach));
+
+  // the words of an earlier call are not this one's
+  CHECK(guarded.fault([] { return DMRP_ERROR; }).what() == std::string("returned DMRP_ERROR without a text"));
+}
+
+TEST_CASE("an exception ends at the guard") {
+  Guarded guarded;
+  const auto fault = guarded.fault([]() -> std::int32_t { throw 42; });
+  CHECK(fault.kind() == std::string(fault_kind::abi_breach));
+  CHECK(guarded.note.call_number.load() % 2 == 0);
+}
+
+TEST_CASE("changed floating-point control bits are a fault, and are put back") {
+  Guarded guarded;
+  const auto fault = guarded.fault([] { return std::fesetround(FE_UPWARD), DMRP_OK; });
+  CHECK(fault.kind() == std::string(fault_kind::abi_breach));
+  CHECK(std::fegetround() == FE_TONEAREST);
+
+  // flags that arithmetic raises are nobody's fault
+  CHECK_NOTHROW(guarded.guard.call({"test.plugin", "step", 0, 0}, second_ns,
+                                   [] { return std::feraiseexcept(FE_DIVBYZERO | FE_INEXACT), DMRP_OK; }));
+}
+
+TEST_CASE("should_stop says yes when the budget is used up, and that is remembered") {
+  Guarded guarded;
+  const CallSite site = {"test.plugin", "plan", 0, -1};
+  bool says = true;
+  guarded.guard.call(site, 3600 * second_ns, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  CHECK_FALSE(says);
+  CHECK_FALSE(guarded.guard.stopped());
+
+  guarded.guard.call(site, 0, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  CHECK(says);
+  guarded.guard.call(site, 3600 * second_ns, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  CHECK_FALSE(says);
+  CHECK(guarded.guard.stopped());
+  guarded.guard.reset_stopped();
+  CHECK_FALSE(guarded.guard.stopped());
+}
+
+TEST_CASE("the note says who is being called") {
+  Guarded guarded;
+  const std::string long_id(300, 'x');
+  guarded.guard.call({long_id, "step", 12, 5}, second_ns, [&] {
+    const CallNote& note = guarded.note;
+    CHECK(note.call_number.load() % 2 == 1);
+    CHECK(std::string(note.plugin.data()) == std::string(note.plugin.size() - 1, 'x'));
+    CHECK(std::string(note.function.data()) == "step");
+    CHECK(note.step.load() == 12);
+    CHECK(note.robot.load() == 5);
+    CHECK(note.start_ns.load() <= monotonic_ns());
+    CHECK(note.limit_ns.load() > second_ns);  // should_stop() speaks first
+    return DMRP_OK;
+  });
+  CHECK(guarded.note.call_number.load() == 2);
+}
+
+TEST_CASE("the path to drive ends where the goal is, not at its cell") {
+  const double any = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<dmrp_waypoint> planned = {{0.5, 0.5, any, 0, 0, 0}, {1.5, 0.5, any, 1800, 0, 0}};
+  dmrp_goal goal{};
+
+  SECTION("a goal on the cell's centre only gives the last waypoint its heading") {
+    goal.pose = {1.5, 0.5, 1.0};
+    const auto path = path_to_drive(planned, goal, 1800);
+    REQUIRE(path.size() == 2);
+    CHECK(path[1].theta == 1.0);
+    CHECK(std::isnan(path[0].theta));
+    CHECK(path[1].t_ns == 1800);
+  }
+  SECTION("a goal beside it is one leg more") {
+    goal.pose = {1.7, 0.4, any};
+    const auto path = path_to_drive(planned, goal, 1800);
+    REQUIRE(path.size() == 3);
+    CHECK(std::memcmp(path.data(), planned.data(), 2 * sizeof(dmrp_waypoint)) == 0);
+    CHECK(path[2].x == 1.7);
+    CHECK(path[2].y == 0.4);
+    CHECK(path[2].t_ns == 3600);
+    CHECK(path[2].goal_index == 0);
+  }
+}

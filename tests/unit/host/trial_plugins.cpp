@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Plugins that look closely at what the host gives them: whatever breaks the contract they answer with an error.
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/lidar.h>
+#include <dmrp/ext/local_costmap.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/plugin.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("broken: ") + what);
+}
+
+constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
+
+// Straight along x, a cell a step.
+class StraightPlanner final : public dmrp::GlobalPlanner {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.planner.straight", "Straight", "1.0.0").connectivity(DMRP_CONNECTIVITY_8);
+  }
+  dmrp::Param<std::string> does = param("does", "plan").doc("plan, half, nothing, timeout, late, wait or fatal");
+
+  dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
+    expect(problem.revision == 1 && problem.in_force.empty(), "the first plan");
+    if (*does == "fatal") return set_error("the library is lost"), dmrp::Status::fatal;
+    if (*does == "nothing") return dmrp::Status::no_solution;
+    if (*does == "timeout") return dmrp::Status::timeout;
+    while (*does == "wait" && !should_stop()) {
+    }
+    for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
+      if (*does == "half" && i > 0) break;
+      const dmrp::PlanningRobot& robot = problem.robots[i];
+      expect(robot.goal_count == 1 && robot.state == DMRP_ROBOT_ACTIVE, "a robot with one goal");
+      std::vector<dmrp::Waypoint> path;
+      std::int64_t t_ns = problem.effective_from_ns;
+      for (double x = robot.start.x; x <= robot.goals->pose.x + 1e-6; x += problem.grid.resolution_m) {
+        path.push_back({x, robot.start.y, any_heading, t_ns, 0, 0});
+        t_ns += problem.step_duration_ns;
+      }
+      sink.path(i, path);
+    }
+    sink.statistic("cost", 12.5);
+    return *does == "late" ? dmrp::Status::timeout : dmrp::Status::ok;
+  }
+};
+
+// Drives ahead to the end of its path, which lies at the same y.
+class CarefulController final : public dmrp::LocalController {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.controller.careful", "Careful", "1.0.0").uses(DMRP_EXT_LIDAR);
+  }
+  dmrp::Param<std::string> does = param("does", "drive").doc("drive, nothing or nan");
+
+  dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
+    expect(world->self >= 0 && world->self < static_cast<std::int32_t>(world->robot_count), "world.self");
+    expect(seed != 0, "a seed");
+    expect(extension<dmrp_annotate>(DMRP_EXT_ANNOTATE) == nullptr, "annotate is not offered");
+    expect(extension<void>("draft/unknown") == nullptr, "unknown extensions are NULL");
+    lidar_ = extension<dmrp_lidar>(DMRP_EXT_LIDAR);
+    costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
+    expect(lidar_ && costmap_, "extensions are offered");
+    path_.clear();
+    last_t_ns_ = -1;
+    progress_m_ = 0.0;
+    return dmrp::Status::ok;
+  }
+
+  void set_path(dmrp::Path path, std::uint64_t revision) override {
+    expect(revision == 1 && !path.empty() && last_t_ns_ < 0, "one path, before the first step");
+    path_.assign(path.begin(), path.end());
+    const dmrp::Robot& robot = world().robots()[static_cast<std::size_t>(world()->self)];
+    expect(path_.back().x == robot.goals->pose.x && path_.back().y == robot.goals->pose.y, "the path ends at the goal");
+  }
+
+  dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
+    expect(static_cast<std::int32_t>(now.robot) == world()->self, "observation.robot");
+    expect(now.t_ns == (last_t_ns_ < 0 ? 0 : last_t_ns_ + now.dt_ns), "one call a control period");
+    last_t_ns_ = now.t_ns;
+    expect(now.dt_ns == world()->control_period_ns, "dt");
+    expect(now.progress_m >= progress_m_, "progress never falls");
+    progress_m_ = now.progress_m;
+    expect(now.released_waypoint + 1 == path_.size(), "all of the path is released");
+    expect(now.progress_waypoint < path_.size(), "progress on the path");
+    for (const dmrp::Agent& agent : now.agents)
+      expect(agent.kind != DMRP_AGENT_ROBOT || agent.id != now.robot, "nobody sees itself");
+    const dmrp_scan& scan = *lidar_->scan(lidar_);
+    expect(scan.t_ns == now.t_ns && scan.count > 0, "a scan of now");
+    expect(costmap_->costmap(costmap_)->t_ns == now.t_ns, "a costmap of now");
+
+    if (*does == "nothing") return dmrp::Status::no_solution;
+    command.v_x = std::min(0.6, path_.back().x - now.pose.x);
+    if (*does == "nan" && now.t_ns > 0) command.omega = any_heading;
+    return dmrp::Status::ok;
+  }
+
+ private:
+  const dmrp_lidar* lidar_ = nullptr;
+  const dmrp_local_costmap* costmap_ = nullptr;
+  std::vector<dmrp::Waypoint> path_;
+  std::int64_t last_t_ns_ = -1;
+  double progress_m_ = 0.0;
+};
+
+// Tries what the sink of a metric takes and refuses. Written against C: the C++ layer would throw.
+class SinkMetric final : public dmrp::Metric {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.metric.sink", "Sink", "1.0.0")
+        .value("samples", "1", dmrp::Direction::none, dmrp::Subjects::system_and_robots, "how many")
+        .value("refused", "1", dmrp::Direction::none, dmrp::Subjects::system,
+               "how many values, of those that should be")
+        .value("curve", "1", dmrp::Direction::none, dmrp::Subjects::system, "squares")
+        .curve()
+        .value("undefined", "1", dmrp::Direction::none, dmrp::Subjects::system, "never there");
+  }
+  dmrp::Param<bool> silent = param("silent", false).doc("says nothing of `undefined`");
+
+  void begin(const dmrp_plan* plan) override {
+    samples_ = 0;
+    planned_ = plan != nullptr;
+  }
+  void observe(const dmrp::Sample& sample) override {
+    expect(sample.plan != nullptr && planned_, "samples have a plan");
+    expect(sample.dt_ns == (samples_ == 0 ? 0 : world()->step_ns), "dt");
+    expect(sample.t_ns == samples_ * world()->step_ns, "a sample a step");
+    ++samples_;
+  }
+  void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
+    sink.system("samples", static_cast<double>(samples_));
+    sink.robot("samples", 1, 1.0);
+    sink.curve("curve", 1.0, 1.0);
+    sink.curve("curve", 2.0, 4.0);
+    if (!silent) sink.system("undefined", dmrp::undefined);
+    sink.event("samples", 5, 5, {0, 1}, "both");
+
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    int refused = 0;
+    const auto refuses = [&](auto&& give) {
+      try {
+        give();
+      } catch (const std::logic_error&) {
+        ++refused;
+      }
+    };
+    refuses([&] { sink.system("samples", 3.0); });           // twice
+    refuses([&] { sink.robot("samples", 1, 2.0); });         // twice
+    refuses([&] { sink.curve("curve", 2.0, 5.0); });         // twice
+    refuses([&] { sink.system("undeclared", 1.0); });        //
+    refuses([&] { sink.robot("refused", 0, 1.0); });         // no such subject
+    refuses([&] { sink.robot("samples", 2, 1.0); });         // no such robot
+    refuses([&] { sink.pedestrian("samples", 0, 1.0); });    // no such subject
+    refuses([&] { sink.curve("samples", 1.0, 1.0); });       // no curve
+    refuses([&] { sink.curve("curve", 3.0, infinity); });    //
+    refuses([&] { sink.curve("curve", infinity, 3.0); });    //
+    refuses([&] { sink.event("samples", 6, 5, {}, ""); });   // ends before it begins
+    refuses([&] { sink.event("samples", 5, 6, {2}, ""); });  // no such robot
+    sink.system("refused", refused);
+  }
+
+ private:
+  std::int64_t samples_ = 0;
+  bool planned_ = false;
+};
+
+}  // namespace
+
+DMRP_PLUGINS(StraightPlanner, CarefulController, SinkMetric)
