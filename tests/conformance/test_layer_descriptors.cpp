@@ -133,7 +133,7 @@ TEST_CASE("the parameter table has every declaration, in order, with type, defau
   CHECK(list(spec("texts").fallback.texts, spec("texts").fallback.count) == std::vector<std::string>{"a", "b", "c"});
 }
 
-TEST_CASE("create() brings values of every type into the members; what it leaves out keeps its default") {
+TEST_CASE("create() brings values of every type into the members, what it leaves out keeps its default") {
   const double numbers[] = {4.0, 5.0, 6.0};
   const char* const texts[] = {"x"};
   std::vector<dmrp_param_value> given = {value("flag", DMRP_PARAM_BOOL),

@@ -61,7 +61,7 @@ TEST_CASE("The library describes its controllers") {
   CHECK(library.find(pure_pursuit)->requires_count == 0);
 }
 
-TEST_CASE("DWA cannot start without a costmap; pure pursuit drives without one") {
+TEST_CASE("DWA cannot start without a costmap, pure pursuit drives without one") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
   course.costmap = false;

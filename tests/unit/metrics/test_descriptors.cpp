@@ -134,7 +134,7 @@ TEST_CASE("in a trial with a plan only completion time can be undefined") {
   }
 }
 
-TEST_CASE("the paper's parameter set is the defaults; the released code's differs where it is known to") {
+TEST_CASE("the paper's parameter set is the defaults, the released code's differs where it is known to") {
   const auto paper = read_parameter_set("paper.toml");
   for (const char* id : {"dmrp.metric.sto", "dmrp.metric.ibtr", "dmrp.metric.ldf"}) {
     const dmrp_descriptor& descriptor = *PluginLibrary::load("libdmrp_metrics.so").find(id);

@@ -146,7 +146,7 @@ TEST_CASE("completion time is the last arrival") {
   CHECK(m.system("mission_time") == 45.3);
 }
 
-TEST_CASE("completion time is undefined unless all arrive; mission time never is") {
+TEST_CASE("completion time is undefined unless all arrive, mission time never is") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{3, 0}}}).sample(0.0, {at(0, 0), at(3, 0)});
   SECTION("one arrives") {

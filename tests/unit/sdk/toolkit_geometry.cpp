@@ -78,7 +78,7 @@ const std::vector<dmrp_vec2> unit_square = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, 
 
 }  // namespace
 
-TEST_CASE("wrap keeps the direction and gives (-pi, pi]", "[toolkit]") {
+TEST_CASE("wrap keeps the direction and gives more than -pi, at most pi", "[toolkit]") {
   CHECK(wrap(0.0) == 0.0);
   CHECK(wrap(pi) == pi);
   CHECK(wrap(-pi) == pi);

@@ -106,7 +106,7 @@ TEST_CASE("all integer types name the same stream", "[toolkit]") {
   CHECK(Stream(9, std::string("x"), 7L).next_u64() == first);
 }
 
-TEST_CASE("uniform numbers fill [0, 1) evenly", "[toolkit]") {
+TEST_CASE("uniform numbers fill 0 to 1 evenly", "[toolkit]") {
   Stream stream(3, "uniform");
   std::array<int, 20> bins = {};
   const Moments m = moments(200000, [&] {
