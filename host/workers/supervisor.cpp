@@ -73,6 +73,9 @@ class StopSignals {
     descriptor_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   }
   ~StopSignals() {
+    // those that were heeded shall not kill the process when they are let through again
+    for (signalfd_siginfo heeded; read(descriptor_, &heeded, sizeof(heeded)) > 0;) {
+    }
     close(descriptor_);
     sigprocmask(SIG_SETMASK, &before_, nullptr);
   }
