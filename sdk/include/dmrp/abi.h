@@ -12,8 +12,8 @@
 //   Elements grow like growable structs: the stride says which fields are there (DMRP_STRIDE_HAS).
 // - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size.
 // - Pointers in a struct that the host passes die when the call returns, except where the header says otherwise:
-//   dmrp_host lives until destroy() (or deinit() for the library's own), dmrp_world and extensions until the next
-//   start() or destroy().
+//   dmrp_host lives until destroy() (or deinit() for the library's own) returns, dmrp_world and extensions until the
+//   next start() or destroy() begins: neither may look at what is over.
 // - Every function carries a thread tag:
 //     [main]  on the main thread of its process, no other call into the library at the same time
 //     [step]  inside a trial: one call at a time for an instance; instances may run concurrently and may move

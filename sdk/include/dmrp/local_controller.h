@@ -24,7 +24,8 @@ typedef struct dmrp_local_controller {
 
   // A new path, or the same one continued after a replan. `revision` grows by one with each.
   // The waypoints live until the call returns: copy what you keep.
-  // Under dispatch = "waypoint" the path is a single waypoint.
+  // Under dispatch = "waypoint" the path is a single waypoint. It ends at the last goal itself, which may lie off the
+  // centre of its cell; observation.progress_*, released_waypoint count along it. Returns DMRP_OK or DMRP_ERROR.
   // [step]
   int32_t (*set_path)(dmrp_instance* self, const dmrp_path* path, uint64_t revision);
 

@@ -139,12 +139,15 @@ struct dmrp_metric_sink {
 
   // A value of one of the descriptor's names. `subject` is the robot's index or the person's id, ignored for the
   // system; `coordinate` is NaN where the value is no curve; `value` is NaN where it is undefined.
-  // Returns DMRP_OK, or DMRP_ERROR for an undeclared name or subject, an infinite value or one given twice.
+  // Returns DMRP_OK, or DMRP_ERROR for an undeclared name or subject, a robot that does not exist, a coordinate of what
+  // is no curve, an infinite number, or a value given twice.
   // [step]
   int32_t (*value)(dmrp_metric_sink* sink, const char* name, uint32_t subject_kind, uint64_t subject, double coordinate,
                    double value);
 
-  // Something that happened from `from_ns` to `to_ns`, for the time line. `robots` are indices.
+  // Something that happened from `from_ns` to `to_ns` (simulated time), for the time line. `name` is a declared value's
+  // or the metric's own word, `robots` are indices, `text` is for people.
+  // Returns DMRP_OK, or DMRP_ERROR for an end before the beginning or a robot that does not exist.
   // [step]
   int32_t (*event)(dmrp_metric_sink* sink, const char* name, int64_t from_ns, int64_t to_ns, const uint32_t* robots,
                    uint32_t robot_count, const char* text);
@@ -154,6 +157,7 @@ typedef struct dmrp_metric {
   uint32_t struct_size;
   uint32_t reserved;
 
+  // All three return DMRP_OK or DMRP_ERROR: the metric then has no values for this trial; the trial stands.
   // [step]
   int32_t (*begin)(dmrp_instance* self, const dmrp_metric_trial* trial);
 

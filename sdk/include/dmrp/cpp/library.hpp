@@ -61,8 +61,12 @@ class Library {
       auto& started = detail::from_instance<Plugin>(self);
       return PluginAccess::guarded(started, [&] { return PluginAccess::start(started, *world, seed); });
     };
-    out->get_extension = [](dmrp_instance* self, const char* extension) {
-      return detail::from_instance<Plugin>(self).offered_extension(extension);
+    out->get_extension = [](dmrp_instance* self, const char* extension) -> const void* {
+      try {
+        return detail::from_instance<Plugin>(self).offered_extension(extension);
+      } catch (...) {
+        return nullptr;
+      }
     };
     out->destroy = [](dmrp_instance* self) { delete &detail::from_instance<Plugin>(self); };
     out->self = detail::to_instance(plugin.release());

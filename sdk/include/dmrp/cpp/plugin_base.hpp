@@ -65,6 +65,8 @@ class World {
   const dmrp_world* c_ = nullptr;
 };
 
+// The host and the parameters' values are there from start() on: a constructor has neither. One more object of each
+// class is made to read its parameter table from, and never started.
 class Plugin {
  public:
   Plugin() = default;
