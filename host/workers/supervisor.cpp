@@ -289,7 +289,7 @@ class Supervisor {
     slot.worker.reset();
     if (slot.trial)
       conclude(slot, std::move(fault));
-    else if (!slot.ready && ++failed_starts_ >= start_attempts)
+    else if (!slot.ready && (fault.kind == fault_kind::hang || ++failed_starts_ >= start_attempts))
       throw std::runtime_error(fmt::format("worker processes fail as they start: {}{}; see {}",
                                            fault.plugin.empty() ? "" : fault.plugin + " " + fault.function + "(): ",
                                            fault.detail, (settings_.run_directory / "log.txt").string()));
