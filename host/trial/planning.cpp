@@ -163,16 +163,28 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
   return plan;
 }
 
-std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, const dmrp_goal& goal,
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
                                          std::int64_t step_duration_ns) {
-  std::vector<dmrp_waypoint> path = planned;
-  dmrp_waypoint& last = path.back();
-  if (std::hypot(last.x - goal.pose.x, last.y - goal.pose.y) > 1e-9) {
-    const dmrp_waypoint there = {
-        goal.pose.x, goal.pose.y, goal.pose.theta, last.t_ns + step_duration_ns, last.goal_index, 0};
-    path.push_back(there);
-  } else {
-    last.theta = goal.pose.theta;
+  std::vector<dmrp_waypoint> path;
+  std::int64_t later_ns = 0;  // what the legs so far add to the times planned
+  const auto add_leg = [&](dmrp_pose to, std::uint32_t goal_index) {
+    later_ns += step_duration_ns;
+    path.push_back({to.x, to.y, to.theta, path.back().t_ns + step_duration_ns, goal_index, 0});
+  };
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    path.push_back(planned[i]);
+    path.back().t_ns += later_ns;
+    const std::uint32_t heads_for = planned[i].goal_index;
+    const bool is_last = i + 1 == planned.size();
+    if (!is_last && planned[i + 1].goal_index == heads_for) continue;
+    // here the plan counts the goal as reached
+    const dmrp_pose& goal = goals[heads_for].pose;
+    if (std::hypot(planned[i].x - goal.x, planned[i].y - goal.y) > 1e-9) {
+      add_leg(goal, heads_for);
+      if (!is_last) add_leg({planned[i].x, planned[i].y, planned[i].theta}, planned[i + 1].goal_index);
+    } else {
+      path.back().theta = goal.theta;
+    }
   }
   return path;
 }

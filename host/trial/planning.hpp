@@ -6,6 +6,7 @@
 #include <dmrp/metric.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,10 @@ class Plan {
 Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
                std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step);
 
-// A robot's path (at least one waypoint) as its controller gets it: where its last goal lies off its cell's centre, the
-// way to it is one leg more, which takes `step_duration_ns`.
-std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, const dmrp_goal& goal,
+// A robot's path (at least one waypoint) as its controller gets it: where a goal lies off its cell's centre, the way
+// there is one leg more, and on a tour the way back to the centre another. Each takes `step_duration_ns`. `goals`: all of
+// the robot's, by index.
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
                                          std::int64_t step_duration_ns);
 
 }  // namespace dmrp::host
