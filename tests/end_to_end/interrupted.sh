@@ -8,7 +8,7 @@ run=$scratch/run
 "$host" "$here/crossing.toml" --quiet --jobs 2 --trials 100 --out "$run" >"$scratch/stdout" 2>"$scratch/stderr" &
 host_process=$!
 
-finished() { sqlite3 -batch "$run/results.sqlite" "SELECT count(*) FROM trial" 2>/dev/null || echo 0; }
+finished() { sqlite3 -batch -readonly "$run/results.sqlite" "SELECT count(*) FROM trial" 2>/dev/null || echo 0; }
 for ((i = 0; i < 600; ++i)); do
   (($(finished) >= 3)) && break
   sleep 0.05
