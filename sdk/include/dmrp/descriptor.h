@@ -33,7 +33,7 @@
 // Parts of the trace that a metric needs beside robots, plan and contacts: descriptor.channels.
 #define DMRP_CHANNEL_PEOPLE 1u  // positions and velocities of people
 #define DMRP_CHANNEL_CALLS 2u   // durations of plugin calls
-#define DMRP_CHANNEL_SCANS 4u   // lidar scans, where recorded
+#define DMRP_CHANNEL_SCANS 4u   // lidar scans; reserved: samples of v1.0 have none
 
 // One value that a metric gives. Array element.
 typedef struct dmrp_metric_value_spec {

@@ -9,9 +9,9 @@
 
 // A robot as the planner sees it. Array element.
 typedef struct dmrp_planning_robot {
-  uint32_t state;       // DMRP_ROBOT_*; a robot that is not active rests at `start`: its path is that one waypoint
-  uint32_t goal_count;  // goals that remain, >= 1 when active
-  const dmrp_goal* goals;
+  uint32_t state;          // DMRP_ROBOT_*; a robot that is not active rests at `start`: its path is that one waypoint
+  uint32_t goal_count;     // goals that remain, >= 1 when active
+  const dmrp_goal* goals;  // moved to the centres of their cells: paths visit and end there
   uint32_t goal_stride;
   uint32_t first_goal_index;  // index of goals[0] among all of the robot's goals
   const dmrp_robot* robot;    // kinematics, footprint, limits
@@ -54,7 +54,7 @@ struct dmrp_plan_sink {
                   uint32_t stride);
 
   // A named number about this call. Known to the host: "cost", "lower_bound", "high_level_expanded",
-  // "high_level_generated", "low_level_expanded"; others are recorded as they are.
+  // "high_level_generated", "low_level_expanded"; others are recorded as they are. Kept also where there is no plan.
   // [step]
   void (*statistic)(dmrp_plan_sink* sink, const char* name, double value);
 };

@@ -8,8 +8,9 @@
 #include "plugin.h"
 
 // What the controller asks of its robot for one control period, in the robot's frame.
-// The host clips it to the robot's limits and accelerations; clipping is recorded, and reported back only as
-// observation.applied in the next period. A value that is not finite is a fault (bad_output).
+// The host clips it to the robot's velocity limits, which shows only as observation.applied in the next period (and as
+// dmrp_robot_sample.command in the trace); the robot then follows it within its accelerations. A value that is not
+// finite is a fault (bad_output).
 typedef struct dmrp_command {
   uint32_t struct_size;
   uint32_t reserved;
@@ -24,14 +25,16 @@ typedef struct dmrp_local_controller {
 
   // A new path, or the same one continued after a replan. `revision` grows by one with each.
   // The waypoints live until the call returns: copy what you keep.
-  // Under dispatch = "waypoint" the path is a single waypoint. It ends at the last goal itself, which may lie off the
-  // centre of its cell; observation.progress_*, released_waypoint count along it. Returns DMRP_OK or DMRP_ERROR.
+  // The path leads to the goals themselves, which may lie off the centres of their cells; observation.progress_* and
+  // released_waypoint count along it. Under dispatch = "waypoint" it is a single waypoint.
+  // Returns DMRP_OK or DMRP_ERROR.
   // [step]
   int32_t (*set_path)(dmrp_instance* self, const dmrp_path* path, uint64_t revision);
 
   // Computes the next command. Returns
   //   DMRP_OK           command is valid
-  //   DMRP_NO_SOLUTION  nothing admissible was found; the host brakes within the limits. No fault
+  //   DMRP_NO_SOLUTION  nothing admissible was found; the host brakes within the limits. No fault, but a robot that gets
+  //                     no command for 5 s is given up (DMRP_FAILURE_CONTROLLER)
   //   DMRP_ERROR        the instance is unusable until the next start(); ends the trial as a fault
   // Must not block, allocate without bound, or read a clock.
   //

@@ -84,7 +84,7 @@ typedef struct dmrp_call {
 // The state after a physics step; the first sample is the state at t = 0. Dies when observe() returns.
 typedef struct dmrp_sample {
   uint32_t struct_size;
-  uint32_t control_tick;  // 1: a control tick falls on t_ns: controllers act on this state
+  uint32_t control_tick;  // 1: a control tick falls on t_ns: controllers act on this state, unless the trial ends here
   int64_t t_ns;
   int64_t dt_ns;          // since the last sample; 0 for the first
   const dmrp_plan* plan;  // in force; NULL if there is none. Lives until finish() returns
@@ -165,7 +165,8 @@ typedef struct dmrp_metric {
   // [step]
   int32_t (*observe)(dmrp_instance* self, const dmrp_sample* sample);
 
-  // Every declared name gets a value for the system (NaN where undefined), whatever happened in the trial.
+  // Every declared name gets a value for the system (NaN where undefined), whatever happened in the trial: a missing one
+  // is a fault (bad_output).
   // [step]
   int32_t (*finish)(dmrp_instance* self, const dmrp_trial_end* end, dmrp_metric_sink* sink);
 } dmrp_metric;

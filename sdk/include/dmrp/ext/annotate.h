@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 // ext/annotate.h: lets a plugin leave what it thought in the trace: predicted trajectories, candidates, notes.
-// An extension of the host for controllers, planners and pedestrian models. Never changes a result.
+// An extension of the host for controllers, planners and pedestrian models. Never changes a result. Always optional: a
+// host that keeps no annotations has NULL for it, as dmrp-host 0.1.
 #ifndef DMRP_EXT_ANNOTATE_H
 #define DMRP_EXT_ANNOTATE_H
 
