@@ -165,8 +165,8 @@ typedef struct dmrp_metric {
   // [step]
   int32_t (*observe)(dmrp_instance* self, const dmrp_sample* sample);
 
-  // Every declared name gets a value for the system (NaN where undefined), whatever happened in the trial: a missing one
-  // is a fault (bad_output).
+  // Every declared name gets a value for the system (NaN where undefined), whatever happened in the trial: one that is
+  // missing is a fault (bad_output).
   // [step]
   int32_t (*finish)(dmrp_instance* self, const dmrp_trial_end* end, dmrp_metric_sink* sink);
 } dmrp_metric;

@@ -48,7 +48,7 @@ constexpr double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
 }
 
-// dmrp_world with spans for arrays. Valid from start() until the next start() or the end of the object.
+// dmrp_world with spans for arrays. Valid from start() until the next start() or the destructor begins.
 class World {
  public:
   World() = default;
