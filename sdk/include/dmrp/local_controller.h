@@ -33,7 +33,7 @@ typedef struct dmrp_local_controller {
 
   // Computes the next command. Returns
   //   DMRP_OK           command is valid
-  //   DMRP_NO_SOLUTION  nothing admissible was found; the host brakes within the limits. No fault, but after 5 s without
+  //   DMRP_NO_SOLUTION  nothing admissible was found; the host brakes within the limits. No fault; after 5 s without
   //                     a command the robot is given up (DMRP_FAILURE_CONTROLLER)
   //   DMRP_ERROR        the instance is unusable until the next start(); ends the trial as a fault
   // Must not block, allocate without bound, or read a clock.
