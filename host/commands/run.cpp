@@ -105,11 +105,12 @@ class RunFiles {
   fs::path database() const { return directory() / "results.sqlite"; }
 
   // The tables for people, from all that the database has.
-  void write_tables(const ResultsDatabase& database) const {
+  void write_tables(const ResultsDatabase& database, const SummaryLayout& layout) const {
     const auto metrics = database.metrics();
     const auto trials = database.trials();
     write_file_atomically(directory() / "trials.csv", trials_csv(metrics, trials));
-    write_file_atomically(directory() / "summary.csv", summary_csv(metrics, summarise(metrics, trials)));
+    write_file_atomically(directory() / "summary.csv",
+                          summary_csv(metrics, summarise(metrics, trials, layout.counts_failures)));
   }
 
  private:
@@ -137,14 +138,14 @@ class RunFiles {
   RunDirectory directory_;
 };
 
-void print_results(const ResultsDatabase& database, const fs::path& directory, const Experiment& experiment) {
+void print_results(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory,
+                   const Experiment& experiment) {
   const auto metrics = database.metrics();
   const auto trials = database.trials();
-  const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0;
-  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials), style),
+  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), style),
              closing_line(layout, trials));
   std::vector<std::string> files = {"results.sqlite", "trials.csv", "summary.csv"};
   if (experiment.traces != RecordTraces::none) files.push_back("traces/");
@@ -158,6 +159,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   if (!options.quiet)
     for (const std::string& warning : experiment.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
+  const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   const RunFiles files(options, experiment, manifest_of(experiment, command_line));
   ResultsDatabase database = ResultsDatabase::open(files.database());
@@ -175,8 +177,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
       },
       [&] { progress.refresh(); });
   progress.finish();
-  files.write_tables(database);
-  if (!options.quiet) print_results(database, files.directory(), experiment);
+  files.write_tables(database, layout);
+  if (!options.quiet) print_results(database, layout, files.directory(), experiment);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
                files.directory().string());

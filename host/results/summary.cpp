@@ -13,16 +13,18 @@ CombinationLabels combination_of(const TrialRecord& trial) {
   return {trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model};
 }
 
-MetricSummary summarise_metric(const std::string& metric, const std::vector<const TrialRecord*>& trials) {
+MetricSummary summarise_metric(const std::string& metric, bool counts_failures,
+                               const std::vector<const TrialRecord*>& trials) {
   std::vector<double> values;
   std::vector<double> values_of_successful;
   std::map<std::uint64_t, std::vector<double>> by_seed;
   for (const TrialRecord* trial : trials) {
-    const std::optional<double> value = system_value(*trial, metric);
+    std::optional<double> value = system_value(*trial, metric);
+    if (!value && counts_failures && trial->outcome == trial_outcome::fault) value = 0.0;
     if (!value) continue;
     values.push_back(*value);
     by_seed[trial->seed].push_back(*value);
-    if (trial->outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
+    if (counts_failures || trial->outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
   }
   std::vector<std::vector<double>> clusters;
   for (auto& [seed, cluster] : by_seed) clusters.push_back(std::move(cluster));
@@ -39,7 +41,8 @@ MetricSummary summarise_metric(const std::string& metric, const std::vector<cons
 
 }  // namespace
 
-std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials) {
+std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
+                                          std::span<const std::string> counts_failures) {
   std::vector<CombinationSummary> summaries;
   std::vector<std::vector<const TrialRecord*>> trials_of;  // of each summary
   for (const TrialRecord& trial : trials) {
@@ -57,8 +60,11 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
     trials_of[index].push_back(&trial);
   }
   for (std::size_t i = 0; i < summaries.size(); ++i)
-    for (const MetricColumn& metric : metrics)
-      summaries[i].metrics.push_back(summarise_metric(metric.name, trials_of[i]));
+    for (const MetricColumn& metric : metrics) {
+      const bool counts =
+          std::find(counts_failures.begin(), counts_failures.end(), metric.name) != counts_failures.end();
+      summaries[i].metrics.push_back(summarise_metric(metric.name, counts, trials_of[i]));
+    }
   return summaries;
 }
 

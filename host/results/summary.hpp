@@ -30,7 +30,7 @@ struct MetricSummary {
   double sd = 0.0;  // between trials
   double median = 0.0;
   core::Interval interval{};  // 95 %, of the mean, over seeds
-  core::TrimmedMean paper{};  // of the trials that succeeded
+  core::TrimmedMean paper{};  // of the trials that succeeded; of all where failures count
 };
 
 struct CombinationSummary {
@@ -39,8 +39,10 @@ struct CombinationSummary {
   std::vector<MetricSummary> metrics;  // as in the list of metrics
 };
 
-// In the order in which the combinations first appear. Trials are ordered by id.
-std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
+// In the order in which the combinations first appear. Trials are ordered by id. `counts_failures`: the metrics that are
+// about failing itself (SummaryLayout).
+std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
+                                          std::span<const std::string> counts_failures);
 
 // summary.csv: a line for each combination and metric.
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries);

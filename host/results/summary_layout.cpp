@@ -42,6 +42,8 @@ SummaryLayout parse(std::string_view text) {
       layout.arrived = value.get<std::string>();
     else if (key == "contacts")
       layout.contacts = value.get<std::string>();
+    else if (key == "counts_failures")
+      layout.counts_failures = value.get<std::vector<std::string>>();
     else
       throw std::runtime_error("unknown key '" + key + "'");
   }

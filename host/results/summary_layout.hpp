@@ -21,6 +21,10 @@ struct SummaryLayout {
   std::vector<SummaryTableColumn> columns;
   std::string arrived;   // metric that is 1 for each robot that did its task; "" leaves it out of the closing line
   std::string contacts;  // metric whose system value counts contacts; likewise
+
+  // Metrics that are about failing itself: a trial that ended in a fault counts as 0 in them, and the paper's rule
+  // leaves no failed trial out of them.
+  std::vector<std::string> counts_failures;
 };
 
 // `name` is for messages. Throws std::runtime_error.

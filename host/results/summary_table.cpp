@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -82,6 +83,18 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   return rows;
 }
 
+// Whether a row may be the best of its group: only who arrived most is compared in how. (Who gives up early drives less.)
+std::vector<char> contenders(const std::optional<std::size_t>& arrived, const std::vector<Row>& rows) {
+  std::vector<char> contends(rows.size(), true);
+  if (!arrived) return contends;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const Row& other : rows)
+      if (other.group == rows[i].group &&
+          other.summary->metrics[*arrived].mean > rows[i].summary->metrics[*arrived].mean)
+        contends[i] = false;
+  return contends;
+}
+
 // Marks the best of the cells [begin, end), as they are shown; nothing where all are alike or only one has a value.
 void mark_best(std::vector<Cell>& cells, const std::vector<double>& shown, std::uint32_t direction, std::size_t begin,
                std::size_t end) {
@@ -97,7 +110,7 @@ void mark_best(std::vector<Cell>& cells, const std::vector<double>& shown, std::
 }
 
 Column make_column(const SummaryTableColumn& layout, std::span<const MetricColumn> metrics, std::size_t metric,
-                   const std::vector<Row>& rows) {
+                   const std::vector<Row>& rows, const std::vector<char>& contends) {
   Column column;
   const std::string& unit = metrics[metric].unit;
   column.header = unit.empty() || unit == "1" ? layout.header : layout.header + " " + unit;
@@ -112,6 +125,8 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
       cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
     column.cells.push_back(std::move(cell));
   }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!contends[i]) shown[i] = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t begin = 0; begin < rows.size();) {
     std::size_t end = begin + 1;
     while (end < rows.size() && rows[end].group == rows[begin].group) ++end;
@@ -181,11 +196,14 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
   std::size_t label_width = 0;
   for (const Row& row : rows) label_width = std::max(label_width, display_width(row.label) + (with_groups ? 2 : 0));
 
+  const std::optional<std::size_t> arrived = index_of(metrics, layout.arrived);
+  const std::vector<char> contends = contenders(arrived, rows);
+  const std::vector<char> everybody(rows.size(), true);
   std::vector<Column> columns;
   for (const SummaryTableColumn& column : layout.columns) {
     const std::optional<std::size_t> metric = index_of(metrics, column.metric);
     if (!metric) continue;
-    columns.push_back(make_column(column, metrics, *metric, rows));
+    columns.push_back(make_column(column, metrics, *metric, rows, metric == arrived ? everybody : contends));
     set_width(columns.back(), style);
   }
 

@@ -139,6 +139,7 @@ const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
     return pedestrian_table_.step(pedestrian_model_->self(), &crowd, velocities_.data());
   });
   note_call(DMRP_CALL_PEOPLE, 0, result);
+  if (result.status == DMRP_NO_SOLUTION) std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
   for (std::size_t i = 0; i < velocities_.size(); ++i)
     if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person))
       throw PluginFault(

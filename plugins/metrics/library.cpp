@@ -10,7 +10,8 @@
 #include "paper/pfd.hpp"
 #include "paper/sto.hpp"
 #include "safety/collisions.hpp"
+#include "social/people_nearby.hpp"
 
 DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::PlanningTime,
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Collisions, dmrp::metrics::Sto,
-             dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd)
+             dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd, dmrp::metrics::PeopleNearby)

@@ -37,7 +37,7 @@ Descriptor PathLength::describe() {
       .summary("length driven, length planned, turns planned")
       .source("Hu et al., DMRP-Bench, ICRA 2026: total path length")
       .value("path_length", "m", Direction::lower_is_better, Subjects::system_and_robots,
-             "length driven: sum of |dp| over all samples; system: sum over robots")
+             "length driven: sum of |dp| over all samples; system: sum over robots; undefined if planning failed")
       .value("planned_length", "m", Direction::lower_is_better, Subjects::system_and_robots,
              "length of the first plan; system: sum over robots; undefined if planning failed")
       .value("plan_turns", "1", Direction::lower_is_better, Subjects::system_and_robots,
@@ -65,9 +65,9 @@ void PathLength::finish(const TrialEnd&, MetricSink& sink) {
   CompensatedSum driven_m, planned_m;
   double turns = 0.0;
   for (std::size_t robot = 0; robot < driven_m_.size(); ++robot) {
+    if (!first_plan_) continue;
     sink.robot("path_length", robot, driven_m_[robot].value());
     driven_m.add(driven_m_[robot].value());
-    if (!first_plan_) continue;
     const Path path = Plan(*first_plan_).path(robot);
     const double length_m = toolkit::length(path);
     const double turns_of_robot = count_turns(path);
@@ -76,7 +76,7 @@ void PathLength::finish(const TrialEnd&, MetricSink& sink) {
     planned_m.add(length_m);
     turns += turns_of_robot;
   }
-  sink.system("path_length", driven_m.value());
+  sink.system("path_length", first_plan_ ? driven_m.value() : undefined);
   sink.system("planned_length", first_plan_ ? planned_m.value() : undefined);
   sink.system("plan_turns", first_plan_ ? turns : undefined);
 }

@@ -6,6 +6,26 @@
 #include "../measure/sums.hpp"
 
 namespace dmrp::metrics {
+namespace {
+
+const char* reason(std::uint32_t failure) {
+  switch (failure) {
+    case DMRP_FAILURE_TIMEOUT:
+      return "time limit";
+    case DMRP_FAILURE_OSCILLATION:
+      return "oscillation";
+    case DMRP_FAILURE_DEADLOCK:
+      return "deadlock";
+    case DMRP_FAILURE_CONTROLLER:
+      return "no command from its controller";
+    case DMRP_FAILURE_NO_PLAN:
+      return "no plan";
+    default:
+      return "unknown reason";
+  }
+}
+
+}  // namespace
 
 Descriptor Success::describe() {
   return describe_metric("dmrp.metric.success", "Success")
@@ -41,6 +61,9 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
     safe_success.push_back(succeeded && !at_fault_[robot] ? 1.0 : 0.0);
     sink.robot("success", robot, success.back());
     sink.robot("safe_success", robot, safe_success.back());
+    if (!succeeded)
+      sink.event("success", end.t_ns, end.t_ns, {static_cast<std::uint32_t>(robot)},
+                 "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure));
   }
   sink.system("success", mean_of_defined(success));
   sink.system("trial_success", all ? 1.0 : 0.0);

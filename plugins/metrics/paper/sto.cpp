@@ -69,12 +69,15 @@ Descriptor Sto::describe() {
       .value("sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
              "distance_m of some other's waypoint within window steps; system: mean over robots; undefined if planning "
-             "failed");
+             "failed")
+      .value("sto_cell_size", "m", Direction::none, Subjects::system,
+             "c, the cells that the plan was made on, without which sto says little; undefined if planning failed");
 }
 
 void Sto::finish(const TrialEnd&, MetricSink& sink) {
   if (!first_plan_ || first_plan_->path_count == 0) {
     sink.system("sto", undefined);
+    sink.system("sto_cell_size", undefined);
     return;
   }
   const std::vector<Steps> all = resample_all(Plan(*first_plan_));
@@ -91,6 +94,7 @@ void Sto::finish(const TrialEnd&, MetricSink& sink) {
     sink.robot("sto", robot, shares.back());
   }
   sink.system("sto", mean_of_defined(shares));
+  sink.system("sto_cell_size", world().planning_grid().resolution_m);
 }
 
 }  // namespace dmrp::metrics

@@ -31,13 +31,13 @@ SummaryLayout example_layout() {
 
 std::string table_of(const std::vector<TrialRecord>& trials, const TableStyle& style = {}) {
   const auto metrics = example_metrics();
-  return summary_table(example_layout(), metrics, summarise(metrics, trials), style);
+  return summary_table(example_layout(), metrics, summarise(metrics, trials, {}), style);
 }
 
 const std::vector<TrialRecord>& two_planners() {
   static const std::vector<TrialRecord> trials{
       example_trial(0, "CBS", 0, 40.0, 0.5), example_trial(1, "CBS", 1, 43.5, 0.52),
-      example_trial(2, "A*", 0, 50.0, 0.6), example_trial(3, "A*", 1, std::nullopt, 0.61)};
+      example_trial(2, "A*", 0, 50.0, 0.6), example_trial(3, "A*", 1, 52.0, 0.61)};
   return trials;
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("trials are summed up by combination", "[results]") {
                                   example_trial(2, "A", 1, 44.0, 0.5), example_trial(3, "A", 2, std::nullopt, 0.5),
                                   example_trial(4, "A", 3, 40.0, 0.5), example_trial(5, "A", 4, 40.0, 0.5)};
   trials.back().outcome = trial_outcome::skipped;
-  const auto summaries = summarise(example_metrics(), trials);
+  const auto summaries = summarise(example_metrics(), trials, {});
   REQUIRE(summaries.size() == 2);
   CHECK(summaries[0].combination.global_planner == "A");
   CHECK(summaries[0].trials == 4);
@@ -74,10 +74,24 @@ TEST_CASE("trials are summed up by combination", "[results]") {
   CHECK(std::isnan(summaries[1].metrics[1].sd));
 }
 
+TEST_CASE("failing counts where a metric is about failing", "[results]") {
+  std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, std::nullopt, 0.5),
+                                  example_trial(2, "A", 2, 44.0, 0.5)};
+  trials.back().outcome = trial_outcome::fault;
+  trials.back().values.clear();  // a trial that ended in a fault has none
+  const std::vector<std::string> about_failing{"done"};
+  const auto summaries = summarise(example_metrics(), trials, about_failing);
+  const MetricSummary& done = summaries[0].metrics[0];  // 1, 0.5, 0
+  CHECK(done.defined == 3);
+  CHECK(done.mean == 0.5);
+  CHECK(done.paper.count == 3);
+  CHECK(summaries[0].metrics[1].defined == 1);  // time: only the first has one
+}
+
 TEST_CASE("summary.csv has a line for each combination and metric", "[results]") {
   const std::vector<MetricColumn> metrics{example_metrics()[1], example_metrics()[5]};
   const std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, 40.0, 0.5)};
-  CHECK(summary_csv(metrics, summarise(metrics, trials)) ==
+  CHECK(summary_csv(metrics, summarise(metrics, trials, {})) ==
         "scenario,robots,global_planner,local_controller,pedestrian_model,metric,unit,n,n_defined,mean,sd,median,"
         "ci_low,ci_high,paper_mean,paper_n,paper_trimmed_all_nonzero\n"
         "mall,2,A,DWA,crowd,time,s,2,2,40,0,40,40,40,40,2,0\n"
@@ -94,12 +108,12 @@ TEST_CASE("the best of several is marked", "[results]") {
   SECTION("by an asterisk") {
     CHECK(table_of(two_planners()) ==
           "              success   time s     speed m/s   plan ms\n"
-          "  CBS + DWA     1.00*    41.8*   0.51 ±0.17          –\n"
-          "  A* + DWA      0.75     50.0    0.60 ±0.17*         –\n");
+          "  CBS + DWA      1.00    41.8*   0.51 ±0.17          –\n"
+          "  A* + DWA       1.00    51.0    0.60 ±0.17*         –\n");
   }
   SECTION("in bold on a terminal") {
     const std::string table = table_of(two_planners(), {0, true});
-    CHECK(table.find("\x1b[1m   1.00\x1b[0m") != std::string::npos);
+    CHECK(table.find("\x1b[1m  41.8\x1b[0m") != std::string::npos);
     CHECK(table.find("\x1b[1m0.60 ±0.17\x1b[0m") != std::string::npos);
     CHECK(table.find('*') == table.find("A*") + 1);
   }
@@ -112,6 +126,7 @@ TEST_CASE("the best of several is marked", "[results]") {
 
 TEST_CASE("only what is comparable is compared", "[results]") {
   std::vector<TrialRecord> trials = two_planners();
+  trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
   trials[1].scenario = trials[3].scenario = "office";
   trials[1].robots = trials[3].robots = 1;
   CHECK(table_of(trials) ==
@@ -121,7 +136,7 @@ TEST_CASE("only what is comparable is compared", "[results]") {
         "    A* + DWA      1.00     50.0    0.60 ±0.17*         –\n"
         "  office · 1 robot\n"
         "    CBS + DWA     1.00*    43.5    0.52 ±0.17          –\n"
-        "    A* + DWA      0.50        –    0.61 ±0.17*         –\n");
+        "    A* + DWA      0.50        –    0.61 ±0.17          –\n");
 }
 
 TEST_CASE("a table that is too wide goes on below", "[results]") {
@@ -141,6 +156,7 @@ TEST_CASE("no trials, no table", "[results]") {
 TEST_CASE("the closing line counts", "[results]") {
   const SummaryLayout layout = example_layout();
   std::vector<TrialRecord> trials = two_planners();
+  trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
   CHECK(closing_line(layout, trials) == "7 of 8 robots arrived · 0 contacts · 0 faults · repeatable");
 
   trials[0].repeatable = false;

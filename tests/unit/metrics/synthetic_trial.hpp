@@ -130,6 +130,15 @@ class SyntheticTrial {
     return *this;
   }
 
+  SyntheticTrial& people_at(const std::vector<dmrp_vec2>& positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      samples_.back().people.push_back({});
+      samples_.back().people.back().element.id = i;
+      samples_.back().people.back().element.position = positions[i];
+    }
+    return *this;
+  }
+
   // Times of arrival, `never` for a robot that did not; all, where none is given.
   SyntheticTrial& end(double t_s, const std::vector<double>& arrivals_s = {}) {
     end_ns_ = nanoseconds(t_s);
@@ -158,6 +167,7 @@ class SyntheticTrial {
     world.shapes = shapes_.data();
     world.shape_count = static_cast<std::uint32_t>(shapes_.size());
     world.shape_stride = sizeof(dmrp_shape);
+    world.planning_grid = &planning_grid_;
     world.self = -1;
     return world;
   }
@@ -194,6 +204,7 @@ class SyntheticTrial {
   }
 
  private:
+  static constexpr dmrp_grid planning_grid_ = {sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr};
   struct StoredPlan {
     dmrp_plan c{};
     std::deque<std::vector<Longer<dmrp_waypoint>>> waypoints;

@@ -31,6 +31,29 @@ TEST_CASE("success is the share of robots that arrived and were not failed") {
   CHECK(m.system("success") == 0.5);  // 2 of 4
   CHECK(m.system("trial_success") == 0.0);
   CHECK(m.system("safe_success") == 0.5);
+
+  // the time line says why the others failed
+  REQUIRE(m.events.size() == 2);
+  CHECK(m.events[0].text == "robot 1 failed: time limit");
+  CHECK(m.events[0].robots == std::vector<std::uint32_t>{1});
+  CHECK(m.events[0].from_s == 10.0);
+  CHECK(m.events[1].text == "robot 2 failed: oscillation");
+}
+
+TEST_CASE("people nearby are counted around active robots, by time") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{20, 0}}});
+  trial.sample(0.0, {at(0, 0), at(20, 0)}).people_at({{3, 4}, {0, 5.1}});  // stands for no time
+  trial.sample(1.0, {at(0, 0), at(20, 0)})
+      .people_at({{3, 4}, {0, 5.1}});  // 1 s: robot 0 has one (at 5 m), robot 1 none
+  trial.sample(4.0, {at(0, 0), at(20, 0, 0.0, parked)}).people_at({{3, 4}, {0, 4.9}, {20, 1}});  // 3 s: two, and one
+  trial.sample(5.0, {at(0, 0), at(20, 0, 0.0, parked)}).people_at({{20, 1}, {20, 2}});  // 1 s: none; robot 1 is parked
+  trial.end(5.0, {never, 4.0});
+
+  const Measurement m = measure("dmrp.metric.people_nearby", trial);
+  CHECK(m.robot("people_nearby", 0) == Approx(1.4));   // (1 * 1 + 3 * 2 + 1 * 0) / 5
+  CHECK(m.robot("people_nearby", 1) == Approx(0.75));  // (1 * 0 + 3 * 1) / 4
+  CHECK(m.system("people_nearby") == Approx(1.075));
 }
 
 TEST_CASE("nobody arrives: success is 0, not undefined") {
