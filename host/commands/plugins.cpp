@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
+#include "host/experiment/toml_text.hpp"
 #include "host/input_error.hpp"
 #include "host/plugins/library.hpp"
 
@@ -15,35 +16,6 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> libraries_of_path() {
-  std::vector<fs::path> out;
-  for (const fs::path& folder : plugin_path()) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".so") out.push_back(fs::canonical(entry.path()));
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-std::string text_of(const ParameterValue& value) {
-  switch (value.type) {
-    case DMRP_PARAM_BOOL:
-      return value.integer ? "true" : "false";
-    case DMRP_PARAM_INT:
-      return fmt::format("{}", value.integer);
-    case DMRP_PARAM_DOUBLE:
-      return fmt::format("{}", value.number);
-    case DMRP_PARAM_DOUBLE_ARRAY:
-      return fmt::format("[{}]", fmt::join(value.numbers, ", "));
-    case DMRP_PARAM_STRING_ARRAY:
-      return fmt::format("[{}]", fmt::join(value.texts, ", "));
-    default:
-      return '"' + value.text + '"';
-  }
-}
 
 std::string range_of(const ParameterSpec& spec) {
   if (!spec.choices.empty()) return fmt::format("one of {}", fmt::join(spec.choices, ", "));
@@ -68,7 +40,7 @@ void print_plugin(const PluginInfo& info) {
   for (const ParameterSpec& spec : info.parameters) {
     const std::string range = range_of(spec);
     fmt::print("      {:<{}}  {} = {}{}{}  {}\n", spec.fallback.key, key_width, parameter_type_name(spec.fallback.type),
-               text_of(spec.fallback), spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit,
+               toml_text(spec.fallback), spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit,
                range.empty() ? "" : " [" + range + "]", spec.doc);
   }
 }
@@ -81,7 +53,7 @@ int plugins_command(const std::vector<std::string>& named, bool json) {
     files.push_back(find_library(name, fs::current_path()));
     if (files.back().empty()) throw InputError(name + ": there is no such library");
   }
-  if (named.empty()) files = libraries_of_path();
+  if (named.empty()) files = libraries_of_plugin_path();
 
   nlohmann::json all = nlohmann::json::array();
   for (const fs::path& file : files) {

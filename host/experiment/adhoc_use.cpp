@@ -24,13 +24,7 @@ std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named)
     files.push_back(find_library(name, fs::current_path()));
     if (files.back().empty()) throw InputError(name + ": there is no such library");
   }
-  std::vector<fs::path> of_path;
-  for (const fs::path& folder : plugin_path()) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".so") of_path.push_back(fs::canonical(entry.path()));
-  }
-  std::sort(of_path.begin(), of_path.end());
+  const std::vector<fs::path> of_path = libraries_of_plugin_path();
   files.insert(files.end(), of_path.begin(), of_path.end());
   return files;
 }

@@ -42,6 +42,9 @@ std::filesystem::path find_library(const std::string& name, const std::filesyste
 // The folders that bare names are searched in.
 std::vector<std::filesystem::path> plugin_path();
 
+// All libraries (.so) in them, sorted, each once.
+std::vector<std::filesystem::path> libraries_of_plugin_path();
+
 // What a library says of itself, found out by a child process that loads it. Throws std::runtime_error in one line.
 struct Probe {
   std::vector<PluginInfo> plugins;

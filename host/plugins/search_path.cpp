@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdlib>
 
 #include "host/executable.hpp"
@@ -10,6 +11,19 @@ std::vector<std::filesystem::path> plugin_path() {
   std::vector<std::filesystem::path> folders = folders_of_variable("DMRP_PLUGIN_PATH");
   folders.push_back(executable_path().parent_path() / "../lib/dmrp/plugins");
   return folders;
+}
+
+std::vector<std::filesystem::path> libraries_of_plugin_path() {
+  std::vector<std::filesystem::path> out;
+  for (const std::filesystem::path& folder : plugin_path()) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".so" && entry.is_regular_file(ignored))
+        out.push_back(std::filesystem::canonical(entry.path()));
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 std::filesystem::path find_library(const std::string& name, const std::filesystem::path& base) {
