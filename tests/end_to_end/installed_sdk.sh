@@ -16,8 +16,10 @@ for file in include/dmrp/dmrp.h include/dmrp/plugin.hpp include/dmrp/toolkit/ang
   share/dmrp/layouts/summary.json share/dmrp/scenarios/mall/scenario.toml; do
   [[ -f $prefix/$file ]] || fail "$file is not installed"
 done
-! grep -rqF -e "$source_dir" -e "$build_dir" -e "$scratch/installed" "$prefix/include" "$prefix/lib/cmake" ||
-  fail "the package knows where it was made: $(grep -rF -e "$source_dir" -e "$build_dir" "$prefix/lib/cmake")"
+# whole folders of theirs: a source tree at /dmrp is no prefix of ${CMAKE_CURRENT_LIST_DIR}/dmrpTargets
+made_here=(-e "$source_dir/sdk" -e "$build_dir/" -e "$scratch/installed")
+! grep -rqF "${made_here[@]}" "$prefix/include" "$prefix/lib/cmake" ||
+  fail "the package knows where it was made: $(grep -rF "${made_here[@]}" "$prefix/include" "$prefix/lib/cmake")"
 
 # build FOLDER: as its README says, knowing nothing but the prefix
 build() {
