@@ -63,7 +63,8 @@ int plugins_command(const std::vector<std::string>& named, bool json) {
     } catch (const std::runtime_error& error) {
       throw InputError(file.string() + ": " + error.what());
     }
-    if (!probe.warning.empty()) fmt::print(stderr, "warning: {}: {}\n", file.string(), probe.warning);
+    for (const std::string& warning : {probe.warning, probe.init_error})
+      if (!warning.empty()) fmt::print(stderr, "warning: {}: {}\n", file.string(), warning);
     if (json) {
       all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
       continue;

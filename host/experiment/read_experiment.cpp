@@ -104,6 +104,7 @@ class Reader {
     } catch (const std::exception& error) {
       value.fail(fmt::format("{}: {}", name, error.what()));
     }
+    if (!probe.init_error.empty()) value.fail(fmt::format("{}: {}", name, probe.init_error));
     if (!probe.warning.empty())
       experiment_.warnings.push_back(document_.place(value.position()) + ": " + name + ": " + probe.warning);
     experiment_.libraries.push_back({name, file, probe.plugins});

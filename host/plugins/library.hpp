@@ -48,7 +48,8 @@ std::vector<std::filesystem::path> libraries_of_plugin_path();
 // What a library says of itself, found out by a child process that loads it. Throws std::runtime_error in one line.
 struct Probe {
   std::vector<PluginInfo> plugins;
-  std::string warning;
+  std::string warning{};
+  std::string init_error{};  // why init() failed, in one line; empty if it did not
 };
 Probe probe_library(const std::filesystem::path& file);
 

@@ -16,6 +16,7 @@
 
 #include "host/executable.hpp"
 #include "host/plugins/library.hpp"
+#include "host/version.hpp"
 
 namespace dmrp::host {
 
@@ -62,6 +63,25 @@ ChildResult run_child(const std::filesystem::path& file) {
   return result;
 }
 
+// Why the library cannot work here, "" if it can: better told before a run begins than by its first worker.
+std::string try_init(const dmrp_entry& entry) {
+  std::string error;
+  dmrp_host host{};
+  host.struct_size = sizeof(host);
+  host.context = &error;
+  host.name = "dmrp-host";
+  host.version = version;
+  host.log = [](const dmrp_host*, std::int32_t, const char*) {};
+  host.set_error = [](const dmrp_host* self, const char* text) {
+    *static_cast<std::string*>(self->context) = text ? text : "";
+  };
+  host.should_stop = [](const dmrp_host*) -> std::int32_t { return 0; };
+  host.get_extension = [](const dmrp_host*, const char*) -> const void* { return nullptr; };
+  const std::int32_t status = entry.init(&host);
+  if (status == DMRP_OK || status == DMRP_WARNING) return entry.deinit(), "";
+  return error.empty() ? fmt::format("its init() returned status {}", status) : "its init() failed: " + error;
+}
+
 }  // namespace
 
 Probe probe_library(const std::filesystem::path& file) {
@@ -75,14 +95,16 @@ Probe probe_library(const std::filesystem::path& file) {
   const auto json = nlohmann::json::parse(child.output, nullptr, false);
   if (json.is_discarded()) throw std::runtime_error("ends the process while it is loaded");
   if (json.contains("error")) throw std::runtime_error(json.at("error").get<std::string>());
-  return {json.at("plugins").get<std::vector<PluginInfo>>(), json.at("warning").get<std::string>()};
+  return {json.at("plugins").get<std::vector<PluginInfo>>(), json.at("warning").get<std::string>(),
+          json.at("init_error").get<std::string>()};
 }
 
 int run_probe(const std::filesystem::path& file, int descriptor) {
   nlohmann::json answer;
   try {
     const Library library(file);
-    answer = {{"plugins", library.plugins()}, {"warning", library.warning()}};
+    answer = {
+        {"plugins", library.plugins()}, {"warning", library.warning()}, {"init_error", try_init(library.entry())}};
   } catch (const std::exception& error) {
     answer = {{"error", error.what()}};
   }

@@ -155,7 +155,7 @@ class Worker {
 // Descriptors without a probe: the supervisor's probe has survived these libraries.
 Probe read_descriptors(const std::filesystem::path& file) {
   const Library library(file);
-  return {library.plugins(), library.warning()};
+  return {library.plugins(), library.warning(), ""};
 }
 
 }  // namespace

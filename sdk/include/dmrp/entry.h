@@ -11,7 +11,8 @@ typedef struct dmrp_entry {
   uint32_t min_host_minor;  // the host must have at least this; refused otherwise, with both versions printed
   uint32_t abi_draft;       // must equal the host's until v1 is frozen
 
-  // Called once after loading, before create(). `host` lives until deinit(). Returns DMRP_OK or DMRP_FATAL.
+  // Called once after loading, before create(). `host` lives until deinit(). Returns DMRP_OK or DMRP_FATAL. A host may
+  // try it in a process of its own first, init() and deinit() alone, to tell of a failure before a run begins.
   // [main]
   int32_t (*init)(const dmrp_host* host);
 

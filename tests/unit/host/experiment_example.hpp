@@ -136,12 +136,13 @@ inline std::vector<host::PluginInfo> fake_plugins() {
   return {planner, controller, blind, model, metric, other};
 }
 
-// libfake.so has the plugins above; libtwin.so one of them too; libbad.so does not load; others have none.
+// libfake.so has the plugins above; libtwin.so one of them too; libbad.so does not load, libsick.so not start; others have none.
 inline host::Probe fake_probe(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   if (name == "libbad.so") throw std::runtime_error("not a dmrp v1 plugin");
   if (name == "libfake.so") return {fake_plugins(), ""};
   if (name == "libtwin.so") return {{plugin("test.model", DMRP_KIND_PEDESTRIAN_MODEL, "Model")}, ""};
+  if (name == "libsick.so") return {fake_plugins(), "", "its init() failed: no licence"};
   if (name == "librival.so") {
     host::PluginInfo metric = plugin("rival.length", DMRP_KIND_METRIC, "Length");
     metric.values = {{"length", "m", "", DMRP_DIRECTION_LOWER, 1, false, false}};
@@ -163,7 +164,8 @@ class ExperimentFolder {
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     path_ = std::filesystem::canonical(name);
     std::filesystem::current_path(path_);
-    for (const char* library : {"libfake.so", "libtwin.so", "libbad.so", "librival.so"}) write_file(library, library);
+    for (const char* library : {"libfake.so", "libtwin.so", "libbad.so", "libsick.so", "librival.so"})
+      write_file(library, library);
     write_file("table.csv", "1,2\n");
     write_file("hall/scenario.toml", scenario_text);
     write_file("experiment.toml", experiment_text);

@@ -74,6 +74,7 @@ TEST_CASE("mistakes in an experiment file") {
        "experiment.toml:5:28: ./libfake.so: the library is named twice"},
       {"\"./libfake.so\"", "\"./libfake.so\", \"./libtwin.so\"",
        "experiment.toml:5:28: ./libtwin.so: has test.model, which is in ./libfake.so already"},
+      {"\"./libfake.so\"", "\"./libsick.so\"", "experiment.toml:5:12: ./libsick.so: its init() failed: no licence"},
       {"\"./libfake.so\"", "\"./libfake.so\", \"./librival.so\"",
        "experiment.toml:5:11: two metrics give a value 'length': test.length and rival.length"},
       // scenarios
