@@ -11,7 +11,6 @@ namespace dmrp::core {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double z_95 = 1.959963984540054;  // the standard normal's 0.975-quantile
 
 double sum(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -47,17 +46,6 @@ double quantile_of_sorted(std::span<const double> ascending, double p) {
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, ascending.size() - 1);
   return ascending[below] + (position - static_cast<double>(below)) * (ascending[above] - ascending[below]);
-}
-
-Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
-  if (trials == 0) return {undefined, undefined};
-  const auto n = static_cast<double>(trials);
-  const double p = static_cast<double>(successes) / n;
-  const double z2 = z_95 * z_95;
-  const double center = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
-  const double half = z_95 / (1.0 + z2 / n) * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n));
-  // exactly 0 and 1 at the ends, where rounding could fall beside them
-  return {successes == 0 ? 0.0 : center - half, successes == trials ? 1.0 : center + half};
 }
 
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapSettings& settings) {

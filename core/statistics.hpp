@@ -20,9 +20,6 @@ double median(std::span<const double> values);     // of one or more; the mean o
 // The p-quantile of ascending values, linear between them (Hyndman and Fan's type 7).
 double quantile_of_sorted(std::span<const double> ascending, double p);
 
-// A 95 % interval for a proportion (Wilson 1927), of one trial or more: within [0, 1], sound near its ends.
-Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
-
 // A 95 % interval for the mean of all values by the percentile bootstrap over clusters: what belongs together (the
 // robots of a trial, the trials of a seed) is drawn together. Of two clusters or more; empty ones don't count.
 // Deterministic: the draws come from a named stream.
