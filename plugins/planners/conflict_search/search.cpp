@@ -174,6 +174,7 @@ bool ConflictSearch::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
     enter(id);
+    if (options_.replan_in_place) id = replan_in_place(id);
     if (pairs_.empty()) break;
     const Split split = split_on(tree_.conflict(choose_conflict()));
     std::array<bool, 2> has_paths{};
@@ -197,6 +198,44 @@ bool ConflictSearch::expand(NodeId id) {
   }
   queue_.push(id);  // the last bypass left no conflict
   return true;
+}
+
+// Replans agents, one after the other, as long as that leaves fewer pairs in conflict (or as many at less cost): at the
+// root all that are in conflict, elsewhere those of the conflict to split on; then those that they meet. No constraint
+// is needed for that, so the node that results may take the place of the one given.
+NodeId ConflictSearch::replan_in_place(NodeId id) {
+  std::vector<std::int32_t> agents;
+  if (tree_.node(id).parent == no_node) {
+    for (const auto& [a, b] : pairs_) agents.insert(agents.end(), {a, b});
+  } else {
+    const Conflict& conflict = tree_.conflict(choose_conflict()).conflict;
+    agents = {conflict.a, conflict.b};
+  }
+  const std::size_t most = 10 * members_.size();
+  std::vector<bool> is_due(problem_.agents.size(), false);
+  for (const std::int32_t agent : agents) is_due[static_cast<std::size_t>(agent)] = true;
+  const auto add_met_by = [&](std::int32_t agent) {
+    for (const auto& [a, b] : pairs_) {
+      if (a != agent && b != agent) continue;
+      const std::int32_t other = a == agent ? b : a;
+      if (!is_due[static_cast<std::size_t>(other)] && agents.size() < most) agents.push_back(other);
+      is_due[static_cast<std::size_t>(other)] = true;
+    }
+  };
+  Child& child = children_[0];
+  for (std::size_t i = 0; i < agents.size() && !pairs_.empty(); ++i) {
+    const std::int32_t agent = agents[i];
+    if (!is_due[static_cast<std::size_t>(agent)]) continue;
+    is_due[static_cast<std::size_t>(agent)] = false;
+    if (!replan_all(id, {agent}, {}, child)) return id;  // stopped
+    const Node& node = tree_.node(id);
+    if (std::pair(child.node.pairs, child.node.cost) >= std::pair(node.pairs, node.cost)) continue;
+    add_met_by(agent);
+    id = add(child, id, true);
+    enter(id);
+    add_met_by(agent);
+  }
+  return id;
 }
 
 std::uint32_t ConflictSearch::choose_conflict() {
@@ -316,6 +355,12 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
       if (satisfies(path_of(agent).locations, agent == c.agent ? c : c.for_another(agent))) continue;
       if (std::find(agents.begin(), agents.end(), agent) == agents.end()) agents.push_back(agent);
     }
+  return replan_all(parent, agents, constraints, child);
+}
+
+// A child with other paths for some agents.
+bool ConflictSearch::replan_all(NodeId parent, const std::vector<std::int32_t>& agents,
+                                const std::vector<Constraint>& constraints, Child& child) {
   child.node = tree_.node(parent);
   child.node.is_informed = false;
   child.constraints = constraints;
@@ -453,6 +498,7 @@ std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
     options.suboptimality = 1;
     options.selection = Selection::best_first;
     options.dependency_graph = false;
+    options.replan_in_place = false;
     options.restart_after = 0;
     options.node_limit = pair_node_limit;
     pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);

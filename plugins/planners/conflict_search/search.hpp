@@ -31,6 +31,7 @@ struct ConflictSearchOptions {
   bool rectangle_reasoning = false;   // Li et al. 2019
   bool dependency_graph = false;      // the WDG heuristic (Li et al. 2019), for nodes taken for their bound
   bool disjoint_splitting = false;    // Li et al. 2019
+  bool replan_in_place = false;       // before a split: agents whose new paths help as they are
   std::int32_t conflict_steps = 0;    // steps that a path may be longer for a conflict less; 0: any, within the bound
   std::int64_t restart_after = 0;     // nodes; then anew with another order of the agents (Cohen et al. 2018); 0: never
   std::int64_t node_limit = 0;        // of all restarts together
@@ -79,6 +80,7 @@ class ConflictSearch {
   bool plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints);
   void enter(NodeId id);
   bool expand(NodeId id);
+  NodeId replan_in_place(NodeId id);
   bool inform(NodeId id);
 
   std::uint32_t choose_conflict();
@@ -90,6 +92,8 @@ class ConflictSearch {
   const Mdd& mdd_of(std::int32_t agent);
 
   bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
+  bool replan_all(NodeId parent, const std::vector<std::int32_t>& agents, const std::vector<Constraint>& constraints,
+                  Child& child);
   bool replan(NodeId parent, std::int32_t agent, Child& child);
   bool is_bypass(NodeId parent, const Child& child) const;
   NodeId add(Child& child, NodeId parent, bool with_constraints);

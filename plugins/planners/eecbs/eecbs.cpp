@@ -32,6 +32,7 @@ ConflictSearchOptions Eecbs::options() const {
   options.dependency_graph = *weighted_dependency_graph;
   options.disjoint_splitting = *disjoint_splitting;
   options.conflict_steps = static_cast<std::int32_t>(*conflict_steps);
+  options.replan_in_place = *replan_in_place;
   options.restart_after = *restart_after;
   options.seed = seed_;
   options.node_limit = *node_limit;
