@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace dmrp::host {
 
 namespace {
@@ -25,8 +27,10 @@ void set_resource_limits(std::int64_t memory_mb) {
   const rlimit no_core = {0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   if (!address_space_is_ours || memory_mb == 0) return;
-  const rlim_t bytes = static_cast<rlim_t>(memory_mb) << 20;
-  const rlimit memory = {bytes, bytes};
+  rlimit memory{};
+  getrlimit(RLIMIT_AS, &memory);  // a tighter one stays
+  memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
+  memory.rlim_max = memory.rlim_cur;
   setrlimit(RLIMIT_AS, &memory);
 }
 
