@@ -145,7 +145,7 @@ nlohmann::ordered_json number(const std::optional<double>& value) {
   return *value;
 }
 
-void print_json(const Outcome& outcome) {
+void print_json(const Outcome& outcome, std::uint32_t robots) {
   const auto& figures = outcome.figures;
   nlohmann::ordered_json json;
   json["solved"] = outcome.solved;
@@ -159,6 +159,7 @@ void print_json(const Outcome& outcome) {
   json["low_level_expanded"] = number(outcome.low_level_expanded);
   json["peak_rss_mb"] = number(outcome.peak_rss_mb);
   json["status"] = outcome.status;
+  json["robots"] = robots;
   json["conflicts"] = outcome.conflicts ? nlohmann::ordered_json(*outcome.conflicts) : nullptr;
   json["detail"] = outcome.detail;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -221,7 +222,7 @@ int plan_command(const PlanOptions& options) {
   }
 
   if (options.json)
-    print_json(outcome);
+    print_json(outcome, task->problem.c.robot_count);
   else if (!is_fault(outcome))
     print_text(outcome, fmt::format("{} · {} · {}", info.id,
                                     options.map.empty() ? experiment.scenarios[0].label : options.map.stem().string(),
