@@ -11,6 +11,7 @@ ConflictTable::ConflictTable(const GridGraph& graph, std::size_t agent_count)
     : location_count_(static_cast<std::size_t>(graph.location_count())),
       next_(agent_count),
       resting_(location_count_, 0),
+      resting_from_(location_count_, std::numeric_limits<std::int32_t>::max()),
       paths_(agent_count) {
   if (agent_count >= std::numeric_limits<Link>::max()) throw std::length_error("more than 65534 robots");
 }
@@ -32,6 +33,7 @@ void ConflictTable::set(std::int32_t agent, PathView path) {
     first = static_cast<Link>(agent + 1);
   }
   resting_[static_cast<std::size_t>(path.back())] = static_cast<Link>(agent + 1);
+  resting_from_[static_cast<std::size_t>(path.back())] = cost_of(path);
 }
 
 void ConflictTable::take_out(std::int32_t agent) {
@@ -43,37 +45,13 @@ void ConflictTable::take_out(std::int32_t agent) {
     *link = next_[static_cast<std::size_t>(agent)][t];
   }
   resting_[static_cast<std::size_t>(path.back())] = 0;
+  resting_from_[static_cast<std::size_t>(path.back())] = std::numeric_limits<std::int32_t>::max();
 }
 
 std::int32_t ConflictTable::rest_from() const {
   std::int32_t from = 0;
   for (const PathView path : paths_) from = std::max(from, cost_of(path));
   return from;
-}
-
-template <class Visit>
-void ConflictTable::visit_occupants(Location location, std::int32_t t, Visit visit) const {
-  if (t >= row_count_) return;
-  for (Link link = first_[cell(location, t)]; link != 0; link = next_[link - 1u][static_cast<std::size_t>(t)])
-    visit(static_cast<std::int32_t>(link) - 1);
-}
-
-template <class Visit>
-void ConflictTable::visit_at(Location from, Location to, std::int32_t t, Visit visit) const {
-  visit_occupants(to, t, [&](std::int32_t agent) { visit(agent, false); });
-  const Link resting = resting_[static_cast<std::size_t>(to)];
-  if (resting != 0 && cost_of(paths_[resting - 1u]) < t) visit(static_cast<std::int32_t>(resting) - 1, false);
-  if (from == to || t == 0) return;
-  visit_occupants(to, t - 1, [&](std::int32_t agent) {
-    const PathView path = paths_[static_cast<std::size_t>(agent)];
-    if (cost_of(path) >= t && path[static_cast<std::size_t>(t)] == from) visit(agent, true);
-  });
-}
-
-std::int32_t ConflictTable::count_at(Location from, Location to, std::int32_t t) const {
-  std::int32_t count = 0;
-  visit_at(from, to, t, [&](std::int32_t, bool) { ++count; });
-  return count;
 }
 
 std::int32_t ConflictTable::count_after(Location location, std::int32_t t) const {

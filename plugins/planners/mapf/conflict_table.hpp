@@ -34,8 +34,18 @@ class ConflictTable {
   // From this time on everybody rests.
   std::int32_t rest_from() const;
 
+  // Who is at `location` at time t (in no order that means anything), on its way or resting.
+  template <class Visit>
+  void for_each_at(Location location, std::int32_t t, Visit visit) const {
+    visit_at(location, location, t, [&](std::int32_t agent, bool) { visit(agent); });
+  }
+
   // Conflicts that somebody who goes (or waits) so that it arrives at time t would have.
-  std::int32_t count_at(Location from, Location to, std::int32_t t) const;
+  std::int32_t count_at(Location from, Location to, std::int32_t t) const {
+    std::int32_t count = 0;
+    visit_at(from, to, t, [&](std::int32_t, bool) { ++count; });
+    return count;
+  }
 
   // Conflicts that somebody who stays at `location` after time t would have: agents that still pass.
   std::int32_t count_after(Location location, std::int32_t t) const;
@@ -46,9 +56,21 @@ class ConflictTable {
  private:
   // Calls visit(agent, is_swap) for each conflict of an arrival.
   template <class Visit>
-  void visit_at(Location from, Location to, std::int32_t t, Visit visit) const;
+  void visit_at(Location from, Location to, std::int32_t t, Visit visit) const {
+    visit_occupants(to, t, [&](std::int32_t agent) { visit(agent, false); });
+    if (resting_from_[static_cast<std::size_t>(to)] < t) visit(resting_[static_cast<std::size_t>(to)] - 1, false);
+    if (from == to || t == 0) return;
+    visit_occupants(to, t - 1, [&](std::int32_t agent) {
+      const PathView path = paths_[static_cast<std::size_t>(agent)];
+      if (cost_of(path) >= t && path[static_cast<std::size_t>(t)] == from) visit(agent, true);
+    });
+  }
   template <class Visit>
-  void visit_occupants(Location location, std::int32_t t, Visit visit) const;
+  void visit_occupants(Location location, std::int32_t t, Visit visit) const {
+    if (t >= row_count_) return;
+    for (Link link = first_[cell(location, t)]; link != 0; link = next_[link - 1u][static_cast<std::size_t>(t)])
+      visit(static_cast<std::int32_t>(link) - 1);
+  }
   std::size_t cell(Location location, std::int32_t t) const {
     return static_cast<std::size_t>(t) * location_count_ + static_cast<std::size_t>(location);
   }
@@ -57,9 +79,10 @@ class ConflictTable {
   using Link = std::uint16_t;  // an agent plus one; zero ends a list
   std::size_t location_count_;
   std::int32_t row_count_ = 0;
-  std::vector<Link> first_;              // by time and location: the agents there on their way
-  std::vector<std::vector<Link>> next_;  // by agent and time: the next one in the same list
-  std::vector<Link> resting_;            // by location: who ends there
+  std::vector<Link> first_;                 // by time and location: the agents there on their way
+  std::vector<std::vector<Link>> next_;     // by agent and time: the next one in the same list
+  std::vector<Link> resting_;               // by location: who ends there ...
+  std::vector<std::int32_t> resting_from_;  // ... and when; or forever
   std::vector<PathView> paths_;
 };
 
