@@ -47,6 +47,8 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
         throw InputError(
             fmt::format("--planner {}: needs the extension {}, which this host does not offer to a planner", id,
                         info.needs.front()));
+      if (!probe.init_error.empty()) throw InputError(file.string() + ": " + probe.init_error);
+      if (!probe.warning.empty()) experiment.warnings.push_back(file.string() + ": " + probe.warning);
       experiment.libraries = {{file.string(), file, probe.plugins}};
       PluginUse use;
       use.info = info;

@@ -143,8 +143,9 @@ void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, co
   }
 }
 
+// Never returns into the parent's code, not by an exception either.
 [[noreturn]] void become_planner(const Experiment& experiment, const PlanTask& task, CallNote& note,
-                                 const AnswerFile& file, pid_t parent) {
+                                 const AnswerFile& file, pid_t parent) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
