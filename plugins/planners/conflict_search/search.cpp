@@ -254,10 +254,10 @@ Split ConflictSearch::plain_split(const Conflict& c) {
 }
 
 const Mdd& ConflictSearch::mdd_of(std::int32_t agent) {
-  const Mdd*& mdd = node_mdds_[static_cast<std::size_t>(agent)];
+  std::shared_ptr<const Mdd>& mdd = node_mdds_[static_cast<std::size_t>(agent)];
   if (!mdd) {
     tree_.gather_constraints(entered_, agent, constraints_);
-    mdd = &mdds_.get(agent, constraints_, path_of(agent).lower_bound);
+    mdd = mdds_.get(agent, constraints_, path_of(agent).lower_bound);
   }
   return *mdd;
 }
@@ -308,12 +308,12 @@ bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Chi
   constraint_table_.fill(problem_.agents[who], constraints_);
   const std::size_t number = child.paths.size();
   if (child.found.size() <= number) child.found.resize(number + 1);
-  SpaceTimeSearch::Found& found = child.found[number];
+  SafeIntervalSearch::Found& found = child.found[number];
   const std::int32_t known_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
   const auto result = low_level_.search(
       {problem_.agents[who], tables_[who], constraint_table_, occupied_, options_.suboptimality, slack, known_bound},
       stop_, found);
-  if (result != SpaceTimeSearch::Result::found) return false;
+  if (result != SafeIntervalSearch::Result::found) return false;
 
   const std::size_t first = child.conflicts.size();
   occupied_.list(agent, found.path, child.conflicts);

@@ -13,7 +13,7 @@
 
 #include "../mapf/mdd.hpp"
 #include "../mapf/rectangle.hpp"
-#include "../mapf/space_time_search.hpp"
+#include "../mapf/safe_interval_search.hpp"
 #include "constraint_tree.hpp"
 #include "node_queue.hpp"
 #include "vertex_cover.hpp"
@@ -64,7 +64,7 @@ class ConflictSearch {
   struct Child {
     Node node;
     std::vector<Constraint> constraints;
-    std::vector<SpaceTimeSearch::Found> found;  // of the agents replanned; only the first `paths.size()` count
+    std::vector<SafeIntervalSearch::Found> found;  // of the agents replanned; only the first `paths.size()` count
     std::vector<AgentPath> paths;
     std::vector<Conflict> conflicts;
     std::int32_t conflicting_pairs = 0;  // of the agents replanned
@@ -103,7 +103,7 @@ class ConflictSearch {
   std::vector<std::int32_t> members_;
   ConstraintTree tree_;
   NodeQueue queue_;
-  SpaceTimeSearch low_level_;
+  SafeIntervalSearch low_level_;
   ConflictSearchStatistics statistics_;
   std::string obstruction_;
 
@@ -114,7 +114,7 @@ class ConflictSearch {
   std::vector<std::uint32_t> conflicts_;
   std::vector<Pair> pairs_;
   ConflictTable occupied_;
-  std::vector<const Mdd*> node_mdds_;
+  std::vector<std::shared_ptr<const Mdd>> node_mdds_;
 
   // Running means of what one step of the search costs more, and of how many pairs it removes fewer than one.
   double cost_error_sum_ = 0;

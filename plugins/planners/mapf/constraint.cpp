@@ -80,6 +80,30 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
       landmarks_.end());
 }
 
+bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const {
+  bool is_allowed = true;
+  std::int32_t allowed_again = 0;
+  const auto forbid = [&](std::int32_t from, std::int32_t until) {
+    if (t < from) {
+      end = std::min(end, from);
+    } else if (t >= until) {
+      first = std::max(first, until);
+    } else {
+      is_allowed = false;
+      allowed_again = std::max(allowed_again, until);
+    }
+  };
+  if (epoch_of_[static_cast<std::size_t>(location)] == epoch_)
+    for (std::int32_t i = first_[static_cast<std::size_t>(location)]; i >= 0;
+         i = entries_[static_cast<std::size_t>(i)].next)
+      if (const Entry& entry = entries_[static_cast<std::size_t>(i)]; entry.from == nowhere)
+        forbid(entry.t, entry.until);
+  for (const Landmark& landmark : landmarks_)
+    if (landmark.location != location) forbid(landmark.t, landmark.t + 1);
+  if (!is_allowed) end = allowed_again;
+  return is_allowed;
+}
+
 void ConstraintTable::add_entry(Location location, const Entry& entry) {
   const auto at = static_cast<std::size_t>(location);
   entries_.push_back(entry);

@@ -89,6 +89,21 @@ class ConstraintTable {
     return true;
   }
 
+  // Whether the agent may be at `location` at time t, and over which times from `first` to before `end` around t that
+  // stays the same; narrows [first, end) to them. Landmarks elsewhere forbid a place, too.
+  bool narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const;
+
+  // Whether the agent may arrive at time t by this move, being at `to` then allowed.
+  bool allows_move(Location from, Location to, std::int32_t t) const {
+    if (epoch_of_[static_cast<std::size_t>(to)] != epoch_) return true;
+    for (std::int32_t i = first_[static_cast<std::size_t>(to)]; i >= 0;
+         i = entries_[static_cast<std::size_t>(i)].next) {
+      const Entry& entry = entries_[static_cast<std::size_t>(i)];
+      if (entry.from == from && entry.t == t) return false;
+    }
+    return true;
+  }
+
   // From this time on what is allowed stays the same.
   std::int32_t constant_from() const { return constant_from_; }
 

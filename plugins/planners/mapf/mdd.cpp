@@ -117,7 +117,7 @@ std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constra
   return hash;
 }
 
-const Mdd& MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least) {
+std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least) {
   const auto who = static_cast<std::size_t>(agent);
   std::sort(constraints.begin(), constraints.end());
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
@@ -130,7 +130,7 @@ const Mdd& MddCache::get(std::int32_t agent, std::vector<Constraint>& constraint
     Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost);
     if (mdd.is_empty()) continue;
     size_ += mdd.node_count() + 2 * static_cast<std::size_t>(cost) + 4 * constraints.size();
-    return of_agent_[who].emplace(hash, Entry{constraints, std::move(mdd)})->second.mdd;
+    return of_agent_[who].emplace(hash, Entry{constraints, std::make_shared<const Mdd>(std::move(mdd))})->second.mdd;
   }
 }
 

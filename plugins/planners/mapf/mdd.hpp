@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -50,9 +51,8 @@ class MddCache {
   MddCache(const Problem& problem, const std::vector<TourTable>& tables)
       : problem_(problem), tables_(tables), constraint_table_(problem.graph), of_agent_(problem.agents.size()) {}
 
-  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`. The
-  // reference lives until trim().
-  const Mdd& get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least);
+  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`.
+  std::shared_ptr<const Mdd> get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least);
 
   // Forgets everything once it has grown too large.
   void trim();
@@ -60,7 +60,7 @@ class MddCache {
  private:
   struct Entry {
     std::vector<Constraint> constraints;
-    Mdd mdd;
+    std::shared_ptr<const Mdd> mdd;
   };
   using ByHash = std::unordered_multimap<std::uint64_t, Entry>;  // never iterated over
 
