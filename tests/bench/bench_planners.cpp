@@ -142,11 +142,11 @@ std::string name_of(const Row& row, const std::vector<Row>& rows) {
 }
 
 void print_json(const std::vector<Row>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::vector<std::string> lines;
   for (const Row& row : rows) {
     const std::string name = name_of(row, rows);
-    const auto add = [&](const char* what, double value, const char* unit) {
-      list.push_back({{"name", name + what}, {"value", value}, {"unit", unit}});
+    const auto add = [&](const char* what, const nlohmann::ordered_json& value, const char* unit) {
+      lines.push_back(nlohmann::ordered_json{{"name", name + what}, {"value", value}, {"unit", unit}}.dump());
     };
     add("solved", row.solved, "1");
     add("median_ms", row.median_ms, "ms");
@@ -154,7 +154,7 @@ void print_json(const std::vector<Row>& rows) {
     if (row.nodes) add("high_level_expanded", *row.nodes, "1");
     add("peak_rss_mb", row.peak_rss_mb, "MB");
   }
-  fmt::print("{}\n", list.dump(1));
+  fmt::print("[\n  {}\n]\n", fmt::join(lines, ",\n  "));
 }
 
 std::vector<std::string> scenarios_beside(const fs::path& host) {

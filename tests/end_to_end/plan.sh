@@ -111,6 +111,12 @@ if [[ -z $sanitizers ]]; then (
 expect_status 0 "$host" plan --scenario crossing --planner test.planner.faulty --plugin "$faults" --set fault=timeout --json
 expect_value status timeout
 
+# a planner's own sums are not believed, but that is no fault
+expect_status 0 "$host" plan --scenario crossing --planner test.planner.faulty --plugin "$faults" --set fault=wrong_cost --json
+expect_value cost 13
+grep -q "^warning: test.planner.faulty: the planner tells of a cost of 12, its paths cost 13$" "$scratch/stderr" ||
+  fail "$(cat "$scratch/stderr")"
+
 # --- mistakes: one line, status 2
 
 cd "$scratch" || exit 1
