@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The planners' benchmark gives its rows, and sees planners that fail: called as
-# bench_planners.sh DMRP_HOST BENCH_PLANNERS LIBRARY_OF_FAULTS. How fast anything is, is not tested here.
+# bench_planners.sh DMRP_HOST BENCH_PLANNERS LIBRARY_OF_FAULTS [TEST_DATA]. How fast anything is, is not tested here.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 bench=$2
 faults=$3
+data=${DMRP_TEST_DATA:-${4:-}}
 
 mkdir -p "$scratch/data/movingai/maps" "$scratch/data/movingai/scens"
 cp "$here/maps/rooms.map" "$scratch/data/movingai/maps"
@@ -39,3 +40,14 @@ run 1 --planner "test.planner.faulty fault=crash" --plugin "$faults" --on rooms:
 [[ $(value "planner/test.planner.faulty/rooms/2/median_ms") == 10000.0 ]] || fail "unsolved counts as the time limit"
 run 2 --planner "cbs node_limits=1" --on rooms:2
 grep -q "did you mean 'node_limit'" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+
+# every planner on public maps, few robots: solved, and the files judged
+if [[ ! -d $data/movingai ]]; then
+  echo "skipped: DMRP_TEST_DATA is not set"
+  exit 0
+fi
+expect_status 0 "$bench" --data "$data" --host "$host" --instances 1 --time-limit 30 --json \
+  --on random-32-32-20:15 --on warehouse-10-20-10-2-1:15 --on gen-rooms-40-40:10
+rows="SELECT count(*) FROM json_each(CAST(readfile('$scratch/stdout') AS TEXT)) WHERE json_extract(value, '$.name') LIKE '%/solved'"
+[[ $(sqlite3 -batch :memory: "$rows") -ge 6 &&
+  $(sqlite3 -batch :memory: "$rows AND json_extract(value, '$.value') <> 1") == 0 ]] || fail "$(cat "$scratch/stdout")"
