@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much the planners solve, and how fast: instances of the MovingAI benchmark and the shipped scenarios, each
-// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table, or with --json a list of
-// {"name", "value", "unit"}.
+// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to standard
+// error, and a list of {"name", "value", "unit"} to standard output.
 //
 // median: of planning_ms over all instances, where one that was not solved counts as the time limit; mean: over the
 // solved ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
@@ -116,18 +116,18 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
 }
 
-void print_heading() {
-  fmt::print("{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9}\n", "planner", "map", "agents", "solved",
+void print_heading(std::FILE* out) {
+  fmt::print(out, "{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9}\n", "planner", "map", "agents", "solved",
              "median ms", "mean ms", "nodes", "memory MB");
 }
 
-void print(const Row& row) {
-  fmt::print("{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9.1f}{}\n", short_name(row.set.planner), place_of(row),
-             row.robots, fmt::format("{}/{}", row.solved, row.set.instances), cell(row.median_ms, 3),
+void print(std::FILE* out, const Row& row) {
+  fmt::print(out, "{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9.1f}{}\n", short_name(row.set.planner),
+             place_of(row), row.robots, fmt::format("{}/{}", row.solved, row.set.instances), cell(row.median_ms, 3),
              cell(row.mean_ms, 3), cell(row.nodes, 0), row.peak_rss_mb,
              row.solved < row.set.wanted ? fmt::format("  wanted: {}", row.set.wanted) : "");
-  for (const std::string& trouble : row.troubles) fmt::print("    {}\n", trouble);
-  std::fflush(stdout);
+  for (const std::string& trouble : row.troubles) fmt::print(out, "    {}\n", trouble);
+  std::fflush(out);
 }
 
 // The id, and the settings where another row has the same planner on the same agents.
@@ -215,7 +215,8 @@ int run_all(const Options& options) {
   const std::vector<KnownPlanner> known = known_planners(bench);
   std::vector<Row> rows;
   bool sound = true;
-  if (!options.json) print_heading();
+  std::FILE* const table = options.json ? stderr : stdout;
+  print_heading(table);
   for (const PlannerSet& set : sets_of(options, known)) {
     const auto planner = std::find_if(known.begin(), known.end(),
                                       [&](const KnownPlanner& candidate) { return candidate.id == set.planner.id; });
@@ -226,7 +227,7 @@ int run_all(const Options& options) {
     }
     rows.push_back(measure(bench, set, *planner, options.data));
     sound = sound && rows.back().troubles.empty();
-    if (!options.json) print(rows.back());
+    print(table, rows.back());
   }
   if (options.json) print_json(rows);
   return sound ? 0 : 1;
