@@ -186,11 +186,10 @@ void print_text(const Outcome& outcome, const std::string& heading) {
     print_line("lower bound", fmt::format("{:.8g}", *outcome.lower_bound));
   }
   if (outcome.planning_ms) print_line("planning", fmt::format("{:.3f} ms", *outcome.planning_ms));
-  if (outcome.high_level_expanded || outcome.low_level_expanded) {
-    const auto count = [](const std::optional<double>& n) { return n ? fmt::format("{:.0f}", *n) : std::string("?"); };
-    print_line("expanded", fmt::format("{} high level, {} low level", count(outcome.high_level_expanded),
-                                       count(outcome.low_level_expanded)));
-  }
+  std::vector<std::string> expanded;
+  if (outcome.high_level_expanded) expanded.push_back(fmt::format("{:.0f} high level", *outcome.high_level_expanded));
+  if (outcome.low_level_expanded) expanded.push_back(fmt::format("{:.0f} low level", *outcome.low_level_expanded));
+  if (!expanded.empty()) print_line("expanded", fmt::format("{}", fmt::join(expanded, ", ")));
   print_line("memory", fmt::format("{:.1f} MB", outcome.peak_rss_mb));
 }
 
