@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// safe_interval_search.hpp: the best path of one robot among robots that move on known paths.
+//
+// A* over states (location, safe interval, leg of the tour) with the earliest time of arrival (Phillips & Likhachev
+// 2011). Where that finds no way the search goes on through the other robots, as in SIPPS (Li et al. 2022): a path
+// may then take what they occupy, at a price a robot, and the cheapest path is found, of these an earliest.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "../mapf/safe_intervals.hpp"
+#include "../mapf/stop_signal.hpp"
+#include "../mapf/tour_table.hpp"
+
+namespace dmrp::planners {
+
+class SafeIntervalSearch {
+ public:
+  SafeIntervalSearch(const GridGraph& graph, const SafeIntervals& others)
+      : graph_(graph), others_(others), intervals_(static_cast<std::size_t>(graph.location_count())) {}
+
+  enum class Result { free, displacing, none, stopped };
+
+  // The agent itself must not be among the others. `prices` has what it costs to displace each robot, all positive;
+  // if it is empty none may be. Result::displacing: the path has conflicts with some.
+  Result search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices, StopSignal& stop,
+                std::vector<Location>& path);
+
+  std::int64_t expanded() const { return expanded_; }
+
+ private:
+  // An interval of a location is a gap between occupations (2i before occupation i) or an occupation (2i + 1).
+  struct Label {
+    Location location;
+    std::int32_t interval;
+    std::int32_t leg;
+    std::int32_t t;      // of arrival
+    std::int32_t price;  // so far
+    std::int32_t parent;
+    std::int32_t turns;  // so far
+    std::int32_t displaced;  // whose occupation this is, or -1
+    std::int8_t heading;
+    bool is_end;
+  };
+  // Smaller is better, component by component; of equals the later label, which is further on its way.
+  struct OpenEntry {
+    std::int32_t price;
+    std::int32_t steps;  // least possible cost of the path
+    std::int32_t steps_to_go;
+    std::int32_t turns;
+    std::int32_t label;
+  };
+  struct IsWorse {
+    bool operator()(const OpenEntry& a, const OpenEntry& b) const {
+      if (a.price != b.price) return a.price > b.price;
+      if (a.steps != b.steps) return a.steps > b.steps;
+      if (a.steps_to_go != b.steps_to_go) return a.steps_to_go > b.steps_to_go;
+      if (a.turns != b.turns) return a.turns > b.turns;
+      return a.label < b.label;
+    }
+  };
+  // What is known of an interval on a leg.
+  struct State {
+    std::int32_t expanded_t = forever;  // earliest so far; later labels are no cheaper
+    std::int32_t generated_t = forever;
+    std::int32_t generated_price = forever;
+  };
+  // Where the states of a location begin, made when it is first seen in a search.
+  struct LocationStates {
+    std::uint32_t epoch = 0;
+    std::uint32_t first = 0;
+  };
+  struct Task {
+    const Agent& agent;
+    const TourTable& table;
+    std::span<const std::int32_t> prices;
+    std::int32_t rest_from;  // the last goal's last gap begins here
+  };
+  // The part of an expanded label that all its successors share.
+  struct Departure {
+    std::int32_t label;
+    std::int32_t leg;     // of the next step
+    std::int32_t last_t;  // last departure
+    std::int32_t follower;  // who takes the location right after last_t, or -1
+  };
+
+  void begin(const Task& task);
+  void expand(const Task& task, std::int32_t index);
+  void wait(const Task& task, const Departure& departure);
+  void move(const Task& task, const Departure& departure, Direction d, Location to);
+  void generate(const Task& task, const Label& label);
+  void generate_end(const Task& task, const Label& label);
+  void push(const Task& task, const Label& label);
+  State& state_of(const Task& task, const Label& label);
+  void trace_back(std::int32_t last, std::vector<Location>& path) const;
+
+  const GridGraph& graph_;
+  const SafeIntervals& others_;
+  std::vector<LocationStates> intervals_;
+  std::vector<State> states_;
+  std::vector<Label> labels_;
+  std::vector<OpenEntry> open_;
+  std::vector<OpenEntry> displacing_;  // not open as long as there may be a path that displaces nobody
+  bool may_displace_ = false;
+  std::uint32_t epoch_ = 0;
+  std::int64_t expanded_ = 0;
+};
+
+}  // namespace dmrp::planners
