@@ -22,7 +22,9 @@ void visit_stays(PathView path, Visit visit) {
 }  // namespace
 
 void SafeIntervals::add(std::int32_t agent, PathView path) {
-  visit_stays(path, [&](Location location, std::int32_t from, std::int32_t to) { insert(location, {from, to, agent}); });
+  visit_stays(path, [&](Location location, std::int32_t from, std::int32_t to) {
+    insert(location, {from, to, agent});
+  });
 }
 
 void SafeIntervals::remove(PathView path) {

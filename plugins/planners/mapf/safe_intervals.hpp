@@ -26,7 +26,7 @@ struct Occupation {
 // empty; the last gap has no occupation after it.
 class SafeIntervals {
  public:
-  explicit SafeIntervals(Location location_count) : lists_(static_cast<std::size_t>(location_count)) {}
+  explicit SafeIntervals(const GridGraph& graph) : lists_(static_cast<std::size_t>(graph.location_count())) {}
 
   // The path must have no vertex conflict with those added before.
   void add(std::int32_t agent, PathView path);

@@ -3,13 +3,20 @@
 
 #include <algorithm>
 #include <dmrp/toolkit/random.hpp>
-#include <cstdlib>
-#include <cstdio>
 #include <numeric>
 
 namespace dmrp::planners {
 
-static int knob(const char* name, int fallback) { const char* v = std::getenv(name); return v ? std::atoi(v) : fallback; }
+namespace {
+
+// An attempt ends when each robot was displaced so often on average.
+constexpr std::int64_t displacements_a_robot = 10;
+
+// After a restart every other robot stays where it starts for fewer steps than this. Where two have to yield to each
+// other no order helps, but a delay often does.
+constexpr std::uint64_t delay_limit = 8;
+
+}  // namespace
 
 PrioritizedSearch::PrioritizedSearch(const Problem& problem, const std::vector<TourTable>& tables, std::uint64_t seed,
                                      StopSignal& stop)
@@ -17,77 +24,65 @@ PrioritizedSearch::PrioritizedSearch(const Problem& problem, const std::vector<T
       tables_(tables),
       seed_(seed),
       stop_(stop),
-      planned_(problem.graph.location_count()),
+      planned_(problem.graph),
       low_level_(problem.graph, planned_),
       paths_(problem.agents.size()) {}
 
-PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
-  for (std::int64_t restart = 0; restart <= restart_limit; ++restart) {
-    statistics_.restarts = restart;
-    draw_order(restart);
-    const Attempt result = attempt();
-    if (result == Attempt::solved) return Result::solved;
-    if (result == Attempt::stopped) return Result::stopped;
-    for (std::size_t i = 0; i < paths_.size(); ++i) take_back(static_cast<std::int32_t>(i));
-  }
-  return Result::restart_limit;
-}
-
-void PrioritizedSearch::draw_order(std::int64_t restart) {
-  order_.resize(problem_.agents.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  static const int mode = knob("ORDER", 0);
-  toolkit::Stream stream(seed_, "sipp.order", restart);
-  stream.shuffle(order_);
-  if (mode == 1 || (mode == 0 && restart == 0)) {
-    const auto distance = [&](std::int32_t agent) {
-      const auto i = static_cast<std::size_t>(agent);
-      return tables_[i].distance(0, problem_.agents[i].start);
-    };
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
-  }
-  if (mode == 3) {
-    const auto distance = [&](std::int32_t agent) {
-      const auto i = static_cast<std::size_t>(agent);
-      return tables_[i].distance(0, problem_.agents[i].start);
-    };
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::int32_t a, std::int32_t b) { return distance(a) > distance(b); });
-  }
-  prices_.assign(order_.size(), 1);
-}
-
-PrioritizedSearch::Attempt PrioritizedSearch::attempt() {
-  static const int budget_factor = knob("BUDGET", 20);
-  static const int displaced_last = knob("LAST", 0);
-  static const int growth = knob("GROWTH", 1);
-  std::int64_t displaced = 0;
-  const std::int64_t limit = budget_factor * static_cast<std::int64_t>(order_.size());
+PrioritizedSearch::Result PrioritizedSearch::attempt(std::int64_t restart) {
+  begin(restart);
+  const std::int64_t limit =
+      statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
   while (!order_.empty()) {
-    const std::int32_t agent = order_.back();
-    const auto who = static_cast<std::size_t>(agent);
-    order_.pop_back();
-    const auto result =
-        low_level_.search(problem_.agents[who], tables_[who], budget_factor ? std::span<const std::int32_t>(prices_) : std::span<const std::int32_t>(), stop_, path_);
-    if (result == SafeIntervalSearch::Result::stopped) return Attempt::stopped;
-    if (result == SafeIntervalSearch::Result::none) return Attempt::given_up;
-    if (result == SafeIntervalSearch::Result::displacing) {
-      planned_.list_conflicts(path_, in_the_way_);
-      if (displaced > limit) return Attempt::given_up;
-      for (const std::int32_t other : in_the_way_) {
-        take_back(other);
-        prices_[static_cast<std::size_t>(other)] += growth;
-        if (displaced_last) order_.insert(order_.begin(), other); else
-        order_.push_back(other);
-        ++displaced;
-        ++statistics_.displaced;
-      }
-    }
-    paths_[who] = path_;
-    planned_.add(agent, paths_[who]);
+    const std::int32_t agent = order_.front();
+    order_.pop_front();
+    const SafeIntervalSearch::Result result = plan(agent);
+    if (result == SafeIntervalSearch::Result::stopped) return Result::stopped;
+    if (result == SafeIntervalSearch::Result::none || statistics_.displaced > limit) return Result::given_up;
   }
-  return Attempt::solved;
+  return Result::solved;
+}
+
+void PrioritizedSearch::begin(std::int64_t restart) {
+  statistics_.restarts = restart;
+  for (std::size_t i = 0; i < paths_.size(); ++i) take_back(static_cast<std::int32_t>(i));
+  prices_.assign(paths_.size(), 1);
+  delays_.assign(paths_.size(), 0);
+  order_.resize(paths_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+
+  toolkit::Stream random(seed_, "sipp.order", restart);
+  random.shuffle(order_);
+  if (restart > 0) {
+    for (std::int32_t& delay : delays_)
+      if (random.below(2) == 0) delay = static_cast<std::int32_t>(random.below(delay_limit));
+    return;
+  }
+  const auto distance = [this](std::int32_t agent) {
+    const auto who = static_cast<std::size_t>(agent);
+    return tables_[who].distance(0, problem_.agents[who].start);
+  };
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
+}
+
+SafeIntervalSearch::Result PrioritizedSearch::plan(std::int32_t agent) {
+  const auto who = static_cast<std::size_t>(agent);
+  const auto result = low_level_.search(problem_.agents[who], tables_[who], prices_, delays_[who], stop_, path_);
+  if (result != SafeIntervalSearch::Result::free && result != SafeIntervalSearch::Result::displacing) return result;
+  if (result == SafeIntervalSearch::Result::displacing) displace_those_in_the_way();
+  paths_[who] = path_;
+  planned_.add(agent, paths_[who]);
+  return result;
+}
+
+void PrioritizedSearch::displace_those_in_the_way() {
+  planned_.list_conflicts(path_, in_the_way_);
+  for (const std::int32_t other : in_the_way_) {
+    take_back(other);
+    order_.push_back(other);
+    ++prices_[static_cast<std::size_t>(other)];
+  }
+  statistics_.displaced += static_cast<std::int64_t>(in_the_way_.size());
 }
 
 void PrioritizedSearch::take_back(std::int32_t agent) {

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
-// prioritized_search.hpp: robots planned one after the other, each among those before it.
+// prioritized_search.hpp: robots planned one after the other, each among the paths of those before it.
+//
+// The first order is by distance, the nearest goal first, so that few robots wait for those that cross their goals
+// late. A robot that finds no way is planned through others: through those that are cheapest to displace. They lose
+// their paths and go to the end of the order; all others keep theirs. With every time the price of a robot grows, so
+// that those who are hard to place come before the others sooner or later: the order is learned. When too many were
+// displaced all begin anew, in an order drawn at random, and some of them later than they could.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "safe_interval_search.hpp"
@@ -17,21 +24,22 @@ struct PrioritizedStatistics {
 
 class PrioritizedSearch {
  public:
-  enum class Result { solved, stopped, restart_limit };
+  enum class Result { solved, given_up, stopped };
 
+  // The problem has no obvious obstruction: all goals can be reached, starts and last goals differ.
   PrioritizedSearch(const Problem& problem, const std::vector<TourTable>& tables, std::uint64_t seed, StopSignal& stop);
 
-  Result run(std::int64_t restart_limit);
+  // Plans all robots in the first order, or after a restart, the first being 1.
+  Result attempt(std::int64_t restart);
 
   // After Result::solved: a path an agent.
   std::vector<std::vector<Location>>& paths() { return paths_; }
   PrioritizedStatistics statistics() const;
 
  private:
-  enum class Attempt { solved, stopped, given_up };
-
-  void draw_order(std::int64_t restart);
-  Attempt attempt();
+  void begin(std::int64_t restart);
+  SafeIntervalSearch::Result plan(std::int32_t agent);
+  void displace_those_in_the_way();
   void take_back(std::int32_t agent);
 
   const Problem& problem_;
@@ -41,10 +49,11 @@ class PrioritizedSearch {
   SafeIntervals planned_;
   SafeIntervalSearch low_level_;
   std::vector<std::vector<Location>> paths_;  // empty for a robot that is not planned
-  std::vector<std::int32_t> order_;           // robots to be planned, the next one last
-  std::vector<std::int32_t> prices_;          // what it costs to displace a robot: how often that was needed
-  std::vector<std::int32_t> in_the_way_;
+  std::deque<std::int32_t> order_;            // robots to be planned
+  std::vector<std::int32_t> prices_;          // of displacing a robot
+  std::vector<std::int32_t> delays_;          // steps that a robot stays where it starts
   std::vector<Location> path_;
+  std::vector<std::int32_t> in_the_way_;
   PrioritizedStatistics statistics_;
 };
 

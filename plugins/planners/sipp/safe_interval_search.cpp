@@ -6,11 +6,11 @@
 namespace dmrp::planners {
 
 SafeIntervalSearch::Result SafeIntervalSearch::search(const Agent& agent, const TourTable& table,
-                                                      std::span<const std::int32_t> prices, StopSignal& stop,
-                                                      std::vector<Location>& path) {
+                                                      std::span<const std::int32_t> prices, std::int32_t delay,
+                                                      StopSignal& stop, std::vector<Location>& path) {
   const auto at_goal = others_.occupations(agent.last_goal());
   const Task task{agent, table, prices, at_goal.empty() ? 0 : at_goal.back().to + 1};
-  begin(task);
+  begin(task, delay);
   for (;;) {
     if (open_.empty()) {
       if (may_displace_ || displacing_.empty()) return Result::none;
@@ -34,14 +34,17 @@ SafeIntervalSearch::Result SafeIntervalSearch::search(const Agent& agent, const 
   }
 }
 
-void SafeIntervalSearch::begin(const Task& task) {
+void SafeIntervalSearch::begin(const Task& task, std::int32_t delay) {
   ++epoch_;
   states_.clear();
   labels_.clear();
   open_.clear();
   displacing_.clear();
   may_displace_ = false;
-  generate(task, {task.agent.start, 0, 0, 0, 0, -1, 0, -1, GridGraph::no_direction, false});
+  const auto there = others_.occupations(task.agent.start);
+  std::int32_t t = task.agent.start == task.agent.last_goal() ? 0 : delay;
+  if (!there.empty()) t = std::min(t, there[0].from - 1);
+  generate(task, {task.agent.start, 0, 0, t, 0, -1, 0, -1, GridGraph::no_direction, false});
 }
 
 void SafeIntervalSearch::expand(const Task& task, std::int32_t index) {
@@ -51,8 +54,10 @@ void SafeIntervalSearch::expand(const Task& task, std::int32_t index) {
   const auto occupation = static_cast<std::size_t>(label.interval / 2);  // the current one, or that after the gap
   const bool is_gap = label.interval % 2 == 0;
   Departure departure{index, task.agent.leg_after(label.leg, label.location), forever, -1};
-  if (!is_gap) departure.last_t = here[occupation].to;
-  else if (occupation < here.size()) departure.last_t = here[occupation].from - 1;
+  if (!is_gap)
+    departure.last_t = here[occupation].to;
+  else if (occupation < here.size())
+    departure.last_t = here[occupation].from - 1;
   const std::size_t next = is_gap ? occupation : occupation + 1;
   if (next < here.size() && here[next].from == departure.last_t + 1) departure.follower = here[next].agent;
 
@@ -83,7 +88,7 @@ void SafeIntervalSearch::wait(const Task& task, const Departure& departure) {
     ++label.interval;
   } else {
     label.interval += label.interval % 2 == 0 ? 1 : 2;
-    label.price += task.prices[static_cast<std::size_t>(departure.follower)];
+    label.price += price_of(task, departure.follower);
   }
   generate(task, label);
 }
@@ -95,8 +100,8 @@ void SafeIntervalSearch::move(const Task& task, const Departure& departure, Dire
   const bool may_displace = !task.prices.empty();
   const bool turn = from.heading != GridGraph::no_direction && from.heading != d;
   const auto there = others_.occupations(to);
-  Label label{to,        0,  departure.leg,  0, 0, departure.label, from.turns + (turn ? 1 : 0),
-              -1, static_cast<std::int8_t>(d), false};
+  Label label{
+      to, 0, departure.leg, 0, 0, departure.label, from.turns + (turn ? 1 : 0), -1, static_cast<std::int8_t>(d), false};
   for (std::size_t i = SafeIntervals::index_at(there, earliest);; ++i) {
     // gap i, then occupation i
     const std::int32_t left = i > 0 ? there[i - 1].to + 1 : 0;
@@ -112,7 +117,7 @@ void SafeIntervalSearch::move(const Task& task, const Departure& departure, Dire
       label.interval = static_cast<std::int32_t>(2 * i);
       label.displaced = -1;
       label.price = from.price;
-      if (swapper >= 0 && swapper != from.displaced) label.price += task.prices[static_cast<std::size_t>(swapper)];
+      if (swapper >= 0 && swapper != from.displaced) label.price += price_of(task, swapper);
       generate(task, label);
     }
     if (i >= there.size()) return;
@@ -122,9 +127,8 @@ void SafeIntervalSearch::move(const Task& task, const Departure& departure, Dire
     label.interval = static_cast<std::int32_t>(2 * i + 1);
     label.displaced = there[i].agent;
     label.price = from.price;
-    if (label.displaced != from.displaced) label.price += task.prices[static_cast<std::size_t>(label.displaced)];
-    if (label.t == left && swapper >= 0 && swapper != from.displaced)
-      label.price += task.prices[static_cast<std::size_t>(swapper)];
+    if (label.displaced != from.displaced) label.price += price_of(task, label.displaced);
+    if (label.t == left && swapper >= 0 && swapper != from.displaced) label.price += price_of(task, swapper);
     generate(task, label);
   }
 }
@@ -138,19 +142,21 @@ void SafeIntervalSearch::generate(const Task& task, const Label& label) {
     state.generated_t = label.t;
     state.generated_price = label.price;
   }
+  if (label.leg == task.agent.last_leg() && label.location == task.agent.last_goal() && generate_end(task, label))
+    return;
   push(task, label);
-  if (label.leg == task.agent.last_leg() && label.location == task.agent.last_goal()) generate_end(task, label);
 }
 
-// The robot stays at its last goal, whoever comes by.
-void SafeIntervalSearch::generate_end(const Task& task, const Label& label) {
-  Label end = label;
-  end.is_end = true;
+// The robot stays at its last goal for good. True if nobody minds: there is no better way to go on.
+bool SafeIntervalSearch::generate_end(const Task& task, const Label& label) {
   const auto there = others_.occupations(label.location);
   const auto next = static_cast<std::size_t>((label.interval + 1) / 2);
-  if (next < there.size() && task.prices.empty()) return;
-  for (std::size_t i = next; i < there.size(); ++i) end.price += task.prices[static_cast<std::size_t>(there[i].agent)];
+  if (next < there.size() && task.prices.empty()) return false;
+  Label end = label;
+  end.is_end = true;
+  for (std::size_t i = next; i < there.size(); ++i) end.price += price_of(task, there[i].agent);
   push(task, end);
+  return end.price == label.price;
 }
 
 void SafeIntervalSearch::push(const Task& task, const Label& label) {
@@ -184,9 +190,11 @@ void SafeIntervalSearch::trace_back(std::int32_t last, std::vector<Location>& pa
   std::size_t end = path.size();
   for (std::int32_t i = last; i >= 0;) {
     const Label& label = labels_[static_cast<std::size_t>(i)];
-    for (auto t = static_cast<std::size_t>(label.t); t < end; ++t) path[t] = label.location;
-    end = static_cast<std::size_t>(label.t);
     i = label.parent;
+    const std::size_t begin = i < 0 ? 0 : static_cast<std::size_t>(label.t);
+    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin), path.begin() + static_cast<std::ptrdiff_t>(end),
+              label.location);
+    end = begin;
   }
 }
 

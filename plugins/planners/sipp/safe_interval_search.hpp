@@ -24,9 +24,10 @@ class SafeIntervalSearch {
   enum class Result { free, displacing, none, stopped };
 
   // The agent itself must not be among the others. `prices` has what it costs to displace each robot, all positive;
-  // if it is empty none may be. Result::displacing: the path has conflicts with some.
-  Result search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices, StopSignal& stop,
-                std::vector<Location>& path);
+  // if it is empty none may be. Result::displacing: the path has conflicts with some. The robot stays where it starts
+  // for `delay` steps, or as long as it can if that is less.
+  Result search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices, std::int32_t delay,
+                StopSignal& stop, std::vector<Location>& path);
 
   std::int64_t expanded() const { return expanded_; }
 
@@ -39,7 +40,7 @@ class SafeIntervalSearch {
     std::int32_t t;      // of arrival
     std::int32_t price;  // so far
     std::int32_t parent;
-    std::int32_t turns;  // so far
+    std::int32_t turns;      // so far
     std::int32_t displaced;  // whose occupation this is, or -1
     std::int8_t heading;
     bool is_end;
@@ -81,17 +82,20 @@ class SafeIntervalSearch {
   // The part of an expanded label that all its successors share.
   struct Departure {
     std::int32_t label;
-    std::int32_t leg;     // of the next step
-    std::int32_t last_t;  // last departure
+    std::int32_t leg;       // of the next step
+    std::int32_t last_t;    // last departure
     std::int32_t follower;  // who takes the location right after last_t, or -1
   };
 
-  void begin(const Task& task);
+  static std::int32_t price_of(const Task& task, std::int32_t agent) {
+    return task.prices[static_cast<std::size_t>(agent)];
+  }
+  void begin(const Task& task, std::int32_t delay);
   void expand(const Task& task, std::int32_t index);
   void wait(const Task& task, const Departure& departure);
   void move(const Task& task, const Departure& departure, Direction d, Location to);
   void generate(const Task& task, const Label& label);
-  void generate_end(const Task& task, const Label& label);
+  bool generate_end(const Task& task, const Label& label);
   void push(const Task& task, const Label& label);
   State& state_of(const Task& task, const Label& label);
   void trace_back(std::int32_t last, std::vector<Location>& path) const;

@@ -6,6 +6,13 @@
 
 namespace dmrp::planners {
 
+namespace {
+
+// The most joint positions that a proof that there is no plan visits.
+constexpr std::size_t joint_state_limit = 300'000;
+
+}  // namespace
+
 Descriptor Sipp::describe() {
   return Descriptor("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
       .vendor("dmrp")
@@ -41,17 +48,24 @@ Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   sink.statistic("lower_bound", lower_bound);
 
   PrioritizedSearch search(problem, *tables, seed_, stop);
-  const PrioritizedSearch::Result result = search.run(restarts);
+  auto result = search.attempt(0);
+  std::optional<std::string> obstruction;
+  if (result == PrioritizedSearch::Result::given_up)
+    obstruction = find_joint_obstruction(problem, joint_state_limit, stop);
+  for (std::int64_t i = 1; i <= restarts && result == PrioritizedSearch::Result::given_up && !obstruction; ++i)
+    result = search.attempt(i);
   const PrioritizedStatistics statistics = search.statistics();
   sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
   sink.statistic("restarts", static_cast<double>(statistics.restarts));
   sink.statistic("displaced", static_cast<double>(statistics.displaced));
-  if (result == PrioritizedSearch::Result::stopped) {
-    set_error("stopped by the host");
-    return Status::timeout;
+  if (obstruction) {
+    set_error(*obstruction);
+    return Status::no_solution;
   }
-  if (result == PrioritizedSearch::Result::restart_limit) {
-    set_error("no plan after " + std::to_string(*restarts) + " restarts");
+  if (result != PrioritizedSearch::Result::solved) {
+    set_error(result == PrioritizedSearch::Result::stopped
+                  ? "stopped by the host"
+                  : "no plan after restarts = " + std::to_string(*restarts) + " new orders");
     return Status::timeout;
   }
   double cost = 0;
