@@ -32,16 +32,16 @@ void SafeIntervals::remove(PathView path) {
 }
 
 std::size_t SafeIntervals::index_at(std::span<const Occupation> occupations, std::int32_t t) {
-  std::size_t low = 0;
-  std::size_t high = occupations.size();
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (occupations[middle].to < t)
-      low = middle + 1;
-    else
-      high = middle;
+  // without branches that depend on the data, since these cannot be foreseen
+  const Occupation* first = occupations.data();
+  std::size_t count = occupations.size();
+  while (count > 1) {
+    const std::size_t half = count / 2;
+    first += first[half - 1].to < t ? half : 0;
+    count -= half;
   }
-  return low;
+  const auto index = static_cast<std::size_t>(first - occupations.data());
+  return count == 1 && first->to < t ? index + 1 : index;
 }
 
 std::int32_t SafeIntervals::agent_at(Location location, std::int32_t t) const {
