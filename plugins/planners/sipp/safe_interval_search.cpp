@@ -2,6 +2,7 @@
 #include "safe_interval_search.hpp"
 
 #include <algorithm>
+#include "../mapf/fewest_turns.hpp"
 
 namespace dmrp::planners {
 
@@ -163,7 +164,7 @@ void SafeIntervalSearch::push(const Task& task, const Label& label) {
   const std::int32_t to_go = task.table.distance(label.leg, label.location);
   // a path that displaces nobody cannot end before the last of them has crossed the goal
   const std::int32_t steps = label.price > 0 ? label.t + to_go : std::max(label.t + to_go, task.rest_from);
-  const OpenEntry entry{label.price, steps, to_go, label.turns, static_cast<std::int32_t>(labels_.size())};
+  const OpenEntry entry{label.price, steps, to_go, label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading), static_cast<std::int32_t>(labels_.size())};
   labels_.push_back(label);
   if (label.price > 0 && !may_displace_) {
     displacing_.push_back(entry);

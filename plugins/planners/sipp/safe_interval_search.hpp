@@ -57,8 +57,8 @@ class SafeIntervalSearch {
     bool operator()(const OpenEntry& a, const OpenEntry& b) const {
       if (a.price != b.price) return a.price > b.price;
       if (a.steps != b.steps) return a.steps > b.steps;
-      if (a.steps_to_go != b.steps_to_go) return a.steps_to_go > b.steps_to_go;
       if (a.turns != b.turns) return a.turns > b.turns;
+      if (a.steps_to_go != b.steps_to_go) return a.steps_to_go > b.steps_to_go;
       return a.label < b.label;
     }
   };
