@@ -41,6 +41,9 @@ class GridGraph {
   // Whether every move can be undone.
   bool is_symmetric() const;
 
+  // Columns: the number of locations in a row.
+  std::int32_t width() const { return width_; }
+
   // The open cell that holds a point, or nowhere.
   Location locate(dmrp_vec2 point) const;
   dmrp_vec2 center(Location location) const;

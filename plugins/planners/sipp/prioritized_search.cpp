@@ -35,9 +35,9 @@ PrioritizedSearch::Result PrioritizedSearch::attempt(std::int64_t restart) {
   while (!order_.empty()) {
     const std::int32_t agent = order_.front();
     order_.pop_front();
-    const SafeIntervalSearch::Result result = plan(agent);
-    if (result == SafeIntervalSearch::Result::stopped) return Result::stopped;
-    if (result == SafeIntervalSearch::Result::none || statistics_.displaced > limit) return Result::given_up;
+    const SippSearch::Result result = plan(agent);
+    if (result == SippSearch::Result::stopped) return Result::stopped;
+    if (result == SippSearch::Result::none || statistics_.displaced > limit) return Result::given_up;
   }
   return Result::solved;
 }
@@ -65,11 +65,11 @@ void PrioritizedSearch::begin(std::int64_t restart) {
                    [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
 }
 
-SafeIntervalSearch::Result PrioritizedSearch::plan(std::int32_t agent) {
+SippSearch::Result PrioritizedSearch::plan(std::int32_t agent) {
   const auto who = static_cast<std::size_t>(agent);
   const auto result = low_level_.search(problem_.agents[who], tables_[who], prices_, delays_[who], stop_, path_);
-  if (result != SafeIntervalSearch::Result::free && result != SafeIntervalSearch::Result::displacing) return result;
-  if (result == SafeIntervalSearch::Result::displacing) displace_those_in_the_way();
+  if (result != SippSearch::Result::free && result != SippSearch::Result::displacing) return result;
+  if (result == SippSearch::Result::displacing) displace_those_in_the_way();
   paths_[who] = path_;
   planned_.add(agent, paths_[who]);
   return result;

@@ -12,7 +12,7 @@
 #include <deque>
 #include <vector>
 
-#include "safe_interval_search.hpp"
+#include "sipp_search.hpp"
 
 namespace dmrp::planners {
 
@@ -38,7 +38,7 @@ class PrioritizedSearch {
 
  private:
   void begin(std::int64_t restart);
-  SafeIntervalSearch::Result plan(std::int32_t agent);
+  SippSearch::Result plan(std::int32_t agent);
   void displace_those_in_the_way();
   void take_back(std::int32_t agent);
 
@@ -47,7 +47,7 @@ class PrioritizedSearch {
   std::uint64_t seed_;
   StopSignal& stop_;
   SafeIntervals planned_;
-  SafeIntervalSearch low_level_;
+  SippSearch low_level_;
   std::vector<std::vector<Location>> paths_;  // empty for a robot that is not planned
   std::deque<std::int32_t> order_;            // robots to be planned
   std::vector<std::int32_t> prices_;          // of displacing a robot

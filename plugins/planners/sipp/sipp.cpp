@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sipp.hpp"
-
 #include "../mapf/solvability.hpp"
 #include "../mapf/straighten.hpp"
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include "prioritized_search.hpp"
 
 namespace dmrp::planners {
@@ -14,6 +10,9 @@ namespace {
 
 // The most joint positions that a proof that there is no plan visits.
 constexpr std::size_t joint_state_limit = 300'000;
+
+// What taking turns out may cost, beside half of what planning did.
+constexpr std::int64_t straightening_states_a_robot = 100;
 
 }  // namespace
 
@@ -72,13 +71,9 @@ Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
                   : "no plan after restarts = " + std::to_string(*restarts) + " new orders");
     return Status::timeout;
   }
-  auto cl = [] { timespec t; clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t); return t.tv_sec * 1e6 + 1e-3 * t.tv_nsec; };
-  const auto t0 = cl();
-  const auto saved = straighten(problem, *tables, search.paths(), std::getenv("WORK") ? std::atoi(std::getenv("WORK")) : statistics.low_level_expanded / 2 + 100 * static_cast<std::int64_t>(problem.agents.size()), stop);
-  const auto t1 = cl();
-  int turns = 0;
-  for (const auto& path : search.paths()) turns += count_turns(problem.graph, path);
-  std::printf("straighten %.0f us, a robot %.1f us, saved %d of %d\n", t1-t0, (t1-t0)/problem.agents.size(), saved, turns + saved);
+  const auto robots = static_cast<std::int64_t>(problem.agents.size());
+  straighten(problem, *tables, search.paths(),
+             straightening_states_a_robot * robots + statistics.low_level_expanded / 2, stop);
   double cost = 0;
   for (const auto& path : search.paths()) cost += cost_of(path);
   sink.statistic("cost", cost);

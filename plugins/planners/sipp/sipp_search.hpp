@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// safe_interval_search.hpp: the best path of one robot among robots that move on known paths.
+// sipp_search.hpp: the best path of one robot among robots that move on known paths.
 //
 // A* over states (location, safe interval, leg of the tour) with the earliest time of arrival (Phillips & Likhachev
 // 2011). Where that finds no way the search goes on through the other robots, as in SIPPS (Li et al. 2022): a path
@@ -16,9 +16,9 @@
 
 namespace dmrp::planners {
 
-class SafeIntervalSearch {
+class SippSearch {
  public:
-  SafeIntervalSearch(const GridGraph& graph, const SafeIntervals& others)
+  SippSearch(const GridGraph& graph, const SafeIntervals& others)
       : graph_(graph), others_(others), intervals_(static_cast<std::size_t>(graph.location_count())) {}
 
   enum class Result { free, displacing, none, stopped };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "safe_interval_search.hpp"
+#include "sipp_search.hpp"
 
 #include <algorithm>
+
 #include "../mapf/fewest_turns.hpp"
 
 namespace dmrp::planners {
 
-SafeIntervalSearch::Result SafeIntervalSearch::search(const Agent& agent, const TourTable& table,
-                                                      std::span<const std::int32_t> prices, std::int32_t delay,
-                                                      StopSignal& stop, std::vector<Location>& path) {
+SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices,
+                                      std::int32_t delay, StopSignal& stop, std::vector<Location>& path) {
   const auto at_goal = others_.occupations(agent.last_goal());
   const Task task{agent, table, prices, at_goal.empty() ? 0 : at_goal.back().to + 1};
   begin(task, delay);
@@ -35,7 +35,7 @@ SafeIntervalSearch::Result SafeIntervalSearch::search(const Agent& agent, const 
   }
 }
 
-void SafeIntervalSearch::begin(const Task& task, std::int32_t delay) {
+void SippSearch::begin(const Task& task, std::int32_t delay) {
   ++epoch_;
   states_.clear();
   labels_.clear();
@@ -48,7 +48,7 @@ void SafeIntervalSearch::begin(const Task& task, std::int32_t delay) {
   generate(task, {task.agent.start, 0, 0, t, 0, -1, 0, -1, GridGraph::no_direction, false});
 }
 
-void SafeIntervalSearch::expand(const Task& task, std::int32_t index) {
+void SippSearch::expand(const Task& task, std::int32_t index) {
   ++expanded_;
   const Label label = labels_[static_cast<std::size_t>(index)];
   const auto here = others_.occupations(label.location);
@@ -73,7 +73,7 @@ void SafeIntervalSearch::expand(const Task& task, std::int32_t index) {
 }
 
 // Into the location's next interval; or, between equal goals, one step on in this one.
-void SafeIntervalSearch::wait(const Task& task, const Departure& departure) {
+void SippSearch::wait(const Task& task, const Departure& departure) {
   Label label = labels_[static_cast<std::size_t>(departure.label)];
   const bool gets_on = departure.leg != label.leg && label.location == task.agent.goal(departure.leg);
   label.parent = departure.label;
@@ -94,7 +94,7 @@ void SafeIntervalSearch::wait(const Task& task, const Departure& departure) {
   generate(task, label);
 }
 
-void SafeIntervalSearch::move(const Task& task, const Departure& departure, Direction d, Location to) {
+void SippSearch::move(const Task& task, const Departure& departure, Direction d, Location to) {
   const Label from = labels_[static_cast<std::size_t>(departure.label)];
   const std::int32_t earliest = from.t + 1;
   const std::int32_t latest = departure.last_t + 1;
@@ -134,7 +134,7 @@ void SafeIntervalSearch::move(const Task& task, const Departure& departure, Dire
   }
 }
 
-void SafeIntervalSearch::generate(const Task& task, const Label& label) {
+void SippSearch::generate(const Task& task, const Label& label) {
   if (task.table.distance(label.leg, label.location) >= TourTable::unreachable) return;
   State& state = state_of(task, label);
   if (state.expanded_t <= label.t) return;
@@ -149,7 +149,7 @@ void SafeIntervalSearch::generate(const Task& task, const Label& label) {
 }
 
 // The robot stays at its last goal for good. True if nobody minds: there is no better way to go on.
-bool SafeIntervalSearch::generate_end(const Task& task, const Label& label) {
+bool SippSearch::generate_end(const Task& task, const Label& label) {
   const auto there = others_.occupations(label.location);
   const auto next = static_cast<std::size_t>((label.interval + 1) / 2);
   if (next < there.size() && task.prices.empty()) return false;
@@ -160,11 +160,13 @@ bool SafeIntervalSearch::generate_end(const Task& task, const Label& label) {
   return end.price == label.price;
 }
 
-void SafeIntervalSearch::push(const Task& task, const Label& label) {
+void SippSearch::push(const Task& task, const Label& label) {
   const std::int32_t to_go = task.table.distance(label.leg, label.location);
   // a path that displaces nobody cannot end before the last of them has crossed the goal
   const std::int32_t steps = label.price > 0 ? label.t + to_go : std::max(label.t + to_go, task.rest_from);
-  const OpenEntry entry{label.price, steps, to_go, label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading), static_cast<std::int32_t>(labels_.size())};
+  const OpenEntry entry{label.price, steps, to_go,
+                        label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading),
+                        static_cast<std::int32_t>(labels_.size())};
   labels_.push_back(label);
   if (label.price > 0 && !may_displace_) {
     displacing_.push_back(entry);
@@ -174,7 +176,7 @@ void SafeIntervalSearch::push(const Task& task, const Label& label) {
   std::push_heap(open_.begin(), open_.end(), IsWorse());
 }
 
-SafeIntervalSearch::State& SafeIntervalSearch::state_of(const Task& task, const Label& label) {
+SippSearch::State& SippSearch::state_of(const Task& task, const Label& label) {
   LocationStates& at = intervals_[static_cast<std::size_t>(label.location)];
   const std::size_t intervals = 2 * others_.occupations(label.location).size() + 1;
   if (at.epoch != epoch_) {
@@ -186,7 +188,7 @@ SafeIntervalSearch::State& SafeIntervalSearch::state_of(const Task& task, const 
 }
 
 // Fills in the waits: a robot leaves one step before it arrives elsewhere.
-void SafeIntervalSearch::trace_back(std::int32_t last, std::vector<Location>& path) const {
+void SippSearch::trace_back(std::int32_t last, std::vector<Location>& path) const {
   path.resize(static_cast<std::size_t>(labels_[static_cast<std::size_t>(last)].t) + 1);
   std::size_t end = path.size();
   for (std::int32_t i = last; i >= 0;) {
