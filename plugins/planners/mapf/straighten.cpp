@@ -79,10 +79,8 @@ class StraightestPath {
     table_ = &table;
     turn_limit_ = turns;
     cost_ = cost_of(path);
-    // between equal goals at the end a robot just waits
     end_leg_ = agent.last_leg();
     while (end_leg_ > 0 && agent.goal(end_leg_ - 1) == agent.last_goal()) --end_leg_;
-    end_t_ = cost_ - (agent.last_leg() - end_leg_);
     ++epoch_;
     states_.clear();
     labels_.clear();
@@ -150,7 +148,7 @@ class StraightestPath {
       label.t = std::max(earliest, left);
       if (label.t <= gap_end && !swap) {
         generate(label);
-        if (gap_end == forever && end_t_ >= label.t && end_t_ <= latest) generate_end(label);
+        if (gap_end == forever) generate_end(label, latest);
       }
       if (i >= there.size()) return;
     }
@@ -170,9 +168,12 @@ class StraightestPath {
            (spare >= 0 && fewest_turns(graph_, label.location, agent_->goal(label.leg), label.heading) <= spare);
   }
 
-  void generate_end(Label label) {
-    if (label.leg != end_leg_ || label.location != agent_->last_goal()) return;
-    label.t = end_t_;
+  // The robot comes to stay. Between equal goals at the end it just waits.
+  void generate_end(Label label, std::int32_t latest) {
+    if (label.leg < end_leg_ || label.location != agent_->last_goal()) return;
+    const std::int32_t end_t = cost_ - (agent_->last_leg() - label.leg);
+    if (end_t < label.t || end_t > latest) return;
+    label.t = end_t;
     label.is_end = true;
     push(label);
   }
@@ -198,8 +199,7 @@ class StraightestPath {
   const TourTable* table_ = nullptr;
   std::int32_t turn_limit_ = 0;  // the path found must have less
   std::int32_t cost_ = 0;
-  std::int32_t end_leg_ = 0;
-  std::int32_t end_t_ = 0;
+  std::int32_t end_leg_ = 0;  // from here on all goals are the last one's location
   std::vector<Place> places_;
   std::vector<State> states_;
   std::vector<Label> labels_;

@@ -39,6 +39,21 @@ PrioritizedSearch::Result PrioritizedSearch::attempt(std::int64_t restart) {
     if (result == SippSearch::Result::stopped) return Result::stopped;
     if (result == SippSearch::Result::none || statistics_.displaced > limit) return Result::given_up;
   }
+  return restart == 0 ? Result::solved : tighten();
+}
+
+// What delays have cost: each robot anew among all others, without, until none gains.
+PrioritizedSearch::Result PrioritizedSearch::tighten() {
+  std::size_t unchanged = 0;
+  for (std::size_t who = 0; unchanged < paths_.size(); who = (who + 1) % paths_.size()) {
+    planned_.remove(paths_[who]);
+    const auto result = low_level_.search(problem_.agents[who], tables_[who], {}, 0, stop_, path_);
+    const bool gains = result == SippSearch::Result::free && path_.size() < paths_[who].size();
+    if (gains) paths_[who] = path_;
+    planned_.add(static_cast<std::int32_t>(who), paths_[who]);
+    if (result == SippSearch::Result::stopped) return Result::stopped;
+    unchanged = gains ? 0 : unchanged + 1;
+  }
   return Result::solved;
 }
 

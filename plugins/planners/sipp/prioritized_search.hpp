@@ -38,6 +38,7 @@ class PrioritizedSearch {
 
  private:
   void begin(std::int64_t restart);
+  Result tighten();
   SippSearch::Result plan(std::int32_t agent);
   void displace_those_in_the_way();
   void take_back(std::int32_t agent);

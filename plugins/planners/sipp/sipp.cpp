@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sipp.hpp"
+
 #include "../mapf/solvability.hpp"
 #include "../mapf/straighten.hpp"
 #include "prioritized_search.hpp"
