@@ -14,10 +14,9 @@ SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table
   begin(task, delay);
   for (;;) {
     if (open_.empty()) {
-      if (may_displace_ || displacing_.empty()) return Result::none;
-      may_displace_ = true;
-      open_.swap(displacing_);
-      std::make_heap(open_.begin(), open_.end(), IsWorse());
+      if (may_displace_ || prices.empty()) return Result::none;
+      start_displacing(task);
+      continue;
     }
     if (stop.poll()) return Result::stopped;
     std::pop_heap(open_.begin(), open_.end(), IsWorse());
@@ -31,8 +30,16 @@ SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table
     State& state = state_of(task, label);
     if (state.expanded_t <= label.t) continue;
     state.expanded_t = label.t;
+    ++expanded_;
+    if (!may_displace_) expanded_labels_.push_back(index);
     expand(task, index);
   }
+}
+
+// There is no way round the others: on from all places that can be reached, through them.
+void SippSearch::start_displacing(const Task& task) {
+  may_displace_ = true;
+  for (const std::int32_t index : expanded_labels_) expand(task, index);
 }
 
 void SippSearch::begin(const Task& task, std::int32_t delay) {
@@ -40,7 +47,7 @@ void SippSearch::begin(const Task& task, std::int32_t delay) {
   states_.clear();
   labels_.clear();
   open_.clear();
-  displacing_.clear();
+  expanded_labels_.clear();
   may_displace_ = false;
   const auto there = others_.occupations(task.agent.start);
   std::int32_t t = task.agent.start == task.agent.last_goal() ? 0 : delay;
@@ -49,7 +56,6 @@ void SippSearch::begin(const Task& task, std::int32_t delay) {
 }
 
 void SippSearch::expand(const Task& task, std::int32_t index) {
-  ++expanded_;
   const Label label = labels_[static_cast<std::size_t>(index)];
   const auto here = others_.occupations(label.location);
   const auto occupation = static_cast<std::size_t>(label.interval / 2);  // the current one, or that after the gap
@@ -62,6 +68,7 @@ void SippSearch::expand(const Task& task, std::int32_t index) {
   const std::size_t next = is_gap ? occupation : occupation + 1;
   if (next < here.size() && here[next].from == departure.last_t + 1) departure.follower = here[next].agent;
 
+  if (may_displace_ && is_at_last_goal(task, label)) generate_end(task, label);
   wait(task, departure);
   // Between equal goals a wait gets the tour on: then only what leaves at once is left.
   if (departure.leg != label.leg && label.location == task.agent.goal(departure.leg) && label.t < departure.last_t) {
@@ -82,7 +89,7 @@ void SippSearch::wait(const Task& task, const Departure& departure) {
     ++label.t;
     return generate(task, label);
   }
-  if (departure.last_t >= forever || task.prices.empty()) return;
+  if (departure.last_t >= forever || !may_displace_) return;
   label.t = departure.last_t + 1;
   label.displaced = departure.follower;
   if (departure.follower < 0) {
@@ -98,7 +105,6 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
   const Label from = labels_[static_cast<std::size_t>(departure.label)];
   const std::int32_t earliest = from.t + 1;
   const std::int32_t latest = departure.last_t + 1;
-  const bool may_displace = !task.prices.empty();
   const bool turn = from.heading != GridGraph::no_direction && from.heading != d;
   const auto there = others_.occupations(to);
   Label label{
@@ -114,7 +120,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
             ? departure.follower
             : -1;
     label.t = std::max(earliest, left);
-    if (label.t <= gap_end && (swapper < 0 || may_displace)) {
+    if (label.t <= gap_end && (swapper < 0 || may_displace_)) {
       label.interval = static_cast<std::int32_t>(2 * i);
       label.displaced = -1;
       label.price = from.price;
@@ -124,7 +130,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
     if (i >= there.size()) return;
     label.t = std::max(earliest, there[i].from);
     if (label.t > latest) return;
-    if (!may_displace) continue;
+    if (!may_displace_) continue;
     label.interval = static_cast<std::int32_t>(2 * i + 1);
     label.displaced = there[i].agent;
     label.price = from.price;
@@ -143,37 +149,35 @@ void SippSearch::generate(const Task& task, const Label& label) {
     state.generated_t = label.t;
     state.generated_price = label.price;
   }
-  if (label.leg == task.agent.last_leg() && label.location == task.agent.last_goal() && generate_end(task, label))
-    return;
   push(task, label);
 }
 
-// The robot stays at its last goal for good. True if nobody minds: there is no better way to go on.
-bool SippSearch::generate_end(const Task& task, const Label& label) {
-  const auto there = others_.occupations(label.location);
-  const auto next = static_cast<std::size_t>((label.interval + 1) / 2);
-  if (next < there.size() && task.prices.empty()) return false;
+// The robot stays at its last goal for good, whoever comes by.
+void SippSearch::generate_end(const Task& task, const Label& label) {
   Label end = label;
   end.is_end = true;
-  for (std::size_t i = next; i < there.size(); ++i) end.price += price_of(task, there[i].agent);
+  const auto there = others_.occupations(label.location);
+  for (auto i = static_cast<std::size_t>((label.interval + 1) / 2); i < there.size(); ++i)
+    end.price += price_of(task, there[i].agent);
   push(task, end);
-  return end.price == label.price;
 }
 
-void SippSearch::push(const Task& task, const Label& label) {
+void SippSearch::push(const Task& task, Label label) {
+  const auto pack = [](std::int32_t high, std::int32_t low) {
+    return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(low);
+  };
   const std::int32_t to_go = task.table.distance(label.leg, label.location);
   // a path that displaces nobody cannot end before the last of them has crossed the goal
   const std::int32_t steps = label.price > 0 ? label.t + to_go : std::max(label.t + to_go, task.rest_from);
-  const OpenEntry entry{label.price, steps, to_go,
-                        label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading),
-                        static_cast<std::int32_t>(labels_.size())};
-  labels_.push_back(label);
-  if (label.price > 0 && !may_displace_) {
-    displacing_.push_back(entry);
-    return;
-  }
-  open_.push_back(entry);
+  const std::int32_t turns =
+      label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading);
+  // who has time to spare should get on first of all
+  const bool has_time = steps == task.rest_from;
+  open_.push_back({pack(label.price, steps), has_time ? pack(to_go, turns) : pack(turns, to_go),
+                   static_cast<std::int32_t>(labels_.size())});
   std::push_heap(open_.begin(), open_.end(), IsWorse());
+  label.is_end = label.is_end || (to_go == 0 && label.t >= task.rest_from);
+  labels_.push_back(label);
 }
 
 SippSearch::State& SippSearch::state_of(const Task& task, const Label& label) {

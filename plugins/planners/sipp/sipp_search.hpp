@@ -45,20 +45,16 @@ class SippSearch {
     std::int8_t heading;
     bool is_end;
   };
-  // Smaller is better, component by component; of equals the later label, which is further on its way.
+  // Smaller is better; of equals the later label, which is further on its way.
   struct OpenEntry {
-    std::int32_t price;
-    std::int32_t steps;  // least possible cost of the path
-    std::int32_t steps_to_go;
-    std::int32_t turns;
+    std::uint64_t price_and_steps;  // the least possible cost of the path
+    std::uint64_t preference;
     std::int32_t label;
   };
   struct IsWorse {
     bool operator()(const OpenEntry& a, const OpenEntry& b) const {
-      if (a.price != b.price) return a.price > b.price;
-      if (a.steps != b.steps) return a.steps > b.steps;
-      if (a.turns != b.turns) return a.turns > b.turns;
-      if (a.steps_to_go != b.steps_to_go) return a.steps_to_go > b.steps_to_go;
+      if (a.price_and_steps != b.price_and_steps) return a.price_and_steps > b.price_and_steps;
+      if (a.preference != b.preference) return a.preference > b.preference;
       return a.label < b.label;
     }
   };
@@ -87,6 +83,9 @@ class SippSearch {
     std::int32_t follower;  // who takes the location right after last_t, or -1
   };
 
+  static bool is_at_last_goal(const Task& task, const Label& label) {
+    return label.leg == task.agent.last_leg() && label.location == task.agent.last_goal();
+  }
   static std::int32_t price_of(const Task& task, std::int32_t agent) {
     return task.prices[static_cast<std::size_t>(agent)];
   }
@@ -95,8 +94,9 @@ class SippSearch {
   void wait(const Task& task, const Departure& departure);
   void move(const Task& task, const Departure& departure, Direction d, Location to);
   void generate(const Task& task, const Label& label);
-  bool generate_end(const Task& task, const Label& label);
-  void push(const Task& task, const Label& label);
+  void generate_end(const Task& task, const Label& label);
+  void start_displacing(const Task& task);
+  void push(const Task& task, Label label);
   State& state_of(const Task& task, const Label& label);
   void trace_back(std::int32_t last, std::vector<Location>& path) const;
 
@@ -106,8 +106,8 @@ class SippSearch {
   std::vector<State> states_;
   std::vector<Label> labels_;
   std::vector<OpenEntry> open_;
-  std::vector<OpenEntry> displacing_;  // not open as long as there may be a path that displaces nobody
-  bool may_displace_ = false;
+  std::vector<std::int32_t> expanded_labels_;
+  bool may_displace_ = false;  // not as long as there may be a path that displaces nobody
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;
 };
