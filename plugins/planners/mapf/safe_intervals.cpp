@@ -31,19 +31,6 @@ void SafeIntervals::remove(PathView path) {
   visit_stays(path, [&](Location location, std::int32_t from, std::int32_t) { erase(location, from); });
 }
 
-std::size_t SafeIntervals::index_at(std::span<const Occupation> occupations, std::int32_t t) {
-  // without branches that depend on the data, since these cannot be foreseen
-  const Occupation* first = occupations.data();
-  std::size_t count = occupations.size();
-  while (count > 1) {
-    const std::size_t half = count / 2;
-    first += first[half - 1].to < t ? half : 0;
-    count -= half;
-  }
-  const auto index = static_cast<std::size_t>(first - occupations.data());
-  return count == 1 && first->to < t ? index + 1 : index;
-}
-
 std::int32_t SafeIntervals::agent_at(Location location, std::int32_t t) const {
   const auto there = occupations(location);
   const std::size_t i = index_at(there, t);

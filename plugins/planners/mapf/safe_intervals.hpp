@@ -41,7 +41,18 @@ class SafeIntervals {
 
   // The first occupation that ends at `t` or later; the number of occupations if there is none. So `t` lies in that
   // occupation, or in the gap before it.
-  static std::size_t index_at(std::span<const Occupation> occupations, std::int32_t t);
+  static std::size_t index_at(std::span<const Occupation> occupations, std::int32_t t) {
+    // without branches that depend on the data, since these cannot be foreseen
+    const Occupation* first = occupations.data();
+    std::size_t count = occupations.size();
+    while (count > 1) {
+      const std::size_t half = count / 2;
+      first += first[half - 1].to < t ? half : 0;
+      count -= half;
+    }
+    const auto index = static_cast<std::size_t>(first - occupations.data());
+    return count == 1 && first->to < t ? index + 1 : index;
+  }
 
   // Whether a robot other than `agent` stands in the way of a move (or wait) that arrives at time t > 0.
   bool is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const;

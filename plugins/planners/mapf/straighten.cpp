@@ -5,7 +5,6 @@
 #include <array>
 
 #include "fewest_turns.hpp"
-#include "safe_intervals.hpp"
 
 namespace dmrp::planners {
 
@@ -211,13 +210,18 @@ class StraightestPath {
 
 std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables,
                         std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop) {
-  using Result = StraightestPath::Result;
   SafeIntervals plan(problem.graph);
+  for (std::size_t i = 0; i < paths.size() && !stop.poll_now(); ++i) plan.add(static_cast<std::int32_t>(i), paths[i]);
+  return straighten(problem, tables, plan, paths, work_limit, stop);
+}
+
+std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables, SafeIntervals& plan,
+                        std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop) {
+  using Result = StraightestPath::Result;
   std::vector<std::int32_t> turns;
   std::vector<std::size_t> candidates;  // robots that may do with fewer turns
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Agent& agent = problem.agents[i];
-    plan.add(static_cast<std::int32_t>(i), paths[i]);
     turns.push_back(count_turns(problem.graph, paths[i]));
     if (turns[i] > fewest_turns(problem.graph, agent.start, agent.goal(0), GridGraph::no_direction))
       candidates.push_back(i);
@@ -231,6 +235,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
   while (!left.empty() && work_limit > 0 && !stop.raised()) {
     // those who are settled with little work first
     std::erase_if(left, [&](std::size_t i) {
+      if (work_limit <= 0 || stop.raised()) return false;
       const std::int64_t limit = std::min(work_a_robot, work_limit);
       std::int64_t work_left = limit;
       plan.remove(paths[i]);

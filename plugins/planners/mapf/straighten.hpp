@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "safe_intervals.hpp"
 #include "stop_signal.hpp"
 #include "tour_table.hpp"
 
@@ -16,6 +17,10 @@ namespace dmrp::planners {
 // or two each), having settled the robots that take least work, or when `stop` says so. Returns how many turns it
 // saved.
 std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables,
+                        std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop);
+
+// The same where `plan` has the paths already; it has the new ones afterwards.
+std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables, SafeIntervals& plan,
                         std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop);
 
 }  // namespace dmrp::planners

@@ -5,6 +5,8 @@
 #include <dmrp/toolkit/random.hpp>
 #include <numeric>
 
+#include "../mapf/solvability.hpp"
+
 namespace dmrp::planners {
 
 namespace {
@@ -15,6 +17,9 @@ constexpr std::int64_t displacements_a_robot = 10;
 // After a restart every other robot stays where it starts for fewer steps than this. Where two have to yield to each
 // other no order helps, but a delay often does.
 constexpr std::uint64_t delay_limit = 8;
+
+// The most joint positions that a proof that there is no plan visits.
+constexpr std::size_t joint_state_limit = 300'000;
 
 }  // namespace
 
@@ -28,7 +33,20 @@ PrioritizedSearch::PrioritizedSearch(const Problem& problem, const std::vector<T
       low_level_(problem.graph, planned_),
       paths_(problem.agents.size()) {}
 
-PrioritizedSearch::Result PrioritizedSearch::attempt(std::int64_t restart) {
+PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
+  for (std::int64_t restart = 0; restart <= restart_limit; ++restart) {
+    const Attempt result = attempt(restart);
+    if (result == Attempt::succeeded) return Result::solved;
+    if (result == Attempt::stopped) return Result::stopped;
+    if (restart > 0) continue;
+    const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+    if (found) return obstruction_ = *found, Result::unsolvable;
+  }
+  return Result::restart_limit;
+}
+
+// Plans all robots in the first order, or in one drawn at random.
+PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
   begin(restart);
   const std::int64_t limit =
       statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
@@ -36,14 +54,14 @@ PrioritizedSearch::Result PrioritizedSearch::attempt(std::int64_t restart) {
     const std::int32_t agent = order_.front();
     order_.pop_front();
     const SippSearch::Result result = plan(agent);
-    if (result == SippSearch::Result::stopped) return Result::stopped;
-    if (result == SippSearch::Result::none || statistics_.displaced > limit) return Result::given_up;
+    if (result == SippSearch::Result::stopped) return Attempt::stopped;
+    if (result == SippSearch::Result::none || statistics_.displaced > limit) return Attempt::failed;
   }
-  return restart == 0 ? Result::solved : tighten();
+  return restart == 0 ? Attempt::succeeded : tighten();
 }
 
 // What delays have cost: each robot anew among all others, without, until none gains.
-PrioritizedSearch::Result PrioritizedSearch::tighten() {
+PrioritizedSearch::Attempt PrioritizedSearch::tighten() {
   std::size_t unchanged = 0;
   for (std::size_t who = 0; unchanged < paths_.size(); who = (who + 1) % paths_.size()) {
     planned_.remove(paths_[who]);
@@ -51,10 +69,10 @@ PrioritizedSearch::Result PrioritizedSearch::tighten() {
     const bool gains = result == SippSearch::Result::free && path_.size() < paths_[who].size();
     if (gains) paths_[who] = path_;
     planned_.add(static_cast<std::int32_t>(who), paths_[who]);
-    if (result == SippSearch::Result::stopped) return Result::stopped;
+    if (result == SippSearch::Result::stopped) return Attempt::stopped;
     unchanged = gains ? 0 : unchanged + 1;
   }
-  return Result::solved;
+  return Attempt::succeeded;
 }
 
 void PrioritizedSearch::begin(std::int64_t restart) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "sipp_search.hpp"
@@ -24,21 +25,27 @@ struct PrioritizedStatistics {
 
 class PrioritizedSearch {
  public:
-  enum class Result { solved, given_up, stopped };
+  enum class Result { solved, unsolvable, restart_limit, stopped };
 
   // The problem has no obvious obstruction: all goals can be reached, starts and last goals differ.
   PrioritizedSearch(const Problem& problem, const std::vector<TourTable>& tables, std::uint64_t seed, StopSignal& stop);
 
-  // Plans all robots in the first order, or after a restart, the first being 1.
-  Result attempt(std::int64_t restart);
+  Result run(std::int64_t restart_limit);
 
   // After Result::solved: a path an agent.
   std::vector<std::vector<Location>>& paths() { return paths_; }
+  // Where they are, path by path.
+  SafeIntervals& occupied() { return planned_; }
+  // After Result::unsolvable.
+  const std::string& obstruction() const { return obstruction_; }
   PrioritizedStatistics statistics() const;
 
  private:
+  enum class Attempt { succeeded, failed, stopped };
+
+  Attempt attempt(std::int64_t restart);
   void begin(std::int64_t restart);
-  Result tighten();
+  Attempt tighten();
   SippSearch::Result plan(std::int32_t agent);
   void displace_those_in_the_way();
   void take_back(std::int32_t agent);
@@ -55,6 +62,7 @@ class PrioritizedSearch {
   std::vector<std::int32_t> delays_;          // steps that a robot stays where it starts
   std::vector<Location> path_;
   std::vector<std::int32_t> in_the_way_;
+  std::string obstruction_;
   PrioritizedStatistics statistics_;
 };
 

@@ -9,11 +9,8 @@ namespace dmrp::planners {
 
 namespace {
 
-// The most joint positions that a proof that there is no plan visits.
-constexpr std::size_t joint_state_limit = 300'000;
-
 // What taking turns out may cost, beside half of what planning did.
-constexpr std::int64_t straightening_states_a_robot = 100;
+constexpr std::int64_t straightening_states_a_robot = 20;
 
 }  // namespace
 
@@ -52,34 +49,33 @@ Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   sink.statistic("lower_bound", lower_bound);
 
   PrioritizedSearch search(problem, *tables, seed_, stop);
-  auto result = search.attempt(0);
-  std::optional<std::string> obstruction;
-  if (result == PrioritizedSearch::Result::given_up)
-    obstruction = find_joint_obstruction(problem, joint_state_limit, stop);
-  for (std::int64_t i = 1; i <= restarts && result == PrioritizedSearch::Result::given_up && !obstruction; ++i)
-    result = search.attempt(i);
+  const PrioritizedSearch::Result result = search.run(restarts);
   const PrioritizedStatistics statistics = search.statistics();
   sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
   sink.statistic("restarts", static_cast<double>(statistics.restarts));
   sink.statistic("displaced", static_cast<double>(statistics.displaced));
-  if (obstruction) {
-    set_error(*obstruction);
-    return Status::no_solution;
+  switch (result) {
+    case PrioritizedSearch::Result::solved:
+      break;
+    case PrioritizedSearch::Result::unsolvable:
+      set_error(search.obstruction());
+      return Status::no_solution;
+    case PrioritizedSearch::Result::stopped:
+      set_error("stopped by the host");
+      return Status::timeout;
+    case PrioritizedSearch::Result::restart_limit:
+      set_error("no plan after restarts = " + std::to_string(*restarts));
+      return Status::timeout;
   }
-  if (result != PrioritizedSearch::Result::solved) {
-    set_error(result == PrioritizedSearch::Result::stopped
-                  ? "stopped by the host"
-                  : "no plan after restarts = " + std::to_string(*restarts) + " new orders");
-    return Status::timeout;
-  }
-  const auto robots = static_cast<std::int64_t>(problem.agents.size());
-  straighten(problem, *tables, search.paths(),
-             straightening_states_a_robot * robots + statistics.low_level_expanded / 2, stop);
+
+  std::vector<std::vector<Location>>& paths = search.paths();
+  const std::int64_t work_limit =
+      straightening_states_a_robot * static_cast<std::int64_t>(paths.size()) + statistics.low_level_expanded / 2;
+  straighten(problem, *tables, search.occupied(), paths, work_limit, stop);
   double cost = 0;
-  for (const auto& path : search.paths()) cost += cost_of(path);
+  for (const auto& path : paths) cost += cost_of(path);
   sink.statistic("cost", cost);
-  const std::vector<PathView> views(search.paths().begin(), search.paths().end());
-  write_paths(host_problem, problem, views, sink);
+  write_paths(host_problem, problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;
 }
 

@@ -2,6 +2,7 @@
 #include "sipp_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "../mapf/fewest_turns.hpp"
 
@@ -13,15 +14,13 @@ SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table
   const Task task{agent, table, prices, at_goal.empty() ? 0 : at_goal.back().to + 1};
   begin(task, delay);
   for (;;) {
-    if (open_.empty()) {
+    if (is_open_empty()) {
       if (may_displace_ || prices.empty()) return Result::none;
       start_displacing(task);
       continue;
     }
     if (stop.poll()) return Result::stopped;
-    std::pop_heap(open_.begin(), open_.end(), IsWorse());
-    const std::int32_t index = open_.back().label;
-    open_.pop_back();
+    const std::int32_t index = pop_open();
     const Label& label = labels_[static_cast<std::size_t>(index)];
     if (label.is_end) {
       trace_back(index, path);
@@ -47,6 +46,7 @@ void SippSearch::begin(const Task& task, std::int32_t delay) {
   states_.clear();
   labels_.clear();
   open_.clear();
+  latest_.label = none;
   expanded_labels_.clear();
   may_displace_ = false;
   const auto there = others_.occupations(task.agent.start);
@@ -173,11 +173,35 @@ void SippSearch::push(const Task& task, Label label) {
       label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading);
   // who has time to spare should get on first of all
   const bool has_time = steps == task.rest_from;
-  open_.push_back({pack(label.price, steps), has_time ? pack(to_go, turns) : pack(turns, to_go),
-                   static_cast<std::int32_t>(labels_.size())});
-  std::push_heap(open_.begin(), open_.end(), IsWorse());
+  push_open({pack(label.price, steps), has_time ? pack(to_go, turns) : pack(turns, to_go),
+             static_cast<std::int32_t>(labels_.size())});
   label.is_end = label.is_end || (to_go == 0 && label.t >= task.rest_from);
   labels_.push_back(label);
+}
+
+void SippSearch::push_open(const OpenEntry& entry) {
+  if (latest_.label == none) {
+    latest_ = entry;
+    return;
+  }
+  open_.push_back(entry);
+  if (IsWorse()(latest_, entry)) std::swap(latest_, open_.back());
+  std::push_heap(open_.begin(), open_.end(), IsWorse());
+}
+
+// The label of the best entry, which is taken out.
+std::int32_t SippSearch::pop_open() {
+  if (latest_.label != none && (open_.empty() || IsWorse()(open_.front(), latest_)))
+    return std::exchange(latest_.label, none);
+  if (latest_.label != none) {
+    open_.push_back(latest_);
+    std::push_heap(open_.begin(), open_.end(), IsWorse());
+    latest_.label = none;
+  }
+  std::pop_heap(open_.begin(), open_.end(), IsWorse());
+  const std::int32_t label = open_.back().label;
+  open_.pop_back();
+  return label;
 }
 
 SippSearch::State& SippSearch::state_of(const Task& task, const Label& label) {

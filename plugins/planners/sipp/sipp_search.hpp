@@ -32,6 +32,8 @@ class SippSearch {
   std::int64_t expanded() const { return expanded_; }
 
  private:
+  static constexpr std::int32_t none = -1;
+
   // An interval of a location is a gap between occupations (2i before occupation i) or an occupation (2i + 1).
   struct Label {
     Location location;
@@ -97,6 +99,9 @@ class SippSearch {
   void generate_end(const Task& task, const Label& label);
   void start_displacing(const Task& task);
   void push(const Task& task, Label label);
+  void push_open(const OpenEntry& entry);
+  bool is_open_empty() const { return latest_.label == none && open_.empty(); }
+  std::int32_t pop_open();
   State& state_of(const Task& task, const Label& label);
   void trace_back(std::int32_t last, std::vector<Location>& path) const;
 
@@ -105,7 +110,8 @@ class SippSearch {
   std::vector<LocationStates> intervals_;
   std::vector<State> states_;
   std::vector<Label> labels_;
-  std::vector<OpenEntry> open_;
+  std::vector<OpenEntry> open_;  // a heap, apart from the best of the latest: that is often the next to be expanded
+  OpenEntry latest_ = {0, 0, none};
   std::vector<std::int32_t> expanded_labels_;
   bool may_displace_ = false;  // not as long as there may be a path that displaces nobody
   std::uint32_t epoch_ = 0;
