@@ -24,8 +24,7 @@ class Cbs final : public ConflictSearchPlanner {
       param("weighted_dependency_graph", true).doc("bound the cost of a node by that of its pairs of robots");
   Param<bool> rectangle_reasoning =
       param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
-  Param<bool> corridor_reasoning =
-      param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
   Param<bool> target_reasoning =
       param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =

@@ -23,7 +23,8 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
 
   const ConflictSearchOptions chosen = options();
   MddCache mdds(problem, *tables);
-  ConflictSearch search(problem, *tables, mdds, chosen, stop);
+  const Corridors corridors(problem.graph);
+  ConflictSearch search(problem, *tables, corridors, mdds, chosen, stop);
   std::vector<std::int32_t> everybody(problem.agents.size());
   std::iota(everybody.begin(), everybody.end(), 0);
   const ConflictSearch::Result result = search.run(everybody, {});

@@ -27,10 +27,11 @@ bool is_vertex(const Conflict& conflict) {
 
 }  // namespace
 
-ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, MddCache& mdds,
-                               const ConflictSearchOptions& options, StopSignal& stop)
+ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
+                               MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop)
     : problem_(problem),
       tables_(tables),
+      corridors_(corridors),
       mdds_(mdds),
       options_(options),
       stop_(stop),
@@ -39,7 +40,9 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
       node_mdds_(problem.agents.size(), nullptr),
-      constraint_table_(problem.graph) {}
+      constraint_table_(problem.graph),
+      corridor_tables_{ConstraintTable(problem.graph), ConstraintTable(problem.graph)},
+      earliest_arrival_(problem.graph) {}
 
 ConflictSearch::~ConflictSearch() = default;
 
@@ -214,14 +217,33 @@ void ConflictSearch::classify(NodeConflict& conflict) {
     conflict.cardinality = cardinality(rests_at(c.a) || a_raises, rests_at(c.b) || b_raises);
     return;
   }
-  if (std::optional<SymmetrySplit> symmetry;
-      options_.rectangle_reasoning && is_vertex(c) && conflict.cardinality != NodeConflict::Cardinality::full &&
-      (symmetry = find_rectangle(problem_.graph, c, mdd_of(c.a), mdd_of(c.b), path_of(c.a).locations,
-                                 path_of(c.b).locations))) {
-    conflict.reasoning = NodeConflict::Reasoning::rectangle;
-    conflict.cardinality = cardinality(symmetry->raises_cost[0], symmetry->raises_cost[1]);
-    conflict.split = tree_.add_split(std::move(symmetry->constraints));
+  std::optional<SymmetrySplit> symmetry;
+  if (options_.corridor_reasoning && (symmetry = find_corridor_split(c))) {
+    conflict.reasoning = NodeConflict::Reasoning::corridor;
+  } else if (options_.rectangle_reasoning && is_vertex(c) && conflict.cardinality != NodeConflict::Cardinality::full) {
+    symmetry =
+        find_rectangle(problem_.graph, c, mdd_of(c.a), mdd_of(c.b), path_of(c.a).locations, path_of(c.b).locations);
+    if (symmetry) conflict.reasoning = NodeConflict::Reasoning::rectangle;
   }
+  if (!symmetry) return;
+  conflict.cardinality = cardinality(symmetry->raises_cost[0], symmetry->raises_cost[1]);
+  conflict.split = tree_.add_split(std::move(symmetry->constraints));
+}
+
+std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict& conflict) {
+  const auto passage = find_passage(corridors_, conflict, path_of(conflict.a).locations, path_of(conflict.b).locations);
+  if (!passage) return std::nullopt;
+  const std::array<std::int32_t, 2> agents = {conflict.a, conflict.b};
+  for (std::size_t i = 0; i < 2; ++i) {
+    tree_.gather_constraints(entered_, agents[i], constraints_);
+    corridor_tables_[i].fill(problem_.agents[static_cast<std::size_t>(agents[i])], constraints_);
+  }
+  const auto known_of = [&](std::size_t i) {
+    const auto who = static_cast<std::size_t>(agents[i]);
+    return CorridorAgent{problem_.agents[who], tables_[who], corridor_tables_[i], mdd_of(agents[i]),
+                         path_of(agents[i]).locations};
+  };
+  return find_corridor(*passage, conflict, known_of(0), known_of(1), earliest_arrival_);
 }
 
 // Whether all of the agent's paths of least cost arrive there (from there) at that time.
@@ -281,7 +303,7 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   for (const std::int32_t agent : agents) occupied_.set(agent, {});
   bool has_paths = true;
   for (const std::int32_t agent : agents)
-    if (has_paths) has_paths = replan(parent, agent, 0, child);
+    if (has_paths) has_paths = replan(parent, agent, slack_of(parent, agent, child), child);
   for (const std::int32_t agent : agents) occupied_.set(agent, path_of(agent).locations);
 
   const auto is_replanned = [&](std::int32_t agent) {
@@ -293,6 +315,21 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   child.node.f = std::max(child.node.f, child.node.lower_bound);
   child.node.estimated_cost = estimate(child.node);
   return has_paths;
+}
+
+static const double flex_fraction = getenv("FLEX") ? atof(getenv("FLEX")) : 1.0;
+static const int flex_basis = getenv("FLEXB") ? atoi(getenv("FLEXB")) : 0;
+// What the others leave of the bound on the sum.
+double ConflictSearch::slack_of(NodeId parent, std::int32_t agent, const Child& child) const {
+  if (!options_.flexible_bounds) return 0;
+  const AgentPath& old = path_of(agent);
+  const double w = options_.suboptimality;
+  const double basis = flex_basis == 0   ? child.node.lower_bound
+                       : flex_basis == 1 ? queue_.lower_bound()
+                                         : std::max(tree_.node(parent).f, child.node.lower_bound);
+  const double others = child.node.cost - cost_of(old.locations);
+  const double slack = w * basis - others - w * old.lower_bound;
+  return std::max(0.0, flex_fraction * slack);
 }
 
 // Plans an agent that is not in `occupied_`, and puts it there.
@@ -410,7 +447,7 @@ std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
     options.dependency_graph = false;
     options.flexible_bounds = false;
     options.node_limit = pair_node_limit;
-    pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, mdds_, options, stop_);
+    pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);
   }
   const Result result = pair_search_->run({a, b}, std::move(both));
   if (result == Result::stopped) return 0;

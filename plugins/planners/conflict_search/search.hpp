@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "../mapf/corridor.hpp"
 #include "../mapf/mdd.hpp"
 #include "../mapf/rectangle.hpp"
 #include "../mapf/safe_interval_search.hpp"
@@ -46,8 +47,8 @@ class ConflictSearch {
   enum class Result { solved, unsolvable, stopped, node_limit };
 
   // What is used is kept: all arguments must live as long as the search.
-  ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, MddCache& mdds,
-                 const ConflictSearchOptions& options, StopSignal& stop);
+  ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
+                 MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop);
   ~ConflictSearch();
 
   // Plans for some agents, under constraints (of theirs) from the outset.
@@ -78,12 +79,14 @@ class ConflictSearch {
 
   std::uint32_t choose_conflict();
   void classify(NodeConflict& conflict);
+  std::optional<SymmetrySplit> find_corridor_split(const Conflict& conflict);
   bool must_arrive(std::int32_t agent, Location from, Location to, std::int32_t t);
   Split split_on(const NodeConflict& conflict);
   Split plain_split(const Conflict& conflict);
   const Mdd& mdd_of(std::int32_t agent);
 
   bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
+  double slack_of(NodeId parent, std::int32_t agent, const Child& child) const;
   bool replan(NodeId parent, std::int32_t agent, double slack, Child& child);
   bool is_bypass(NodeId parent, const Child& child) const;
   NodeId add(Child& child, NodeId parent, bool with_constraints);
@@ -96,6 +99,7 @@ class ConflictSearch {
 
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
+  const Corridors& corridors_;
   MddCache& mdds_;
   ConflictSearchOptions options_;
   StopSignal& stop_;
@@ -134,6 +138,8 @@ class ConflictSearch {
   std::unordered_map<PairKey, std::int32_t, PairKeyHash> pair_weights_;  // never iterated over
 
   ConstraintTable constraint_table_;
+  std::array<ConstraintTable, 2> corridor_tables_;
+  EarliestArrival earliest_arrival_;
   std::vector<Constraint> constraints_;
   std::array<Child, 2> children_;
 };

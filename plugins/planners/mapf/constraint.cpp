@@ -93,7 +93,7 @@ bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& fi
       allowed_again = std::max(allowed_again, until);
     }
   };
-  if (epoch_of_[static_cast<std::size_t>(location)] == epoch_)
+  if (constrains(location))
     for (std::int32_t i = first_[static_cast<std::size_t>(location)]; i >= 0;
          i = entries_[static_cast<std::size_t>(i)].next)
       if (const Entry& entry = entries_[static_cast<std::size_t>(i)]; entry.from == nowhere)

@@ -80,7 +80,7 @@ class ConstraintTable {
 
   // Whether the agent may go (or wait) so that it arrives at time t. Landmarks are not looked at.
   bool allows(Location from, Location to, std::int32_t t) const {
-    if (epoch_of_[static_cast<std::size_t>(to)] != epoch_) return true;
+    if (!constrains(to)) return true;
     for (std::int32_t i = first_[static_cast<std::size_t>(to)]; i >= 0;
          i = entries_[static_cast<std::size_t>(i)].next) {
       const Entry& entry = entries_[static_cast<std::size_t>(i)];
@@ -89,13 +89,16 @@ class ConstraintTable {
     return true;
   }
 
+  // Whether some arrival at `to` is not allowed.
+  bool constrains(Location to) const { return epoch_of_[static_cast<std::size_t>(to)] == epoch_; }
+
   // Whether the agent may be at `location` at time t, and over which times from `first` to before `end` around t that
   // stays the same; narrows [first, end) to them. Landmarks elsewhere forbid a place, too.
   bool narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const;
 
   // Whether the agent may arrive at time t by this move, being at `to` then allowed.
   bool allows_move(Location from, Location to, std::int32_t t) const {
-    if (epoch_of_[static_cast<std::size_t>(to)] != epoch_) return true;
+    if (!constrains(to)) return true;
     for (std::int32_t i = first_[static_cast<std::size_t>(to)]; i >= 0;
          i = entries_[static_cast<std::size_t>(i)].next) {
       const Entry& entry = entries_[static_cast<std::size_t>(i)];

@@ -117,7 +117,8 @@ std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constra
   return hash;
 }
 
-std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least) {
+std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints,
+                                         std::int32_t at_least) {
   const auto who = static_cast<std::size_t>(agent);
   std::sort(constraints.begin(), constraints.end());
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());

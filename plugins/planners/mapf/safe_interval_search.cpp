@@ -153,8 +153,8 @@ void SafeIntervalSearch::successor(Id id, Location to, Direction d, std::int32_t
                                    std::int32_t t, std::int32_t conflicts, std::int32_t& left_out) {
   const Node& from = nodes_[id];
   const bool is_move = d != GridGraph::no_direction;
-  const bool waited_at_end = !is_move && to == request_->agent.last_goal() && leg == from.leg &&
-                             leg == request_->agent.last_leg();
+  const bool waited_at_end =
+      !is_move && to == request_->agent.last_goal() && leg == from.leg && leg == request_->agent.last_leg();
   const std::int32_t f = std::max(estimate(leg, to, t, waited_at_end), least_f_);
   if (f > least_f_ + focal_level_) {
     left_out = std::min(left_out, f);
@@ -277,6 +277,10 @@ std::int32_t SafeIntervalSearch::estimate(std::int32_t leg, Location location, s
 // Fewest conflicts first, then least f, then nearest to the end, then fewest turns.
 std::uint64_t SafeIntervalSearch::order_of(const Node& node) const {
   const std::int32_t rest = node.is_end ? 0 : node.f - node.t + 1;
+  static const int K = getenv("LLK") ? atoi(getenv("LLK")) : 0;
+  if (K > 0)
+    return part(node.conflicts * K + node.f - least_f_, 16, 48) | part(node.conflicts, 16, 32) | part(rest, 18, 14) |
+           part(node.turns, 14, 0);
   return part(node.conflicts, 16, 48) | part(node.f - least_f_, 16, 32) | part(rest, 18, 14) | part(node.turns, 14, 0);
 }
 

@@ -69,7 +69,7 @@ class SafeIntervalSearch {
     std::int32_t conflicts;
     std::int32_t turns;
     Id parent;
-    Id next;  // in the same interval
+    Id next;                        // in the same interval
     std::int32_t expanded_to = -1;  // f of the successors it has
     std::int32_t fresh_level = -1;  // it counts as fresh there
     std::uint8_t heading = GridGraph::no_direction;
@@ -81,8 +81,8 @@ class SafeIntervalSearch {
     std::uint64_t order;
     Id node;
   };
-  struct Level {             // of nodes of one f
-    std::int32_t fresh = 0;  // open ones that nobody reached as early before
+  struct Level {              // of nodes of one f
+    std::int32_t fresh = 0;   // open ones that nobody reached as early before
     std::vector<Id> waiting;  // those that are not in FOCAL yet
   };
   struct Slot {
