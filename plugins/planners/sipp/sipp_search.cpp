@@ -11,13 +11,13 @@ namespace dmrp::planners {
 SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices,
                                       std::int32_t delay, StopSignal& stop, std::vector<Location>& path) {
   const auto at_goal = others_.occupations(agent.last_goal());
-  const Task task{agent, table, prices, at_goal.empty() ? 0 : at_goal.back().to + 1};
+  const Task task{agent, table, prices, stop, at_goal.empty() ? 0 : at_goal.back().to + 1};
   begin(task, delay);
   for (;;) {
     if (is_open_empty()) {
       if (may_displace_ || prices.empty()) return Result::none;
       start_displacing(task);
-      continue;
+      if (is_open_empty()) return stop.raised() ? Result::stopped : Result::none;
     }
     if (stop.poll()) return Result::stopped;
     const std::int32_t index = pop_open();
@@ -38,7 +38,7 @@ SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table
 // There is no way round the others: on from all places that can be reached, through them.
 void SippSearch::start_displacing(const Task& task) {
   may_displace_ = true;
-  for (const std::int32_t index : expanded_labels_) expand(task, index);
+  for (std::size_t i = 0; i < expanded_labels_.size() && !task.stop.poll(); ++i) expand(task, expanded_labels_[i]);
 }
 
 void SippSearch::begin(const Task& task, std::int32_t delay) {
@@ -75,8 +75,10 @@ void SippSearch::expand(const Task& task, std::int32_t index) {
     departure.last_t = label.t;
     departure.follower = -1;
   }
-  for (Direction d = 0; d < GridGraph::direction_count; ++d)
+  for (Direction d = 0; d < GridGraph::direction_count; ++d) {
     if (const Location to = graph_.neighbor(label.location, d); to != nowhere) move(task, departure, d, to);
+    if (may_displace_) task.stop.poll();  // that takes longer
+  }
 }
 
 // Into the location's next interval; or, between equal goals, one step on in this one.

@@ -75,6 +75,7 @@ class SippSearch {
     const Agent& agent;
     const TourTable& table;
     std::span<const std::int32_t> prices;
+    StopSignal& stop;
     std::int32_t rest_from;  // the last goal's last gap begins here
   };
   // The part of an expanded label that all its successors share.
