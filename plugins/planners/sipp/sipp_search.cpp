@@ -75,10 +75,8 @@ void SippSearch::expand(const Task& task, std::int32_t index) {
     departure.last_t = label.t;
     departure.follower = -1;
   }
-  for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+  for (Direction d = 0; d < GridGraph::direction_count; ++d)
     if (const Location to = graph_.neighbor(label.location, d); to != nowhere) move(task, departure, d, to);
-    if (may_displace_) task.stop.poll();  // that takes longer
-  }
 }
 
 // Into the location's next interval; or, between equal goals, one step on in this one.
@@ -129,7 +127,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
       if (swapper >= 0 && swapper != from.displaced) label.price += price_of(task, swapper);
       generate(task, label);
     }
-    if (i >= there.size()) return;
+    if (i >= there.size() || task.stop.poll()) return;
     label.t = std::max(earliest, there[i].from);
     if (label.t > latest) return;
     if (!may_displace_) continue;

@@ -97,6 +97,14 @@ std::optional<int> sum_alone(const PlanningCase& c) {
 
 }  // namespace
 
+TEST_CASE("SIPP is described") {
+  const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(sipp);
+  REQUIRE(descriptor);
+  CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(descriptor->planner_flags == 0);
+}
+
 TEST_CASE("SIPP solves nearly all random small problems, and proves only what is so") {
   PluginUnderTest planner(library, sipp, {{"restarts", 100}});
   const struct {
