@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "fewest_turns.hpp"
 
@@ -258,6 +259,15 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
     changed = false;
   }
   return saved;
+}
+
+void straighten_alone(const Problem& problem, const std::vector<TourTable>& tables,
+                      std::vector<std::vector<Location>>& paths, StopSignal& stop) {
+  const SafeIntervals nobody(problem.graph);
+  StraightestPath search(problem.graph, nobody);
+  std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 0; i < paths.size() && !stop.raised(); ++i)
+    search.improve(problem.agents[i], tables[i], count_turns(problem.graph, paths[i]), no_limit, stop, paths[i]);
 }
 
 }  // namespace dmrp::planners

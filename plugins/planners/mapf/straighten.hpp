@@ -23,4 +23,8 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
 std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables, SafeIntervals& plan,
                         std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop);
 
+// The same for robots that pay no heed to each other; there is no limit but `stop`.
+void straighten_alone(const Problem& problem, const std::vector<TourTable>& tables,
+                      std::vector<std::vector<Location>>& paths, StopSignal& stop);
+
 }  // namespace dmrp::planners

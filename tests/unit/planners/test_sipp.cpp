@@ -2,11 +2,10 @@
 // Prioritized SIPP, against joint search where that can be done, and by the plan check alone where it cannot.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
 #include "joint_optimum.hpp"
 #include "mapf/safe_intervals.hpp"
+#include "movingai.hpp"
 #include "plan_check.hpp"
 #include "random_case.hpp"
 #include "test_data.hpp"
@@ -388,22 +387,8 @@ void check_movingai(const std::string& map, int robots) {
   }
   PluginUnderTest planner(library, sipp);
   for (int i = 1; i <= 5; ++i) {
-    std::ifstream map_file(*data / "movingai" / "maps" / (map + ".map"));
-    std::string line;
-    while (std::getline(map_file, line) && line != "map") {
-    }
-    std::vector<std::string> rows;
-    while (std::getline(map_file, line) && !line.empty()) rows.push_back(line);
-    PlanningCase c(rows);
-    std::ifstream scenario(*data / "movingai" / "scens" / (map + "-random-" + std::to_string(i) + ".scen"));
-    std::getline(scenario, line);  // version 1
-    for (int k = 0; k < robots && std::getline(scenario, line); ++k) {
-      std::istringstream fields(line);
-      std::string bucket, name, width, height;
-      CellXY start, goal;
-      fields >> bucket >> name >> width >> height >> start.x >> start.y >> goal.x >> goal.y;
-      c.robot(start, {goal});
-    }
+    PlanningCase c = read_map(*data / "movingai" / "maps" / (map + ".map"));
+    add_robots(c, *data / "movingai" / "scens" / (map + "-random-" + std::to_string(i) + ".scen"), robots);
     REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
     CAPTURE(map, i);
     const Plan plan = run_planner(planner, c);

@@ -210,6 +210,27 @@ TEST_CASE("straightening leaves no robot a path with fewer turns among the other
   CHECK(tours > 300);
 }
 
+TEST_CASE("straightening robots that pay no heed to each other") {
+  int saved = 0;
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Walks walks(random, 4, 3, 2, 3 + random.below(5));
+    const int turns = walks.turns();
+    StopSignal never([] { return false; });
+    straighten_alone(walks.problem, *make_tour_tables(walks.problem, never), walks.paths, never);
+    saved += turns - walks.turns();
+    for (std::size_t i = 0; i < walks.paths.size(); ++i) {
+      Walks alone = walks;
+      alone.paths = {walks.paths[i]};
+      alone.problem.agents = {walks.problem.agents[i]};
+      REQUIRE(makes_tour(alone.problem.agents[0], alone.paths[0]));
+      REQUIRE(AllPaths(alone, 0).fewest == count_turns(walks.problem.graph, walks.paths[i]));
+    }
+  }
+  CHECK(saved > 200);
+}
+
 TEST_CASE("straightening large plans keeps costs, tours and freedom from conflicts") {
   for (uint64_t seed = 0; seed < 30; ++seed) {
     CAPTURE(seed);
