@@ -2,6 +2,7 @@
 #include "search.hpp"
 
 #include <algorithm>
+#include <dmrp/toolkit/random.hpp>
 #include <tuple>
 
 #include "../mapf/solvability.hpp"
@@ -10,9 +11,11 @@ namespace dmrp::planners {
 
 namespace {
 
-// A problem that is still unsolved after so many expansions is worth a proof that it has no plan ...
-constexpr std::int64_t expansions_before_proof = 1000;
-// ... if that visits at most so many joint positions.
+// Every restart may go on for so many times as long as the one before.
+constexpr double restart_growth = 1.5;
+
+// A problem that is still unsolved at the first restart is worth a proof that it has no plan, if that visits at most so
+// many joint positions.
 constexpr std::size_t joint_state_limit = 300'000;
 
 // Two agents are searched for their least joint cost with so many nodes at most.
@@ -57,15 +60,42 @@ ConflictSearchStatistics ConflictSearch::statistics() const {
 ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, std::vector<Constraint> constraints) {
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
   members_ = std::move(members);
+  std::vector<std::int32_t> order = members_;
+  auto nodes_left = static_cast<double>(options_.node_limit);
+  auto nodes = static_cast<double>(options_.restart_after > 0 ? options_.restart_after : options_.node_limit);
+  lower_bound_ = 0;
+  for (std::int32_t restart = 0;; ++restart) {
+    nodes = std::min(nodes, nodes_left);
+    const Result result = search_from(order, constraints, static_cast<std::int64_t>(nodes));
+    lower_bound_ = queue_.lower_bound();
+    nodes_left -= nodes;
+    if (result != Result::node_limit || nodes_left <= 0) return result;
+    if (restart == 0 && members_.size() == problem_.agents.size()) {
+      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+      if (stop_.raised()) return Result::stopped;
+      if (found) return obstruction_ = *found, Result::unsolvable;
+    }
+    for (const std::int32_t agent : members_) occupied_.set(agent, {});
+    toolkit::Stream stream(options_.seed, "restart", restart);
+    stream.shuffle(order);
+    nodes *= restart_growth;
+  }
+}
+
+// One search, the agents' first paths planned in the order given.
+ConflictSearch::Result ConflictSearch::search_from(const std::vector<std::int32_t>& order,
+                                                   const std::vector<Constraint>& constraints,
+                                                   std::int64_t node_limit) {
   tree_.reset(problem_.agents.size(), members_);
-  queue_.clear();
+  queue_.reset(lower_bound_);
   entered_ = no_node;
-  const std::int64_t generated_before = statistics_.high_level_generated;
-  std::int64_t expanded = 0;
-  if (!plan_root(std::move(constraints))) return stop_.raised() ? Result::stopped : Result::unsolvable;
+  if (!plan_root(order, constraints)) return stop_.raised() ? Result::stopped : Result::unsolvable;
   for (;;) {
     const NodeQueue::Choice choice = queue_.pop();
-    if (choice.node == no_node) break;
+    if (choice.node == no_node) {
+      obstruction_ = "every way to resolve the robots' conflicts was tried";
+      return Result::unsolvable;
+    }
     enter(choice.node);
     if (pairs_.empty()) return Result::solved;
     if (choice.for_its_bound && options_.dependency_graph && !tree_.node(choice.node).is_informed &&
@@ -73,30 +103,23 @@ ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, st
       continue;
     expand(choice.node);
     if (stop_.poll_now()) return Result::stopped;
-    if (statistics_.high_level_generated - generated_before >= options_.node_limit) {
+    if (tree_.node_count() >= node_limit) {
       queue_.raise_bound();
       return Result::node_limit;
     }
-    if (++expanded == expansions_before_proof) {
-      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
-      if (stop_.raised()) return Result::stopped;
-      if (found) return obstruction_ = *found, Result::unsolvable;
-    }
   }
-  obstruction_ = "every way to resolve the robots' conflicts was tried";
-  return Result::unsolvable;
 }
 
 // Each agent's path by itself, with few conflicts with the agents before it.
-bool ConflictSearch::plan_root(std::vector<Constraint> constraints) {
+bool ConflictSearch::plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints) {
   Child& root = children_[0];
   root.node = {};
-  root.constraints = std::move(constraints);
+  root.constraints = constraints;
   root.paths.clear();
   root.conflicts.clear();
   root.conflicting_pairs = 0;
-  for (const std::int32_t agent : members_)
-    if (!replan(no_node, agent, 0, root)) return false;
+  for (const std::int32_t agent : order)
+    if (!replan(no_node, agent, root)) return false;
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
   queue_.push(add(root, no_node, true));
   return true;
@@ -243,7 +266,7 @@ std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict&
     return CorridorAgent{problem_.agents[who], tables_[who], corridor_tables_[i], mdd_of(agents[i]),
                          path_of(agents[i]).locations};
   };
-  return find_corridor(*passage, conflict, known_of(0), known_of(1), earliest_arrival_);
+  return find_corridor(problem_.graph, *passage, conflict, known_of(0), known_of(1), earliest_arrival_);
 }
 
 // Whether all of the agent's paths of least cost arrive there (from there) at that time.
@@ -303,7 +326,7 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   for (const std::int32_t agent : agents) occupied_.set(agent, {});
   bool has_paths = true;
   for (const std::int32_t agent : agents)
-    if (has_paths) has_paths = replan(parent, agent, slack_of(parent, agent, child), child);
+    if (has_paths) has_paths = replan(parent, agent, child);
   for (const std::int32_t agent : agents) occupied_.set(agent, path_of(agent).locations);
 
   const auto is_replanned = [&](std::int32_t agent) {
@@ -317,23 +340,8 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   return has_paths;
 }
 
-static const double flex_fraction = getenv("FLEX") ? atof(getenv("FLEX")) : 1.0;
-static const int flex_basis = getenv("FLEXB") ? atoi(getenv("FLEXB")) : 0;
-// What the others leave of the bound on the sum.
-double ConflictSearch::slack_of(NodeId parent, std::int32_t agent, const Child& child) const {
-  if (!options_.flexible_bounds) return 0;
-  const AgentPath& old = path_of(agent);
-  const double w = options_.suboptimality;
-  const double basis = flex_basis == 0   ? child.node.lower_bound
-                       : flex_basis == 1 ? queue_.lower_bound()
-                                         : std::max(tree_.node(parent).f, child.node.lower_bound);
-  const double others = child.node.cost - cost_of(old.locations);
-  const double slack = w * basis - others - w * old.lower_bound;
-  return std::max(0.0, flex_fraction * slack);
-}
-
 // Plans an agent that is not in `occupied_`, and puts it there.
-bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Child& child) {
+bool ConflictSearch::replan(NodeId parent, std::int32_t agent, Child& child) {
   const auto who = static_cast<std::size_t>(agent);
   tree_.gather_constraints(parent, agent, constraints_);
   for (const Constraint& c : child.constraints) {
@@ -347,9 +355,9 @@ bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Chi
   if (child.found.size() <= number) child.found.resize(number + 1);
   SafeIntervalSearch::Found& found = child.found[number];
   const std::int32_t known_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
-  const auto result = low_level_.search(
-      {problem_.agents[who], tables_[who], constraint_table_, occupied_, options_.suboptimality, slack, known_bound},
-      stop_, found);
+  const auto result = low_level_.search({problem_.agents[who], tables_[who], constraint_table_, occupied_,
+                                         options_.suboptimality, options_.conflict_steps, known_bound},
+                                        stop_, found);
   if (result != SafeIntervalSearch::Result::found) return false;
 
   const std::size_t first = child.conflicts.size();
@@ -445,7 +453,7 @@ std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
     options.suboptimality = 1;
     options.selection = Selection::best_first;
     options.dependency_graph = false;
-    options.flexible_bounds = false;
+    options.restart_after = 0;
     options.node_limit = pair_node_limit;
     pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);
   }

@@ -31,8 +31,10 @@ struct ConflictSearchOptions {
   bool rectangle_reasoning = false;   // Li et al. 2019
   bool dependency_graph = false;      // the WDG heuristic (Li et al. 2019), for nodes taken for their bound
   bool disjoint_splitting = false;    // Li et al. 2019
-  bool flexible_bounds = false;       // an agent may use what the others leave of the bound (Chan et al. 2022)
-  std::int64_t node_limit = 0;        // of generated nodes
+  std::int32_t conflict_steps = 0;    // steps that a path may be longer for a conflict less; 0: any, within the bound
+  std::int64_t restart_after = 0;     // nodes; then anew with another order of the agents (Cohen et al. 2018); 0: never
+  std::int64_t node_limit = 0;        // of all restarts together
+  std::uint64_t seed = 0;             // of the orders
 };
 
 struct ConflictSearchStatistics {
@@ -72,7 +74,9 @@ class ConflictSearch {
   };
   using Pair = std::pair<std::int32_t, std::int32_t>;
 
-  bool plan_root(std::vector<Constraint> constraints);
+  Result search_from(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints,
+                     std::int64_t node_limit);
+  bool plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints);
   void enter(NodeId id);
   bool expand(NodeId id);
   bool inform(NodeId id);
@@ -86,8 +90,7 @@ class ConflictSearch {
   const Mdd& mdd_of(std::int32_t agent);
 
   bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
-  double slack_of(NodeId parent, std::int32_t agent, const Child& child) const;
-  bool replan(NodeId parent, std::int32_t agent, double slack, Child& child);
+  bool replan(NodeId parent, std::int32_t agent, Child& child);
   bool is_bypass(NodeId parent, const Child& child) const;
   NodeId add(Child& child, NodeId parent, bool with_constraints);
   void note_errors(const Node& parent, const std::vector<const Node*>& children);
@@ -109,6 +112,7 @@ class ConflictSearch {
   NodeQueue queue_;
   SafeIntervalSearch low_level_;
   ConflictSearchStatistics statistics_;
+  std::int32_t lower_bound_ = 0;  // what the searches before the last restart have proved
   std::string obstruction_;
 
   // Of the node that was entered last: paths by agent, conflicts by their indices in the tree, the pairs that have

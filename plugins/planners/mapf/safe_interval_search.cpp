@@ -67,7 +67,7 @@ void SafeIntervalSearch::reset(const Request& request) {
 bool SafeIntervalSearch::advance_bound() {
   while (bound_level_ < level_count_ && levels_[static_cast<std::size_t>(bound_level_)].fresh == 0) ++bound_level_;
   if (bound_level_ >= level_count_) return false;
-  const double bound = request_->suboptimality * (least_f_ + bound_level_) + request_->slack;
+  const double bound = request_->suboptimality * (least_f_ + bound_level_);
   const auto last =
       std::max(bound_level_, static_cast<std::int32_t>(std::min(std::floor(bound + 1e-9), 1e9)) - least_f_);
   while (focal_level_ < last) {
@@ -274,14 +274,14 @@ std::int32_t SafeIntervalSearch::estimate(std::int32_t leg, Location location, s
   return f;
 }
 
-// Fewest conflicts first, then least f, then nearest to the end, then fewest turns.
+// Fewest conflicts first (or what they count for in steps, together with f), then least f, then nearest to the end, then fewest turns.
 std::uint64_t SafeIntervalSearch::order_of(const Node& node) const {
   const std::int32_t rest = node.is_end ? 0 : node.f - node.t + 1;
-  static const int K = getenv("LLK") ? atoi(getenv("LLK")) : 0;
-  if (K > 0)
-    return part(node.conflicts * K + node.f - least_f_, 16, 48) | part(node.conflicts, 16, 32) | part(rest, 18, 14) |
-           part(node.turns, 14, 0);
-  return part(node.conflicts, 16, 48) | part(node.f - least_f_, 16, 32) | part(rest, 18, 14) | part(node.turns, 14, 0);
+  const std::int32_t longer = node.f - least_f_;
+  if (request_->conflict_steps > 0)
+    return part(node.conflicts * request_->conflict_steps + longer, 16, 48) | part(node.conflicts, 16, 32) |
+           part(rest, 18, 14) | part(node.turns, 14, 0);
+  return part(node.conflicts, 16, 48) | part(longer, 16, 32) | part(rest, 18, 14) | part(node.turns, 14, 0);
 }
 
 SafeIntervalSearch::Level& SafeIntervalSearch::level_of(std::int32_t f) {

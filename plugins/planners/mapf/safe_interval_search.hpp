@@ -30,8 +30,8 @@ class SafeIntervalSearch {
     const ConstraintTable& constraints;
     const ConflictTable& others;
     double suboptimality = 1;
-    double slack = 0;              // the path may cost this more than suboptimality times the lower bound
-    std::int32_t lower_bound = 0;  // of the agent's cost under these constraints, as far as it is known
+    std::int32_t conflict_steps = 0;  // steps that a path may be longer for a conflict less; 0: any, within the bound
+    std::int32_t lower_bound = 0;     // of the agent's cost under these constraints, as far as it is known
   };
 
   struct Found {
