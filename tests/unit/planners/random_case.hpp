@@ -10,8 +10,8 @@
 
 namespace dmrp::test {
 
-// 4x4 to 6x6 cells with obstacles and thin walls; 2 to `most_robots` robots, some with tours, some resting. Starts and last goals
-// are distinct free cells; whether there is a plan is left to chance.
+// 4x4 to 6x6 cells with obstacles and thin walls; 2 to `most_robots` robots, some with tours, some resting. Starts and
+// last goals are distinct free cells; whether there is a plan is left to chance.
 inline PlanningCase random_case(uint64_t seed, int most_robots = 3) {
   Random random(seed);
   const int width = 4 + random.below(3);
