@@ -4,5 +4,7 @@
 #include "ecbs/ecbs.hpp"
 #include "eecbs/eecbs.hpp"
 #include "individual/individual.hpp"
+#include "sipp/sipp.hpp"
 
-DMRP_PLUGINS(dmrp::planners::Individual, dmrp::planners::Cbs, dmrp::planners::Ecbs, dmrp::planners::Eecbs)
+DMRP_PLUGINS(dmrp::planners::Individual, dmrp::planners::Cbs, dmrp::planners::Ecbs, dmrp::planners::Eecbs,
+             dmrp::planners::Sipp)
