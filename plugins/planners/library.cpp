@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libdmrp_planners.so: the built-in global planners.
 #include "cbs/cbs.hpp"
+#include "ecbs8/ecbs8.hpp"
 #include "individual/individual.hpp"
 
-DMRP_PLUGINS(dmrp::planners::Individual, dmrp::planners::Cbs)
+DMRP_PLUGINS(dmrp::planners::Individual, dmrp::planners::Cbs, dmrp::planners::Ecbs8)

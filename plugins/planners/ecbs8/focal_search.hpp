@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost, with few conflicts.
+//
+// Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; the least f
+// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with fewest
+// conflicts is expanded, then of least f, then of fewest turns, then the latest. Of the states at one place and time
+// all are kept that differ in cost and conflicts with neither worse. Times from which nothing changes are one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "../mapf/stop_signal.hpp"
+#include "constraint.hpp"
+#include "occupancy.hpp"
+#include "tour_distances.hpp"
+
+namespace dmrp::planners::ecbs8 {
+
+// What a path may cost: what the others leave of the limit of all, but never less than the path's lower bound.
+struct CostLimit {
+  Suboptimality suboptimality;
+  Cost others_bound = 0;
+  Cost others_cost = 0;
+
+  Cost of(Cost lower_bound) const {
+    return std::max(lower_bound, suboptimality.limit(lower_bound + others_bound) - others_cost);
+  }
+};
+
+struct BoundedPath {
+  std::vector<Location> locations;
+  Cost cost = 0;
+  Cost lower_bound = 0;  // of all paths under the constraints
+};
+
+class FocalSearch {
+ public:
+  explicit FocalSearch(const Graph& graph) : graph_(graph) {}
+
+  enum class Result { found, none, stopped };
+
+  // The agent itself must not be among the others. `lower_bound` is one that is known already.
+  Result search(const Agent& agent, const TourDistances& distances, const ConstraintTable& constraints,
+                const Occupancy& others, Cost lower_bound, const CostLimit& limit, StopSignal& stop, BoundedPath& out);
+
+  std::int64_t expanded() const { return expanded_; }
+
+ private:
+  struct State {
+    Cost g;
+    Location location;
+    std::int32_t parent;
+    std::int32_t t;
+    std::int32_t conflicts;   // so far
+    std::int32_t turns;       // so far
+    std::int32_t same_place;  // the next state of the same place and time, or -1
+    std::int16_t leg;
+    std::int8_t heading;
+    bool rests;      // at the last goal for good
+    bool is_closed;  // expanded, or not worth it
+  };
+  struct FocalEntry {
+    std::uint64_t conflicts_and_f;
+    std::uint64_t turns_and_time_left;  // the estimate of the whole path's turns
+    std::int32_t state;
+  };
+  struct OpenEntry {
+    Cost f;
+    std::int32_t state;
+  };
+  struct WaitingEntry {
+    Cost f;
+    FocalEntry focal;
+  };
+  // For heaps with the best on top.
+  struct IsWorse {
+    bool operator()(const FocalEntry& a, const FocalEntry& b) const {
+      if (a.conflicts_and_f != b.conflicts_and_f) return a.conflicts_and_f > b.conflicts_and_f;
+      if (a.turns_and_time_left != b.turns_and_time_left) return a.turns_and_time_left > b.turns_and_time_left;
+      return a.state < b.state;
+    }
+    bool operator()(const OpenEntry& a, const OpenEntry& b) const { return a.f > b.f; }
+    bool operator()(const WaitingEntry& a, const WaitingEntry& b) const { return a.f > b.f; }
+  };
+  // The states of one place and time. Found by open addressing; a new epoch empties all slots.
+  struct Slot {
+    std::uint64_t identity;
+    std::uint32_t epoch;
+    std::int32_t first;
+  };
+  struct Task {
+    const Agent& agent;
+    const TourDistances& distances;
+    const ConstraintTable& constraints;
+    const Occupancy& others;
+    const CostLimit& limit;
+    std::int32_t static_from;  // from here on time makes no difference
+    std::int32_t rest_from;    // the path cannot end before
+  };
+
+  void begin(const Task& task);
+  void expand(const Task& task, std::int32_t parent);
+  void generate(const Task& task, const State& state, bool is_arrival);
+  void push(const Task& task, const State& state);
+  bool enter(const Task& task, const State& state, std::int32_t turns_in_all);
+  void raise_bound(const Task& task, Cost lower_bound);
+  std::int32_t pop_focal();
+  std::int32_t conflicts_after(std::int32_t t) const;
+  std::uint64_t identity_of(const Task& task, const State& state) const;
+  Slot& find_slot(std::uint64_t identity);
+  void grow_slots();
+  void trace_back(std::int32_t last, BoundedPath& out) const;
+
+  const Graph& graph_;
+  std::vector<State> states_;
+  std::vector<OpenEntry> open_;
+  std::vector<FocalEntry> focal_;
+  std::vector<WaitingEntry> waiting_;            // in OPEN, but beyond the bound
+  std::vector<std::int32_t> conflicts_at_rest_;  // by time: of somebody who rests at the last goal from then on
+  std::vector<Slot> slots_;
+  std::size_t slots_used_ = 0;
+  std::uint32_t epoch_ = 0;
+  Cost lower_bound_ = 0;
+  Cost bound_ = 0;
+  std::int64_t expanded_ = 0;
+};
+
+}  // namespace dmrp::planners::ecbs8
