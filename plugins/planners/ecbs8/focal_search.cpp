@@ -14,17 +14,17 @@ constexpr std::int32_t most_conflicts = (1 << (64 - f_bits)) - 1;
 
 FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances& distances,
                                         const ConstraintTable& constraints, const Occupancy& others, Cost lower_bound,
-                                        const CostLimit& limit, StopSignal& stop, BoundedPath& out) {
+                                        Suboptimality suboptimality, StopSignal& stop, BoundedPath& out) {
   const Task task{agent,
                   distances,
                   constraints,
                   others,
-                  limit,
+                  suboptimality,
                   std::max(constraints.static_from(), others.rest_from() + 1),
                   constraints.rest_from(agent.last_goal())};
   begin(task);
   lower_bound_ = std::max(lower_bound, distances.distance(0, agent.start));
-  bound_ = limit.of(lower_bound_);
+  bound_ = suboptimality.limit(lower_bound_);
   if (constraints.allows(agent.start, agent.start, Graph::no_direction, 0))
     generate(task, {0, agent.start, -1, 0, 0, 0, -1, 0, Graph::no_direction, false, false}, true);
 
@@ -69,7 +69,7 @@ std::int32_t FocalSearch::conflicts_after(std::int32_t t) const {
 
 void FocalSearch::raise_bound(const Task& task, Cost lower_bound) {
   lower_bound_ = lower_bound;
-  bound_ = task.limit.of(lower_bound_);
+  bound_ = task.suboptimality.limit(lower_bound_);
   while (!waiting_.empty() && waiting_.front().f <= bound_) {
     focal_.push_back(waiting_.front().focal);
     std::push_heap(focal_.begin(), focal_.end(), IsWorse{});

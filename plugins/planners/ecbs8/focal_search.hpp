@@ -17,17 +17,6 @@
 
 namespace dmrp::planners::ecbs8 {
 
-// What a path may cost: what the others leave of the limit of all, but never less than the path's lower bound.
-struct CostLimit {
-  Suboptimality suboptimality;
-  Cost others_bound = 0;
-  Cost others_cost = 0;
-
-  Cost of(Cost lower_bound) const {
-    return std::max(lower_bound, suboptimality.limit(lower_bound + others_bound) - others_cost);
-  }
-};
-
 struct BoundedPath {
   std::vector<Location> locations;
   Cost cost = 0;
@@ -40,9 +29,11 @@ class FocalSearch {
 
   enum class Result { found, none, stopped };
 
-  // The agent itself must not be among the others. `lower_bound` is one that is known already.
+  // A path that costs at most `suboptimality` times the lower bound. The agent itself must not be among the others.
+  // `lower_bound` is one that is known already.
   Result search(const Agent& agent, const TourDistances& distances, const ConstraintTable& constraints,
-                const Occupancy& others, Cost lower_bound, const CostLimit& limit, StopSignal& stop, BoundedPath& out);
+                const Occupancy& others, Cost lower_bound, Suboptimality suboptimality, StopSignal& stop,
+                BoundedPath& out);
 
   std::int64_t expanded() const { return expanded_; }
 
@@ -94,7 +85,7 @@ class FocalSearch {
     const TourDistances& distances;
     const ConstraintTable& constraints;
     const Occupancy& others;
-    const CostLimit& limit;
+    Suboptimality suboptimality;
     std::int32_t static_from;  // from here on time makes no difference
     std::int32_t rest_from;    // the path cannot end before
   };

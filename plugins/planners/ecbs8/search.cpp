@@ -48,8 +48,7 @@ Search::Result Search::run() {
   }
 }
 
-// Each agent's path in turn, with few conflicts with those before it, which also leave it what they did not use of
-// their limits.
+// Each agent's path in turn, with few conflicts with those before it.
 bool Search::plan_root() {
   constraint_table_.fill({});
   Node root;
@@ -58,9 +57,8 @@ bool Search::plan_root() {
   std::vector<AgentPath> agent_paths;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const auto agent = static_cast<std::int32_t>(i);
-    const CostLimit limit{suboptimality_, root.lower_bound, root.cost};
-    const auto result =
-        low_level_.search(problem_.agents[i], distances_[i], constraint_table_, occupied_, 0, limit, stop_, paths[i]);
+    const auto result = low_level_.search(problem_.agents[i], distances_[i], constraint_table_, occupied_, 0,
+                                          suboptimality_, stop_, paths[i]);
     if (result != FocalSearch::Result::found) return false;
     const PathView path = paths[i].locations;
     occupied_.list(agent, path, conflicts);
@@ -100,20 +98,20 @@ NodeId Search::choose() {
 
 // Splits the node on a conflict. True if it has none: its paths are the solution.
 //
-// Bypass (Boyarski et al. 2015): where a child's paths keep to the limit of all plans and fewer robots conflict, they take
-// the place of those in the node, without the constraint, and nothing is split.
+// Bypass (Boyarski et al. 2015): where a child keeps to the limit of all plans and fewer robots conflict, its path takes
+// the place of that in the node, without the constraint, and nothing is split.
 bool Search::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
     enter(id);
     if (conflicts_.empty()) return cost_ = tree_.node(id).cost, true;
     const std::array<Side, 2> sides = split(choose_conflict());
-    std::array<bool, 2> has_paths{};
+    std::array<bool, 2> has_path{};
     const Child* bypass = nullptr;
     for (std::size_t i = 0; i < 2 && !bypass; ++i) {
-      has_paths[i] = make_child(id, sides[i], children_[i]);
+      has_path[i] = make_child(id, sides[i], children_[i]);
       const Node& child = children_[i].node;
-      if (has_paths[i] && child.conflicting_pairs < tree_.node(id).conflicting_pairs &&
+      if (has_path[i] && child.conflicting_pairs < tree_.node(id).conflicting_pairs &&
           child.cost <= suboptimality_.limit(statistics_.lower_bound))
         bypass = &children_[i];
     }
@@ -123,7 +121,7 @@ bool Search::expand(NodeId id) {
       continue;
     }
     for (std::size_t i = 0; i < 2; ++i)
-      if (has_paths[i]) push(add(children_[i]));
+      if (has_path[i]) push(add(children_[i]));
     return false;
   }
 }
@@ -170,97 +168,58 @@ std::array<Search::Side, 2> Search::split(const Conflict& conflict) const {
   return {{{there, {Use::at, location, nowhere, t, t}}, {other, {Use::touch, location, nowhere, t, t}}}};
 }
 
-// False if there are no paths under the constraint (or the search was stopped).
+// False if there is no path under the constraint (or the search was stopped).
 bool Search::make_child(NodeId parent, const Side& side, Child& child) {
+  const auto who = static_cast<std::size_t>(side.agent);
+  const AgentPath& before = paths_[who];
+  tree_.gather_constraints(parent, side.agent, constraints_);
+  constraints_.push_back(side.constraint);
+  constraint_table_.fill(constraints_);
+
+  occupied_.set(side.agent, {});
+  const auto result = low_level_.search(problem_.agents[who], distances_[who], constraint_table_, occupied_,
+                                        before.lower_bound, suboptimality_, stop_, child.path);
+  child.conflicts.clear();
+  const bool found = result == FocalSearch::Result::found;
+  if (found) occupied_.list(side.agent, child.path.locations, child.conflicts);
+  occupied_.set(side.agent, before.locations);
+  if (!found) return false;
+
   child.node = tree_.node(parent);
   child.node.parent = parent;
   child.node.constrained_agent = side.agent;
   child.node.constraint = side.constraint;
-  child.paths.clear();
-  child.conflicts.clear();
-  const bool has_paths = replan(parent, side.agent, &side.constraint, true, child) && keep_within_limit(parent, child);
-  occupied_.set(side.agent, paths_[static_cast<std::size_t>(side.agent)].locations);
-  for (const Replanned& replanned : child.paths)
-    occupied_.set(replanned.agent, paths_[static_cast<std::size_t>(replanned.agent)].locations);
-  if (has_paths) count_pairs(child);
-  return has_paths;
-}
-
-// A path for the agent under its constraints in the parent and an added one, and who conflicts with it. Leaves the path
-// in occupied_. With `share_slack` it may use what the others leave of the limit.
-bool Search::replan(NodeId parent, std::int32_t agent, const Constraint* added, bool share_slack, Child& child) {
-  const auto who = static_cast<std::size_t>(agent);
-  const AgentPath& before = paths_[who];
-  tree_.gather_constraints(parent, agent, constraints_);
-  if (added) constraints_.push_back(*added);
-  constraint_table_.fill(constraints_);
-
-  const Cost others_bound = child.node.lower_bound - before.lower_bound;
-  const Cost others_cost = child.node.cost - before.cost;
-  const CostLimit limit{suboptimality_, share_slack ? others_bound : 0, share_slack ? others_cost : 0};
-  BoundedPath path;
-  occupied_.set(agent, {});
-  if (low_level_.search(problem_.agents[who], distances_[who], constraint_table_, occupied_, before.lower_bound, limit,
-                        stop_, path) != FocalSearch::Result::found)
-    return false;
-  std::erase_if(child.conflicts, [agent](const Conflict& conflict) { return involves(conflict, agent); });
-  occupied_.list(agent, path.locations, child.conflicts);
-  occupied_.set(agent, path.locations);
-  child.node.cost = others_cost + path.cost;
-  child.node.lower_bound = others_bound + path.lower_bound;
-  child.node.turns += count_turns(problem_.graph, path.locations) - count_turns(problem_.graph, before.locations);
-  child.paths.push_back({agent, std::move(path)});
+  child.node.cost += child.path.cost - before.cost;
+  child.node.lower_bound += child.path.lower_bound - before.lower_bound;
+  child.node.turns += count_turns(problem_.graph, child.path.locations) - count_turns(problem_.graph, before.locations);
+  child.node.conflicting_pairs = count_pairs(child);
   return true;
 }
 
-// Agents that use more than their own limit may have to give it back: the dearest first.
-bool Search::keep_within_limit(NodeId parent, Child& child) {
-  while (child.node.cost > suboptimality_.limit(child.node.lower_bound)) {
-    const AgentPath* dearest = nullptr;
-    Cost most = 0;
-    for (const AgentPath& path : paths_) {
-      const Cost excess = path.cost - suboptimality_.limit(path.lower_bound);
-      const bool is_replanned = std::any_of(child.paths.begin(), child.paths.end(),
-                                            [&](const Replanned& replanned) { return replanned.agent == path.agent; });
-      if (excess <= most || is_replanned) continue;
-      most = excess;
-      dearest = &path;
-    }
-    if (!dearest) return true;
-    if (!replan(parent, dearest->agent, nullptr, false, child)) return false;
-  }
-  return true;
-}
-
-void Search::count_pairs(Child& child) const {
-  child.node.conflicting_pairs = 0;
-  for (const Conflict& conflict : child.conflicts) child.node.conflicting_pairs += conflict.is_first ? 1 : 0;
+std::int32_t Search::count_pairs(const Child& child) const {
+  std::int32_t count = 0;
+  for (const Conflict& conflict : child.conflicts) count += conflict.is_first ? 1 : 0;
   for (const std::uint32_t index : conflicts_) {
     const Conflict& conflict = tree_.conflict(index);
-    const bool stays = conflict.is_first && std::none_of(child.paths.begin(), child.paths.end(), [&](const auto& path) {
-                         return involves(conflict, path.agent);
-                       });
-    child.node.conflicting_pairs += stays ? 1 : 0;
+    count += conflict.is_first && !involves(conflict, child.node.constrained_agent) ? 1 : 0;
   }
+  return count;
 }
 
 NodeId Search::add(const Child& child) {
-  std::vector<AgentPath> paths;
-  for (const Replanned& replanned : child.paths)
-    paths.push_back({replanned.agent, replanned.path.locations, replanned.path.cost, replanned.path.lower_bound});
-  return tree_.add(child.node, paths, child.conflicts);
+  const AgentPath path{child.node.constrained_agent, child.path.locations, child.path.cost, child.path.lower_bound};
+  return tree_.add(child.node, {path}, child.conflicts);
 }
 
-// Lower bounds that the constraint raised hold no longer.
+// A lower bound that the constraint raised holds no longer.
 NodeId Search::add_without_constraint(const Child& child, NodeId parent) {
+  const std::int32_t agent = child.node.constrained_agent;
+  const AgentPath path{agent, child.path.locations, child.path.cost,
+                       paths_[static_cast<std::size_t>(agent)].lower_bound};
   Node node = child.node;
   node.constrained_agent = -1;
   node.lower_bound = tree_.node(parent).lower_bound;
-  std::vector<AgentPath> paths;
-  for (const Replanned& replanned : child.paths)
-    paths.push_back({replanned.agent, replanned.path.locations, replanned.path.cost,
-                     paths_[static_cast<std::size_t>(replanned.agent)].lower_bound});
-  return tree_.add(node, paths, child.conflicts);
+  return tree_.add(node, {path}, child.conflicts);
 }
 
 void Search::push(NodeId id) {

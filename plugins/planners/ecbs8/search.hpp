@@ -59,15 +59,11 @@ class Search {
     std::int32_t agent;
     Constraint constraint;
   };
-  struct Replanned {
-    std::int32_t agent;
-    BoundedPath path;
-  };
-  // A node that is not in the tree yet.
+  // A node that is not in the tree yet: the agent under one more constraint has another path.
   struct Child {
     Node node;
-    std::vector<Replanned> paths;
-    std::vector<Conflict> conflicts;
+    BoundedPath path;
+    std::vector<Conflict> conflicts;  // of that path
   };
 
   bool plan_root();
@@ -77,9 +73,7 @@ class Search {
   const Conflict& choose_conflict() const;
   std::array<Side, 2> split(const Conflict& conflict) const;
   bool make_child(NodeId parent, const Side& side, Child& child);
-  bool replan(NodeId parent, std::int32_t agent, const Constraint* added, bool share_slack, Child& child);
-  bool keep_within_limit(NodeId parent, Child& child);
-  void count_pairs(Child& child) const;
+  std::int32_t count_pairs(const Child& child) const;
   NodeId add(const Child& child);
   NodeId add_without_constraint(const Child& child, NodeId parent);
   void push(NodeId id);

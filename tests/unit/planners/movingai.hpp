@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Maps and scenarios of the MovingAI benchmark (Stern et al. 2019) as planning cases.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "planning_case.hpp"
+
+namespace dmrp::test {
+
+inline PlanningCase read_map(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line) && line != "map") {
+  }
+  std::vector<std::string> rows;
+  while (std::getline(in, line) && !line.empty()) rows.push_back(line);
+  return PlanningCase(rows);
+}
+
+inline void add_robots(PlanningCase& c, const std::filesystem::path& scenario, int count) {
+  std::ifstream in(scenario);
+  std::string line;
+  std::getline(in, line);  // version 1
+  for (int i = 0; i < count && std::getline(in, line); ++i) {
+    std::istringstream fields(line);
+    std::string bucket, map, width, height;
+    CellXY start, goal;
+    fields >> bucket >> map >> width >> height >> start.x >> start.y >> goal.x >> goal.y;
+    c.robot(start, {goal});
+  }
+}
+
+}  // namespace dmrp::test
