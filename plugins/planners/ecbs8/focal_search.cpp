@@ -61,6 +61,8 @@ void FocalSearch::begin(const Task& task) {
   for (std::int32_t t = task.others.rest_from(); t > 0; --t)
     conflicts_at_rest_[static_cast<std::size_t>(t) - 1] =
         conflicts_at_rest_[static_cast<std::size_t>(t)] + task.others.count(goal, goal, Graph::no_direction, t);
+  quiet_from_ = task.others.rest_from();
+  while (quiet_from_ > 0 && conflicts_after(quiet_from_ - 1) == 0) --quiet_from_;
 }
 
 std::int32_t FocalSearch::conflicts_after(std::int32_t t) const {
@@ -124,17 +126,34 @@ void FocalSearch::generate(const Task& task, const State& state, bool is_arrival
 }
 
 void FocalSearch::push(const Task& task, const State& state) {
-  const Cost f = state.g + (state.rests ? 0 : task.distances.distance(state.leg, state.location));
   const std::int32_t turns_in_all =
       state.turns + (state.rests ? 0 : task.distances.turns(state.leg, state.location, state.heading));
   if (!state.rests && !enter(task, state, turns_in_all)) return;
   if (state.rests) states_.push_back(state);
   const auto index = static_cast<std::int32_t>(states_.size()) - 1;
+
+  // Until the robot rests, no step costs less than a straight one.
+  const Cost to_go = state.rests ? 0
+                                 : std::max(task.distances.distance(state.leg, state.location),
+                                            straight_cost * (task.rest_from - state.t));
+  const Cost f = state.g + to_go;
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end(), IsWorse{});
-  const auto conflicts = static_cast<std::uint64_t>(std::min(state.conflicts, most_conflicts));
+
+  // To end without further conflicts it must not come to rest before all others have passed; if it cannot afford to
+  // wait for so long, it will meet those who come after its latest end.
+  Cost quiet_f = f;
+  std::int32_t conflicts = state.conflicts;
+  if (!state.rests) {
+    quiet_f = std::max(f, state.g + straight_cost * (quiet_from_ - state.t));
+    if (quiet_f > bound_) {
+      quiet_f = f;
+      conflicts +=
+          conflicts_after(state.t + static_cast<std::int32_t>(std::max<Cost>(0, bound_ - state.g) / straight_cost));
+    }
+  }
   const FocalEntry entry{
-      conflicts << f_bits | static_cast<std::uint64_t>(f),
+      static_cast<std::uint64_t>(std::min(conflicts, most_conflicts)) << f_bits | static_cast<std::uint64_t>(quiet_f),
       static_cast<std::uint64_t>(turns_in_all) << 32 | static_cast<std::uint64_t>(INT32_MAX - state.t), index};
   if (f <= bound_) {
     focal_.push_back(entry);

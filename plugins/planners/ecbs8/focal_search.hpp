@@ -109,6 +109,7 @@ class FocalSearch {
   std::vector<FocalEntry> focal_;
   std::vector<WaitingEntry> waiting_;            // in OPEN, but beyond the bound
   std::vector<std::int32_t> conflicts_at_rest_;  // by time: of somebody who rests at the last goal from then on
+  std::int32_t quiet_from_ = 0;                  // of those times the first without any
   std::vector<Slot> slots_;
   std::size_t slots_used_ = 0;
   std::uint32_t epoch_ = 0;
