@@ -13,6 +13,7 @@ ConstraintTable::ConstraintTable(const Graph& graph)
 void ConstraintTable::fill(const std::vector<Constraint>& constraints) {
   ++epoch_;
   entries_.clear();
+  closed_for_good_.clear();
   static_from_ = 0;
   end_from_ = 0;
   for (const Constraint& constraint : constraints) {
@@ -22,6 +23,7 @@ void ConstraintTable::fill(const std::vector<Constraint>& constraints) {
       end_from_ = std::max(end_from_, constraint.until + 1);
       continue;
     }
+    if (constraint.until >= forever) closed_for_good_.push_back(constraint);
     const auto at = static_cast<std::size_t>(constraint.location);
     entries_.push_back({constraint, epoch_of_[at] == epoch_ ? first_[at] : -1});
     first_[at] = static_cast<std::int32_t>(entries_.size()) - 1;

@@ -41,6 +41,9 @@ class ConstraintTable {
   // Arrivals from this time on are forbidden for good or not at all.
   std::int32_t static_from() const { return static_from_; }
 
+  // What may not be touched any more from some time on.
+  const std::vector<Constraint>& closed_for_good() const { return closed_for_good_; }
+
   // The earliest time from which the robot may rest at its last goal for good.
   std::int32_t rest_from(Location last_goal) const;
 
@@ -61,6 +64,7 @@ class ConstraintTable {
   std::vector<std::uint32_t> epoch_of_;  // by location: first_ is of this filling if it equals epoch_
   std::vector<std::int32_t> first_;
   std::vector<Entry> entries_;
+  std::vector<Constraint> closed_for_good_;
   std::uint32_t epoch_ = 0;
   std::int32_t static_from_ = 0;
   std::int32_t end_from_ = 0;

@@ -7,8 +7,9 @@ namespace dmrp::planners::ecbs8 {
 
 namespace {
 
-constexpr int f_bits = 48;  // 2^19 straight steps
-constexpr std::int32_t most_conflicts = (1 << (64 - f_bits)) - 1;
+// What a conflict less may cost. To avoid conflicts at all cost makes dear paths, which the limit of all plans then
+// has to bear, and long searches; to avoid too few leaves them to the high level.
+constexpr Cost conflict_cost = 4 * straight_cost;
 
 }  // namespace
 
@@ -23,6 +24,7 @@ FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances&
                   std::max(constraints.static_from(), others.rest_from() + 1),
                   constraints.rest_from(agent.last_goal())};
   begin(task);
+  begin_detours(task, stop);
   lower_bound_ = std::max(lower_bound, distances.distance(0, agent.start));
   bound_ = suboptimality.limit(lower_bound_);
   if (constraints.allows(agent.start, agent.start, Graph::no_direction, 0))
@@ -63,6 +65,37 @@ void FocalSearch::begin(const Task& task) {
         conflicts_at_rest_[static_cast<std::size_t>(t)] + task.others.count(goal, goal, Graph::no_direction, t);
   quiet_from_ = task.others.rest_from();
   while (quiet_from_ > 0 && conflicts_after(quiet_from_ - 1) == 0) --quiet_from_;
+}
+
+void FocalSearch::begin_detours(const Task& task, StopSignal& stop) {
+  detours_.reset();
+  closings_.clear();
+  if (task.constraints.closed_for_good().empty()) return;
+  graph_without_closed_ = graph_;
+  for (const Constraint& closed : task.constraints.closed_for_good()) {
+    Closing closing{0, closed.from};
+    const auto widen = [&](Location location) {
+      if (location < 0 || location >= graph_.location_count()) return;
+      for (std::int32_t leg = 0; leg <= task.agent.last_leg(); ++leg)
+        if (const Cost distance = task.distances.distance(leg, location); distance < unreachable)
+          closing.farthest = std::max(closing.farthest, distance);
+    };
+    for (const Location step : {0, 1, -1, graph_.width(), -graph_.width()}) widen(closed.location + step);
+    closings_.push_back(closing);
+    graph_without_closed_->block(closed.location);
+  }
+  detours_.emplace(*graph_without_closed_, task.agent, stop);
+}
+
+// A robot that is too late for every place that will be closed must do without them.
+//
+// To touch a place it must be there or beside it in time; and no step brings it nearer by more than a diagonal.
+Cost FocalSearch::distance_to_go(const Task& task, const State& state) const {
+  const Cost distance = task.distances.distance(state.leg, state.location);
+  if (!detours_) return distance;
+  for (const Closing& closing : closings_)
+    if (distance - closing.farthest <= diagonal_cost * (closing.from - 1 - state.t)) return distance;
+  return detours_->distance(state.leg, state.location);
 }
 
 std::int32_t FocalSearch::conflicts_after(std::int32_t t) const {
@@ -126,6 +159,8 @@ void FocalSearch::generate(const Task& task, const State& state, bool is_arrival
 }
 
 void FocalSearch::push(const Task& task, const State& state) {
+  const Cost distance = state.rests ? 0 : distance_to_go(task, state);
+  if (distance >= unreachable) return;
   const std::int32_t turns_in_all =
       state.turns + (state.rests ? 0 : task.distances.turns(state.leg, state.location, state.heading));
   if (!state.rests && !enter(task, state, turns_in_all)) return;
@@ -133,27 +168,12 @@ void FocalSearch::push(const Task& task, const State& state) {
   const auto index = static_cast<std::int32_t>(states_.size()) - 1;
 
   // Until the robot rests, no step costs less than a straight one.
-  const Cost to_go = state.rests ? 0
-                                 : std::max(task.distances.distance(state.leg, state.location),
-                                            straight_cost * (task.rest_from - state.t));
-  const Cost f = state.g + to_go;
+  const Cost f = state.g + (state.rests ? 0 : std::max(distance, straight_cost * (task.rest_from - state.t)));
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end(), IsWorse{});
 
-  // To end without further conflicts it must not come to rest before all others have passed; if it cannot afford to
-  // wait for so long, it will meet those who come after its latest end.
-  Cost quiet_f = f;
-  std::int32_t conflicts = state.conflicts;
-  if (!state.rests) {
-    quiet_f = std::max(f, state.g + straight_cost * (quiet_from_ - state.t));
-    if (quiet_f > bound_) {
-      quiet_f = f;
-      conflicts +=
-          conflicts_after(state.t + static_cast<std::int32_t>(std::max<Cost>(0, bound_ - state.g) / straight_cost));
-    }
-  }
   const FocalEntry entry{
-      static_cast<std::uint64_t>(std::min(conflicts, most_conflicts)) << f_bits | static_cast<std::uint64_t>(quiet_f),
+      f_with_conflicts(state, f),
       static_cast<std::uint64_t>(turns_in_all) << 32 | static_cast<std::uint64_t>(INT32_MAX - state.t), index};
   if (f <= bound_) {
     focal_.push_back(entry);
@@ -162,6 +182,16 @@ void FocalSearch::push(const Task& task, const State& state) {
     waiting_.push_back({f, entry});
     std::push_heap(waiting_.begin(), waiting_.end(), IsWorse{});
   }
+}
+
+// To end without further conflicts the robot must not come to rest before all others have passed its goal; if it cannot
+// afford to wait for so long, it will meet those who come after its latest end.
+Cost FocalSearch::f_with_conflicts(const State& state, Cost f) const {
+  if (state.rests) return f + conflict_cost * state.conflicts;
+  const Cost quiet_f = std::max(f, state.g + straight_cost * (quiet_from_ - state.t));
+  if (quiet_f <= bound_) return quiet_f + conflict_cost * state.conflicts;
+  const Cost steps_left = std::max<Cost>(0, bound_ - state.g) / straight_cost;
+  return f + conflict_cost * (state.conflicts + conflicts_after(state.t + static_cast<std::int32_t>(steps_left)));
 }
 
 // Stores the state unless another of its place and time is as good; closes those that it makes useless.

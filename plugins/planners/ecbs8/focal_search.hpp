@@ -2,12 +2,14 @@
 // focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost, with few conflicts.
 //
 // Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; the least f
-// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with fewest
-// conflicts is expanded, then of least f, then of fewest turns, then the latest. Of the states at one place and time
-// all are kept that differ in cost and conflicts with neither worse. Times from which nothing changes are one.
+// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with the least
+// sum of f and a charge for each conflict is expanded, then the one of fewest turns, then the latest. Of the states at
+// one place and time all are kept that differ in cost and conflicts with neither worse. Times from which nothing
+// changes are one.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "../mapf/stop_signal.hpp"
@@ -52,7 +54,7 @@ class FocalSearch {
     bool is_closed;  // expanded, or not worth it
   };
   struct FocalEntry {
-    std::uint64_t conflicts_and_f;
+    Cost f_with_conflicts;
     std::uint64_t turns_and_time_left;  // the estimate of the whole path's turns
     std::int32_t state;
   };
@@ -67,7 +69,7 @@ class FocalSearch {
   // For heaps with the best on top.
   struct IsWorse {
     bool operator()(const FocalEntry& a, const FocalEntry& b) const {
-      if (a.conflicts_and_f != b.conflicts_and_f) return a.conflicts_and_f > b.conflicts_and_f;
+      if (a.f_with_conflicts != b.f_with_conflicts) return a.f_with_conflicts > b.f_with_conflicts;
       if (a.turns_and_time_left != b.turns_and_time_left) return a.turns_and_time_left > b.turns_and_time_left;
       return a.state < b.state;
     }
@@ -91,9 +93,12 @@ class FocalSearch {
   };
 
   void begin(const Task& task);
+  void begin_detours(const Task& task, StopSignal& stop);
+  Cost distance_to_go(const Task& task, const State& state) const;
   void expand(const Task& task, std::int32_t parent);
   void generate(const Task& task, const State& state, bool is_arrival);
   void push(const Task& task, const State& state);
+  Cost f_with_conflicts(const State& state, Cost f) const;
   bool enter(const Task& task, const State& state, std::int32_t turns_in_all);
   void raise_bound(const Task& task, Cost lower_bound);
   std::int32_t pop_focal();
@@ -103,7 +108,16 @@ class FocalSearch {
   void grow_slots();
   void trace_back(std::int32_t last, BoundedPath& out) const;
 
+  // A place that is closed for good from some time on.
+  struct Closing {
+    Cost farthest;  // the greatest distance to go from there or beside it
+    std::int32_t from;
+  };
+
   const Graph& graph_;
+  std::optional<Graph> graph_without_closed_;
+  std::optional<TourDistances> detours_;  // distances where all places are closed that will be for good
+  std::vector<Closing> closings_;
   std::vector<State> states_;
   std::vector<OpenEntry> open_;
   std::vector<FocalEntry> focal_;

@@ -2,6 +2,7 @@
 #include "search.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "../mapf/solvability.hpp"
@@ -48,14 +49,15 @@ Search::Result Search::run() {
   }
 }
 
-// Each agent's path in turn, with few conflicts with those before it.
+// Each agent's path in turn, with few conflicts with those before it. The agents of short ways come first, as the
+// others have more to spare.
 bool Search::plan_root() {
   constraint_table_.fill({});
   Node root;
   std::vector<BoundedPath> paths(problem_.agents.size());
   std::vector<Conflict> conflicts;
   std::vector<AgentPath> agent_paths;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (const std::size_t i : by_distance()) {
     const auto agent = static_cast<std::int32_t>(i);
     const auto result = low_level_.search(problem_.agents[i], distances_[i], constraint_table_, occupied_, 0,
                                           suboptimality_, stop_, paths[i]);
@@ -72,6 +74,14 @@ bool Search::plan_root() {
   for (const Conflict& conflict : conflicts) root.conflicting_pairs += conflict.is_first ? 1 : 0;
   push(tree_.add(root, agent_paths, conflicts));
   return true;
+}
+
+std::vector<std::size_t> Search::by_distance() const {
+  const auto distance = [this](std::size_t i) { return distances_[i].distance(0, problem_.agents[i].start); };
+  std::vector<std::size_t> order(problem_.agents.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+  return order;
 }
 
 // The node of FOCAL with fewest conflicts, or -1 if there is none left. Raises the lower bound.

@@ -67,6 +67,7 @@ class Search {
   };
 
   bool plan_root();
+  std::vector<std::size_t> by_distance() const;
   NodeId choose();
   bool expand(NodeId id);
   void enter(NodeId id);
