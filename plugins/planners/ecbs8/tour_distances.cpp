@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tour_distances.hpp"
 
+#include <bit>
+
 namespace dmrp::planners::ecbs8 {
 
 TourDistances::TourDistances(const Graph& graph, const Agent& agent, StopSignal& stop)
@@ -8,6 +10,7 @@ TourDistances::TourDistances(const Graph& graph, const Agent& agent, StopSignal&
       agent_(&agent),
       distance_(agent.goals.size() * static_cast<std::size_t>(graph.location_count()), unreachable),
       turns_(distance_.size()),
+      best_moves_(distance_.size(), 0),
       is_settled_(static_cast<std::size_t>(graph.location_count())) {
   for (std::int32_t leg = agent.last_leg(); leg >= 0 && !stop.raised(); --leg) fill_leg(leg, stop);
 }
@@ -17,10 +20,10 @@ TourDistances::TourDistances(const Graph& graph, const Agent& agent, StopSignal&
 void TourDistances::fill_leg(std::int32_t leg, StopSignal& stop) {
   const Location goal = agent_->goal(leg);
   if (goal == nowhere) return;
-  const Cost base = distance_at_goal(leg);
+  begin_at_goal(leg);
+  const Cost base = distance(leg, goal);
   if (base >= unreachable) return;
   std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
-  distance_[index(leg, goal)] = base;
   buckets_[0].push_back(goal);
   for (std::size_t k = 0; !buckets_[k % 3].empty() || !buckets_[(k + 1) % 3].empty(); ++k) {
     std::vector<Location>& bucket = buckets_[k % 3];
@@ -37,25 +40,44 @@ void TourDistances::fill_leg(std::int32_t leg, StopSignal& stop) {
 
 void TourDistances::offer_to_predecessors(std::int32_t leg, Location location, Cost base) {
   const Cost here = distance(leg, location);
+  Cost* const distances = &distance_[index(leg, 0)];
+  std::uint8_t* const best_moves = &best_moves_[index(leg, 0)];
   for (Direction d = 0; d < Graph::direction_count; ++d) {
     const Location from = graph_->predecessor(location, d);
     if (from == nowhere) continue;
     const Cost cost = here + step_cost(d);
-    Cost& known = distance_[index(leg, from)];
-    if (known <= cost) continue;
+    const auto bit = static_cast<std::uint8_t>(1 << d);
+    Cost& known = distances[from];
+    if (known < cost) continue;
+    if (known == cost) {
+      best_moves[from] |= bit;
+      continue;
+    }
     known = cost;
+    best_moves[from] = bit;
     buckets_[static_cast<std::size_t>((cost - base) / straight_cost) % 3].push_back(from);
   }
 }
 
-Cost TourDistances::distance_at_goal(std::int32_t leg) const {
-  if (leg == agent_->last_leg()) return 0;
+// From the goal of one leg the way goes on to that of the next.
+void TourDistances::begin_at_goal(std::int32_t leg) {
   const Location goal = agent_->goal(leg);
-  Cost least = distance(leg + 1, goal) + wait_cost;
-  for (Direction d = 0; d < Graph::direction_count; ++d)
-    if (const Location to = graph_->neighbor(goal, d); to != nowhere)
-      least = std::min(least, distance(leg + 1, to) + step_cost(d));
-  return std::min(least, unreachable);
+  Cost& least = distance_[index(leg, goal)];
+  if (leg == agent_->last_leg()) {
+    least = 0;
+    return;
+  }
+  least = std::min(unreachable, distance(leg + 1, goal) + wait_cost);
+  for (Direction d = 0; d < Graph::direction_count; ++d) {
+    const Location to = graph_->neighbor(goal, d);
+    if (to == nowhere) continue;
+    const Cost cost = distance(leg + 1, to) + step_cost(d);
+    const auto bit = static_cast<std::uint8_t>(1 << d);
+    if (cost == least) best_moves_[index(leg, goal)] |= bit;
+    if (cost >= least) continue;
+    least = cost;
+    best_moves_[index(leg, goal)] = bit;
+  }
 }
 
 // The best successors have been settled before.
@@ -63,20 +85,20 @@ void TourDistances::fill_turns(std::int32_t leg, Location location) {
   TurnsByHeading& here = turns_[index(leg, location)];
   if (leg == agent_->last_leg() && location == agent_->last_goal()) return;  // zero
   const std::int32_t next_leg = agent_->leg_after(leg, location);
-  const Cost distance_here = distance(leg, location);
   constexpr std::uint16_t no_way = INT16_MAX;
-  here.fill(no_way);
   std::uint16_t fewest = no_way;
-  for (Direction d = 0; d < Graph::direction_count; ++d) {
-    const Location to = graph_->neighbor(location, d);
-    if (to == nowhere || distance(next_leg, to) + step_cost(d) != distance_here) continue;
-    const auto heading = static_cast<std::size_t>(d);
-    here[heading] = turns_[index(next_leg, to)][heading];
-    fewest = std::min(fewest, here[heading]);
+  TurnsByHeading straight;  // fewest turns for a robot that goes straight on
+  straight.fill(no_way);
+  for (unsigned moves = best_moves_[index(leg, location)]; moves != 0; moves &= moves - 1) {
+    const auto d = static_cast<std::size_t>(std::countr_zero(moves));
+    straight[d] = turns_[index(next_leg, graph_->neighbor(location, static_cast<Direction>(d)))][d];
+    fewest = std::min(fewest, straight[d]);
   }
-  for (std::uint16_t& turns : here) turns = std::min(turns, static_cast<std::uint16_t>(fewest + 1));
+  const auto with_turn = static_cast<std::uint16_t>(fewest + 1);
+  for (std::size_t heading = 0; heading < here.size(); ++heading)
+    here[heading] = std::min(straight[heading], with_turn);
   // a wait, between equal goals
-  if (distance(next_leg, location) + wait_cost != distance_here) return;
+  if (next_leg == leg || distance(next_leg, location) + wait_cost != distance(leg, location)) return;
   const TurnsByHeading& after = turns_[index(next_leg, location)];
   for (std::size_t heading = 0; heading < here.size(); ++heading)
     here[heading] = std::min(here[heading], after[heading]);

@@ -37,7 +37,7 @@ class TourDistances {
            static_cast<std::size_t>(location);
   }
   void fill_leg(std::int32_t leg, StopSignal& stop);
-  Cost distance_at_goal(std::int32_t leg) const;
+  void begin_at_goal(std::int32_t leg);
   void offer_to_predecessors(std::int32_t leg, Location location, Cost base);
   void fill_turns(std::int32_t leg, Location location);
 
@@ -45,6 +45,7 @@ class TourDistances {
   const Agent* agent_;
   std::vector<Cost> distance_;
   std::vector<TurnsByHeading> turns_;
+  std::vector<std::uint8_t> best_moves_;  // bits of the directions in which the shortest ways go on
   std::vector<std::uint8_t> is_settled_;
   std::array<std::vector<Location>, 3> buckets_;  // of the distances in [k, k + 1) straight steps, by k mod 3
 };
