@@ -2,31 +2,40 @@
 // cbs.hpp: conflict-based search: paths without conflicts, of least sum of costs.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "../conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 
-// Sharon et al. 2015, with prioritized conflicts (Boyarski et al. 2015) and bypass.
+// Sharon et al. 2015, with what makes it CBSH2-RTC (Li et al. 2021): prioritized conflicts and bypass (Boyarski et al.
+// 2015), the weighted dependency graph heuristic (Li et al. 2019), rectangle, corridor and target reasoning (Li et al.
+// 2019, 2020). Each is a parameter. Disjoint splitting (Li et al. 2019) is a choice.
 //
 // The sum of costs is optimal: a robot's steps until it stays at its last goal for good; vertex and swap conflicts
-// count, and robots rest at their goals and where they are not active. Of a robot's paths of equal length under the
-// same constraints one with fewest conflicts with the others is taken, and of these one with fewest turns; of nodes of
-// equal cost and conflicts the one with fewer turns is expanded first. That is not the least number of turns among all
-// optimal plans.
-//
-// NO_SOLUTION: a start or goal is cut off; two robots end on one cell, or would have to pass each other in a corridor
-// without a branch; the joint positions of few robots in a small part of the map were all tried. CBS itself does not end
-// on other problems without a plan: TIMEOUT after `node_limit` nodes or when the host says so.
-class Cbs final : public GlobalPlanner {
+// count, and robots rest at their goals and where they are not active. Of paths of equal cost and conflicts those with
+// fewer turns are preferred. The reported `lower_bound` equals the cost.
+class Cbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();
 
-  Param<std::int64_t> node_limit = param("node_limit", 500000)
+  Param<bool> prioritize_conflicts =
+      param("prioritize_conflicts", true).doc("split first on conflicts that raise the cost of both children");
+  Param<bool> bypass = param("bypass", true).doc("adopt a path that has fewer conflicts at the same cost, unsplit");
+  Param<bool> weighted_dependency_graph =
+      param("weighted_dependency_graph", true).doc("bound the cost of a node by that of its pairs of robots");
+  Param<bool> rectangle_reasoning =
+      param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+  Param<bool> target_reasoning =
+      param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
+  Param<bool> disjoint_splitting =
+      param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
-                                       .range(1, 100'000'000)
+                                       .range(1, 1'000'000'000)
                                        .doc("constraint-tree nodes after which the search gives up");
 
-  Status plan(const PlanningProblem& problem, PlanSink& sink) override;
+ protected:
+  ConflictSearchOptions options() const override;
 };
 
 }  // namespace dmrp::planners

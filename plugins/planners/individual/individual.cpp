@@ -15,6 +15,30 @@ Descriptor Individual::describe() {
       .uncoordinated();
 }
 
+namespace {
+
+// Of the directions that lead on at least cost the one that goes on straight, if there is one.
+std::vector<Location> shortest_path(const GridGraph& graph, const Agent& agent, const TourTable& table) {
+  std::vector<Location> path = {agent.start};
+  Direction heading = 0;
+  for (std::int32_t leg = 0, rest = table.distance(0, agent.start); rest > 0; --rest) {
+    const Location from = path.back();
+    leg = agent.leg_after(leg, from);
+    Location next = from;  // a wait, between equal goals
+    for (Direction i = 0; i < GridGraph::direction_count && next == from; ++i) {
+      const Direction d = (heading + i) % GridGraph::direction_count;
+      const Location to = graph.neighbor(from, d);
+      if (to == nowhere || table.distance(leg, to) != rest - 1) continue;
+      next = to;
+      heading = d;
+    }
+    path.push_back(next);
+  }
+  return path;
+}
+
+}  // namespace
+
 Status Individual::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   const Problem problem = make_problem(host_problem, false);
   StopSignal stop([this] { return should_stop(); });
@@ -28,8 +52,8 @@ Status Individual::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   std::vector<std::vector<Location>> paths;
   std::vector<PathView> views;
   double cost = 0;
-  for (const TourTable& table : *tables) {
-    paths.push_back(table.shortest_path());
+  for (std::size_t i = 0; i < problem.agents.size(); ++i) {
+    paths.push_back(shortest_path(problem.graph, problem.agents[i], (*tables)[i]));
     cost += cost_of(paths.back());
   }
   views.assign(paths.begin(), paths.end());

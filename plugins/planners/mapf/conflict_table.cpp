@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "conflict_table.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -11,6 +10,7 @@ ConflictTable::ConflictTable(const GridGraph& graph, std::size_t agent_count)
     : location_count_(static_cast<std::size_t>(graph.location_count())),
       next_(agent_count),
       resting_(location_count_, 0),
+      resting_from_(location_count_, forever),
       paths_(agent_count) {
   if (agent_count >= std::numeric_limits<Link>::max()) throw std::length_error("more than 65534 robots");
 }
@@ -19,30 +19,48 @@ void ConflictTable::set(std::int32_t agent, PathView path) {
   const auto who = static_cast<std::size_t>(agent);
   if (paths_[who].data() == path.data() && paths_[who].size() == path.size()) return;
   take_out(agent);
+  if (static_cast<std::int32_t>(path.size()) > horizon_) grow(static_cast<std::int32_t>(path.size()));
   paths_[who] = path;
+  put_in(agent);
+}
+
+void ConflictTable::put_in(std::int32_t agent) {
+  const PathView path = paths_[static_cast<std::size_t>(agent)];
   if (path.empty()) return;
-  if (static_cast<std::int32_t>(path.size()) > row_count_) {
-    row_count_ = static_cast<std::int32_t>(path.size());
-    first_.resize(static_cast<std::size_t>(row_count_) * location_count_, 0);
-  }
-  next_[who].resize(path.size());
-  for (std::size_t t = 0; t < path.size(); ++t) {
-    Link& first = first_[cell(path[t], static_cast<std::int32_t>(t))];
-    next_[who][t] = first;
+  std::vector<Link>& next = next_[static_cast<std::size_t>(agent)];
+  next.resize(path.size());
+  for (std::int32_t t = 0; t <= cost_of(path); ++t) {
+    const auto step = static_cast<std::size_t>(t);
+    Link& first = first_[cell(path[step], t)];
+    next[step] = first;
     first = static_cast<Link>(agent + 1);
+    passed_[word(path[step], t)] |= std::uint64_t{1} << (t % 64);
   }
   resting_[static_cast<std::size_t>(path.back())] = static_cast<Link>(agent + 1);
+  resting_from_[static_cast<std::size_t>(path.back())] = cost_of(path);
 }
 
 void ConflictTable::take_out(std::int32_t agent) {
   const PathView path = paths_[static_cast<std::size_t>(agent)];
   if (path.empty()) return;
-  for (std::size_t t = 0; t < path.size(); ++t) {
-    Link* link = &first_[cell(path[t], static_cast<std::int32_t>(t))];
-    while (*link != agent + 1) link = &next_[*link - 1u][t];
-    *link = next_[static_cast<std::size_t>(agent)][t];
+  for (std::int32_t t = 0; t <= cost_of(path); ++t) {
+    const auto step = static_cast<std::size_t>(t);
+    Link& first = first_[cell(path[step], t)];
+    Link* link = &first;
+    while (*link != agent + 1) link = &next_[*link - 1u][step];
+    *link = next_[static_cast<std::size_t>(agent)][step];
+    if (first == 0) passed_[word(path[step], t)] &= ~(std::uint64_t{1} << (t % 64));
   }
   resting_[static_cast<std::size_t>(path.back())] = 0;
+  resting_from_[static_cast<std::size_t>(path.back())] = forever;
+  paths_[static_cast<std::size_t>(agent)] = {};
+}
+
+void ConflictTable::grow(std::int32_t horizon) {
+  horizon_ = std::max(2 * horizon_, (horizon + 63) / 64 * 64);
+  passed_.assign(location_count_ * static_cast<std::size_t>(horizon_) / 64, 0);
+  first_.assign(location_count_ * static_cast<std::size_t>(horizon_), 0);
+  for (std::size_t agent = 0; agent < paths_.size(); ++agent) put_in(static_cast<std::int32_t>(agent));
 }
 
 std::int32_t ConflictTable::rest_from() const {
@@ -51,35 +69,10 @@ std::int32_t ConflictTable::rest_from() const {
   return from;
 }
 
-template <class Visit>
-void ConflictTable::visit_occupants(Location location, std::int32_t t, Visit visit) const {
-  if (t >= row_count_) return;
-  for (Link link = first_[cell(location, t)]; link != 0; link = next_[link - 1u][static_cast<std::size_t>(t)])
-    visit(static_cast<std::int32_t>(link) - 1);
-}
-
-template <class Visit>
-void ConflictTable::visit_at(Location from, Location to, std::int32_t t, Visit visit) const {
-  visit_occupants(to, t, [&](std::int32_t agent) { visit(agent, false); });
-  const Link resting = resting_[static_cast<std::size_t>(to)];
-  if (resting != 0 && cost_of(paths_[resting - 1u]) < t) visit(static_cast<std::int32_t>(resting) - 1, false);
-  if (from == to || t == 0) return;
-  visit_occupants(to, t - 1, [&](std::int32_t agent) {
-    const PathView path = paths_[static_cast<std::size_t>(agent)];
-    if (cost_of(path) >= t && path[static_cast<std::size_t>(t)] == from) visit(agent, true);
-  });
-}
-
-std::int32_t ConflictTable::count_at(Location from, Location to, std::int32_t t) const {
-  std::int32_t count = 0;
-  visit_at(from, to, t, [&](std::int32_t, bool) { ++count; });
-  return count;
-}
-
 std::int32_t ConflictTable::count_after(Location location, std::int32_t t) const {
   std::int32_t count = 0;
-  for (std::int32_t later = t + 1; later < row_count_; ++later)
-    visit_occupants(location, later, [&](std::int32_t) { ++count; });
+  for (t = next_passed(location, t + 1); t != forever; t = next_passed(location, t + 1))
+    visit_passing(location, t, [&](std::int32_t) { ++count; });
   return count;
 }
 
@@ -90,14 +83,14 @@ void ConflictTable::list(std::int32_t agent, PathView path, std::vector<Conflict
     else
       out.push_back({other, agent, swap ? from : to, swap ? to : nowhere, t});
   };
-  const auto length = static_cast<std::int32_t>(path.size());
-  for (std::int32_t t = 0; t < length; ++t) {
+  const std::int32_t cost = cost_of(path);
+  for (std::int32_t t = 0; t <= cost; ++t) {
     const Location to = path[static_cast<std::size_t>(t)];
     const Location from = t == 0 ? to : path[static_cast<std::size_t>(t - 1)];
     visit_at(from, to, t, [&](std::int32_t other, bool swap) { add(other, from, to, swap, t); });
   }
-  for (std::int32_t t = length; t < row_count_; ++t)
-    visit_occupants(path.back(), t, [&](std::int32_t other) { add(other, path.back(), path.back(), false, t); });
+  for (std::int32_t t = next_passed(path.back(), cost + 1); t != forever; t = next_passed(path.back(), t + 1))
+    visit_passing(path.back(), t, [&](std::int32_t other) { add(other, path.back(), path.back(), false, t); });
 }
 
 }  // namespace dmrp::planners

@@ -35,7 +35,6 @@ class BasicGridGraph {
   void block(Location location);
 
   Location location_count() const { return static_cast<Location>(open_.size()); }
-  Location width() const { return width_; }
   bool is_open(Location location) const { return open_[index(location)] != 0; }
 
   // Where the move leads, or nowhere.
@@ -55,6 +54,9 @@ class BasicGridGraph {
 
   // Whether every move can be undone.
   bool is_symmetric() const;
+
+  // Columns: the number of locations in a row.
+  std::int32_t width() const { return width_; }
 
   // The open cell that holds a point, or nowhere.
   Location locate(dmrp_vec2 point) const;

@@ -21,6 +21,13 @@ struct Growth {
   std::vector<std::uint32_t> successors;
 };
 
+// False if the agent has to be elsewhere at that time.
+bool at_landmark(const ConstraintTable& constraints, Location location, std::int32_t t) {
+  for (const ConstraintTable::Landmark& landmark : constraints.landmarks())
+    if (landmark.t == t && landmark.location != location) return false;
+  return true;
+}
+
 // Adds the places that can be reached at time t from level t - 1 and from which the end can still be reached by `cost`.
 void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, const TourTable& table,
                 const ConstraintTable& constraints, std::int32_t t, std::int32_t cost,
@@ -36,6 +43,8 @@ void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, cons
     for (Direction d = 0; d <= GridGraph::direction_count; ++d) {
       const Location to = d == GridGraph::direction_count ? from.location : graph.neighbor(from.location, d);
       if (to == nowhere || t + table.distance(leg, to) > cost || !constraints.allows(from.location, to, t)) continue;
+      if (!at_landmark(constraints, to, t)) continue;
+      if (t == cost && to == from.location && leg == from.leg) continue;  // it would have ended before
       // A number from an earlier level is smaller than level_begin, and one not yet set points elsewhere.
       std::uint32_t& at = node_at[static_cast<std::size_t>(leg) * locations + static_cast<std::size_t>(to)];
       const bool known = at >= level_begin && at < growth.nodes.size();
@@ -64,12 +73,14 @@ void mark(Growth& growth, const Agent& agent) {
 
 Mdd::Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
          std::int32_t cost) {
+  if (cost < constraints.finish_from() || cost > constraints.finish_until()) return;
   Growth growth;
   growth.level_begin.push_back(0);
   growth.nodes.push_back({{agent.start, 0}, 0, 0, false});
   std::vector<std::uint32_t> node_at(agent.goals.size() * static_cast<std::size_t>(graph.location_count()), 0);
   for (std::int32_t t = 1; t <= cost; ++t) grow_level(growth, graph, agent, table, constraints, t, cost, node_at);
   mark(growth, agent);
+  if (!growth.nodes.front().leads_to_the_end) return;
 
   growth.level_begin.push_back(static_cast<std::uint32_t>(growth.nodes.size()));
   for (std::size_t level = 0; level + 1 < growth.level_begin.size(); ++level) {
@@ -86,14 +97,48 @@ bool Mdd::must_be_at(Location location, std::int32_t t) const {
   return true;
 }
 
-const Mdd& MddCache::get(std::int32_t agent, std::vector<Constraint> constraints, std::int32_t cost) {
+namespace {
+
+constexpr std::size_t size_limit = 8'000'000;
+
+}  // namespace
+
+std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constraints) {
+  std::uint64_t hash = static_cast<std::uint64_t>(agent) + 1;
+  const auto mix = [&](std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  };
+  for (const Constraint& c : constraints) {
+    mix(static_cast<std::uint64_t>(c.location) << 32 | static_cast<std::uint32_t>(c.t));
+    mix(static_cast<std::uint64_t>(c.from) << 32 | static_cast<std::uint32_t>(c.until));
+    mix(static_cast<std::uint64_t>(c.kind));
+  }
+  return hash;
+}
+
+std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints,
+                                         std::int32_t at_least) {
   const auto who = static_cast<std::size_t>(agent);
   std::sort(constraints.begin(), constraints.end());
-  const auto found = of_agent_[who].find(constraints);
-  if (found != of_agent_[who].end()) return found->second;
-  constraint_table_.fill(constraints);
-  Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost);
-  return of_agent_[who].emplace(std::move(constraints), std::move(mdd)).first->second;
+  constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+  const std::uint64_t hash = hash_of(agent, constraints);
+  const auto [first, last] = of_agent_[who].equal_range(hash);
+  for (auto it = first; it != last; ++it)
+    if (it->second.constraints == constraints) return it->second.mdd;
+  constraint_table_.fill(problem_.agents[who], constraints);
+  for (std::int32_t cost = at_least;; ++cost) {
+    Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost);
+    if (mdd.is_empty()) continue;
+    size_ += mdd.node_count() + 2 * static_cast<std::size_t>(cost) + 4 * constraints.size();
+    return of_agent_[who].emplace(hash, Entry{constraints, std::make_shared<const Mdd>(std::move(mdd))})->second.mdd;
+  }
+}
+
+void MddCache::trim() {
+  if (size_ < size_limit) return;
+  for (ByHash& mdds : of_agent_) mdds.clear();
+  size_ = 0;
 }
 
 }  // namespace dmrp::planners

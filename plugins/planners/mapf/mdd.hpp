@@ -4,7 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "constraint.hpp"
@@ -19,10 +20,12 @@ class Mdd {
     std::int32_t leg;
   };
 
-  // `cost` is the least under the constraints.
+  // Empty if there is no path of this cost. If there is, it is the least under the constraints.
   Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
       std::int32_t cost);
 
+  bool is_empty() const { return nodes_.empty(); }
+  std::size_t node_count() const { return nodes_.size(); }
   std::int32_t cost() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
 
   // The nodes of a time up to cost(), each on at least one path.
@@ -39,20 +42,33 @@ class Mdd {
   std::vector<std::uint32_t> level_begin_;
 };
 
-// Keyed by what an MDD follows from: the agent and its constraints.
+// Equal for equal sets of one agent's constraints, given in order.
+std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constraints);
+
+// The MDDs made so far, keyed by what they follow from: the agent and its constraints.
 class MddCache {
  public:
   MddCache(const Problem& problem, const std::vector<TourTable>& tables)
       : problem_(problem), tables_(tables), constraint_table_(problem.graph), of_agent_(problem.agents.size()) {}
 
-  // `constraints` are the agent's in any order, `cost` the least under them. The reference lives as long as the cache.
-  const Mdd& get(std::int32_t agent, std::vector<Constraint> constraints, std::int32_t cost);
+  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`.
+  std::shared_ptr<const Mdd> get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least);
+
+  // Forgets everything once it has grown too large.
+  void trim();
 
  private:
+  struct Entry {
+    std::vector<Constraint> constraints;
+    std::shared_ptr<const Mdd> mdd;
+  };
+  using ByHash = std::unordered_multimap<std::uint64_t, Entry>;  // never iterated over
+
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
   ConstraintTable constraint_table_;
-  std::vector<std::map<std::vector<Constraint>, Mdd>> of_agent_;
+  std::vector<ByHash> of_agent_;
+  std::size_t size_ = 0;  // nodes of all
 };
 
 }  // namespace dmrp::planners

@@ -11,6 +11,7 @@ namespace {
 struct Component {
   std::vector<Location> locations;
   std::vector<std::size_t> agents;
+  bool branches = false;  // somewhere a location has more than two neighbors
 };
 
 // The neighbor by a move in either direction, or nowhere.
@@ -21,23 +22,40 @@ Location linked(const BasicGridGraph<connectivity>& graph, Location location, Di
 }
 
 template <Direction connectivity>
+int degree(const BasicGridGraph<connectivity>& graph, Location location) {
+  int count = 0;
+  for (Direction d = 0; d < connectivity; ++d) count += linked(graph, location, d) != nowhere ? 1 : 0;
+  return count;
+}
+
+// How much of a component its user wants to know.
+enum class Extent { whole, until_branch };
+
+template <Direction connectivity>
 Component component_of(const BasicGridGraph<connectivity>& graph, Location start,
-                       std::vector<std::int32_t>& component_at, std::int32_t number) {
+                       std::vector<std::int32_t>& component_at, std::int32_t number, Extent extent) {
   Component component;
   component.locations.push_back(start);
   component_at[static_cast<std::size_t>(start)] = number;
-  for (std::size_t i = 0; i < component.locations.size(); ++i)
+  for (std::size_t i = 0; i < component.locations.size(); ++i) {
+    component.branches = component.branches || degree(graph, component.locations[i]) > 2;
+    if (component.branches && extent == Extent::until_branch) return component;
     for (Direction d = 0; d < connectivity; ++d) {
       const Location to = linked(graph, component.locations[i], d);
-      if (to == nowhere || component_at[static_cast<std::size_t>(to)] >= 0) continue;
-      component_at[static_cast<std::size_t>(to)] = number;
+      if (to == nowhere) continue;
+      std::int32_t& known = component_at[static_cast<std::size_t>(to)];
+      if (known >= 0 && known != number) component.branches = true;  // part of one that was left at a branch
+      if (known >= 0) continue;
+      known = number;
       component.locations.push_back(to);
     }
+  }
   return component;
 }
 
+// With Extent::until_branch those that branch are parts, maybe several of one component.
 template <Direction connectivity>
-std::vector<Component> components_with_agents(const BasicProblem<connectivity>& problem) {
+std::vector<Component> components_with_agents(const BasicProblem<connectivity>& problem, Extent extent) {
   std::vector<std::int32_t> component_at(static_cast<std::size_t>(problem.graph.location_count()), -1);
   std::vector<Component> components;
   for (std::size_t i = 0; i < problem.agents.size(); ++i) {
@@ -45,7 +63,7 @@ std::vector<Component> components_with_agents(const BasicProblem<connectivity>& 
     std::int32_t number = component_at[static_cast<std::size_t>(start)];
     if (number < 0) {
       number = static_cast<std::int32_t>(components.size());
-      components.push_back(component_of(problem.graph, start, component_at, number));
+      components.push_back(component_of(problem.graph, start, component_at, number, extent));
     }
     components[static_cast<std::size_t>(number)].agents.push_back(i);
   }
@@ -55,13 +73,10 @@ std::vector<Component> components_with_agents(const BasicProblem<connectivity>& 
 // The locations in order if the component is a corridor without a branch; empty otherwise.
 template <Direction connectivity>
 std::vector<Location> as_corridor(const BasicGridGraph<connectivity>& graph, const Component& component) {
+  if (component.branches) return {};
   Location end = nowhere;
-  for (const Location location : component.locations) {
-    int degree = 0;
-    for (Direction d = 0; d < connectivity; ++d) degree += linked(graph, location, d) != nowhere ? 1 : 0;
-    if (degree > 2) return {};
-    if (degree <= 1) end = location;
-  }
+  for (const Location location : component.locations)
+    if (degree(graph, location) <= 1) end = location;
   if (end == nowhere) return {};  // a ring
   std::vector<Location> ordered = {end};
   for (Location before = nowhere;;) {
@@ -188,7 +203,7 @@ std::optional<std::string> find_obvious_obstruction(const BasicProblem<connectiv
     }
 
   std::vector<std::size_t> order(static_cast<std::size_t>(problem.graph.location_count()));
-  for (const Component& component : components_with_agents(problem)) {
+  for (const Component& component : components_with_agents(problem, Extent::until_branch)) {
     const std::vector<Location> corridor = as_corridor(problem.graph, component);
     for (std::size_t i = 0; i < corridor.size(); ++i) order[static_cast<std::size_t>(corridor[i])] = i;
     if (corridor.empty()) continue;
@@ -206,7 +221,7 @@ std::optional<std::string> find_obvious_obstruction(const BasicProblem<connectiv
 template <Direction connectivity>
 std::optional<std::string> find_joint_obstruction(const BasicProblem<connectivity>& problem, std::size_t state_limit,
                                                   StopSignal& stop) {
-  for (const Component& component : components_with_agents(problem)) {
+  for (const Component& component : components_with_agents(problem, Extent::whole)) {
     std::size_t states = 1;
     for (std::size_t i = 0; i < component.agents.size() && states <= state_limit; ++i)
       states *= component.locations.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tour_table.hpp: for one robot, the true distance to the end of its tour from everywhere, and the fewest turns among
-// the ways of that length. The exact heuristic of every search for a robot alone.
+// tour_table.hpp: for one robot, the true distance to the end of its tour from everywhere. The exact heuristic of every
+// search for a robot alone.
 #pragma once
 
 #include <cstdint>
@@ -20,35 +20,15 @@ class TourTable {
   TourTable(const GridGraph& graph, const Agent& agent, StopSignal& stop);
 
   // Steps from `location`, on the way to goal `leg`, until the tour's end; or unreachable.
-  std::int32_t distance(std::int32_t leg, Location location) const { return distance_[index(leg, location)]; }
-
-  // Fewest turns over those steps for a robot that came in direction `heading` (or no_direction).
-  std::int32_t turns(std::int32_t leg, Location location, Direction heading) const {
-    return turns_[index(leg, location) * heading_count + static_cast<std::size_t>(heading)];
+  std::int32_t distance(std::int32_t leg, Location location) const {
+    return distance_[static_cast<std::size_t>(leg) * location_count_ + static_cast<std::size_t>(location)];
   }
-
-  // A shortest path with fewest turns; empty if there is none.
-  std::vector<Location> shortest_path() const;
 
  private:
-  static constexpr std::size_t heading_count = GridGraph::direction_count + 1;
+  void fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, StopSignal& stop);
 
-  std::size_t index(std::int32_t leg, Location location) const {
-    return static_cast<std::size_t>(leg) * static_cast<std::size_t>(graph_->location_count()) +
-           static_cast<std::size_t>(location);
-  }
-  bool is_end(std::int32_t leg, Location location) const {
-    return leg == agent_->last_leg() && location == agent_->last_goal();
-  }
-  void fill_leg(std::int32_t leg, StopSignal& stop);
-  std::int32_t distance_at_goal(std::int32_t leg) const;
-  void fill_turns(std::int32_t leg, Location location);
-
-  const GridGraph* graph_;
-  const Agent* agent_;
+  std::size_t location_count_;
   std::vector<std::int32_t> distance_;
-  std::vector<std::uint16_t> turns_;
-  std::vector<Location> queue_;
 };
 
 // One table an agent; nothing if `stop` ended it.

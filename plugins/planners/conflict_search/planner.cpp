@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "planner.hpp"
+
+#include <numeric>
+
+#include "../mapf/solvability.hpp"
+
+namespace dmrp::planners {
+
+Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink& sink) {
+  const Problem problem = make_problem(host_problem, true);
+  StopSignal stop([this] { return should_stop(); });
+  const auto tables = make_tour_tables(problem, stop);
+  if (!tables) return Status::timeout;
+  if (const auto robot = find_cut_off_robot(problem, *tables)) {
+    set_error("robot " + std::to_string(*robot) + " cannot reach its goal");
+    return Status::no_solution;
+  }
+  if (const auto obstruction = find_obvious_obstruction(problem)) {
+    set_error(*obstruction);
+    return Status::no_solution;
+  }
+
+  const ConflictSearchOptions chosen = options();
+  MddCache mdds(problem, *tables);
+  const Corridors corridors(problem.graph);
+  ConflictSearch search(problem, *tables, corridors, mdds, chosen, stop);
+  std::vector<std::int32_t> everybody(problem.agents.size());
+  std::iota(everybody.begin(), everybody.end(), 0);
+  const ConflictSearch::Result result = search.run(everybody, {});
+
+  const ConflictSearchStatistics statistics = search.statistics();
+  sink.statistic("lower_bound", statistics.lower_bound);
+  sink.statistic("high_level_expanded", static_cast<double>(statistics.high_level_expanded));
+  sink.statistic("high_level_generated", static_cast<double>(statistics.high_level_generated));
+  sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
+  switch (result) {
+    case ConflictSearch::Result::solved: {
+      std::vector<PathView> paths;
+      double cost = 0;
+      for (const AgentPath& path : search.solution()) {
+        paths.push_back(path.locations);
+        cost += cost_of(path.locations);
+      }
+      sink.statistic("cost", cost);
+      write_paths(host_problem, problem, paths, sink);
+      return Status::ok;
+    }
+    case ConflictSearch::Result::unsolvable:
+      set_error(search.obstruction());
+      return Status::no_solution;
+    case ConflictSearch::Result::stopped:
+      set_error("stopped by the host");
+      return Status::timeout;
+    case ConflictSearch::Result::node_limit:
+      set_error("no plan within node_limit = " + std::to_string(chosen.node_limit) + " nodes");
+      return Status::timeout;
+  }
+  return Status::error;
+}
+
+}  // namespace dmrp::planners

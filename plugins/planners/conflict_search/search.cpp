@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: MIT
+#include "search.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "../mapf/solvability.hpp"
+
+namespace dmrp::planners {
+
+namespace {
+
+// A problem that is still unsolved after so many expansions is worth a proof that it has no plan ...
+constexpr std::int64_t expansions_before_proof = 1000;
+// ... if that visits at most so many joint positions.
+constexpr std::size_t joint_state_limit = 300'000;
+
+// Two agents are searched for their least joint cost with so many nodes at most.
+constexpr std::int64_t pair_node_limit = 10;
+
+// The cost of a pair without any solution.
+constexpr std::int32_t no_solution = 1 << 24;
+
+bool is_vertex(const Conflict& conflict) {
+  return conflict.from == nowhere;
+}
+
+}  // namespace
+
+ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
+                               MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop)
+    : problem_(problem),
+      tables_(tables),
+      corridors_(corridors),
+      mdds_(mdds),
+      options_(options),
+      stop_(stop),
+      queue_(tree_, options.selection, options.suboptimality),
+      low_level_(problem.graph),
+      paths_(problem.agents.size()),
+      occupied_(problem.graph, problem.agents.size()),
+      node_mdds_(problem.agents.size(), nullptr),
+      constraint_table_(problem.graph),
+      corridor_tables_{ConstraintTable(problem.graph), ConstraintTable(problem.graph)},
+      earliest_arrival_(problem.graph) {}
+
+ConflictSearch::~ConflictSearch() = default;
+
+ConflictSearchStatistics ConflictSearch::statistics() const {
+  ConflictSearchStatistics out = statistics_;
+  out.lower_bound = queue_.lower_bound();
+  out.low_level_expanded += low_level_.expanded();
+  if (pair_search_) out.low_level_expanded += pair_search_->statistics().low_level_expanded;
+  return out;
+}
+
+ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, std::vector<Constraint> constraints) {
+  for (const std::int32_t agent : members_) occupied_.set(agent, {});
+  members_ = std::move(members);
+  tree_.reset(problem_.agents.size(), members_);
+  queue_.clear();
+  entered_ = no_node;
+  const std::int64_t generated_before = statistics_.high_level_generated;
+  std::int64_t expanded = 0;
+  if (!plan_root(std::move(constraints))) return stop_.raised() ? Result::stopped : Result::unsolvable;
+  for (;;) {
+    const NodeQueue::Choice choice = queue_.pop();
+    if (choice.node == no_node) break;
+    enter(choice.node);
+    if (pairs_.empty()) return Result::solved;
+    if (choice.for_its_bound && options_.dependency_graph && !tree_.node(choice.node).is_informed &&
+        !inform(choice.node))
+      continue;
+    expand(choice.node);
+    if (stop_.poll_now()) return Result::stopped;
+    if (statistics_.high_level_generated - generated_before >= options_.node_limit) {
+      queue_.raise_bound();
+      return Result::node_limit;
+    }
+    if (++expanded == expansions_before_proof) {
+      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+      if (stop_.raised()) return Result::stopped;
+      if (found) return obstruction_ = *found, Result::unsolvable;
+    }
+  }
+  obstruction_ = "every way to resolve the robots' conflicts was tried";
+  return Result::unsolvable;
+}
+
+// Each agent's path by itself, with few conflicts with the agents before it.
+bool ConflictSearch::plan_root(std::vector<Constraint> constraints) {
+  Child& root = children_[0];
+  root.node = {};
+  root.constraints = std::move(constraints);
+  root.paths.clear();
+  root.conflicts.clear();
+  root.conflicting_pairs = 0;
+  for (const std::int32_t agent : members_)
+    if (!replan(no_node, agent, 0, root)) return false;
+  for (const std::int32_t agent : members_) occupied_.set(agent, {});
+  queue_.push(add(root, no_node, true));
+  return true;
+}
+
+void ConflictSearch::enter(NodeId id) {
+  if (entered_ == id) return;
+  entered_ = id;
+  mdds_.trim();
+  std::fill(node_mdds_.begin(), node_mdds_.end(), nullptr);
+  tree_.gather_paths(id, paths_);
+  for (const std::int32_t agent : members_) occupied_.set(agent, path_of(agent).locations);
+  tree_.gather_conflicts(id, conflicts_);
+  pairs_.clear();
+  for (const std::uint32_t index : conflicts_) {
+    const Conflict& conflict = tree_.conflict(index).conflict;
+    if (const Pair pair(conflict.a, conflict.b); pairs_.empty() || pairs_.back() != pair) pairs_.push_back(pair);
+  }
+}
+
+// Raises the node's bound by what its agents' true least costs and the pairs that depend on each other add. False if
+// the node is no longer the one to expand: it is back in the queue, or there is nothing below it.
+bool ConflictSearch::inform(NodeId id) {
+  std::int32_t raise = 0;
+  std::vector<bool> is_counted(problem_.agents.size(), false);
+  for (const auto& [a, b] : pairs_)
+    for (const std::int32_t agent : {a, b}) {
+      if (is_counted[static_cast<std::size_t>(agent)]) continue;
+      is_counted[static_cast<std::size_t>(agent)] = true;
+      raise += mdd_of(agent).cost() - path_of(agent).lower_bound;
+    }
+  std::vector<DependentPair> dependent;
+  for (const Pair& pair : pairs_) {
+    const std::int32_t weight = pair_weight(pair);
+    if (stop_.raised()) return true;
+    if (weight >= no_solution) return false;
+    if (weight > 0) dependent.push_back({pair.first, pair.second, weight});
+  }
+  Node& node = tree_.node(id);
+  node.is_informed = true;
+  const std::int32_t informed = node.lower_bound + raise + least_edge_weighted_cover(dependent);
+  if (informed <= node.f) return true;
+  node.f = informed;
+  node.estimated_cost = std::max(node.estimated_cost, static_cast<double>(node.f));
+  if (node.f <= queue_.lower_bound()) return true;
+  queue_.push(id);
+  return false;
+}
+
+// Splits the node on a conflict, or finds that a child's path helps without one.
+bool ConflictSearch::expand(NodeId id) {
+  ++statistics_.high_level_expanded;
+  for (;;) {
+    enter(id);
+    if (pairs_.empty()) break;
+    const Split split = split_on(tree_.conflict(choose_conflict()));
+    std::array<bool, 2> has_paths{};
+    Child* bypass = nullptr;
+    for (std::size_t i = 0; i < 2 && !bypass; ++i) {
+      has_paths[i] = make_child(id, split[i], children_[i]);
+      if (has_paths[i] && options_.bypass && is_bypass(id, children_[i])) bypass = &children_[i];
+    }
+    if (stop_.raised()) return false;
+    if (bypass) {
+      id = add(*bypass, id, false);
+      continue;
+    }
+    std::vector<const Node*> nodes;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (has_paths[i]) nodes.push_back(&children_[i].node);
+    note_errors(tree_.node(id), nodes);
+    for (std::size_t i = 0; i < 2; ++i)
+      if (has_paths[i]) queue_.push(add(children_[i], id, true));
+    return true;
+  }
+  queue_.push(id);  // the last bypass left no conflict
+  return true;
+}
+
+std::uint32_t ConflictSearch::choose_conflict() {
+  const auto when_and_who = [this](std::uint32_t index) {
+    const Conflict& c = tree_.conflict(index).conflict;
+    return std::tuple(c.t, c.a, c.b, c.from, c.location);
+  };
+  const auto earlier = [&](std::uint32_t x, std::uint32_t y) { return when_and_who(x) < when_and_who(y); };
+  if (!options_.prioritize_conflicts) {
+    const std::uint32_t first = *std::min_element(conflicts_.begin(), conflicts_.end(), earlier);
+    classify(tree_.conflict(first));
+    return first;
+  }
+  for (const std::uint32_t index : conflicts_) classify(tree_.conflict(index));
+  return *std::min_element(conflicts_.begin(), conflicts_.end(), [&](std::uint32_t x, std::uint32_t y) {
+    const NodeConflict& a = tree_.conflict(x);
+    const NodeConflict& b = tree_.conflict(y);
+    if (a.cardinality != b.cardinality) return a.cardinality < b.cardinality;
+    if (a.reasoning != b.reasoning) return a.reasoning < b.reasoning;
+    return earlier(x, y);
+  });
+}
+
+void ConflictSearch::classify(NodeConflict& conflict) {
+  if (conflict.is_known) return;
+  conflict.is_known = true;
+  const Conflict& c = conflict.conflict;
+  const bool a_raises = options_.prioritize_conflicts && must_arrive(c.a, c.from, c.location, c.t);
+  const bool b_raises = options_.prioritize_conflicts &&
+                        must_arrive(c.b, is_vertex(c) ? nowhere : c.location, is_vertex(c) ? c.location : c.from, c.t);
+  const auto cardinality = [](bool a, bool b) {
+    return a && b   ? NodeConflict::Cardinality::full
+           : a || b ? NodeConflict::Cardinality::semi
+                    : NodeConflict::Cardinality::none;
+  };
+  conflict.cardinality = cardinality(a_raises, b_raises);
+  const auto rests_at = [&](std::int32_t agent) { return cost_of(path_of(agent).locations) <= c.t; };
+  if (options_.target_reasoning && is_vertex(c) && (rests_at(c.a) || rests_at(c.b))) {
+    // The one at its goal has to come later, or the other one to stay away from there.
+    conflict.reasoning = NodeConflict::Reasoning::target;
+    conflict.cardinality = cardinality(rests_at(c.a) || a_raises, rests_at(c.b) || b_raises);
+    return;
+  }
+  std::optional<SymmetrySplit> symmetry;
+  if (options_.corridor_reasoning && (symmetry = find_corridor_split(c))) {
+    conflict.reasoning = NodeConflict::Reasoning::corridor;
+  } else if (options_.rectangle_reasoning && is_vertex(c) && conflict.cardinality != NodeConflict::Cardinality::full) {
+    symmetry =
+        find_rectangle(problem_.graph, c, mdd_of(c.a), mdd_of(c.b), path_of(c.a).locations, path_of(c.b).locations);
+    if (symmetry) conflict.reasoning = NodeConflict::Reasoning::rectangle;
+  }
+  if (!symmetry) return;
+  conflict.cardinality = cardinality(symmetry->raises_cost[0], symmetry->raises_cost[1]);
+  conflict.split = tree_.add_split(std::move(symmetry->constraints));
+}
+
+std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict& conflict) {
+  const auto passage = find_passage(corridors_, conflict, path_of(conflict.a).locations, path_of(conflict.b).locations);
+  if (!passage) return std::nullopt;
+  const std::array<std::int32_t, 2> agents = {conflict.a, conflict.b};
+  for (std::size_t i = 0; i < 2; ++i) {
+    tree_.gather_constraints(entered_, agents[i], constraints_);
+    corridor_tables_[i].fill(problem_.agents[static_cast<std::size_t>(agents[i])], constraints_);
+  }
+  const auto known_of = [&](std::size_t i) {
+    const auto who = static_cast<std::size_t>(agents[i]);
+    return CorridorAgent{problem_.agents[who], tables_[who], corridor_tables_[i], mdd_of(agents[i]),
+                         path_of(agents[i]).locations};
+  };
+  return find_corridor(*passage, conflict, known_of(0), known_of(1), earliest_arrival_);
+}
+
+// Whether all of the agent's paths of least cost arrive there (from there) at that time.
+bool ConflictSearch::must_arrive(std::int32_t agent, Location from, Location to, std::int32_t t) {
+  const Mdd& mdd = mdd_of(agent);
+  return mdd.must_be_at(to, t) && (from == nowhere || mdd.must_be_at(from, t - 1));
+}
+
+Split ConflictSearch::split_on(const NodeConflict& conflict) {
+  const Conflict& c = conflict.conflict;
+  switch (conflict.reasoning) {
+    case NodeConflict::Reasoning::target: {
+      const std::int32_t resting = cost_of(path_of(c.a).locations) <= c.t ? c.a : c.b;
+      return {{{finish_after(resting, c.location, c.t)}, {finish_by(resting, c.location, c.t)}}};
+    }
+    case NodeConflict::Reasoning::corridor:
+    case NodeConflict::Reasoning::rectangle:
+      return tree_.split(conflict.split);
+    case NodeConflict::Reasoning::plain:
+      break;
+  }
+  return plain_split(c);
+}
+
+Split ConflictSearch::plain_split(const Conflict& c) {
+  if (!is_vertex(c)) return {{{avoid_move(c.a, c.from, c.location, c.t)}, {avoid_move(c.b, c.location, c.from, c.t)}}};
+  if (!options_.disjoint_splitting)
+    return {{{avoid_vertex(c.a, c.location, c.t)}, {avoid_vertex(c.b, c.location, c.t)}}};
+  return {{{pass_vertex(c.a, c.location, c.t)}, {avoid_vertex(c.a, c.location, c.t)}}};
+}
+
+const Mdd& ConflictSearch::mdd_of(std::int32_t agent) {
+  std::shared_ptr<const Mdd>& mdd = node_mdds_[static_cast<std::size_t>(agent)];
+  if (!mdd) {
+    tree_.gather_constraints(entered_, agent, constraints_);
+    mdd = mdds_.get(agent, constraints_, path_of(agent).lower_bound);
+  }
+  return *mdd;
+}
+
+// False if an agent has no path under the constraints (or the search was stopped).
+bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child) {
+  std::vector<std::int32_t> agents;
+  for (const Constraint& c : constraints)
+    for (const std::int32_t agent : members_) {
+      if (agent != c.agent && !c.binds_others()) continue;
+      if (satisfies(path_of(agent).locations, agent == c.agent ? c : c.for_another(agent))) continue;
+      if (std::find(agents.begin(), agents.end(), agent) == agents.end()) agents.push_back(agent);
+    }
+  child.node = tree_.node(parent);
+  child.node.is_informed = false;
+  child.constraints = constraints;
+  child.paths.clear();
+  child.conflicts.clear();
+  child.conflicting_pairs = 0;
+
+  for (const std::int32_t agent : agents) occupied_.set(agent, {});
+  bool has_paths = true;
+  for (const std::int32_t agent : agents)
+    if (has_paths) has_paths = replan(parent, agent, slack_of(parent, agent, child), child);
+  for (const std::int32_t agent : agents) occupied_.set(agent, path_of(agent).locations);
+
+  const auto is_replanned = [&](std::int32_t agent) {
+    return std::find(agents.begin(), agents.end(), agent) != agents.end();
+  };
+  child.node.pairs = child.conflicting_pairs;
+  for (const auto& [a, b] : pairs_)
+    if (!is_replanned(a) && !is_replanned(b)) ++child.node.pairs;
+  child.node.f = std::max(child.node.f, child.node.lower_bound);
+  child.node.estimated_cost = estimate(child.node);
+  return has_paths;
+}
+
+static const double flex_fraction = getenv("FLEX") ? atof(getenv("FLEX")) : 1.0;
+static const int flex_basis = getenv("FLEXB") ? atoi(getenv("FLEXB")) : 0;
+// What the others leave of the bound on the sum.
+double ConflictSearch::slack_of(NodeId parent, std::int32_t agent, const Child& child) const {
+  if (!options_.flexible_bounds) return 0;
+  const AgentPath& old = path_of(agent);
+  const double w = options_.suboptimality;
+  const double basis = flex_basis == 0   ? child.node.lower_bound
+                       : flex_basis == 1 ? queue_.lower_bound()
+                                         : std::max(tree_.node(parent).f, child.node.lower_bound);
+  const double others = child.node.cost - cost_of(old.locations);
+  const double slack = w * basis - others - w * old.lower_bound;
+  return std::max(0.0, flex_fraction * slack);
+}
+
+// Plans an agent that is not in `occupied_`, and puts it there.
+bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Child& child) {
+  const auto who = static_cast<std::size_t>(agent);
+  tree_.gather_constraints(parent, agent, constraints_);
+  for (const Constraint& c : child.constraints) {
+    if (c.agent == agent)
+      constraints_.push_back(c);
+    else if (c.binds_others())
+      constraints_.push_back(c.for_another(agent));
+  }
+  constraint_table_.fill(problem_.agents[who], constraints_);
+  const std::size_t number = child.paths.size();
+  if (child.found.size() <= number) child.found.resize(number + 1);
+  SafeIntervalSearch::Found& found = child.found[number];
+  const std::int32_t known_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
+  const auto result = low_level_.search(
+      {problem_.agents[who], tables_[who], constraint_table_, occupied_, options_.suboptimality, slack, known_bound},
+      stop_, found);
+  if (result != SafeIntervalSearch::Result::found) return false;
+
+  const std::size_t first = child.conflicts.size();
+  occupied_.list(agent, found.path, child.conflicts);
+  std::stable_sort(child.conflicts.begin() + static_cast<std::ptrdiff_t>(first), child.conflicts.end(),
+                   [](const Conflict& x, const Conflict& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  for (std::size_t i = first; i < child.conflicts.size(); ++i)
+    if (i == first || std::pair(child.conflicts[i].a, child.conflicts[i].b) !=
+                          std::pair(child.conflicts[i - 1].a, child.conflicts[i - 1].b))
+      ++child.conflicting_pairs;
+  occupied_.set(agent, found.path);
+  child.paths.push_back({agent, found.lower_bound, found.path});
+  child.node.cost += cost_of(found.path);
+  child.node.lower_bound += found.lower_bound;
+  if (parent != no_node) {
+    child.node.cost -= cost_of(path_of(agent).locations);
+    child.node.lower_bound -= path_of(agent).lower_bound;
+  }
+  return true;
+}
+
+// Whether the child's paths may take the place of the node's own: fewer conflicts within the same bounds.
+bool ConflictSearch::is_bypass(NodeId parent, const Child& child) const {
+  const Node& node = tree_.node(parent);
+  if (child.node.pairs >= node.pairs || child.node.cost > options_.suboptimality * queue_.lower_bound() + 1e-9)
+    return false;
+  for (const AgentPath& path : child.paths)
+    if (cost_of(path.locations) > options_.suboptimality * path_of(path.agent).lower_bound + 1e-9) return false;
+  return true;
+}
+
+NodeId ConflictSearch::add(Child& child, NodeId parent, bool with_constraints) {
+  Node node = child.node;
+  node.parent = parent;
+  if (parent == no_node) {
+    node.pairs = child.conflicting_pairs;
+    node.f = node.lower_bound;
+    node.estimated_cost = estimate(node);
+  }
+  if (!with_constraints) {
+    // without the constraints their bounds are not the node's
+    node.lower_bound = tree_.node(parent).lower_bound;
+    node.f = tree_.node(parent).f;
+    node.is_informed = tree_.node(parent).is_informed;
+    for (AgentPath& path : child.paths) path.lower_bound = path_of(path.agent).lower_bound;
+  } else {
+    ++statistics_.high_level_generated;
+  }
+  return tree_.add(node, child.paths,
+                   with_constraints ? std::span<const Constraint>(child.constraints) : std::span<const Constraint>(),
+                   child.conflicts);
+}
+
+void ConflictSearch::note_errors(const Node& parent, const std::vector<const Node*>& children) {
+  if (children.empty()) return;
+  const Node& best = **std::min_element(children.begin(), children.end(), [](const Node* a, const Node* b) {
+    return std::pair(a->estimated_cost, a->pairs) < std::pair(b->estimated_cost, b->pairs);
+  });
+  cost_error_sum_ += best.cost - parent.cost;
+  distance_error_sum_ += best.pairs - (parent.pairs - 1);
+  ++error_count_;
+}
+
+// The cost so far, plus what resolving the conflicts has cost until now for each pair.
+double ConflictSearch::estimate(const Node& node) const {
+  double estimated = node.cost;
+  if (error_count_ > 0) {
+    const double cost_error = std::max(0.0, cost_error_sum_ / static_cast<double>(error_count_));
+    const double distance_error = std::clamp(distance_error_sum_ / static_cast<double>(error_count_), 0.0, 0.95);
+    estimated += node.pairs * cost_error / (1 - distance_error);
+  }
+  return std::max(estimated, static_cast<double>(node.f));
+}
+
+// How much more the two agents' least joint cost is than their least costs together, under the node's constraints.
+std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
+  const auto [a, b] = pair;
+  const std::int32_t least = mdd_of(a).cost() + mdd_of(b).cost();
+  std::vector<Constraint> both;
+  PairKey key{};
+  for (const std::int32_t agent : {a, b}) {
+    tree_.gather_constraints(entered_, agent, constraints_);
+    std::sort(constraints_.begin(), constraints_.end());
+    constraints_.erase(std::unique(constraints_.begin(), constraints_.end()), constraints_.end());
+    (agent == a ? key.a : key.b) = hash_of(agent, constraints_);
+    both.insert(both.end(), constraints_.begin(), constraints_.end());
+  }
+  const auto [at, is_new] = pair_weights_.emplace(key, 0);
+  if (!is_new) return at->second;
+
+  if (!pair_search_) {
+    ConflictSearchOptions options = options_;
+    options.suboptimality = 1;
+    options.selection = Selection::best_first;
+    options.dependency_graph = false;
+    options.flexible_bounds = false;
+    options.node_limit = pair_node_limit;
+    pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);
+  }
+  const Result result = pair_search_->run({a, b}, std::move(both));
+  if (result == Result::stopped) return 0;
+  const std::int32_t joint = result == Result::unsolvable ? no_solution + least : pair_search_->queue_.lower_bound();
+  return at->second = std::max(0, joint - least);
+}
+
+}  // namespace dmrp::planners

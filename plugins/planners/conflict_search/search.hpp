@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// search.hpp: conflict-based search, optimal and bounded-suboptimal: the engine of CBS, ECBS and EECBS.
+//
+// The high level resolves conflicts between the agents' paths by splitting on them; the low level plans one agent
+// under the constraints that result. What the variants differ in are options.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "../mapf/corridor.hpp"
+#include "../mapf/mdd.hpp"
+#include "../mapf/rectangle.hpp"
+#include "../mapf/safe_interval_search.hpp"
+#include "constraint_tree.hpp"
+#include "node_queue.hpp"
+#include "vertex_cover.hpp"
+
+namespace dmrp::planners {
+
+struct ConflictSearchOptions {
+  double suboptimality = 1;
+  Selection selection = Selection::best_first;
+  bool prioritize_conflicts = false;  // cardinal ones first (Boyarski et al. 2015)
+  bool bypass = false;                // adopt a path that helps instead of splitting (Boyarski et al. 2015)
+  bool target_reasoning = false;      // Li et al. 2020
+  bool corridor_reasoning = false;    // likewise
+  bool rectangle_reasoning = false;   // Li et al. 2019
+  bool dependency_graph = false;      // the WDG heuristic (Li et al. 2019), for nodes taken for their bound
+  bool disjoint_splitting = false;    // Li et al. 2019
+  bool flexible_bounds = false;       // an agent may use what the others leave of the bound (Chan et al. 2022)
+  std::int64_t node_limit = 0;        // of generated nodes
+};
+
+struct ConflictSearchStatistics {
+  double lower_bound = 0;
+  std::int64_t high_level_expanded = 0;
+  std::int64_t high_level_generated = 0;
+  std::int64_t low_level_expanded = 0;
+};
+
+class ConflictSearch {
+ public:
+  enum class Result { solved, unsolvable, stopped, node_limit };
+
+  // What is used is kept: all arguments must live as long as the search.
+  ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
+                 MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop);
+  ~ConflictSearch();
+
+  // Plans for some agents, under constraints (of theirs) from the outset.
+  Result run(std::vector<std::int32_t> members, std::vector<Constraint> constraints);
+
+  // After Result::solved: the members' paths, by agent.
+  const std::vector<AgentPath>& solution() const { return paths_; }
+  // After Result::unsolvable: why there is no plan.
+  const std::string& obstruction() const { return obstruction_; }
+  ConflictSearchStatistics statistics() const;
+
+ private:
+  // A node that is not in the tree yet.
+  struct Child {
+    Node node;
+    std::vector<Constraint> constraints;
+    std::vector<SafeIntervalSearch::Found> found;  // of the agents replanned; only the first `paths.size()` count
+    std::vector<AgentPath> paths;
+    std::vector<Conflict> conflicts;
+    std::int32_t conflicting_pairs = 0;  // of the agents replanned
+  };
+  using Pair = std::pair<std::int32_t, std::int32_t>;
+
+  bool plan_root(std::vector<Constraint> constraints);
+  void enter(NodeId id);
+  bool expand(NodeId id);
+  bool inform(NodeId id);
+
+  std::uint32_t choose_conflict();
+  void classify(NodeConflict& conflict);
+  std::optional<SymmetrySplit> find_corridor_split(const Conflict& conflict);
+  bool must_arrive(std::int32_t agent, Location from, Location to, std::int32_t t);
+  Split split_on(const NodeConflict& conflict);
+  Split plain_split(const Conflict& conflict);
+  const Mdd& mdd_of(std::int32_t agent);
+
+  bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
+  double slack_of(NodeId parent, std::int32_t agent, const Child& child) const;
+  bool replan(NodeId parent, std::int32_t agent, double slack, Child& child);
+  bool is_bypass(NodeId parent, const Child& child) const;
+  NodeId add(Child& child, NodeId parent, bool with_constraints);
+  void note_errors(const Node& parent, const std::vector<const Node*>& children);
+  double estimate(const Node& node) const;
+
+  std::int32_t pair_weight(const Pair& pair);
+
+  const AgentPath& path_of(std::int32_t agent) const { return paths_[static_cast<std::size_t>(agent)]; }
+
+  const Problem& problem_;
+  const std::vector<TourTable>& tables_;
+  const Corridors& corridors_;
+  MddCache& mdds_;
+  ConflictSearchOptions options_;
+  StopSignal& stop_;
+
+  std::vector<std::int32_t> members_;
+  ConstraintTree tree_;
+  NodeQueue queue_;
+  SafeIntervalSearch low_level_;
+  ConflictSearchStatistics statistics_;
+  std::string obstruction_;
+
+  // Of the node that was entered last: paths by agent, conflicts by their indices in the tree, the pairs that have
+  // some, who is where, and the MDDs that were needed.
+  NodeId entered_ = no_node;
+  std::vector<AgentPath> paths_;
+  std::vector<std::uint32_t> conflicts_;
+  std::vector<Pair> pairs_;
+  ConflictTable occupied_;
+  std::vector<std::shared_ptr<const Mdd>> node_mdds_;
+
+  // Running means of what one step of the search costs more, and of how many pairs it removes fewer than one.
+  double cost_error_sum_ = 0;
+  double distance_error_sum_ = 0;
+  std::int64_t error_count_ = 0;
+
+  // For pair_weight(): a search of two agents, and what it found, by the agents' constraints.
+  struct PairKey {
+    std::uint64_t a;
+    std::uint64_t b;
+    bool operator==(const PairKey&) const = default;
+  };
+  struct PairKeyHash {
+    std::size_t operator()(const PairKey& key) const { return key.a ^ (key.b * 0x9E3779B97F4A7C15u); }
+  };
+  std::unique_ptr<ConflictSearch> pair_search_;
+  std::unordered_map<PairKey, std::int32_t, PairKeyHash> pair_weights_;  // never iterated over
+
+  ConstraintTable constraint_table_;
+  std::array<ConstraintTable, 2> corridor_tables_;
+  EarliestArrival earliest_arrival_;
+  std::vector<Constraint> constraints_;
+  std::array<Child, 2> children_;
+};
+
+}  // namespace dmrp::planners

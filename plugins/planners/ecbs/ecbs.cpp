@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "ecbs.hpp"
+
+namespace dmrp::planners {
+
+Descriptor Ecbs::describe() {
+  return Descriptor("dmrp.planner.ecbs", "ECBS", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("paths without conflicts, of a sum of costs within a bound of the least; focal search on both levels")
+      .source(
+          "Barer, Sharon, Stern, Felner: Suboptimal variants of the conflict-based search algorithm for the "
+          "multi-agent pathfinding problem, SoCS 2014")
+      .connectivity(DMRP_CONNECTIVITY_4);
+}
+
+ConflictSearchOptions Ecbs::options() const {
+  ConflictSearchOptions options;
+  options.suboptimality = *suboptimality;
+  options.selection = Selection::focal;
+  options.node_limit = *node_limit;
+  return options;
+}
+
+}  // namespace dmrp::planners

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "eecbs.hpp"
+
+namespace dmrp::planners {
+
+Descriptor Eecbs::describe() {
+  return Descriptor("dmrp.planner.eecbs", "EECBS", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("paths without conflicts, of a sum of costs within a bound of the least; explicit estimation search")
+      .source(
+          "Li, Ruml, Koenig: EECBS: A bounded-suboptimal search for multi-agent path finding, AAAI 2021; flexible "
+          "bounds: Chan, Li, Gange, Harabor, Stuckey, Koenig: Flex distribution for bounded-suboptimal multi-agent "
+          "path finding, AAAI 2022")
+      .connectivity(DMRP_CONNECTIVITY_4);
+}
+
+ConflictSearchOptions Eecbs::options() const {
+  ConflictSearchOptions options;
+  options.suboptimality = *suboptimality;
+  options.selection = *explicit_estimation ? Selection::explicit_estimation : Selection::focal;
+  options.prioritize_conflicts = *prioritize_conflicts;
+  options.bypass = *bypass;
+  options.target_reasoning = *target_reasoning;
+  options.corridor_reasoning = *corridor_reasoning;
+  options.rectangle_reasoning = *rectangle_reasoning;
+  options.dependency_graph = *weighted_dependency_graph;
+  options.disjoint_splitting = *disjoint_splitting;
+  options.flexible_bounds = *flexible_bounds;
+  options.node_limit = *node_limit;
+  return options;
+}
+
+}  // namespace dmrp::planners

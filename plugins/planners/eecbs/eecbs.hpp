@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// eecbs.hpp: explicit estimation conflict-based search: paths without conflicts, of a sum of costs within a bound of
+// the least, found by estimating what the conflicts that are left will cost.
+#pragma once
+
+#include "../conflict_search/planner.hpp"
+
+namespace dmrp::planners {
+
+// EECBS(w) of Li, Ruml, Koenig 2021: focal search on the low level, explicit estimation search on the high level, with
+// prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
+// Each is a parameter.
+//
+// cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
+class Eecbs final : public ConflictSearchPlanner {
+ public:
+  static Descriptor describe();
+
+  Param<double> suboptimality =
+      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most so many times the least");
+  Param<bool> explicit_estimation =
+      param("explicit_estimation", true).doc("choose nodes by their estimated cost; else by their cost, as ECBS does");
+  Param<bool> prioritize_conflicts =
+      param("prioritize_conflicts", true).doc("split first on conflicts that raise the cost of both children");
+  Param<bool> bypass = param("bypass", true).doc("adopt a path that has fewer conflicts within the bound, unsplit");
+  Param<bool> weighted_dependency_graph =
+      param("weighted_dependency_graph", true)
+          .doc("bound the cost of a node by that of its pairs of robots, where it is the bound that is to rise");
+  Param<bool> rectangle_reasoning =
+      param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+  Param<bool> target_reasoning =
+      param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
+  Param<bool> disjoint_splitting =
+      param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+  Param<bool> flexible_bounds =
+      param("flexible_bounds", true).doc("a robot's path may use what the others' leave of the bound on the sum");
+  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
+                                       .unit("1")
+                                       .range(1, 1'000'000'000)
+                                       .doc("constraint-tree nodes after which the search gives up");
+
+ protected:
+  ConflictSearchOptions options() const override;
+};
+
+}  // namespace dmrp::planners
