@@ -85,6 +85,8 @@ std::vector<std::size_t> Search::by_distance() const {
 }
 
 // The node of FOCAL with fewest conflicts, or -1 if there is none left. Raises the lower bound.
+//
+// Every path keeps to the limit of its own lower bound, so the node of the least lower bound is always in FOCAL.
 NodeId Search::choose() {
   while (!open_.empty() && is_closed_[static_cast<std::size_t>(open_.front().node)]) {
     std::pop_heap(open_.begin(), open_.end(), IsWorse{});
@@ -108,8 +110,8 @@ NodeId Search::choose() {
 
 // Splits the node on a conflict. True if it has none: its paths are the solution.
 //
-// Bypass (Boyarski et al. 2015): where a child keeps to the limit of all plans and fewer robots conflict, its path takes
-// the place of that in the node, without the constraint, and nothing is split.
+// Bypass (Boyarski et al. 2015): where fewer robots conflict in a child, and its path keeps to the limits that hold
+// without the constraint, the path takes the place of that in the node, and nothing is split.
 bool Search::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
@@ -120,10 +122,7 @@ bool Search::expand(NodeId id) {
     const Child* bypass = nullptr;
     for (std::size_t i = 0; i < 2 && !bypass; ++i) {
       has_path[i] = make_child(id, sides[i], children_[i]);
-      const Node& child = children_[i].node;
-      if (has_path[i] && child.conflicting_pairs < tree_.node(id).conflicting_pairs &&
-          child.cost <= suboptimality_.limit(statistics_.lower_bound))
-        bypass = &children_[i];
+      if (has_path[i] && may_bypass(id, children_[i])) bypass = &children_[i];
     }
     if (stop_.poll_now()) return false;
     if (bypass) {
@@ -134,6 +133,13 @@ bool Search::expand(NodeId id) {
       if (has_path[i]) push(add(children_[i]));
     return false;
   }
+}
+
+bool Search::may_bypass(NodeId parent, const Child& child) const {
+  const Cost lower_bound = paths_[static_cast<std::size_t>(child.node.constrained_agent)].lower_bound;
+  return child.node.conflicting_pairs < tree_.node(parent).conflicting_pairs &&
+         child.path.cost <= suboptimality_.limit(lower_bound) &&
+         child.node.cost <= suboptimality_.limit(statistics_.lower_bound);
 }
 
 void Search::enter(NodeId id) {

@@ -70,6 +70,7 @@ class Search {
   std::vector<std::size_t> by_distance() const;
   NodeId choose();
   bool expand(NodeId id);
+  bool may_bypass(NodeId parent, const Child& child) const;
   void enter(NodeId id);
   const Conflict& choose_conflict() const;
   std::array<Side, 2> split(const Conflict& conflict) const;
