@@ -15,18 +15,23 @@ namespace dmrp::planners {
 using Location = std::int32_t;
 constexpr Location nowhere = -1;
 
-// A direction of motion; of four: east, north, west, south.
+// A direction of motion, counter-clockwise from east: of four east, north, west, south; of eight those and, between
+// them, the diagonals, which have the odd numbers.
 using Direction = std::int32_t;
 
-class GridGraph {
+template <Direction connectivity>
+class BasicGridGraph {
+  static_assert(connectivity == 4 || connectivity == 8);
+
  public:
-  static constexpr Direction direction_count = 4;
+  static constexpr Direction direction_count = connectivity;
   static constexpr Direction no_direction = direction_count;  // of a robot that has not moved yet
 
-  // Moves are those of the edge mask; a move that leaves the grid or enters a cell that is not free is none.
-  explicit GridGraph(const dmrp_grid& grid);
+  // Moves are those of the edge mask; a move that leaves the grid or enters a cell that is not free is none, and no
+  // diagonal cuts a corner.
+  explicit BasicGridGraph(const dmrp_grid& grid);
 
-  // Takes a cell out: no move enters or leaves it.
+  // Takes a cell out: no move enters, leaves or, as a diagonal, passes it.
   void block(Location location);
 
   Location location_count() const { return static_cast<Location>(open_.size()); }
@@ -37,6 +42,15 @@ class GridGraph {
 
   // Where a move in direction d that ends here comes from, or nowhere. (A mask need not be symmetric.)
   Location predecessor(Location to, Direction d) const { return predecessors_[slot(to, d)]; }
+
+  static constexpr Direction opposite(Direction d) { return (d + direction_count / 2) % direction_count; }
+  static constexpr bool is_diagonal(Direction d) { return connectivity == 8 && d % 2 != 0; }
+
+  // The two cells beside an open diagonal: those that share an edge with both its ends.
+  std::array<Location, 2> beside(Location from, Direction diagonal) const {
+    const Move& move = moves[static_cast<std::size_t>(diagonal)];
+    return {from + move.columns, from + move.rows * width_};
+  }
 
   // Whether every move can be undone.
   bool is_symmetric() const;
@@ -49,10 +63,34 @@ class GridGraph {
   dmrp_vec2 center(Location location) const;
 
  private:
+  struct Move {
+    std::uint8_t bit;
+    std::int32_t columns;
+    std::int32_t rows;
+  };
+  static constexpr std::array<Move, connectivity> all_moves() {
+    constexpr std::array<Move, 8> eight = {{{DMRP_EDGE_E, 1, 0},
+                                            {DMRP_EDGE_NE, 1, 1},
+                                            {DMRP_EDGE_N, 0, 1},
+                                            {DMRP_EDGE_NW, -1, 1},
+                                            {DMRP_EDGE_W, -1, 0},
+                                            {DMRP_EDGE_SW, -1, -1},
+                                            {DMRP_EDGE_S, 0, -1},
+                                            {DMRP_EDGE_SE, 1, -1}}};
+    std::array<Move, connectivity> out{};
+    for (std::size_t d = 0; d < out.size(); ++d) out[d] = eight[d * (8 / out.size())];
+    return out;
+  }
+  static constexpr std::array<Move, connectivity> moves = all_moves();
+
   static std::size_t index(Location location) { return static_cast<std::size_t>(location); }
   static std::size_t slot(Location location, Direction d) {
     return index(location) * static_cast<std::size_t>(direction_count) + static_cast<std::size_t>(d);
   }
+  // The cell so many columns and rows away, or nowhere beyond the border.
+  Location offset(Location from, std::int32_t columns, std::int32_t rows) const;
+  bool is_open_move(const dmrp_grid& grid, Location from, const Move& move) const;
+  void close(Location from, Direction d);
 
   std::int32_t width_;
   std::int32_t height_;
@@ -63,8 +101,14 @@ class GridGraph {
   std::vector<Location> predecessors_;
 };
 
+extern template class BasicGridGraph<4>;
+extern template class BasicGridGraph<8>;
+
+using GridGraph = BasicGridGraph<4>;
+
+// Of four directions.
 constexpr Direction opposite(Direction d) {
-  return (d + GridGraph::direction_count / 2) % GridGraph::direction_count;
+  return GridGraph::opposite(d);
 }
 
 }  // namespace dmrp::planners

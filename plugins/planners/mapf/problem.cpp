@@ -14,8 +14,9 @@ Waypoint waypoint_at(dmrp_vec2 point, std::int64_t t_ns, std::uint32_t goal_inde
   return {point.x, point.y, any_heading, t_ns, goal_index, 0};
 }
 
-std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const GridGraph& graph, const Agent& agent,
-                                   PathView path) {
+template <Direction connectivity>
+std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph,
+                                   const Agent& agent, PathView path) {
   std::vector<Waypoint> waypoints;
   waypoints.reserve(path.size());
   std::int64_t t_ns = host_problem.effective_from_ns;
@@ -31,8 +32,9 @@ std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const Gr
 
 }  // namespace
 
-Problem make_problem(const PlanningProblem& problem, bool resting_robots_block) {
-  Problem out{GridGraph(problem.grid), {}};
+template <Direction connectivity>
+BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block) {
+  BasicProblem<connectivity> out{BasicGridGraph<connectivity>(problem.grid), {}};
   if (resting_robots_block)
     for (const PlanningRobot& robot : problem.robots) {
       const Location cell = out.graph.locate(robot.start);
@@ -48,8 +50,9 @@ Problem make_problem(const PlanningProblem& problem, bool resting_robots_block) 
   return out;
 }
 
-void write_paths(const PlanningProblem& host_problem, const Problem& problem, const std::vector<PathView>& paths,
-                 PlanSink& sink) {
+template <Direction connectivity>
+void write_paths(const PlanningProblem& host_problem, const BasicProblem<connectivity>& problem,
+                 const std::vector<PathView>& paths, PlanSink& sink) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     sink.path(problem.agents[i].robot, waypoints_of(host_problem, problem.graph, problem.agents[i], paths[i]));
   for (std::uint32_t i = 0; i < host_problem.robots.size(); ++i) {
@@ -59,16 +62,24 @@ void write_paths(const PlanningProblem& host_problem, const Problem& problem, co
   }
 }
 
-std::int32_t count_turns(const GridGraph& graph, PathView path) {
+template <Direction connectivity>
+std::int32_t count_turns(const BasicGridGraph<connectivity>& graph, PathView path) {
   std::int32_t turns = 0;
-  Direction heading = GridGraph::no_direction;
+  Direction heading = graph.no_direction;
   for (std::size_t t = 1; t < path.size(); ++t)
-    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+    for (Direction d = 0; d < graph.direction_count; ++d) {
       if (path[t] == path[t - 1] || graph.neighbor(path[t - 1], d) != path[t]) continue;
-      if (heading != GridGraph::no_direction && d != heading) ++turns;
+      if (heading != graph.no_direction && d != heading) ++turns;
       heading = d;
     }
   return turns;
 }
+
+template BasicProblem<4> make_problem<4>(const PlanningProblem&, bool);
+template BasicProblem<8> make_problem<8>(const PlanningProblem&, bool);
+template void write_paths(const PlanningProblem&, const BasicProblem<4>&, const std::vector<PathView>&, PlanSink&);
+template void write_paths(const PlanningProblem&, const BasicProblem<8>&, const std::vector<PathView>&, PlanSink&);
+template std::int32_t count_turns(const BasicGridGraph<4>&, PathView);
+template std::int32_t count_turns(const BasicGridGraph<8>&, PathView);
 
 }  // namespace dmrp::planners

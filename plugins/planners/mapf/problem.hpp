@@ -32,10 +32,13 @@ struct Agent {
   }
 };
 
-struct Problem {
-  GridGraph graph;
+template <Direction connectivity>
+struct BasicProblem {
+  BasicGridGraph<connectivity> graph;
   std::vector<Agent> agents;
 };
+
+using Problem = BasicProblem<4>;
 
 // Where a robot is by time: one location a step, from its start until it rests at its last goal for good.
 using PathView = std::span<const Location>;
@@ -46,13 +49,16 @@ inline std::int32_t cost_of(PathView path) {
 
 // Robots that are not active rest where they are: their cells are taken out of the graph if `resting_robots_block`.
 // Locations that are not on a free cell are nowhere.
-Problem make_problem(const PlanningProblem& problem, bool resting_robots_block);
+template <Direction connectivity = 4>
+BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block);
 
 // Hands the active robots' paths, in the order of problem.agents, and the resting robots' single waypoints to the host.
-void write_paths(const PlanningProblem& host_problem, const Problem& problem, const std::vector<PathView>& paths,
-                 PlanSink& sink);
+template <Direction connectivity>
+void write_paths(const PlanningProblem& host_problem, const BasicProblem<connectivity>& problem,
+                 const std::vector<PathView>& paths, PlanSink& sink);
 
 // Number of changes of direction; waits in between do not count.
-std::int32_t count_turns(const GridGraph& graph, PathView path);
+template <Direction connectivity>
+std::int32_t count_turns(const BasicGridGraph<connectivity>& graph, PathView path);
 
 }  // namespace dmrp::planners

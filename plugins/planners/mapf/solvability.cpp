@@ -11,30 +11,51 @@ namespace {
 struct Component {
   std::vector<Location> locations;
   std::vector<std::size_t> agents;
+  bool branches = false;  // somewhere a location has more than two neighbors
 };
 
 // The neighbor by a move in either direction, or nowhere.
-Location linked(const GridGraph& graph, Location location, Direction d) {
+template <Direction connectivity>
+Location linked(const BasicGridGraph<connectivity>& graph, Location location, Direction d) {
   const Location to = graph.neighbor(location, d);
-  return to != nowhere ? to : graph.predecessor(location, opposite(d));
+  return to != nowhere ? to : graph.predecessor(location, graph.opposite(d));
 }
 
-Component component_of(const GridGraph& graph, Location start, std::vector<std::int32_t>& component_at,
-                       std::int32_t number) {
+template <Direction connectivity>
+int degree(const BasicGridGraph<connectivity>& graph, Location location) {
+  int count = 0;
+  for (Direction d = 0; d < connectivity; ++d) count += linked(graph, location, d) != nowhere ? 1 : 0;
+  return count;
+}
+
+// How much of a component its user wants to know.
+enum class Extent { whole, until_branch };
+
+template <Direction connectivity>
+Component component_of(const BasicGridGraph<connectivity>& graph, Location start,
+                       std::vector<std::int32_t>& component_at, std::int32_t number, Extent extent) {
   Component component;
   component.locations.push_back(start);
   component_at[static_cast<std::size_t>(start)] = number;
-  for (std::size_t i = 0; i < component.locations.size(); ++i)
-    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+  for (std::size_t i = 0; i < component.locations.size(); ++i) {
+    component.branches = component.branches || degree(graph, component.locations[i]) > 2;
+    if (component.branches && extent == Extent::until_branch) return component;
+    for (Direction d = 0; d < connectivity; ++d) {
       const Location to = linked(graph, component.locations[i], d);
-      if (to == nowhere || component_at[static_cast<std::size_t>(to)] >= 0) continue;
-      component_at[static_cast<std::size_t>(to)] = number;
+      if (to == nowhere) continue;
+      std::int32_t& known = component_at[static_cast<std::size_t>(to)];
+      if (known >= 0 && known != number) component.branches = true;  // part of one that was left at a branch
+      if (known >= 0) continue;
+      known = number;
       component.locations.push_back(to);
     }
+  }
   return component;
 }
 
-std::vector<Component> components_with_agents(const Problem& problem) {
+// With Extent::until_branch those that branch are parts, maybe several of one component.
+template <Direction connectivity>
+std::vector<Component> components_with_agents(const BasicProblem<connectivity>& problem, Extent extent) {
   std::vector<std::int32_t> component_at(static_cast<std::size_t>(problem.graph.location_count()), -1);
   std::vector<Component> components;
   for (std::size_t i = 0; i < problem.agents.size(); ++i) {
@@ -42,7 +63,7 @@ std::vector<Component> components_with_agents(const Problem& problem) {
     std::int32_t number = component_at[static_cast<std::size_t>(start)];
     if (number < 0) {
       number = static_cast<std::int32_t>(components.size());
-      components.push_back(component_of(problem.graph, start, component_at, number));
+      components.push_back(component_of(problem.graph, start, component_at, number, extent));
     }
     components[static_cast<std::size_t>(number)].agents.push_back(i);
   }
@@ -50,19 +71,17 @@ std::vector<Component> components_with_agents(const Problem& problem) {
 }
 
 // The locations in order if the component is a corridor without a branch; empty otherwise.
-std::vector<Location> as_corridor(const GridGraph& graph, const Component& component) {
+template <Direction connectivity>
+std::vector<Location> as_corridor(const BasicGridGraph<connectivity>& graph, const Component& component) {
+  if (component.branches) return {};
   Location end = nowhere;
-  for (const Location location : component.locations) {
-    int degree = 0;
-    for (Direction d = 0; d < GridGraph::direction_count; ++d) degree += linked(graph, location, d) != nowhere ? 1 : 0;
-    if (degree > 2) return {};
-    if (degree <= 1) end = location;
-  }
+  for (const Location location : component.locations)
+    if (degree(graph, location) <= 1) end = location;
   if (end == nowhere) return {};  // a ring
   std::vector<Location> ordered = {end};
   for (Location before = nowhere;;) {
     Location next = nowhere;
-    for (Direction d = 0; d < GridGraph::direction_count; ++d)
+    for (Direction d = 0; d < connectivity; ++d)
       if (const Location to = linked(graph, ordered.back(), d); to != before && to != nowhere) next = to;
     if (next == nowhere) return ordered;
     before = ordered.back();
@@ -72,9 +91,10 @@ std::vector<Location> as_corridor(const GridGraph& graph, const Component& compo
 
 // All joint positions that the agents of a component can reach. A state is the agents' places in component.locations,
 // packed into one number.
+template <Direction connectivity>
 class JointReachability {
  public:
-  JointReachability(const Problem& problem, const Component& component)
+  JointReachability(const BasicProblem<connectivity>& problem, const Component& component)
       : problem_(problem), component_(component), place_of_(static_cast<std::size_t>(problem.graph.location_count())) {
     for (std::size_t i = 0; i < component.locations.size(); ++i)
       place_of_[static_cast<std::size_t>(component.locations[i])] = i;
@@ -89,6 +109,7 @@ class JointReachability {
     from_ = positions([](const Agent& agent) { return agent.start; });
     const std::vector<Location> ends = positions([](const Agent& agent) { return agent.last_goal(); });
     to_ = from_;
+    direction_.assign(from_.size(), connectivity);
     add_reached();
     for (std::size_t next = 0; next < queue_.size(); ++next) {
       if (stop.poll()) return true;
@@ -131,19 +152,28 @@ class JointReachability {
   // Tries all moves of agent i and those after it that do not conflict with the moves of the agents before.
   void move_agent(std::size_t i) {
     if (i == from_.size()) return add_reached();
-    for (Direction d = 0; d <= GridGraph::direction_count; ++d) {
-      to_[i] = d == GridGraph::direction_count ? from_[i] : problem_.graph.neighbor(from_[i], d);
+    for (Direction d = 0; d <= connectivity; ++d) {
+      to_[i] = d == connectivity ? from_[i] : problem_.graph.neighbor(from_[i], d);
+      direction_[i] = d;
       if (to_[i] != nowhere && !conflicts_with_earlier(i)) move_agent(i + 1);
     }
   }
 
   bool conflicts_with_earlier(std::size_t i) const {
     for (std::size_t j = 0; j < i; ++j)
-      if (to_[j] == to_[i] || (to_[j] == from_[i] && to_[i] == from_[j])) return true;
+      if (to_[j] == to_[i] || (to_[j] == from_[i] && to_[i] == from_[j]) || passes(i, j) || passes(j, i)) return true;
     return false;
   }
 
-  const Problem& problem_;
+  // Whether the move of i is a diagonal and j begins or ends the step on a cell beside it.
+  bool passes(std::size_t i, std::size_t j) const {
+    if (direction_[i] == connectivity || !problem_.graph.is_diagonal(direction_[i])) return false;
+    for (const Location beside : problem_.graph.beside(from_[i], direction_[i]))
+      if (from_[j] == beside || to_[j] == beside) return true;
+    return false;
+  }
+
+  const BasicProblem<connectivity>& problem_;
   const Component& component_;
   std::vector<std::size_t> place_of_;
   std::vector<bool> visited_;
@@ -151,16 +181,19 @@ class JointReachability {
   std::vector<std::vector<Location>> missing_;  // goals nobody was seen at, by agent
   std::vector<Location> from_;
   std::vector<Location> to_;
+  std::vector<Direction> direction_;  // of the moves; `connectivity` where there is none
   bool end_reached_ = false;
 };
 
-std::string name(const Problem& problem, std::size_t agent) {
+template <Direction connectivity>
+std::string name(const BasicProblem<connectivity>& problem, std::size_t agent) {
   return "robot " + std::to_string(problem.agents[agent].robot);
 }
 
 }  // namespace
 
-std::optional<std::string> find_obvious_obstruction(const Problem& problem) {
+template <Direction connectivity>
+std::optional<std::string> find_obvious_obstruction(const BasicProblem<connectivity>& problem) {
   for (std::size_t a = 0; a < problem.agents.size(); ++a)
     for (std::size_t b = a + 1; b < problem.agents.size(); ++b) {
       if (problem.agents[a].start == problem.agents[b].start)
@@ -170,7 +203,7 @@ std::optional<std::string> find_obvious_obstruction(const Problem& problem) {
     }
 
   std::vector<std::size_t> order(static_cast<std::size_t>(problem.graph.location_count()));
-  for (const Component& component : components_with_agents(problem)) {
+  for (const Component& component : components_with_agents(problem, Extent::until_branch)) {
     const std::vector<Location> corridor = as_corridor(problem.graph, component);
     for (std::size_t i = 0; i < corridor.size(); ++i) order[static_cast<std::size_t>(corridor[i])] = i;
     if (corridor.empty()) continue;
@@ -185,8 +218,10 @@ std::optional<std::string> find_obvious_obstruction(const Problem& problem) {
   return std::nullopt;
 }
 
-std::optional<std::string> find_joint_obstruction(const Problem& problem, std::size_t state_limit, StopSignal& stop) {
-  for (const Component& component : components_with_agents(problem)) {
+template <Direction connectivity>
+std::optional<std::string> find_joint_obstruction(const BasicProblem<connectivity>& problem, std::size_t state_limit,
+                                                  StopSignal& stop) {
+  for (const Component& component : components_with_agents(problem, Extent::whole)) {
     std::size_t states = 1;
     for (std::size_t i = 0; i < component.agents.size() && states <= state_limit; ++i)
       states *= component.locations.size();
@@ -195,5 +230,10 @@ std::optional<std::string> find_joint_obstruction(const Problem& problem, std::s
   }
   return std::nullopt;
 }
+
+template std::optional<std::string> find_obvious_obstruction(const BasicProblem<4>&);
+template std::optional<std::string> find_obvious_obstruction(const BasicProblem<8>&);
+template std::optional<std::string> find_joint_obstruction(const BasicProblem<4>&, std::size_t, StopSignal&);
+template std::optional<std::string> find_joint_obstruction(const BasicProblem<8>&, std::size_t, StopSignal&);
 
 }  // namespace dmrp::planners

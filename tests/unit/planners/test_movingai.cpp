@@ -1,38 +1,14 @@
 // SPDX-License-Identifier: MIT
 // CBS on instances of the MovingAI benchmark (Stern et al. 2019).
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
+#include "movingai.hpp"
 #include "plan_check.hpp"
 #include "test_data.hpp"
 
 using namespace dmrp::test;
 
 namespace {
-
-PlanningCase read_map(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  while (std::getline(in, line) && line != "map") {
-  }
-  std::vector<std::string> rows;
-  while (std::getline(in, line) && !line.empty()) rows.push_back(line);
-  return PlanningCase(rows);
-}
-
-void add_robots(PlanningCase& c, const std::filesystem::path& scenario, int count) {
-  std::ifstream in(scenario);
-  std::string line;
-  std::getline(in, line);  // version 1
-  for (int i = 0; i < count && std::getline(in, line); ++i) {
-    std::istringstream fields(line);
-    std::string bucket, map, width, height;
-    CellXY start, goal;
-    fields >> bucket >> map >> width >> height >> start.x >> start.y >> goal.x >> goal.y;
-    c.robot(start, {goal});
-  }
-}
 
 void check_solved(const std::string& map_name, const std::string& folder, int robots, int instances) {
   const auto data = test_data();

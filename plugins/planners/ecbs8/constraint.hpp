@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// constraint.hpp: what the high level forbids a robot, and a table of it for the searches of one robot.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "step_cost.hpp"
+
+namespace dmrp::planners::ecbs8 {
+
+// Far beyond all times, and a step can be added.
+constexpr std::int32_t forever = INT32_MAX / 2;
+
+// Uses of the grid, from time `from` until time `until`; a move counts by the time at which it arrives.
+struct Constraint {
+  enum class Use : std::uint8_t {
+    at,      // being at `location`
+    touch,   // being there, and diagonals that pass beside it just before or just after
+    edge,    // straight moves between `location` and `other`, in both directions
+    corner,  // the four diagonals across the corner that is common to `location`, its lower left cell, and three others
+    end,     // coming to rest at the last goal
+  };
+  Use use = Use::at;
+  Location location = nowhere;
+  Location other = nowhere;
+  std::int32_t from = 0;
+  std::int32_t until = 0;
+};
+
+// The constraints of one robot, found by location. Filled anew for each search in time proportional to their number.
+class ConstraintTable {
+ public:
+  explicit ConstraintTable(const Graph& graph);
+
+  void fill(const std::vector<Constraint>& constraints);
+
+  // Whether the robot may go so that it arrives at time t; `d` is no_direction for a wait.
+  bool allows(Location from, Location to, Direction d, std::int32_t t) const;
+
+  // Arrivals from this time on are forbidden for good or not at all.
+  std::int32_t static_from() const { return static_from_; }
+
+  // What may not be touched any more from some time on.
+  const std::vector<Constraint>& closed_for_good() const { return closed_for_good_; }
+
+  // The earliest time from which the robot may rest at its last goal for good.
+  std::int32_t rest_from(Location last_goal) const;
+
+ private:
+  struct Entry {
+    Constraint constraint;
+    std::int32_t next;
+  };
+  bool forbids_being(Location location, std::int32_t t) const;
+  bool forbids_passing(Location location, std::int32_t t) const;
+  bool forbids_edge(Location location, Location other, std::int32_t t) const;
+  bool forbids_corner(Location location, std::int32_t t) const;
+  bool has_entries(Location location) const { return epoch_of_[static_cast<std::size_t>(location)] == epoch_; }
+  template <class Test>
+  bool any_entry(Location location, Test test) const;
+
+  const Graph& graph_;
+  std::vector<std::uint32_t> epoch_of_;  // by location: first_ is of this filling if it equals epoch_
+  std::vector<std::int32_t> first_;
+  std::vector<Entry> entries_;
+  std::vector<Constraint> closed_for_good_;
+  std::uint32_t epoch_ = 0;
+  std::int32_t static_from_ = 0;
+  std::int32_t end_from_ = 0;
+};
+
+}  // namespace dmrp::planners::ecbs8

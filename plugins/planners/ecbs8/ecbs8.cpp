@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "ecbs8.hpp"
+
+#include "../mapf/solvability.hpp"
+#include "search.hpp"
+
+namespace dmrp::planners {
+
+Descriptor Ecbs8::describe() {
+  return Descriptor("dmrp.planner.ecbs8", "ECBS-8", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("paths without conflicts, with diagonals, of cost within a factor of the least")
+      .source(
+          "Barer, Sharon, Stern, Felner: Suboptimal variants of the conflict-based search algorithm for the "
+          "multi-agent pathfinding problem, SoCS 2014; on eight directions: Hu et al., ICRA 2026, algorithm 1")
+      .connectivity(DMRP_CONNECTIVITY_8);
+}
+
+Status Ecbs8::plan(const PlanningProblem& host_problem, PlanSink& sink) {
+  using namespace ecbs8;
+  const ecbs8::Problem problem = make_problem<8>(host_problem, true);
+  StopSignal stop([this] { return should_stop(); });
+  const auto distances = make_tour_distances(problem, stop);
+  if (!distances) return Status::timeout;
+  if (const auto robot = find_cut_off_robot(problem, *distances)) {
+    set_error("robot " + std::to_string(*robot) + " cannot reach its goal");
+    return Status::no_solution;
+  }
+  if (const auto obstruction = find_obvious_obstruction(problem)) {
+    set_error(*obstruction);
+    return Status::no_solution;
+  }
+
+  Search search(problem, *distances, *suboptimality, *node_limit, stop);
+  const Search::Result result = search.run();
+  const Statistics statistics = search.statistics();
+  sink.statistic("lower_bound", as_number(statistics.lower_bound));
+  sink.statistic("high_level_expanded", static_cast<double>(statistics.high_level_expanded));
+  sink.statistic("high_level_generated", static_cast<double>(statistics.high_level_generated));
+  sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
+  switch (result) {
+    case Search::Result::solved:
+      sink.statistic("cost", as_number(search.cost()));
+      write_paths(host_problem, problem, search.solution(), sink);
+      return Status::ok;
+    case Search::Result::unsolvable:
+      set_error(search.obstruction());
+      return Status::no_solution;
+    case Search::Result::stopped:
+      set_error("stopped by the host");
+      return Status::timeout;
+    case Search::Result::node_limit:
+      set_error("no plan within node_limit = " + std::to_string(*node_limit) + " nodes");
+      return Status::timeout;
+  }
+  return Status::error;
+}
+
+}  // namespace dmrp::planners

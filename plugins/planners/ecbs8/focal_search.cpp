@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "focal_search.hpp"
+
+#include <algorithm>
+
+namespace dmrp::planners::ecbs8 {
+
+namespace {
+
+// What a conflict less may cost. To avoid conflicts at all cost makes dear paths, which the limit of all plans then
+// has to bear, and long searches; to avoid too few leaves them to the high level.
+constexpr Cost conflict_cost = 4 * straight_cost;
+
+}  // namespace
+
+FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances& distances,
+                                        const ConstraintTable& constraints, const Occupancy& others, Cost lower_bound,
+                                        Suboptimality suboptimality, StopSignal& stop, BoundedPath& out) {
+  const Task task{agent,
+                  distances,
+                  constraints,
+                  others,
+                  suboptimality,
+                  std::max(constraints.static_from(), others.rest_from() + 1),
+                  constraints.rest_from(agent.last_goal())};
+  begin(task);
+  begin_detours(task, stop);
+  lower_bound_ = std::max(lower_bound, distances.distance(0, agent.start));
+  bound_ = suboptimality.limit(lower_bound_);
+  if (constraints.allows(agent.start, agent.start, Graph::no_direction, 0))
+    generate(task, {0, agent.start, -1, 0, 0, 0, -1, 0, Graph::no_direction, false, false}, true);
+
+  while (!stop.poll()) {
+    while (!open_.empty() && states_[static_cast<std::size_t>(open_.front().state)].is_closed) {
+      std::pop_heap(open_.begin(), open_.end(), IsWorse{});
+      open_.pop_back();
+    }
+    if (open_.empty()) return Result::none;
+    if (open_.front().f > lower_bound_) raise_bound(task, open_.front().f);
+    const std::int32_t best = pop_focal();
+    if (best < 0) continue;
+    State& state = states_[static_cast<std::size_t>(best)];
+    state.is_closed = true;
+    ++expanded_;
+    if (state.rests) {
+      trace_back(best, out);
+      return Result::found;
+    }
+    expand(task, best);
+  }
+  return Result::stopped;
+}
+
+void FocalSearch::begin(const Task& task) {
+  ++epoch_;
+  slots_used_ = 0;
+  states_.clear();
+  open_.clear();
+  focal_.clear();
+  waiting_.clear();
+  conflicts_at_rest_.assign(static_cast<std::size_t>(task.others.rest_from()) + 1, 0);
+  const Location goal = task.agent.last_goal();
+  for (std::int32_t t = task.others.rest_from(); t > 0; --t)
+    conflicts_at_rest_[static_cast<std::size_t>(t) - 1] =
+        conflicts_at_rest_[static_cast<std::size_t>(t)] + task.others.count(goal, goal, Graph::no_direction, t);
+  quiet_from_ = task.others.rest_from();
+  while (quiet_from_ > 0 && conflicts_after(quiet_from_ - 1) == 0) --quiet_from_;
+}
+
+void FocalSearch::begin_detours(const Task& task, StopSignal& stop) {
+  detours_.reset();
+  closings_.clear();
+  if (task.constraints.closed_for_good().empty()) return;
+  graph_without_closed_ = graph_;
+  for (const Constraint& closed : task.constraints.closed_for_good()) {
+    Closing closing{0, closed.from};
+    const auto widen = [&](Location location) {
+      if (location < 0 || location >= graph_.location_count()) return;
+      for (std::int32_t leg = 0; leg <= task.agent.last_leg(); ++leg)
+        if (const Cost distance = task.distances.distance(leg, location); distance < unreachable)
+          closing.farthest = std::max(closing.farthest, distance);
+    };
+    for (const Location step : {0, 1, -1, graph_.width(), -graph_.width()}) widen(closed.location + step);
+    closings_.push_back(closing);
+    graph_without_closed_->block(closed.location);
+  }
+  detours_.emplace(*graph_without_closed_, task.agent, stop);
+}
+
+// A robot that is too late for every place that will be closed must do without them.
+//
+// To touch a place it must be there or beside it in time; and no step brings it nearer by more than a diagonal.
+Cost FocalSearch::distance_to_go(const Task& task, const State& state) const {
+  const Cost distance = task.distances.distance(state.leg, state.location);
+  if (!detours_) return distance;
+  for (const Closing& closing : closings_)
+    if (distance - closing.farthest <= diagonal_cost * (closing.from - 1 - state.t)) return distance;
+  return detours_->distance(state.leg, state.location);
+}
+
+std::int32_t FocalSearch::conflicts_after(std::int32_t t) const {
+  return static_cast<std::size_t>(t) < conflicts_at_rest_.size() ? conflicts_at_rest_[static_cast<std::size_t>(t)] : 0;
+}
+
+void FocalSearch::raise_bound(const Task& task, Cost lower_bound) {
+  lower_bound_ = lower_bound;
+  bound_ = task.suboptimality.limit(lower_bound_);
+  while (!waiting_.empty() && waiting_.front().f <= bound_) {
+    focal_.push_back(waiting_.front().focal);
+    std::push_heap(focal_.begin(), focal_.end(), IsWorse{});
+    std::pop_heap(waiting_.begin(), waiting_.end(), IsWorse{});
+    waiting_.pop_back();
+  }
+}
+
+// -1 if the top was closed.
+std::int32_t FocalSearch::pop_focal() {
+  const std::int32_t best = focal_.front().state;
+  std::pop_heap(focal_.begin(), focal_.end(), IsWorse{});
+  focal_.pop_back();
+  return states_[static_cast<std::size_t>(best)].is_closed ? -1 : best;
+}
+
+void FocalSearch::expand(const Task& task, std::int32_t parent) {
+  const State from = states_[static_cast<std::size_t>(parent)];
+  const std::int32_t t = from.t + 1;
+  const std::int32_t leg = task.agent.leg_after(from.leg, from.location);
+  for (Direction d = 0; d <= Graph::no_direction; ++d) {
+    const bool moves = d != Graph::no_direction;
+    const Location to = moves ? graph_.neighbor(from.location, d) : from.location;
+    if (to == nowhere || task.distances.distance(leg, to) >= unreachable) continue;
+    if (!task.constraints.allows(from.location, to, d, t)) continue;
+    State state;
+    state.g = from.g + (moves ? step_cost(d) : wait_cost);
+    state.location = to;
+    state.parent = parent;
+    state.t = t;
+    state.conflicts = from.conflicts + task.others.count(from.location, to, d, t);
+    state.turns = from.turns + (moves && from.heading != Graph::no_direction && d != from.heading ? 1 : 0);
+    state.same_place = -1;
+    state.leg = static_cast<std::int16_t>(leg);
+    state.heading = moves ? static_cast<std::int8_t>(d) : from.heading;
+    state.rests = false;
+    state.is_closed = false;
+    generate(task, state, moves || leg != from.leg);
+  }
+}
+
+// A path ends where a robot arrives: a wait before a rest would be part of the rest.
+void FocalSearch::generate(const Task& task, const State& state, bool is_arrival) {
+  if (is_arrival && state.leg == task.agent.last_leg() && state.location == task.agent.last_goal() &&
+      state.t >= task.rest_from) {
+    State end = state;
+    end.rests = true;
+    end.conflicts += conflicts_after(state.t);
+    push(task, end);
+  }
+  push(task, state);
+}
+
+void FocalSearch::push(const Task& task, const State& state) {
+  const Cost distance = state.rests ? 0 : distance_to_go(task, state);
+  if (distance >= unreachable) return;
+  const std::int32_t turns_in_all =
+      state.turns + (state.rests ? 0 : task.distances.turns(state.leg, state.location, state.heading));
+  if (!state.rests && !enter(task, state, turns_in_all)) return;
+  if (state.rests) states_.push_back(state);
+  const auto index = static_cast<std::int32_t>(states_.size()) - 1;
+
+  // Until the robot rests, no step costs less than a straight one.
+  const Cost f = state.g + (state.rests ? 0 : std::max(distance, straight_cost * (task.rest_from - state.t)));
+  open_.push_back({f, index});
+  std::push_heap(open_.begin(), open_.end(), IsWorse{});
+
+  const FocalEntry entry{
+      f_with_conflicts(state, f),
+      static_cast<std::uint64_t>(turns_in_all) << 32 | static_cast<std::uint64_t>(INT32_MAX - state.t), index};
+  if (f <= bound_) {
+    focal_.push_back(entry);
+    std::push_heap(focal_.begin(), focal_.end(), IsWorse{});
+  } else {
+    waiting_.push_back({f, entry});
+    std::push_heap(waiting_.begin(), waiting_.end(), IsWorse{});
+  }
+}
+
+// To end without further conflicts the robot must not come to rest before all others have passed its goal; if it cannot
+// afford to wait for so long, it will meet those who come after its latest end.
+Cost FocalSearch::f_with_conflicts(const State& state, Cost f) const {
+  if (state.rests) return f + conflict_cost * state.conflicts;
+  const Cost quiet_f = std::max(f, state.g + straight_cost * (quiet_from_ - state.t));
+  if (quiet_f <= bound_) return quiet_f + conflict_cost * state.conflicts;
+  const Cost steps_left = std::max<Cost>(0, bound_ - state.g) / straight_cost;
+  return f + conflict_cost * (state.conflicts + conflicts_after(state.t + static_cast<std::int32_t>(steps_left)));
+}
+
+// Stores the state unless another of its place and time is as good; closes those that it makes useless.
+bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns_in_all) {
+  if (2 * slots_used_ >= slots_.size()) grow_slots();
+  const std::uint64_t identity = identity_of(task, state);
+  Slot& slot = find_slot(identity);
+  const auto index = static_cast<std::int32_t>(states_.size());
+  State entered = state;
+  if (slot.epoch != epoch_) {
+    slot = {identity, epoch_, index};
+    ++slots_used_;
+  } else {
+    for (std::int32_t i = slot.first; i >= 0;) {
+      State& other = states_[static_cast<std::size_t>(i)];
+      i = other.same_place;
+      if (other.g <= state.g && other.conflicts <= state.conflicts) {
+        if (other.g < state.g || other.conflicts < state.conflicts || other.is_closed) return false;
+        if (other.turns + task.distances.turns(other.leg, other.location, other.heading) <= turns_in_all) return false;
+        other.is_closed = true;
+      } else if (state.g <= other.g && state.conflicts <= other.conflicts) {
+        other.is_closed = true;
+      }
+    }
+    entered.same_place = slot.first;
+    slot.first = index;
+  }
+  states_.push_back(entered);
+  return true;
+}
+
+std::uint64_t FocalSearch::identity_of(const Task& task, const State& state) const {
+  const auto time = static_cast<std::uint64_t>(std::min(state.t, task.static_from));
+  const auto place = static_cast<std::uint64_t>(state.leg) * static_cast<std::uint64_t>(graph_.location_count()) +
+                     static_cast<std::uint64_t>(state.location);
+  return place * (static_cast<std::uint64_t>(task.static_from) + 1) + time;
+}
+
+FocalSearch::Slot& FocalSearch::find_slot(std::uint64_t identity) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = static_cast<std::size_t>((identity * 0x9E3779B97F4A7C15u) >> 32) & mask;
+  while (slots_[i].epoch == epoch_ && slots_[i].identity != identity) i = (i + 1) & mask;
+  return slots_[i];
+}
+
+void FocalSearch::grow_slots() {
+  std::vector<Slot> old(std::max<std::size_t>(slots_.size() * 2, 1 << 10), Slot{0, 0, -1});
+  old.swap(slots_);
+  for (const Slot& slot : old)
+    if (slot.epoch == epoch_) find_slot(slot.identity) = slot;
+}
+
+void FocalSearch::trace_back(std::int32_t last, BoundedPath& out) const {
+  out.cost = states_[static_cast<std::size_t>(last)].g;
+  out.lower_bound = lower_bound_;
+  out.locations.resize(static_cast<std::size_t>(states_[static_cast<std::size_t>(last)].t) + 1);
+  for (std::int32_t i = last; i >= 0; i = states_[static_cast<std::size_t>(i)].parent) {
+    const State& state = states_[static_cast<std::size_t>(i)];
+    out.locations[static_cast<std::size_t>(state.t)] = state.location;
+  }
+}
+
+}  // namespace dmrp::planners::ecbs8

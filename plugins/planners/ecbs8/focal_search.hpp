@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost, with few conflicts.
+//
+// Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; the least f
+// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with the least
+// sum of f and a charge for each conflict is expanded, then the one of fewest turns, then the latest. Of the states at
+// one place and time all are kept that differ in cost and conflicts with neither worse. Times from which nothing
+// changes are one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "../mapf/stop_signal.hpp"
+#include "constraint.hpp"
+#include "occupancy.hpp"
+#include "tour_distances.hpp"
+
+namespace dmrp::planners::ecbs8 {
+
+struct BoundedPath {
+  std::vector<Location> locations;
+  Cost cost = 0;
+  Cost lower_bound = 0;  // of all paths under the constraints
+};
+
+class FocalSearch {
+ public:
+  explicit FocalSearch(const Graph& graph) : graph_(graph) {}
+
+  enum class Result { found, none, stopped };
+
+  // A path that costs at most `suboptimality` times the lower bound. The agent itself must not be among the others.
+  // `lower_bound` is one that is known already.
+  Result search(const Agent& agent, const TourDistances& distances, const ConstraintTable& constraints,
+                const Occupancy& others, Cost lower_bound, Suboptimality suboptimality, StopSignal& stop,
+                BoundedPath& out);
+
+  std::int64_t expanded() const { return expanded_; }
+
+ private:
+  struct State {
+    Cost g;
+    Location location;
+    std::int32_t parent;
+    std::int32_t t;
+    std::int32_t conflicts;   // so far
+    std::int32_t turns;       // so far
+    std::int32_t same_place;  // the next state of the same place and time, or -1
+    std::int16_t leg;
+    std::int8_t heading;
+    bool rests;      // at the last goal for good
+    bool is_closed;  // expanded, or not worth it
+  };
+  struct FocalEntry {
+    Cost f_with_conflicts;
+    std::uint64_t turns_and_time_left;  // the estimate of the whole path's turns
+    std::int32_t state;
+  };
+  struct OpenEntry {
+    Cost f;
+    std::int32_t state;
+  };
+  struct WaitingEntry {
+    Cost f;
+    FocalEntry focal;
+  };
+  // For heaps with the best on top.
+  struct IsWorse {
+    bool operator()(const FocalEntry& a, const FocalEntry& b) const {
+      if (a.f_with_conflicts != b.f_with_conflicts) return a.f_with_conflicts > b.f_with_conflicts;
+      if (a.turns_and_time_left != b.turns_and_time_left) return a.turns_and_time_left > b.turns_and_time_left;
+      return a.state < b.state;
+    }
+    bool operator()(const OpenEntry& a, const OpenEntry& b) const { return a.f > b.f; }
+    bool operator()(const WaitingEntry& a, const WaitingEntry& b) const { return a.f > b.f; }
+  };
+  // The states of one place and time. Found by open addressing; a new epoch empties all slots.
+  struct Slot {
+    std::uint64_t identity;
+    std::uint32_t epoch;
+    std::int32_t first;
+  };
+  struct Task {
+    const Agent& agent;
+    const TourDistances& distances;
+    const ConstraintTable& constraints;
+    const Occupancy& others;
+    Suboptimality suboptimality;
+    std::int32_t static_from;  // from here on time makes no difference
+    std::int32_t rest_from;    // the path cannot end before
+  };
+
+  void begin(const Task& task);
+  void begin_detours(const Task& task, StopSignal& stop);
+  Cost distance_to_go(const Task& task, const State& state) const;
+  void expand(const Task& task, std::int32_t parent);
+  void generate(const Task& task, const State& state, bool is_arrival);
+  void push(const Task& task, const State& state);
+  Cost f_with_conflicts(const State& state, Cost f) const;
+  bool enter(const Task& task, const State& state, std::int32_t turns_in_all);
+  void raise_bound(const Task& task, Cost lower_bound);
+  std::int32_t pop_focal();
+  std::int32_t conflicts_after(std::int32_t t) const;
+  std::uint64_t identity_of(const Task& task, const State& state) const;
+  Slot& find_slot(std::uint64_t identity);
+  void grow_slots();
+  void trace_back(std::int32_t last, BoundedPath& out) const;
+
+  // A place that is closed for good from some time on.
+  struct Closing {
+    Cost farthest;  // the greatest distance to go from there or beside it
+    std::int32_t from;
+  };
+
+  const Graph& graph_;
+  std::optional<Graph> graph_without_closed_;
+  std::optional<TourDistances> detours_;  // distances where all places are closed that will be for good
+  std::vector<Closing> closings_;
+  std::vector<State> states_;
+  std::vector<OpenEntry> open_;
+  std::vector<FocalEntry> focal_;
+  std::vector<WaitingEntry> waiting_;            // in OPEN, but beyond the bound
+  std::vector<std::int32_t> conflicts_at_rest_;  // by time: of somebody who rests at the last goal from then on
+  std::int32_t quiet_from_ = 0;                  // of those times the first without any
+  std::vector<Slot> slots_;
+  std::size_t slots_used_ = 0;
+  std::uint32_t epoch_ = 0;
+  Cost lower_bound_ = 0;
+  Cost bound_ = 0;
+  std::int64_t expanded_ = 0;
+};
+
+}  // namespace dmrp::planners::ecbs8

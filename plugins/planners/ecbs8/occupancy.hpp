@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// occupancy.hpp: who is where and when, for counting and listing conflicts with the paths of other robots.
+//
+// Paths are put in and taken out one by one: moving from one node of a constraint tree to another touches only the
+// robots whose paths differ.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "step_cost.hpp"
+
+namespace dmrp::planners::ecbs8 {
+
+// Two robots that may not both do what they do.
+struct Conflict {
+  enum class Kind : std::uint8_t {
+    vertex,  // both are at `location` at time t
+    edge,    // they change places along the straight edge location < other, arriving at time t
+    corner,  // their diagonals, arriving at time t, go across the corner whose lower left cell is `location`
+    pass,    // a is at `location` at time t, beside a diagonal of b that begins or ends then
+  };
+  Kind kind = Kind::vertex;
+  std::int32_t a = -1;
+  std::int32_t b = -1;
+  Location location = nowhere;
+  Location other = nowhere;
+  std::int32_t t = 0;
+  bool is_first = false;  // of those that the two have
+};
+
+class Occupancy {
+ public:
+  Occupancy(const Graph& graph, std::size_t agent_count);
+
+  // Puts an agent's path in the place of the one before. The path must stay where it is. No two agents may end at one
+  // location. An empty path takes the agent out.
+  void set(std::int32_t agent, PathView path);
+  PathView path(std::int32_t agent) const { return paths_[static_cast<std::size_t>(agent)]; }
+
+  // From this time on everybody rests.
+  std::int32_t rest_from() const { return row_count_ - 1; }
+
+  // Roughly how many of the others somebody would meet who goes (d is no_direction: waits) so that it arrives at t;
+  // zero if and only if there is no conflict.
+  std::int32_t count(Location from, Location to, Direction d, std::int32_t t) const;
+
+  // Appends the conflicts of `agent`, which is not in the table, in the order of time: one a robot and step.
+  void list(std::int32_t agent, PathView path, std::vector<Conflict>& out);
+
+ private:
+  using Link = std::uint16_t;  // an agent plus one; zero ends a list
+  struct Cell {
+    Link here;     // who is here on its way to its last goal
+    Link passing;  // whose diagonals that arrive now pass beside this cell
+  };
+  // An agent's links at one time: here, and at both cells beside its diagonal.
+  struct Links {
+    Link here;
+    std::array<Link, 2> passing;
+  };
+  // One agent's step.
+  struct Step {
+    Location from;
+    Location to;
+    bool is_diagonal;
+    std::array<Location, 2> beside;
+
+    bool is_beside(Location location) const { return is_diagonal && (location == beside[0] || location == beside[1]); }
+  };
+
+  Cell& cell(Location location, std::int32_t t) {
+    return cells_[static_cast<std::size_t>(t) * location_count_ + static_cast<std::size_t>(location)];
+  }
+  const Cell& cell(Location location, std::int32_t t) const {
+    return cells_[static_cast<std::size_t>(t) * location_count_ + static_cast<std::size_t>(location)];
+  }
+  bool rests_at(Location location, std::int32_t t) const { return rest_time_[static_cast<std::size_t>(location)] <= t; }
+  Links& links(std::int32_t agent, std::int32_t t) {
+    return links_[static_cast<std::size_t>(agent)][static_cast<std::size_t>(t)];
+  }
+  const Links& links(std::int32_t agent, std::int32_t t) const {
+    return links_[static_cast<std::size_t>(agent)][static_cast<std::size_t>(t)];
+  }
+  static Location where(PathView path, std::int32_t t) {
+    return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
+  }
+  Step step_of(PathView path, std::int32_t t) const;
+  Step step_of(Location from, Location to, Direction d) const;
+
+  bool is_quiet(const Step& step, std::int32_t t) const;
+  // visit(agent)
+  template <class Visit>
+  void visit_here(Location location, std::int32_t t, Visit visit) const;
+  template <class Visit>
+  void visit_passing(Location location, std::int32_t t, Visit visit) const;
+  // Calls visit(agent) for all, and maybe more than once, who meet the step that arrives at time t.
+  template <class Visit>
+  void visit_met(const Step& step, std::int32_t t, Visit visit) const;
+  bool classify(std::int32_t agent, const Step& step, std::int32_t other, std::int32_t t, Conflict& out) const;
+
+  void put_in(std::int32_t agent, PathView path);
+  void take_out(std::int32_t agent);
+  void unlink_here(std::int32_t agent, Location location, std::int32_t t);
+  void unlink_passing(std::int32_t agent, Location location, std::int32_t t, std::size_t side);
+
+  const Graph& graph_;
+  std::size_t location_count_;
+  std::int32_t row_count_ = 1;
+  std::vector<Cell> cells_;                // by time and location
+  std::vector<std::vector<Links>> links_;  // by agent and time
+  std::vector<std::int32_t> rest_time_;    // by location: from when somebody rests there
+  std::vector<std::int32_t> rest_agent_;
+  std::vector<PathView> paths_;
+  std::vector<std::int32_t> met_at_;  // scratch of list(): by agent, the last step in which it was met
+};
+
+}  // namespace dmrp::planners::ecbs8
