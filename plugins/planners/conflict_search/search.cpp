@@ -39,7 +39,8 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       options_(options),
       stop_(stop),
       queue_(tree_, options.selection, options.suboptimality),
-      low_level_(problem.graph),
+      safe_interval_search_(problem.graph),
+      space_time_search_(problem.graph),
       paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
       node_mdds_(problem.agents.size(), nullptr),
@@ -52,7 +53,7 @@ ConflictSearch::~ConflictSearch() = default;
 ConflictSearchStatistics ConflictSearch::statistics() const {
   ConflictSearchStatistics out = statistics_;
   out.lower_bound = queue_.lower_bound();
-  out.low_level_expanded += low_level_.expanded();
+  out.low_level_expanded = safe_interval_search_.expanded() + space_time_search_.expanded();
   if (pair_search_) out.low_level_expanded += pair_search_->statistics().low_level_expanded;
   return out;
 }
@@ -121,7 +122,7 @@ bool ConflictSearch::plan_root(const std::vector<std::int32_t>& order, const std
   for (const std::int32_t agent : order)
     if (!replan(no_node, agent, root)) return false;
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
-  queue_.push(add(root, no_node, true));
+  push(add(root, no_node, true));
   return true;
 }
 
@@ -193,7 +194,7 @@ bool ConflictSearch::expand(NodeId id) {
       if (has_paths[i]) nodes.push_back(&children_[i].node);
     note_errors(tree_.node(id), nodes);
     for (std::size_t i = 0; i < 2; ++i)
-      if (has_paths[i]) queue_.push(add(children_[i], id, true));
+      if (has_paths[i]) push(add(children_[i], id, true));
     return true;
   }
   queue_.push(id);  // the last bypass left no conflict
@@ -398,24 +399,26 @@ bool ConflictSearch::replan(NodeId parent, std::int32_t agent, Child& child) {
   constraint_table_.fill(problem_.agents[who], constraints_);
   const std::size_t number = child.paths.size();
   if (child.found.size() <= number) child.found.resize(number + 1);
-  SafeIntervalSearch::Found& found = child.found[number];
-  const std::int32_t known_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
-  const auto result = low_level_.search({problem_.agents[who], tables_[who], constraint_table_, occupied_,
-                                         options_.suboptimality, options_.conflict_steps, known_bound},
-                                        stop_, found);
-  if (result != SafeIntervalSearch::Result::found) return false;
+  LowLevelPath& found = child.found[number];
+  LowLevelRequest request = {problem_.agents[who], tables_[who], constraint_table_, occupied_};
+  request.suboptimality = options_.suboptimality;
+  request.conflict_steps = options_.conflict_steps;
+  request.lower_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
+  const LowLevelResult result = options_.safe_intervals ? safe_interval_search_.search(request, stop_, found)
+                                                        : space_time_search_.search(request, stop_, found);
+  if (result != LowLevelResult::found) return false;
 
   const std::size_t first = child.conflicts.size();
-  occupied_.list(agent, found.path, child.conflicts);
+  occupied_.list(agent, found.locations, child.conflicts);
   std::stable_sort(child.conflicts.begin() + static_cast<std::ptrdiff_t>(first), child.conflicts.end(),
                    [](const Conflict& x, const Conflict& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   for (std::size_t i = first; i < child.conflicts.size(); ++i)
     if (i == first || std::pair(child.conflicts[i].a, child.conflicts[i].b) !=
                           std::pair(child.conflicts[i - 1].a, child.conflicts[i - 1].b))
       ++child.conflicting_pairs;
-  occupied_.set(agent, found.path);
-  child.paths.push_back({agent, found.lower_bound, found.path});
-  child.node.cost += cost_of(found.path);
+  occupied_.set(agent, found.locations);
+  child.paths.push_back({agent, found.lower_bound, found.locations});
+  child.node.cost += cost_of(found.locations);
   child.node.lower_bound += found.lower_bound;
   if (parent != no_node) {
     child.node.cost -= cost_of(path_of(agent).locations);
@@ -434,6 +437,11 @@ bool ConflictSearch::is_bypass(NodeId parent, const Child& child) const {
   return true;
 }
 
+void ConflictSearch::push(NodeId id) {
+  ++statistics_.high_level_generated;
+  queue_.push(id);
+}
+
 NodeId ConflictSearch::add(Child& child, NodeId parent, bool with_constraints) {
   Node node = child.node;
   node.parent = parent;
@@ -448,8 +456,6 @@ NodeId ConflictSearch::add(Child& child, NodeId parent, bool with_constraints) {
     node.f = tree_.node(parent).f;
     node.is_informed = tree_.node(parent).is_informed;
     for (AgentPath& path : child.paths) path.lower_bound = path_of(path.agent).lower_bound;
-  } else {
-    ++statistics_.high_level_generated;
   }
   return tree_.add(node, child.paths,
                    with_constraints ? std::span<const Constraint>(child.constraints) : std::span<const Constraint>(),

@@ -15,6 +15,7 @@
 #include "../mapf/mdd.hpp"
 #include "../mapf/rectangle.hpp"
 #include "../mapf/safe_interval_search.hpp"
+#include "../mapf/space_time_search.hpp"
 #include "constraint_tree.hpp"
 #include "node_queue.hpp"
 #include "vertex_cover.hpp"
@@ -30,6 +31,7 @@ struct ConflictSearchOptions {
   bool corridor_reasoning = false;    // likewise
   bool rectangle_reasoning = false;   // Li et al. 2019
   bool dependency_graph = false;      // the WDG heuristic (Li et al. 2019), for nodes taken for their bound
+  bool safe_intervals = true;         // the low level plans over safe intervals; else over single steps
   bool disjoint_splitting = false;    // Li et al. 2019
   bool replan_in_place = false;       // before a split: agents whose new paths help as they are
   std::int32_t conflict_steps = 0;    // steps that a path may be longer for a conflict less; 0: any, within the bound
@@ -68,7 +70,7 @@ class ConflictSearch {
   struct Child {
     Node node;
     std::vector<Constraint> constraints;
-    std::vector<SafeIntervalSearch::Found> found;  // of the agents replanned; only the first `paths.size()` count
+    std::vector<LowLevelPath> found;  // of the agents replanned; only the first `paths.size()` count
     std::vector<AgentPath> paths;
     std::vector<Conflict> conflicts;
     std::int32_t conflicting_pairs = 0;  // of the agents replanned
@@ -96,6 +98,7 @@ class ConflictSearch {
                   Child& child);
   bool replan(NodeId parent, std::int32_t agent, Child& child);
   bool is_bypass(NodeId parent, const Child& child) const;
+  void push(NodeId id);
   NodeId add(Child& child, NodeId parent, bool with_constraints);
   void note_errors(const Node& parent, const std::vector<const Node*>& children);
   double estimate(const Node& node) const;
@@ -114,7 +117,8 @@ class ConflictSearch {
   std::vector<std::int32_t> members_;
   ConstraintTree tree_;
   NodeQueue queue_;
-  SafeIntervalSearch low_level_;
+  SafeIntervalSearch safe_interval_search_;
+  SpaceTimeSearch space_time_search_;
   ConflictSearchStatistics statistics_;
   std::int32_t lower_bound_ = 0;  // what the searches before the last restart have proved
   std::string obstruction_;

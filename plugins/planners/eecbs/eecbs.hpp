@@ -49,6 +49,8 @@ class Eecbs final : public ConflictSearchPlanner {
           .unit("1")
           .range(0, 1'000'000'000)
           .doc("nodes after which the search begins anew, the robots in another order; 0: never");
+  Param<bool> safe_intervals =
+      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

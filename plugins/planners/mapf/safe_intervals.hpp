@@ -4,16 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "problem.hpp"
 
 namespace dmrp::planners {
-
-// The end of an occupation by a robot that rests, with room for a few steps more.
-constexpr std::int32_t forever = std::numeric_limits<std::int32_t>::max() / 2;
 
 // `agent` is at a location from one step to another, both included.
 struct Occupation {

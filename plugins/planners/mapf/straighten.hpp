@@ -11,6 +11,12 @@
 
 namespace dmrp::planners {
 
+// What straightening may cost after a search that expanded so many nodes: a small share of it, but enough to settle a
+// few robots.
+constexpr std::int64_t straightening_limit(std::size_t robots, std::int64_t expanded) {
+  return 2000 + 50 * static_cast<std::int64_t>(robots) + expanded / 4;
+}
+
 // Gives one robot after the other a path with the fewest turns of all that end at the same time and have no conflict
 // with the paths of the others, until none changes. Costs stay as they are, and so does a plan's being free of
 // conflicts, which is required of `paths`. Ends early after looking at `work_limit` states (a tenth of a microsecond

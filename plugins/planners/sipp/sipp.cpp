@@ -7,12 +7,7 @@
 
 namespace dmrp::planners {
 
-namespace {
-
-// What taking turns out may look at, in states, beside a quarter of those that planning expanded.
-constexpr std::int64_t straightening_states_a_robot = 20;
-
-}  // namespace
+namespace {}  // namespace
 
 Descriptor Sipp::describe() {
   return Descriptor("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
@@ -69,9 +64,8 @@ Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   }
 
   std::vector<std::vector<Location>>& paths = search.paths();
-  const std::int64_t work_limit =
-      straightening_states_a_robot * static_cast<std::int64_t>(paths.size()) + statistics.low_level_expanded / 4;
-  straighten(problem, *tables, search.occupied(), paths, work_limit, stop);
+  straighten(problem, *tables, search.occupied(), paths,
+             straightening_limit(paths.size(), statistics.low_level_expanded), stop);
   double cost = 0;
   for (const auto& path : paths) cost += cost_of(path);
   sink.statistic("cost", cost);
