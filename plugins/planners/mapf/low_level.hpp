@@ -43,9 +43,11 @@ inline std::int32_t least_cost_by_way_of(const LowLevelRequest& request, std::in
   const std::int32_t finish_from = request.constraints.finish_from();
   if (rest == 0 && (waited_at_end || t < finish_from)) rest = 2;  // away and back
   std::int32_t cost = std::max(t + rest, finish_from);
-  if (request.agent.last_leg() == 0)
-    for (const ConstraintTable::Landmark& landmark : request.constraints.landmarks())
-      if (landmark.t >= t) cost = std::max(cost, landmark.t + request.table.distance(0, landmark.location));
+  if (request.agent.last_leg() > 0) return cost;
+  for (const ConstraintTable::Landmark& landmark : request.constraints.landmarks())
+    // a landmark at the goal may be kept by resting there from before
+    if (landmark.t >= t && landmark.location != request.agent.last_goal())
+      cost = std::max(cost, landmark.t + request.table.distance(0, landmark.location));
   return cost;
 }
 
