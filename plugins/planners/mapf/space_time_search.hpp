@@ -57,7 +57,7 @@ class SpaceTimeSearch {
   std::int32_t horizon_ = 0;  // from here on time is not told apart
   FocalList focal_;
   std::vector<Node> nodes_;
-  std::vector<Slot> slots_ = std::vector<Slot>(1024);  // open addressing by key
+  std::vector<Slot> slots_;  // open addressing by key
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;
 };
