@@ -74,6 +74,8 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
       std::unique(landmarks_.begin(), landmarks_.end(),
                   [](const Landmark& a, const Landmark& b) { return a.t == b.t && a.location == b.location; }),
       landmarks_.end());
+  for (std::size_t i = 1; i < landmarks_.size(); ++i)
+    if (landmarks_[i].t == landmarks_[i - 1].t) finish_from_ = forever;  // nobody is in two places
 }
 
 bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const {

@@ -113,7 +113,7 @@ class ConstraintTable {
   // ... to here (forever: any time).
   std::int32_t finish_until() const { return finish_until_; }
 
-  // In the order of time; no two at one time unless nothing satisfies them.
+  // In the order of time; no two at one time unless finish_from() is forever.
   std::span<const Landmark> landmarks() const { return landmarks_; }
 
  private:

@@ -12,7 +12,8 @@ class SpaceTimeSearch {
  public:
   explicit SpaceTimeSearch(const GridGraph& graph) : graph_(graph) {}
 
-  // Later events: after the last constraint and the last move of the others time is not told apart.
+  // From the last constraint and the last move of the others on, time is not told apart: of two ways to be somewhere
+  // then the earlier one is kept, even if it has more conflicts.
   LowLevelResult search(const LowLevelRequest& request, StopSignal& stop, LowLevelPath& found);
 
   std::int64_t expanded() const { return expanded_; }
