@@ -91,6 +91,23 @@ void ConstraintTree::gather_constraints(NodeId id, std::int32_t agent, std::vect
     }
 }
 
+// Sums, so that order does not matter; what binds others is summed once for all of them.
+void ConstraintTree::gather_signatures(NodeId id, std::vector<std::uint64_t>& out) const {
+  for (const std::int32_t agent : members_) out[static_cast<std::size_t>(agent)] = 0;
+  std::uint64_t for_all = 0;
+  for (; id != no_node; id = node(id).parent)
+    for (std::uint32_t i = node(id).constraints.begin; i < node(id).constraints.end; ++i) {
+      const Constraint& c = constraints_[i];
+      std::uint64_t& own = out[static_cast<std::size_t>(c.agent)];
+      own += hash_of(c);
+      if (!c.binds_others()) continue;
+      const std::uint64_t for_others = hash_of(c.for_another(-1));
+      for_all += for_others;
+      own -= for_others;
+    }
+  for (const std::int32_t agent : members_) out[static_cast<std::size_t>(agent)] += for_all;
+}
+
 void ConstraintTree::gather_conflicts(NodeId id, std::vector<std::uint32_t>& out) {
   out.clear();
   ++walk_;

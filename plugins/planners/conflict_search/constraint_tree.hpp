@@ -85,6 +85,8 @@ class ConstraintTree {
   void gather_paths(NodeId id, std::vector<AgentPath>& out);
   // What an agent has to heed in a node: its own constraints and those of others that bind it.
   void gather_constraints(NodeId id, std::int32_t agent, std::vector<Constraint>& out) const;
+  // By agent, a number that is the same for the same constraints (and, but for a chance of one in 2^64, no others).
+  void gather_signatures(NodeId id, std::vector<std::uint64_t>& out) const;
   // Indices for conflict(); conflicts of one pair stand together.
   void gather_conflicts(NodeId id, std::vector<std::uint32_t>& out);
 

@@ -44,7 +44,8 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       space_time_search_(problem.graph),
       paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
-      node_mdds_(problem.agents.size(), nullptr),
+      signatures_(problem.agents.size()),
+      node_mdds_(problem.agents.size()),
       constraint_table_(problem.graph) {}
 
 ConflictSearch::~ConflictSearch() = default;
@@ -129,7 +130,7 @@ void ConflictSearch::enter(NodeId id) {
   if (entered_ == id) return;
   entered_ = id;
   mdds_.trim();
-  std::fill(node_mdds_.begin(), node_mdds_.end(), nullptr);
+  tree_.gather_signatures(id, signatures_);
   tree_.gather_paths(id, paths_);
   for (const std::int32_t agent : members_) occupied_.set(agent, path_of(agent).locations);
   tree_.gather_conflicts(id, conflicts_);
@@ -335,12 +336,13 @@ Split ConflictSearch::plain_split(const Conflict& c) {
 }
 
 const Mdd& ConflictSearch::mdd_of(std::int32_t agent) {
-  std::shared_ptr<const Mdd>& mdd = node_mdds_[static_cast<std::size_t>(agent)];
-  if (!mdd) {
+  const std::uint64_t signature = signatures_[static_cast<std::size_t>(agent)];
+  NodeMdd& known = node_mdds_[static_cast<std::size_t>(agent)];
+  if (!known.mdd || known.signature != signature) {
     tree_.gather_constraints(entered_, agent, constraints_);
-    mdd = mdds_.get(agent, constraints_, path_of(agent).lower_bound);
+    known = {signature, mdds_.get(agent, constraints_, path_of(agent).lower_bound)};
   }
-  return *mdd;
+  return *known.mdd;
 }
 
 // False if an agent has no path under the constraints (or the search was stopped).
@@ -483,15 +485,7 @@ double ConflictSearch::estimate(const Node& node) const {
 std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
   const auto [a, b] = pair;
   const std::int32_t least = mdd_of(a).cost() + mdd_of(b).cost();
-  std::vector<Constraint> both;
-  PairKey key{};
-  for (const std::int32_t agent : {a, b}) {
-    tree_.gather_constraints(entered_, agent, constraints_);
-    std::sort(constraints_.begin(), constraints_.end());
-    constraints_.erase(std::unique(constraints_.begin(), constraints_.end()), constraints_.end());
-    (agent == a ? key.a : key.b) = hash_of(agent, constraints_);
-    both.insert(both.end(), constraints_.begin(), constraints_.end());
-  }
+  const PairKey key = {a, b, signatures_[static_cast<std::size_t>(a)], signatures_[static_cast<std::size_t>(b)]};
   const auto [at, is_new] = pair_weights_.emplace(key, 0);
   if (!is_new) return at->second;
 
@@ -505,7 +499,12 @@ std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
     options.node_limit = pair_node_limit;
     pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);
   }
-  const Result result = pair_search_->run({a, b}, std::move(both));
+  std::vector<Constraint> both;
+  for (const std::int32_t agent : {a, b}) {
+    tree_.gather_constraints(entered_, agent, constraints_);
+    both.insert(both.end(), constraints_.begin(), constraints_.end());
+  }
+  const Result result = pair_search_->run({a, b}, both);
   if (result == Result::stopped) return 0;
   const std::int32_t joint = result == Result::unsolvable ? no_solution + least : pair_search_->queue_.lower_bound();
   return at->second = std::max(0, joint - least);

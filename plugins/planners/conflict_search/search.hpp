@@ -124,13 +124,18 @@ class ConflictSearch {
   std::string obstruction_;
 
   // Of the node that was entered last: paths by agent, conflicts by their indices in the tree, the pairs that have
-  // some, who is where, and the MDDs that were needed.
+  // some, who is where, and the signatures of the agents' constraints; MDDs are of the signatures beside them.
   NodeId entered_ = no_node;
   std::vector<AgentPath> paths_;
   std::vector<std::uint32_t> conflicts_;
   std::vector<Pair> pairs_;
   ConflictTable occupied_;
-  std::vector<std::shared_ptr<const Mdd>> node_mdds_;
+  std::vector<std::uint64_t> signatures_;
+  struct NodeMdd {
+    std::uint64_t signature = 0;
+    std::shared_ptr<const Mdd> mdd;
+  };
+  std::vector<NodeMdd> node_mdds_;
 
   // Running means of what one step of the search costs more, and of how many pairs it removes fewer than one.
   double cost_error_sum_ = 0;
@@ -139,12 +144,17 @@ class ConflictSearch {
 
   // For pair_weight(): a search of two agents, and what it found, by the agents' constraints.
   struct PairKey {
-    std::uint64_t a;
-    std::uint64_t b;
+    std::int32_t a;
+    std::int32_t b;
+    std::uint64_t signature_a;
+    std::uint64_t signature_b;
     bool operator==(const PairKey&) const = default;
   };
   struct PairKeyHash {
-    std::size_t operator()(const PairKey& key) const { return key.a ^ (key.b * 0x9E3779B97F4A7C15u); }
+    std::size_t operator()(const PairKey& key) const {
+      const auto agents = static_cast<std::uint64_t>(key.a) << 32 | static_cast<std::uint32_t>(key.b);
+      return key.signature_a ^ (key.signature_b * 0x9E3779B97F4A7C15u) ^ (agents * 0xBF58476D1CE4E5B9u);
+    }
   };
   std::unique_ptr<ConflictSearch> pair_search_;
   std::unordered_map<PairKey, std::int32_t, PairKeyHash> pair_weights_;  // never iterated over

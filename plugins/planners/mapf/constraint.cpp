@@ -20,6 +20,15 @@ bool avoids(PathView path, const Constraint& constraint) {
 
 }  // namespace
 
+std::uint64_t hash_of(const Constraint& c) {
+  std::uint64_t hash = 0;
+  for (const std::int32_t part : {c.location, c.from, c.t, c.until, static_cast<std::int32_t>(c.kind)}) {
+    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
 bool satisfies(PathView path, const Constraint& constraint) {
   switch (constraint.kind) {
     case Constraint::Kind::avoid_vertex:

@@ -58,6 +58,9 @@ inline Constraint finish_by(std::int32_t agent, Location goal, std::int32_t t) {
   return {agent, Constraint::Kind::finish_by, goal, nowhere, t, t + 1};
 }
 
+// Of everything but the agent.
+std::uint64_t hash_of(const Constraint& constraint);
+
 // Whether a path (which rests at its end) does what the constraint asks of its own agent.
 bool satisfies(PathView path, const Constraint& constraint);
 

@@ -103,26 +103,13 @@ constexpr std::size_t size_limit = 8'000'000;
 
 }  // namespace
 
-std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constraints) {
-  std::uint64_t hash = static_cast<std::uint64_t>(agent) + 1;
-  const auto mix = [&](std::uint64_t value) {
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
-    hash ^= hash >> 29;
-  };
-  for (const Constraint& c : constraints) {
-    mix(static_cast<std::uint64_t>(c.location) << 32 | static_cast<std::uint32_t>(c.t));
-    mix(static_cast<std::uint64_t>(c.from) << 32 | static_cast<std::uint32_t>(c.until));
-    mix(static_cast<std::uint64_t>(c.kind));
-  }
-  return hash;
-}
-
 std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints,
                                          std::int32_t at_least) {
   const auto who = static_cast<std::size_t>(agent);
   std::sort(constraints.begin(), constraints.end());
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
-  const std::uint64_t hash = hash_of(agent, constraints);
+  std::uint64_t hash = 0;
+  for (const Constraint& constraint : constraints) hash += hash_of(constraint);
   const auto [first, last] = of_agent_[who].equal_range(hash);
   for (auto it = first; it != last; ++it)
     if (it->second.constraints == constraints) return it->second.mdd;

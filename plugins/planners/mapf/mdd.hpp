@@ -42,9 +42,6 @@ class Mdd {
   std::vector<std::uint32_t> level_begin_;
 };
 
-// Equal for equal sets of one agent's constraints, given in order.
-std::uint64_t hash_of(std::int32_t agent, const std::vector<Constraint>& constraints);
-
 // The MDDs made so far, keyed by what they follow from: the agent and its constraints.
 class MddCache {
  public:
