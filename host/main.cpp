@@ -73,10 +73,40 @@ void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
   command->add_flag("--quiet", options.quiet, "no progress, no table");
 }
 
+CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
+  CLI::App* command = app.add_subcommand("plan", "plan once: what it costs and how long it takes");
+  command->add_option("--map", options.map, "a MovingAI map: 1 m cells, robots of radius 0")->type_name("M.map");
+  command->add_option("--scen", options.tasks, "MovingAI tasks on that map")->type_name("S.scen");
+  command->add_option("--agents", options.agents, "how many of the tasks, from the first")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  command->add_option("--scenario", options.scenario, "in place of these: a shipped one, or a path to scenario.toml")
+      ->type_name("NAME");
+  command->add_option("--planner", options.planner, "the global planner")->required()->type_name("ID");
+  command->add_option("--plugin", options.plugins, "another plugin library")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+  command->add_option("--set", options.settings, "a parameter of the planner")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--time-limit", options.time_limit_s, "wall time for plan(), in seconds")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "for planners that draw")->type_name("N")->capture_default_str();
+  command->add_option("--paths", options.paths, "writes the paths, CSV agent,t,x,y in cells, y from the top")
+      ->type_name("FILE");
+  command->add_flag("--json", options.json, "the figures as JSON");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("dmrp-host: ") + error.what() + " (--help tells more)\n";
+  });
 
   RunOptions run;
   run.jobs = std::max(1u, std::thread::hardware_concurrency());
@@ -101,6 +131,9 @@ int run_main(int argc, char** argv) {
   drawing->add_option("--set", draw.settings, "a parameter of the planner")->type_name("KEY=VALUE");
   drawing->add_option("--svg", draw.svg, "where to (default: standard output)")->type_name("FILE");
 
+  PlanOptions plan;
+  CLI::App* planning = add_plan(app, plan);
+
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
   try {
@@ -112,6 +145,7 @@ int run_main(int argc, char** argv) {
   if (validate->parsed()) return validate_command(validated);
   if (plugins->parsed()) return plugins_command(libraries, json);
   if (drawing->parsed()) return draw_command(draw);
+  if (planning->parsed()) return plan_command(plan);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }

@@ -48,4 +48,19 @@ struct DrawOptions {
 };
 int draw_command(const DrawOptions& options);
 
+struct PlanOptions {
+  std::filesystem::path map;  // MovingAI's, with tasks and a number of agents ...
+  std::filesystem::path tasks;
+  std::uint32_t agents = 0;
+  std::string scenario;  // ... or a scenario, named or by its path
+  std::string planner;   // id
+  std::vector<std::string> plugins;
+  std::vector<std::string> settings;
+  double time_limit_s = 60.0;
+  std::uint64_t seed = 1;
+  std::filesystem::path paths;  // CSV; empty: none
+  bool json = false;
+};
+int plan_command(const PlanOptions& options);
+
 }  // namespace dmrp::host

@@ -84,8 +84,7 @@ Plan plan_once(const Experiment& experiment) {
       total_m += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
   fmt::print(stderr, "{}: {:.2f} m in all, {:.2f} ms", use.info.id, total_m,
              static_cast<double>(plan.planning_ns) * 1e-6);
-  for (const Plan::Statistic& statistic : plan.statistics)
-    fmt::print(stderr, ", {} {}", statistic.name, statistic.value);
+  for (const PlanStatistic& statistic : plan.statistics) fmt::print(stderr, ", {} {}", statistic.name, statistic.value);
   fmt::print(stderr, "\n");
   return plan;
 }
@@ -93,7 +92,8 @@ Plan plan_once(const Experiment& experiment) {
 }  // namespace
 
 int draw_command(const DrawOptions& options) {
-  const Experiment experiment = adhoc_experiment(options.scenario, options.planner, options.plugins, options.settings);
+  Experiment experiment = adhoc_experiment(options.scenario);
+  if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);
   draw_flows(picture, scenario);

@@ -78,7 +78,10 @@ Manifest manifest_of(const Experiment& experiment, const std::vector<std::string
   for (const LibraryUse& library : experiment.libraries)
     manifest.files.push_back(hashed_file("plugin library", library.file));
   std::set<fs::path> scenarios;
-  for (const ScenarioVariant& variant : experiment.scenarios) scenarios.insert(variant.file);
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    scenarios.insert(variant.file);
+    scenarios.insert(variant.files.begin(), variant.files.end());
+  }
   for (const fs::path& file : scenarios) manifest.files.push_back(hashed_file("scenario", file));
   std::set<fs::path> parameters;
   for (const auto* uses :

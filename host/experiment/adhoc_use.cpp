@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/nearest_name.hpp"
@@ -42,6 +43,12 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
       if (info.kind != DMRP_KIND_GLOBAL_PLANNER) continue;
       known.push_back(info.id);
       if (info.id != id) continue;
+      if (!info.needs.empty())
+        throw InputError(
+            fmt::format("--planner {}: needs the extension {}, which this host does not offer to a planner", id,
+                        info.needs.front()));
+      if (!probe.init_error.empty()) throw InputError(file.string() + ": " + probe.init_error);
+      if (!probe.warning.empty()) experiment.warnings.push_back(file.string() + ": " + probe.warning);
       experiment.libraries = {{file.string(), file, probe.plugins}};
       PluginUse use;
       use.info = info;
@@ -64,10 +71,25 @@ std::string toml_line(const std::string& setting) {
   return setting.substr(0, equals) + " = " + value + "\n";
 }
 
+// A mistake is told with the setting in place of a position in the text that is made of them.
+std::vector<ParameterValue> read_settings(const std::vector<std::string>& settings, const PluginInfo& info) {
+  std::string text = "[params]\n";
+  for (const std::string& setting : settings) text += toml_line(setting);
+  try {
+    const TomlDocument document("--set", text);
+    return read_parameters(document.root(), info, fs::current_path()).front().values;
+  } catch (const InputError& error) {
+    std::size_t line = 0;
+    int read = 0;
+    if (std::sscanf(error.what(), "--set:%zu:%*u: %n", &line, &read) != 1 || line < 2 || line > settings.size() + 1)
+      throw;
+    throw InputError("--set " + settings[line - 2] + ": " + (error.what() + read));
+  }
+}
+
 }  // namespace
 
-Experiment adhoc_experiment(const std::string& scenario, const std::string& planner,
-                            const std::vector<std::string>& libraries, const std::vector<std::string>& settings) {
+Experiment adhoc_experiment(const std::string& scenario) {
   const fs::path file = find_scenario(scenario, fs::current_path());
   if (file.empty()) {
     const auto shipped = shipped_scenarios();
@@ -75,18 +97,17 @@ Experiment adhoc_experiment(const std::string& scenario, const std::string& plan
                                  did_you_mean(scenario, known_scenarios())));
   }
   Experiment experiment;
-  const ScenarioFile read = read_scenario_file(file, scenario);
-  experiment.scenarios.push_back({read.scenario, read.scenario.name, file});
+  const ScenarioFile read = read_scenario_file(file, scenario.ends_with(".toml") ? scenario : file.string());
+  experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
   check_world(read, experiment);
-  if (planner.empty()) return experiment;
-
-  PluginUse use = find_planner(planner, libraries, experiment);
-  std::string text = "[params]\n";
-  for (const std::string& setting : settings) text += toml_line(setting);
-  const TomlDocument document("--set", text);
-  use.parameters = read_parameters(document.root(), use.info, fs::current_path()).front().values;
-  experiment.global_planners.push_back(std::move(use));
   return experiment;
+}
+
+void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
+                 const std::vector<std::string>& settings) {
+  PluginUse use = find_planner(id, libraries, experiment);
+  use.parameters = read_settings(settings, use.info);
+  experiment.global_planners.push_back(std::move(use));
 }
 
 }  // namespace dmrp::host

@@ -9,9 +9,12 @@
 
 namespace dmrp::host {
 
-// `scenario`: a name or a path. `planner`: an id, searched in `libraries` and those of the plugin path; none if empty.
-// `settings`: key=value for the planner, as TOML values; bare words are strings. Throws InputError.
-Experiment adhoc_experiment(const std::string& scenario, const std::string& planner,
-                            const std::vector<std::string>& libraries, const std::vector<std::string>& settings);
+// An experiment of one scenario, named or given by its path, checked against the default robot. Throws InputError.
+Experiment adhoc_experiment(const std::string& scenario);
+
+// `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words are
+// strings. Throws InputError.
+void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
+                 const std::vector<std::string>& settings);
 
 }  // namespace dmrp::host

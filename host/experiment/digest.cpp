@@ -8,7 +8,10 @@ namespace dmrp::host {
 std::string experiment_digest(const Experiment& experiment) {
   std::string all = effective_toml(experiment);
   for (const LibraryUse& library : experiment.libraries) all += sha256_of_file(library.file);
-  for (const ScenarioVariant& variant : experiment.scenarios) all += sha256_of_file(variant.file);
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    all += sha256_of_file(variant.file);
+    for (const std::filesystem::path& file : variant.files) all += sha256_of_file(file);
+  }
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
     for (const PluginUse& use : *uses)

@@ -35,6 +35,7 @@ struct ScenarioVariant {
   core::Scenario scenario;     // holds exactly the robots that take part
   std::string label;           // the scenario's name; "mall/2" where it runs with fewer robots than it lists
   std::filesystem::path file;  // of scenario.toml
+  std::vector<std::filesystem::path> files{};  // that it names: a map, tasks
 };
 
 enum class RecordTraces { all, failed, none };

@@ -156,6 +156,7 @@ class Reader {
         variant.label = variant.scenario.name;
         if (count.robots != listed) variant.label += fmt::format("/{}", count.robots);
         variant.file = file;
+        variant.files = scenario.files;
         for (const ScenarioVariant& other : experiment_.scenarios)
           if (other.label == variant.label)
             count.value.fail(fmt::format("scenario '{}' is there twice", variant.label));

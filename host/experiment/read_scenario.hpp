@@ -14,6 +14,7 @@ namespace dmrp::host {
 
 struct ScenarioFile {
   core::Scenario scenario;
+  std::vector<std::filesystem::path> files;  // that it is made of beside scenario.toml, absolute: a map, tasks
   std::shared_ptr<const TomlDocument> document;
   SourcePosition size;                  // of the world
   std::vector<SourcePosition> robots;   // parallel to scenario.robots

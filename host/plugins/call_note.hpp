@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 namespace dmrp::host {
 
@@ -18,5 +19,18 @@ struct CallNote {
   std::array<char, 128> plugin;  // NUL-terminated
   std::array<char, 32> function;
 };
+
+// What a call note said. Its texts end; its numbers may still be anything.
+struct NotedCall {
+  bool inside = false;  // a plugin function was running; else the rest means nothing
+  std::string plugin;
+  std::string function;
+  std::int64_t step = 0;
+  std::int32_t robot = -1;
+  std::int64_t start_ns = 0;
+  std::int64_t limit_ns = 0;
+};
+
+NotedCall noted_call(const CallNote& note);
 
 }  // namespace dmrp::host

@@ -18,7 +18,7 @@ constexpr double snap_reach_cells = 2.0;
 struct Collected {
   PlannedPaths paths;
   std::vector<bool> given;
-  std::vector<Plan::Statistic> statistics;
+  std::vector<PlanStatistic> statistics;
 };
 
 std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_waypoint* waypoints,
@@ -36,14 +36,6 @@ void collect_statistic(dmrp_plan_sink* sink, const char* name, double value) {
   if (name) static_cast<Collected*>(sink->context)->statistics.push_back({name, value});
 }
 
-// The problem and the arrays behind it.
-struct Problem {
-  std::vector<std::vector<dmrp_goal>> goals;
-  std::vector<dmrp_planning_robot> robots;
-  dmrp_grid grid{};
-  dmrp_planning_problem c{};
-};
-
 // Planners work on cells: a goal becomes the centre of its cell.
 dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
   const dmrp_vec2 center = grid.center(grid.cell_of({goal.pose.x, goal.pose.y}));
@@ -54,7 +46,7 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
 
 // False where robots cannot be put on distinct cells.
 bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
-                  Problem& problem) {
+                  StagedProblem& problem) {
   std::vector<toolkit::SnapRequest> requests;
   for (const core::RobotState& robot : world.robots())
     requests.push_back({{robot.pose.x, robot.pose.y}, toolkit::no_cell});
@@ -67,7 +59,7 @@ bool put_on_cells(const VariantWorld& variant, double radius_m, const core::Worl
 }
 
 void describe_robots(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
-                     Problem& problem) {
+                     StagedProblem& problem) {
   const dmrp_world& view = variant.view.world();
   problem.goals.resize(world.robots().size());
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
@@ -95,7 +87,7 @@ const dmrp_plan& Plan::view() {
     c_paths_.push_back(
         {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
   c_statistics_.clear();
-  for (const Statistic& statistic : statistics) c_statistics_.push_back({statistic.name.c_str(), statistic.value});
+  for (const PlanStatistic& statistic : statistics) c_statistics_.push_back({statistic.name.c_str(), statistic.value});
   c_ = {sizeof(dmrp_plan),
         static_cast<std::uint32_t>(c_paths_.size()),
         c_paths_.data(),
@@ -111,18 +103,35 @@ const dmrp_plan& Plan::view() {
   return c_;
 }
 
-Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
-               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step) {
-  Plan plan;
-  plan.revision = revision;
-  plan.from_ns = world.t_ns();
-  plan.step_duration_ns = variant.simulation.step_duration_ns;
+PlannerAnswer ask_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step) {
+  Collected collected;
+  collected.paths.resize(problem.robot_count);
+  collected.given.resize(problem.robot_count);
+  dmrp_plan_sink sink = {sizeof(sink), 0, &collected, &collect_path, &collect_statistic};
+  const auto table = planner.table<dmrp_global_planner>();
+  const auto result =
+      planner.call("plan", step, problem.time_budget_ns, [&] { return table.plan(planner.self(), &problem, &sink); });
+  PlannerAnswer answer{result.status, result.duration_ns, planner.guard().error(), {}, std::move(collected.statistics)};
+  if (result.status == DMRP_NO_SOLUTION) return answer;
+  if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
+    answer.paths = std::move(collected.paths);
+  else if (result.status != DMRP_TIMEOUT)
+    throw PluginFault(fault_kind::bad_output, planner.site("plan", step), "returned OK without a path for every robot");
+  return answer;
+}
 
-  Problem problem;
+std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
+  if (!verdict.error.empty()) return "invalid plan: " + verdict.error;
+  if (verdict.conflicts == 0 || (info.planner_flags & DMRP_PLANNER_UNCOORDINATED) != 0) return "";
+  return fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts);
+}
+
+bool stage_problem(const VariantWorld& variant, const core::World& world, std::uint64_t revision,
+                   std::int64_t time_budget_ns, StagedProblem& problem) {
   problem.grid = variant.planning_grid.view();
   const toolkit::GridView grid(problem.grid);
   describe_robots(variant, world, grid, problem);
-  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, problem)) return plan;
+  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, problem)) return false;
 
   dmrp_planning_problem& c = problem.c;
   c.struct_size = sizeof(c);
@@ -131,34 +140,33 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
   c.robot_stride = sizeof(dmrp_planning_robot);
   c.revision = revision;
   c.now_ns = world.t_ns();
-  c.effective_from_ns = plan.from_ns;
-  c.step_duration_ns = plan.step_duration_ns;
+  c.effective_from_ns = world.t_ns();
+  c.step_duration_ns = variant.simulation.step_duration_ns;
   c.time_budget_ns = time_budget_ns;
   c.grid = &problem.grid;
+  return true;
+}
 
-  Collected collected;
-  collected.paths.resize(c.robot_count);
-  collected.given.resize(c.robot_count);
-  dmrp_plan_sink sink = {sizeof(sink), 0, &collected, &collect_path, &collect_statistic};
-  const auto table = planner.table<dmrp_global_planner>();
-  const auto result = planner.call("plan", step, time_budget_ns, [&] { return table.plan(planner.self(), &c, &sink); });
-  plan.status = result.status;
-  plan.planning_ns = result.duration_ns;
-  plan.statistics = std::move(collected.statistics);
+Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step) {
+  Plan plan;
+  plan.revision = revision;
+  plan.from_ns = world.t_ns();
+  plan.step_duration_ns = variant.simulation.step_duration_ns;
 
-  const bool complete = std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end();
-  if (result.status == DMRP_NO_SOLUTION || (result.status == DMRP_TIMEOUT && !complete)) return plan;
-  const CallSite site = planner.site("plan", step);
-  if (!complete) throw PluginFault(fault_kind::bad_output, site, "returned OK without a path for every robot");
-
+  StagedProblem problem;
+  if (!stage_problem(variant, world, revision, time_budget_ns, problem)) return plan;
+  PlannerAnswer answer = ask_planner(planner, problem.c, step);
+  plan.status = answer.status;
+  plan.planning_ns = answer.planning_ns;
+  plan.statistics = std::move(answer.statistics);
+  if (answer.paths.empty()) return plan;
   const PlanVerdict verdict = validate_plan(
-      c, collected.paths, info.connectivity,
+      problem.c, answer.paths, info.connectivity,
       [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); });
-  if (!verdict.error.empty()) throw PluginFault(fault_kind::bad_output, site, "invalid plan: " + verdict.error);
-  if (verdict.conflicts > 0 && !(info.planner_flags & DMRP_PLANNER_UNCOORDINATED))
-    throw PluginFault(fault_kind::bad_output, site,
-                      fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts));
-  plan.paths = std::move(collected.paths);
+  if (const std::string breach = breach_of(verdict, info); !breach.empty())
+    throw PluginFault(fault_kind::bad_output, planner.site("plan", step), breach);
+  plan.paths = std::move(answer.paths);
   plan.conflicts = verdict.conflicts;
   return plan;
 }

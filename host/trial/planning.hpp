@@ -17,16 +17,17 @@
 
 namespace dmrp::host {
 
+// A named number that a planner told of its work.
+struct PlanStatistic {
+  std::string name;
+  double value;
+};
+
 // A plan as it came out of the planner, and the C structs over it.
 class Plan {
  public:
-  struct Statistic {
-    std::string name;
-    double value;
-  };
-
   PlannedPaths paths;  // empty if there is no plan
-  std::vector<Statistic> statistics;
+  std::vector<PlanStatistic> statistics;
   std::uint64_t revision = 0;
   std::int32_t status = DMRP_NO_SOLUTION;
   std::int64_t from_ns = 0;
@@ -44,6 +45,37 @@ class Plan {
   std::vector<dmrp_statistic> c_statistics_;
   dmrp_plan c_{};
 };
+
+// A planning problem and the arrays behind it; `c` points into this struct.
+struct StagedProblem {
+  StagedProblem() = default;
+  StagedProblem(const StagedProblem&) = delete;
+  StagedProblem& operator=(const StagedProblem&) = delete;
+
+  std::vector<std::vector<dmrp_goal>> goals;
+  std::vector<dmrp_planning_robot> robots;
+  dmrp_grid grid{};
+  dmrp_planning_problem c{};
+};
+
+// The problem for the robots where they are now. False where they cannot be put on distinct cells.
+bool stage_problem(const VariantWorld& variant, const core::World& world, std::uint64_t revision,
+                   std::int64_t time_budget_ns, StagedProblem& problem);
+
+// What came out of one call of plan(), not yet checked.
+struct PlannerAnswer {
+  std::int32_t status = DMRP_NO_SOLUTION;
+  std::int64_t planning_ns = 0;
+  std::string text;    // of set_error()
+  PlannedPaths paths;  // one a robot, or none where there is no plan
+  std::vector<PlanStatistic> statistics;
+};
+
+// Calls plan() once; `step`: the physics steps since the trial's start. Throws PluginFault.
+PlannerAnswer ask_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step);
+
+// How a plan breaks what its planner promises, in one line; "" if it does not.
+std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info);
 
 // Plans for the robots where they are now; `time_budget_ns` is wall time, `step` the physics steps since the start.
 // No plan (NO_SOLUTION, TIMEOUT, or robots that cannot be put on distinct cells) is a Plan that does not exist().

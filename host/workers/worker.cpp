@@ -2,7 +2,6 @@
 #include "host/workers/worker.hpp"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -19,33 +18,13 @@
 #include "host/trial/run_trial.hpp"
 #include "host/workers/line_channel.hpp"
 #include "host/workers/messages.hpp"
+#include "host/workers/resource_limits.hpp"
 #include "host/workers/supervisor.hpp"
 #include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {
 
 namespace {
-
-// Sanitizers reserve terabytes.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define DMRP_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(DMRP_SANITIZED)
-constexpr bool address_space_is_ours = false;
-#else
-constexpr bool address_space_is_ours = true;
-#endif
-
-void set_resource_limits(const RunLimits& limits) {
-  const rlimit no_core = {0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  if (!address_space_is_ours || limits.memory_mb == 0) return;
-  const rlim_t bytes = static_cast<rlim_t>(limits.memory_mb) << 20;
-  const rlimit memory = {bytes, bytes};
-  setrlimit(RLIMIT_AS, &memory);
-}
 
 void log_line(std::int32_t level, const std::string& plugin, const std::string& text) {
   static constexpr const char* const names[] = {"debug", "info", "warning", "error"};
@@ -166,7 +145,7 @@ int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read
   LineChannel channel(read_end, write_end);
   try {
     const Experiment experiment = load_experiment(file, trials, &read_descriptors);
-    set_resource_limits(experiment.limits);
+    set_resource_limits(experiment.limits.memory_mb);
     Worker(experiment, channel, map_call_note(note)).serve();
     return 0;
   } catch (const std::bad_alloc&) {

@@ -26,11 +26,6 @@ namespace {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-template <std::size_t n>
-std::string text_of(const std::array<char, n>& text) {
-  return std::string(text.data(), strnlen(text.data(), n));
-}
-
 struct Pipe {
   int read_end = -1;
   int write_end = -1;
@@ -125,21 +120,6 @@ int WorkerProcess::wait() {
   }
   pid_ = -1;
   return status;
-}
-
-NotedCall WorkerProcess::noted_call() const {
-  NotedCall call;
-  const std::uint64_t number = note_->call_number.load(std::memory_order_acquire);
-  call.plugin = text_of(note_->plugin);
-  call.function = text_of(note_->function);
-  call.step = note_->step.load(std::memory_order_relaxed);
-  call.robot = note_->robot.load(std::memory_order_relaxed);
-  call.start_ns = note_->start_ns.load(std::memory_order_relaxed);
-  call.limit_ns = note_->limit_ns.load(std::memory_order_relaxed);
-  // a note that changed while it was read mixes two calls: the one that was looked for has returned
-  std::atomic_thread_fence(std::memory_order_acquire);
-  call.inside = number % 2 == 1 && note_->call_number.load(std::memory_order_relaxed) == number;
-  return call;
 }
 
 }  // namespace dmrp::host

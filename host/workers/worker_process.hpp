@@ -14,17 +14,6 @@
 
 namespace dmrp::host {
 
-// What a call note said. Its texts end; its numbers may still be anything.
-struct NotedCall {
-  bool inside = false;  // a plugin function was running; else the rest means nothing
-  std::string plugin;
-  std::string function;
-  std::int64_t step = 0;
-  std::int32_t robot = -1;
-  std::int64_t start_ns = 0;
-  std::int64_t limit_ns = 0;
-};
-
 class WorkerProcess {
  public:
   // Starts `dmrp-host worker EXPERIMENT TRIALS ...`; its output goes to the descriptor `log`. It inherits no other
@@ -36,7 +25,7 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   LineChannel& channel() { return *channel_; }
-  NotedCall noted_call() const;
+  NotedCall noted_call() const { return host::noted_call(*note_); }
 
   void kill();
   // Whether it is over by itself, now or in the next `wait_ms`.

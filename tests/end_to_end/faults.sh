@@ -13,7 +13,7 @@ begin_experiment() {
   local file=$scratch/$1.toml table
   sed "s|^plugins = \[|&\"$library\", |; s/^trials .*/trials = 1/" "$here/crossing.toml" >"$file"
   for table in "${@:2}"; do sed -i "/^\[\[$table\]\]/,/^\$/d" "$file"; done
-  printf '\n[limits]\nmemory_mb = 1024\n' >>"$file"
+  printf '\n[limits]\nmemory_mb = 400\n' >>"$file"
 }
 
 # use NAME TABLE ID [FAULT [MORE_PARAMETERS]]: labelled with the fault

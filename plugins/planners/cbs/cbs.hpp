@@ -29,6 +29,8 @@ class Cbs final : public ConflictSearchPlanner {
       param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
       param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+  Param<bool> safe_intervals =
+      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

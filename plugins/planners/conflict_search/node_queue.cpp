@@ -16,8 +16,8 @@ bool NodeQueue::is_later_in_focal(const ByConflicts& a, const ByConflicts& b) {
   return std::tuple(a.pairs, a.cost, -a.node) > std::tuple(b.pairs, b.cost, -b.node);
 }
 
-void NodeQueue::clear() {
-  lower_bound_ = 0;
+void NodeQueue::reset(std::int32_t lower_bound) {
+  lower_bound_ = lower_bound;
   focal_limit_ = -1;
   cleanup_.clear();
   open_.clear();

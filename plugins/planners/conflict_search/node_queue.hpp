@@ -24,7 +24,8 @@ class NodeQueue {
   NodeQueue(ConstraintTree& tree, Selection selection, double suboptimality)
       : tree_(tree), selection_(selection), suboptimality_(suboptimality) {}
 
-  void clear();
+  // Empties it. No solution costs less than `lower_bound`.
+  void reset(std::int32_t lower_bound);
   void push(NodeId id);
 
   struct Choice {

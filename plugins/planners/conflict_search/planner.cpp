@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "../mapf/solvability.hpp"
+#include "../mapf/straighten.hpp"
 
 namespace dmrp::planners {
 
@@ -36,14 +37,15 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
   sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
   switch (result) {
     case ConflictSearch::Result::solved: {
-      std::vector<PathView> paths;
+      std::vector<std::vector<Location>> paths;
       double cost = 0;
       for (const AgentPath& path : search.solution()) {
-        paths.push_back(path.locations);
+        paths.emplace_back(path.locations.begin(), path.locations.end());
         cost += cost_of(path.locations);
       }
       sink.statistic("cost", cost);
-      write_paths(host_problem, problem, paths, sink);
+      straighten(problem, *tables, paths, straightening_limit(paths.size(), statistics.low_level_expanded), stop);
+      write_paths(host_problem, problem, {paths.begin(), paths.end()}, sink);
       return Status::ok;
     }
     case ConflictSearch::Result::unsolvable:

@@ -2,6 +2,7 @@
 #include "search.hpp"
 
 #include <algorithm>
+#include <dmrp/toolkit/random.hpp>
 #include <tuple>
 
 #include "../mapf/solvability.hpp"
@@ -10,9 +11,11 @@ namespace dmrp::planners {
 
 namespace {
 
-// A problem that is still unsolved after so many expansions is worth a proof that it has no plan ...
-constexpr std::int64_t expansions_before_proof = 1000;
-// ... if that visits at most so many joint positions.
+// Every restart may go on for so many times as long as the one before.
+constexpr double restart_growth = 1.5;
+
+// A problem that is still unsolved at the first restart is worth a proof that it has no plan, if that visits at most so
+// many joint positions.
 constexpr std::size_t joint_state_limit = 300'000;
 
 // Two agents are searched for their least joint cost with so many nodes at most.
@@ -36,7 +39,8 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       options_(options),
       stop_(stop),
       queue_(tree_, options.selection, options.suboptimality),
-      low_level_(problem.graph),
+      safe_interval_search_(problem.graph),
+      space_time_search_(problem.graph),
       paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
       node_mdds_(problem.agents.size(), nullptr),
@@ -49,7 +53,7 @@ ConflictSearch::~ConflictSearch() = default;
 ConflictSearchStatistics ConflictSearch::statistics() const {
   ConflictSearchStatistics out = statistics_;
   out.lower_bound = queue_.lower_bound();
-  out.low_level_expanded += low_level_.expanded();
+  out.low_level_expanded = safe_interval_search_.expanded() + space_time_search_.expanded();
   if (pair_search_) out.low_level_expanded += pair_search_->statistics().low_level_expanded;
   return out;
 }
@@ -57,15 +61,42 @@ ConflictSearchStatistics ConflictSearch::statistics() const {
 ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, std::vector<Constraint> constraints) {
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
   members_ = std::move(members);
+  std::vector<std::int32_t> order = members_;
+  auto nodes_left = static_cast<double>(options_.node_limit);
+  auto nodes = static_cast<double>(options_.restart_after > 0 ? options_.restart_after : options_.node_limit);
+  lower_bound_ = 0;
+  for (std::int32_t restart = 0;; ++restart) {
+    nodes = std::min(nodes, nodes_left);
+    const Result result = search_from(order, constraints, static_cast<std::int64_t>(nodes));
+    lower_bound_ = queue_.lower_bound();
+    nodes_left -= nodes;
+    if (result != Result::node_limit || nodes_left <= 0) return result;
+    if (restart == 0 && members_.size() == problem_.agents.size()) {
+      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+      if (stop_.raised()) return Result::stopped;
+      if (found) return obstruction_ = *found, Result::unsolvable;
+    }
+    for (const std::int32_t agent : members_) occupied_.set(agent, {});
+    toolkit::Stream stream(options_.seed, "restart", restart);
+    stream.shuffle(order);
+    nodes *= restart_growth;
+  }
+}
+
+// One search, the agents' first paths planned in the order given.
+ConflictSearch::Result ConflictSearch::search_from(const std::vector<std::int32_t>& order,
+                                                   const std::vector<Constraint>& constraints,
+                                                   std::int64_t node_limit) {
   tree_.reset(problem_.agents.size(), members_);
-  queue_.clear();
+  queue_.reset(lower_bound_);
   entered_ = no_node;
-  const std::int64_t generated_before = statistics_.high_level_generated;
-  std::int64_t expanded = 0;
-  if (!plan_root(std::move(constraints))) return stop_.raised() ? Result::stopped : Result::unsolvable;
+  if (!plan_root(order, constraints)) return stop_.raised() ? Result::stopped : Result::unsolvable;
   for (;;) {
     const NodeQueue::Choice choice = queue_.pop();
-    if (choice.node == no_node) break;
+    if (choice.node == no_node) {
+      obstruction_ = "every way to resolve the robots' conflicts was tried";
+      return Result::unsolvable;
+    }
     enter(choice.node);
     if (pairs_.empty()) return Result::solved;
     if (choice.for_its_bound && options_.dependency_graph && !tree_.node(choice.node).is_informed &&
@@ -73,32 +104,25 @@ ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, st
       continue;
     expand(choice.node);
     if (stop_.poll_now()) return Result::stopped;
-    if (statistics_.high_level_generated - generated_before >= options_.node_limit) {
+    if (tree_.node_count() >= node_limit) {
       queue_.raise_bound();
       return Result::node_limit;
     }
-    if (++expanded == expansions_before_proof) {
-      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
-      if (stop_.raised()) return Result::stopped;
-      if (found) return obstruction_ = *found, Result::unsolvable;
-    }
   }
-  obstruction_ = "every way to resolve the robots' conflicts was tried";
-  return Result::unsolvable;
 }
 
 // Each agent's path by itself, with few conflicts with the agents before it.
-bool ConflictSearch::plan_root(std::vector<Constraint> constraints) {
+bool ConflictSearch::plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints) {
   Child& root = children_[0];
   root.node = {};
-  root.constraints = std::move(constraints);
+  root.constraints = constraints;
   root.paths.clear();
   root.conflicts.clear();
   root.conflicting_pairs = 0;
-  for (const std::int32_t agent : members_)
-    if (!replan(no_node, agent, 0, root)) return false;
+  for (const std::int32_t agent : order)
+    if (!replan(no_node, agent, root)) return false;
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
-  queue_.push(add(root, no_node, true));
+  push(add(root, no_node, true));
   return true;
 }
 
@@ -151,6 +175,7 @@ bool ConflictSearch::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
     enter(id);
+    if (options_.replan_in_place) id = replan_in_place(id);
     if (pairs_.empty()) break;
     const Split split = split_on(tree_.conflict(choose_conflict()));
     std::array<bool, 2> has_paths{};
@@ -169,11 +194,49 @@ bool ConflictSearch::expand(NodeId id) {
       if (has_paths[i]) nodes.push_back(&children_[i].node);
     note_errors(tree_.node(id), nodes);
     for (std::size_t i = 0; i < 2; ++i)
-      if (has_paths[i]) queue_.push(add(children_[i], id, true));
+      if (has_paths[i]) push(add(children_[i], id, true));
     return true;
   }
   queue_.push(id);  // the last bypass left no conflict
   return true;
+}
+
+// Replans agents, one after the other, as long as that leaves fewer pairs in conflict (or as many at less cost): at the
+// root all that are in conflict, elsewhere those of the conflict to split on; then those that they meet. No constraint
+// is needed for that, so the node that results may take the place of the one given.
+NodeId ConflictSearch::replan_in_place(NodeId id) {
+  std::vector<std::int32_t> agents;
+  if (tree_.node(id).parent == no_node) {
+    for (const auto& [a, b] : pairs_) agents.insert(agents.end(), {a, b});
+  } else {
+    const Conflict& conflict = tree_.conflict(choose_conflict()).conflict;
+    agents = {conflict.a, conflict.b};
+  }
+  const std::size_t most = 10 * members_.size();
+  std::vector<bool> is_due(problem_.agents.size(), false);
+  for (const std::int32_t agent : agents) is_due[static_cast<std::size_t>(agent)] = true;
+  const auto add_met_by = [&](std::int32_t agent) {
+    for (const auto& [a, b] : pairs_) {
+      if (a != agent && b != agent) continue;
+      const std::int32_t other = a == agent ? b : a;
+      if (!is_due[static_cast<std::size_t>(other)] && agents.size() < most) agents.push_back(other);
+      is_due[static_cast<std::size_t>(other)] = true;
+    }
+  };
+  Child& child = children_[0];
+  for (std::size_t i = 0; i < agents.size() && !pairs_.empty(); ++i) {
+    const std::int32_t agent = agents[i];
+    if (!is_due[static_cast<std::size_t>(agent)]) continue;
+    is_due[static_cast<std::size_t>(agent)] = false;
+    if (!replan_all(id, {agent}, {}, child)) return id;  // stopped
+    const Node& node = tree_.node(id);
+    if (std::pair(child.node.pairs, child.node.cost) >= std::pair(node.pairs, node.cost)) continue;
+    add_met_by(agent);
+    id = add(child, id, true);
+    enter(id);
+    add_met_by(agent);
+  }
+  return id;
 }
 
 std::uint32_t ConflictSearch::choose_conflict() {
@@ -243,7 +306,7 @@ std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict&
     return CorridorAgent{problem_.agents[who], tables_[who], corridor_tables_[i], mdd_of(agents[i]),
                          path_of(agents[i]).locations};
   };
-  return find_corridor(*passage, conflict, known_of(0), known_of(1), earliest_arrival_);
+  return find_corridor(problem_.graph, *passage, conflict, known_of(0), known_of(1), earliest_arrival_);
 }
 
 // Whether all of the agent's paths of least cost arrive there (from there) at that time.
@@ -293,6 +356,12 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
       if (satisfies(path_of(agent).locations, agent == c.agent ? c : c.for_another(agent))) continue;
       if (std::find(agents.begin(), agents.end(), agent) == agents.end()) agents.push_back(agent);
     }
+  return replan_all(parent, agents, constraints, child);
+}
+
+// A child with other paths for some agents.
+bool ConflictSearch::replan_all(NodeId parent, const std::vector<std::int32_t>& agents,
+                                const std::vector<Constraint>& constraints, Child& child) {
   child.node = tree_.node(parent);
   child.node.is_informed = false;
   child.constraints = constraints;
@@ -303,7 +372,7 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   for (const std::int32_t agent : agents) occupied_.set(agent, {});
   bool has_paths = true;
   for (const std::int32_t agent : agents)
-    if (has_paths) has_paths = replan(parent, agent, slack_of(parent, agent, child), child);
+    if (has_paths) has_paths = replan(parent, agent, child);
   for (const std::int32_t agent : agents) occupied_.set(agent, path_of(agent).locations);
 
   const auto is_replanned = [&](std::int32_t agent) {
@@ -317,23 +386,8 @@ bool ConflictSearch::make_child(NodeId parent, const std::vector<Constraint>& co
   return has_paths;
 }
 
-static const double flex_fraction = getenv("FLEX") ? atof(getenv("FLEX")) : 1.0;
-static const int flex_basis = getenv("FLEXB") ? atoi(getenv("FLEXB")) : 0;
-// What the others leave of the bound on the sum.
-double ConflictSearch::slack_of(NodeId parent, std::int32_t agent, const Child& child) const {
-  if (!options_.flexible_bounds) return 0;
-  const AgentPath& old = path_of(agent);
-  const double w = options_.suboptimality;
-  const double basis = flex_basis == 0   ? child.node.lower_bound
-                       : flex_basis == 1 ? queue_.lower_bound()
-                                         : std::max(tree_.node(parent).f, child.node.lower_bound);
-  const double others = child.node.cost - cost_of(old.locations);
-  const double slack = w * basis - others - w * old.lower_bound;
-  return std::max(0.0, flex_fraction * slack);
-}
-
 // Plans an agent that is not in `occupied_`, and puts it there.
-bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Child& child) {
+bool ConflictSearch::replan(NodeId parent, std::int32_t agent, Child& child) {
   const auto who = static_cast<std::size_t>(agent);
   tree_.gather_constraints(parent, agent, constraints_);
   for (const Constraint& c : child.constraints) {
@@ -345,24 +399,26 @@ bool ConflictSearch::replan(NodeId parent, std::int32_t agent, double slack, Chi
   constraint_table_.fill(problem_.agents[who], constraints_);
   const std::size_t number = child.paths.size();
   if (child.found.size() <= number) child.found.resize(number + 1);
-  SafeIntervalSearch::Found& found = child.found[number];
-  const std::int32_t known_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
-  const auto result = low_level_.search(
-      {problem_.agents[who], tables_[who], constraint_table_, occupied_, options_.suboptimality, slack, known_bound},
-      stop_, found);
-  if (result != SafeIntervalSearch::Result::found) return false;
+  LowLevelPath& found = child.found[number];
+  LowLevelRequest request = {problem_.agents[who], tables_[who], constraint_table_, occupied_};
+  request.suboptimality = options_.suboptimality;
+  request.conflict_steps = options_.conflict_steps;
+  request.lower_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
+  const LowLevelResult result = options_.safe_intervals ? safe_interval_search_.search(request, stop_, found)
+                                                        : space_time_search_.search(request, stop_, found);
+  if (result != LowLevelResult::found) return false;
 
   const std::size_t first = child.conflicts.size();
-  occupied_.list(agent, found.path, child.conflicts);
+  occupied_.list(agent, found.locations, child.conflicts);
   std::stable_sort(child.conflicts.begin() + static_cast<std::ptrdiff_t>(first), child.conflicts.end(),
                    [](const Conflict& x, const Conflict& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   for (std::size_t i = first; i < child.conflicts.size(); ++i)
     if (i == first || std::pair(child.conflicts[i].a, child.conflicts[i].b) !=
                           std::pair(child.conflicts[i - 1].a, child.conflicts[i - 1].b))
       ++child.conflicting_pairs;
-  occupied_.set(agent, found.path);
-  child.paths.push_back({agent, found.lower_bound, found.path});
-  child.node.cost += cost_of(found.path);
+  occupied_.set(agent, found.locations);
+  child.paths.push_back({agent, found.lower_bound, found.locations});
+  child.node.cost += cost_of(found.locations);
   child.node.lower_bound += found.lower_bound;
   if (parent != no_node) {
     child.node.cost -= cost_of(path_of(agent).locations);
@@ -381,6 +437,11 @@ bool ConflictSearch::is_bypass(NodeId parent, const Child& child) const {
   return true;
 }
 
+void ConflictSearch::push(NodeId id) {
+  ++statistics_.high_level_generated;
+  queue_.push(id);
+}
+
 NodeId ConflictSearch::add(Child& child, NodeId parent, bool with_constraints) {
   Node node = child.node;
   node.parent = parent;
@@ -395,8 +456,6 @@ NodeId ConflictSearch::add(Child& child, NodeId parent, bool with_constraints) {
     node.f = tree_.node(parent).f;
     node.is_informed = tree_.node(parent).is_informed;
     for (AgentPath& path : child.paths) path.lower_bound = path_of(path.agent).lower_bound;
-  } else {
-    ++statistics_.high_level_generated;
   }
   return tree_.add(node, child.paths,
                    with_constraints ? std::span<const Constraint>(child.constraints) : std::span<const Constraint>(),
@@ -445,7 +504,8 @@ std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
     options.suboptimality = 1;
     options.selection = Selection::best_first;
     options.dependency_graph = false;
-    options.flexible_bounds = false;
+    options.replan_in_place = false;
+    options.restart_after = 0;
     options.node_limit = pair_node_limit;
     pair_search_ = std::make_unique<ConflictSearch>(problem_, tables_, corridors_, mdds_, options, stop_);
   }

@@ -15,6 +15,7 @@
 #include "../mapf/mdd.hpp"
 #include "../mapf/rectangle.hpp"
 #include "../mapf/safe_interval_search.hpp"
+#include "../mapf/space_time_search.hpp"
 #include "constraint_tree.hpp"
 #include "node_queue.hpp"
 #include "vertex_cover.hpp"
@@ -30,9 +31,13 @@ struct ConflictSearchOptions {
   bool corridor_reasoning = false;    // likewise
   bool rectangle_reasoning = false;   // Li et al. 2019
   bool dependency_graph = false;      // the WDG heuristic (Li et al. 2019), for nodes taken for their bound
+  bool safe_intervals = true;         // the low level plans over safe intervals; else over single steps
   bool disjoint_splitting = false;    // Li et al. 2019
-  bool flexible_bounds = false;       // an agent may use what the others leave of the bound (Chan et al. 2022)
-  std::int64_t node_limit = 0;        // of generated nodes
+  bool replan_in_place = false;       // before a split: agents whose new paths help as they are
+  std::int32_t conflict_steps = 0;    // steps that a path may be longer for a conflict less; 0: any, within the bound
+  std::int64_t restart_after = 0;     // nodes; then anew with another order of the agents (Cohen et al. 2018); 0: never
+  std::int64_t node_limit = 0;        // of all restarts together
+  std::uint64_t seed = 0;             // of the orders
 };
 
 struct ConflictSearchStatistics {
@@ -65,16 +70,19 @@ class ConflictSearch {
   struct Child {
     Node node;
     std::vector<Constraint> constraints;
-    std::vector<SafeIntervalSearch::Found> found;  // of the agents replanned; only the first `paths.size()` count
+    std::vector<LowLevelPath> found;  // of the agents replanned; only the first `paths.size()` count
     std::vector<AgentPath> paths;
     std::vector<Conflict> conflicts;
     std::int32_t conflicting_pairs = 0;  // of the agents replanned
   };
   using Pair = std::pair<std::int32_t, std::int32_t>;
 
-  bool plan_root(std::vector<Constraint> constraints);
+  Result search_from(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints,
+                     std::int64_t node_limit);
+  bool plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints);
   void enter(NodeId id);
   bool expand(NodeId id);
+  NodeId replan_in_place(NodeId id);
   bool inform(NodeId id);
 
   std::uint32_t choose_conflict();
@@ -86,9 +94,11 @@ class ConflictSearch {
   const Mdd& mdd_of(std::int32_t agent);
 
   bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
-  double slack_of(NodeId parent, std::int32_t agent, const Child& child) const;
-  bool replan(NodeId parent, std::int32_t agent, double slack, Child& child);
+  bool replan_all(NodeId parent, const std::vector<std::int32_t>& agents, const std::vector<Constraint>& constraints,
+                  Child& child);
+  bool replan(NodeId parent, std::int32_t agent, Child& child);
   bool is_bypass(NodeId parent, const Child& child) const;
+  void push(NodeId id);
   NodeId add(Child& child, NodeId parent, bool with_constraints);
   void note_errors(const Node& parent, const std::vector<const Node*>& children);
   double estimate(const Node& node) const;
@@ -107,8 +117,10 @@ class ConflictSearch {
   std::vector<std::int32_t> members_;
   ConstraintTree tree_;
   NodeQueue queue_;
-  SafeIntervalSearch low_level_;
+  SafeIntervalSearch safe_interval_search_;
+  SpaceTimeSearch space_time_search_;
   ConflictSearchStatistics statistics_;
+  std::int32_t lower_bound_ = 0;  // what the searches before the last restart have proved
   std::string obstruction_;
 
   // Of the node that was entered last: paths by agent, conflicts by their indices in the tree, the pairs that have

@@ -9,10 +9,15 @@ Descriptor Eecbs::describe() {
       .license("MIT")
       .summary("paths without conflicts, of a sum of costs within a bound of the least; explicit estimation search")
       .source(
-          "Li, Ruml, Koenig: EECBS: A bounded-suboptimal search for multi-agent path finding, AAAI 2021; flexible "
-          "bounds: Chan, Li, Gange, Harabor, Stuckey, Koenig: Flex distribution for bounded-suboptimal multi-agent "
-          "path finding, AAAI 2022")
+          "Li, Ruml, Koenig: EECBS: A bounded-suboptimal search for multi-agent path finding, AAAI 2021; restarts: "
+          "Cohen, Koenig, Kumar, Wagner, Choset, Chan, Sturtevant: Rapid randomized restarts for multi-agent path "
+          "finding solvers, SoCS 2018")
       .connectivity(DMRP_CONNECTIVITY_4);
+}
+
+Status Eecbs::start(const World&, std::uint64_t seed) {
+  seed_ = seed;
+  return Status::ok;
 }
 
 ConflictSearchOptions Eecbs::options() const {
@@ -26,7 +31,11 @@ ConflictSearchOptions Eecbs::options() const {
   options.rectangle_reasoning = *rectangle_reasoning;
   options.dependency_graph = *weighted_dependency_graph;
   options.disjoint_splitting = *disjoint_splitting;
-  options.flexible_bounds = *flexible_bounds;
+  options.conflict_steps = static_cast<std::int32_t>(*conflict_steps);
+  options.replan_in_place = *replan_in_place;
+  options.restart_after = *restart_after;
+  options.seed = seed_;
+  options.safe_intervals = *safe_intervals;
   options.node_limit = *node_limit;
   return options;
 }

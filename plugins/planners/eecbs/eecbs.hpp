@@ -9,7 +9,10 @@ namespace dmrp::planners {
 
 // EECBS(w) of Li, Ruml, Koenig 2021: focal search on the low level, explicit estimation search on the high level, with
 // prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
-// Each is a parameter.
+// Each is a parameter. Beyond the paper: the low level weighs conflicts against steps (`conflict_steps`; 0 is the
+// paper's order, conflicts first), robots in conflict are replanned as they are before a node is split
+// (`replan_in_place`), and searches that go on for long are restarted with the robots in another order
+// (`restart_after`; rapid randomized restarts, Cohen et al. 2018), what was proved of the lower bound being kept.
 //
 // cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
 class Eecbs final : public ConflictSearchPlanner {
@@ -33,15 +36,33 @@ class Eecbs final : public ConflictSearchPlanner {
       param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
       param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
-  Param<bool> flexible_bounds =
-      param("flexible_bounds", true).doc("a robot's path may use what the others' leave of the bound on the sum");
+  Param<bool> replan_in_place =
+      param("replan_in_place", true)
+          .doc("before a split, give robots in conflict other paths as long as that leaves fewer conflicts");
+  Param<std::int64_t> conflict_steps =
+      param("conflict_steps", 1)
+          .unit("1")
+          .range(0, 1'000'000)
+          .doc("steps that a robot's path may be longer for a conflict less; 0: as many as the bound allows");
+  Param<std::int64_t> restart_after =
+      param("restart_after", 800)
+          .unit("1")
+          .range(0, 1'000'000'000)
+          .doc("nodes after which the search begins anew, the robots in another order; 0: never");
+  Param<bool> safe_intervals =
+      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)
                                        .doc("constraint-tree nodes after which the search gives up");
 
+  Status start(const World& world, std::uint64_t seed) override;
+
  protected:
   ConflictSearchOptions options() const override;
+
+ private:
+  std::uint64_t seed_ = 0;
 };
 
 }  // namespace dmrp::planners

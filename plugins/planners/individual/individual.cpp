@@ -2,6 +2,7 @@
 #include "individual.hpp"
 
 #include "../mapf/problem.hpp"
+#include "../mapf/straighten.hpp"
 #include "../mapf/tour_table.hpp"
 
 namespace dmrp::planners {
@@ -50,14 +51,14 @@ Status Individual::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   }
 
   std::vector<std::vector<Location>> paths;
-  std::vector<PathView> views;
   double cost = 0;
   for (std::size_t i = 0; i < problem.agents.size(); ++i) {
     paths.push_back(shortest_path(problem.graph, problem.agents[i], (*tables)[i]));
     cost += cost_of(paths.back());
   }
-  views.assign(paths.begin(), paths.end());
-  write_paths(host_problem, problem, views, sink);
+  straighten_alone(problem, *tables, paths, stop);
+  if (stop.raised()) return Status::timeout;
+  write_paths(host_problem, problem, {paths.begin(), paths.end()}, sink);
   sink.statistic("cost", cost);
   sink.statistic("lower_bound", cost);
   return Status::ok;

@@ -4,15 +4,12 @@
 
 #include <compare>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "problem.hpp"
 
 namespace dmrp::planners {
-
-constexpr std::int32_t forever = std::numeric_limits<std::int32_t>::max();
 
 // One agent's constraint. A few kinds say something to the others too; binds() and for_another() tell what.
 struct Constraint {

@@ -11,6 +11,9 @@
 // Likewise where the last goal of b, say, is inside (corridor-target symmetry). If a comes through, b cannot be in front
 // of it from when a goes in: b came to rest behind it, not before t_a + 1 + (steps from y to the goal), or else came
 // from x, either round or first through and out of a's way. And a, if b is to stay in front of it, has to go round.
+//
+// Any part of a corridor is one too. So an agent that waits inside, as it must not be at its exit yet, is met on the
+// part of the corridor that it does go through.
 #pragma once
 
 #include <array>
@@ -56,7 +59,7 @@ class Corridors {
   std::vector<std::int32_t> position_;
 };
 
-// Where two agents meet head-on: a corridor, or a single edge on which they swap.
+// Where two agents meet head-on: a corridor, a part of one, or a single edge on which they swap.
 struct Passage {
   // The way of one agent.
   struct Way {
@@ -67,7 +70,10 @@ struct Passage {
 
     bool ends_inside() const { return beyond > 0; }
   };
-  std::array<Way, 2> ways;  // of conflict.a, conflict.b
+  using Ways = std::array<Way, 2>;  // of conflict.a, conflict.b
+
+  Ways ways;
+  std::optional<Ways> shorter;  // if the first does not do
 };
 
 // The passage of a conflict, if there is one in which the agents seem to be in each other's way. The paths are all that
@@ -86,7 +92,8 @@ struct CorridorAgent {
 
 // The split at a passage of find_passage(). Nothing if there is none that both paths at hand break, or if it takes too
 // long to find out.
-std::optional<SymmetrySplit> find_corridor(const Passage& passage, const Conflict& conflict, const CorridorAgent& a,
-                                           const CorridorAgent& b, EarliestArrival& earliest_arrival);
+std::optional<SymmetrySplit> find_corridor(const GridGraph& graph, const Passage& passage, const Conflict& conflict,
+                                           const CorridorAgent& a, const CorridorAgent& b,
+                                           EarliestArrival& earliest_arrival);
 
 }  // namespace dmrp::planners

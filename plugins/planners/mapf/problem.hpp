@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dmrp/plugin.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,9 @@
 #include "grid_graph.hpp"
 
 namespace dmrp::planners {
+
+// A time after all others, with room for a few steps more.
+constexpr std::int32_t forever = std::numeric_limits<std::int32_t>::max() / 2;
 
 // An active robot. Its path visits the goals in order and rests at the last.
 //

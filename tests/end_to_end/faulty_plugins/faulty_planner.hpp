@@ -33,6 +33,7 @@ class FaultyPlanner final : public dmrp::GlobalPlanner {
     if (*fault == "beside_centre") eastward[3].y += 0.1;
     if (*fault == "into_wall") eastward.insert(eastward.begin() + 1, {{1.5, 2.5}, {1.5, 3.5}});
     if (*fault == "nan") eastward[3].x = std::numeric_limits<double>::quiet_NaN();
+    if (*fault == "wrong_cost") sink.statistic("cost", 12.0);
     sink.path(0, timed(eastward, problem));
     if (*fault == "path_twice") sink.path(0, timed(eastward, problem));
     if (*fault != "missing_path") sink.path(1, timed(southward, problem));

@@ -181,7 +181,8 @@ std::optional<SymmetrySplit> corridor_of(const ConflictCase& c) {
   const std::array constraints = {c.constraint_table(0), c.constraint_table(1)};
   const std::array mdds = {c.mdd(0), c.mdd(1)};
   EarliestArrival earliest_arrival(c.pair.problem.graph);
-  return find_corridor(*passage, *c.conflict, {c.pair.agent(0), tables[0], constraints[0], mdds[0], c.paths[0]},
+  return find_corridor(c.pair.problem.graph, *passage, *c.conflict,
+                       {c.pair.agent(0), tables[0], constraints[0], mdds[0], c.paths[0]},
                        {c.pair.agent(1), tables[1], constraints[1], mdds[1], c.paths[1]}, earliest_arrival);
 }
 
@@ -324,6 +325,17 @@ TEST_CASE("an agent whose goal is in a corridor is there behind the other or com
   check_corridor(c, avoid_vertex_range(0, 14, 0, 6 + 64), finish_after(1, 10, 8), {true, true});
 }
 
+TEST_CASE("an agent that waits inside a corridor is met on the part it goes through") {
+  // b has to stay away from its exit 9 until 12, and waits for that at 11.
+  const TwoAgents::Path west = {15, 14, 13, 12, 11, 11, 11, 11, 11, 11, 11, 10, 9, 8};
+  ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}),
+                                 {8, 9, 10, 11, 12, 13, 14, 15}, west);
+  c.pair.constraints[1] = {avoid_vertex_range(1, 9, 0, 12)};
+  c.least[1] = 13;
+  // On the three steps from 11 to 14: a can be through at 6, b at 4. b may as well be at 11 at 10.
+  check_corridor(c, avoid_vertex_range(0, 14, 0, 8), avoid_vertex_range(1, 11, 0, 10), {true, false});
+}
+
 TEST_CASE("two agents that swap on open ground are split as in a corridor of one step") {
   const PlanningCase grid = PlanningCase({"....", "...."}).robot({0, 0}, {{3, 0}}).robot({3, 0}, {{0, 0}});
   const ConflictCase c = conflict_case(grid, {0, 1, 2, 3}, {3, 2, 1, 0});
@@ -337,9 +349,13 @@ TEST_CASE("no corridor split for agents that have passed each other, go the same
     return find_passage(Corridors(c.pair.problem.graph), *c.conflict, a, b);
   };
   const PlanningCase meeting = narrow_grid().robot({2, 1}, {{7, 1}}).robot({3, 1}, {{0, 1}});
-  CHECK(passage(meeting, {10, 11, 12, 13, 14, 15}, {11, 10, 9, 8}));
+  CHECK(passage(meeting, {10, 11, 12, 13, 14, 15}, {11, 10, 9, 8})->ways[0].length == 5);
+  // Past each other in the corridor, they swap two times: they meet on that edge only.
   const PlanningCase passed = narrow_grid().robot({3, 1}, {{7, 1}}).robot({2, 1}, {{0, 1}});
-  CHECK_FALSE(passage(passed, {11, 10, 11, 12, 13, 14, 15}, {10, 11, 10, 9, 8}));
+  const auto edge = passage(passed, {11, 10, 11, 12, 13, 14, 15}, {10, 11, 10, 9, 8});
+  REQUIRE(edge);
+  CHECK(edge->ways[0].length == 1);
+  CHECK(edge->ways[0].exit == 10);
   const PlanningCase following = narrow_grid().robot({1, 1}, {{7, 1}}).robot({0, 1}, {{6, 1}});
   CHECK_FALSE(passage(following, {9, 10, 10, 11, 12, 13, 14, 15}, {8, 9, 10, 11, 12, 13, 14}));
   const PlanningCase one_way = PlanningCase(meeting).close_one_way({1, 0}, {0, 0});

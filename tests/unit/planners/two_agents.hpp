@@ -28,18 +28,20 @@ class TwoAgents {
   planners::Problem problem;
   std::array<std::vector<Constraint>, 2> constraints;
 
-  explicit TwoAgents(const PlanningCase& c) : problem(problem_of(c)) {}
+  explicit TwoAgents(const PlanningCase& c) : problem(problem_of(c)) {
+    for (Location from = 0; from < problem.graph.location_count(); ++from) {
+      reach_.push_back({from});
+      for (int d = 0; d < 4; ++d)
+        if (problem.graph.neighbor(from, d) != planners::nowhere)
+          reach_.back().push_back(problem.graph.neighbor(from, d));
+    }
+  }
 
   const planners::Agent& agent(int who) const { return problem.agents[static_cast<std::size_t>(who)]; }
   const std::vector<Constraint>& of(int who) const { return constraints[static_cast<std::size_t>(who)]; }
 
-  // The locations the agent can go to in one step.
-  std::vector<Location> reach(Location from) const {
-    std::vector<Location> to = {from};
-    for (int d = 0; d < 4; ++d)
-      if (problem.graph.neighbor(from, d) != planners::nowhere) to.push_back(problem.graph.neighbor(from, d));
-    return to;
-  }
+  // The locations that can be reached in one step.
+  const Path& reach(Location from) const { return reach_[static_cast<std::size_t>(from)]; }
 
   // Whether a step of the agent's (or being at its start) breaks no constraint in the list.
   static bool may_arrive(const std::vector<Constraint>& list, Location from, Location to, int t) {
@@ -74,16 +76,16 @@ class TwoAgents {
     return may_rest;
   }
 
-  // Calls visit(t, where) for each time up to the horizon with the locations at which the agent can be, without the
-  // move from `not_from` to `not_to`.
+  // Calls visit(t, where) for the times up to the horizon, until it says true, with whether the agent can be at each
+  // location, without the move from `not_from` to `not_to`.
   template <class Visit>
   void spread(int who, const std::vector<Constraint>& list, Location not_from, Location not_to, Visit visit) const {
     const Location start = agent(who).start;
-    std::vector<bool> now(static_cast<std::size_t>(problem.graph.location_count()), false);
+    std::vector<char> now(static_cast<std::size_t>(problem.graph.location_count()), false);
+    std::vector<char> next(now.size());
     now[static_cast<std::size_t>(start)] = may_arrive(list, start, start, 0);
-    for (int t = 0; t <= horizon; ++t) {
-      visit(t, now);
-      std::vector<bool> next(now.size(), false);
+    for (int t = 0; t <= horizon && !visit(t, now); ++t) {
+      std::fill(next.begin(), next.end(), false);
       for (Location from = 0; from < problem.graph.location_count(); ++from)
         if (now[static_cast<std::size_t>(from)])
           for (const Location to : reach(from))
@@ -92,32 +94,30 @@ class TwoAgents {
       now.swap(next);
     }
   }
-
-  // By time: whether the agent can come to rest then.
-  std::array<bool, horizon + 1> possible_costs(int who, const std::vector<Constraint>& list) const {
-    std::array<bool, horizon + 1> possible{};
-    const std::vector<bool> may_end = times_to_rest(who, list);
-    spread(who, list, planners::nowhere, planners::nowhere, [&](int t, const std::vector<bool>& where) {
-      const auto at = static_cast<std::size_t>(t);
-      possible[at] = where[static_cast<std::size_t>(agent(who).last_goal())] && may_end[at];
-    });
-    return possible;
-  }
   std::optional<int> earliest_arrival(int who, Location to, Location not_from, int latest) const {
     std::optional<int> earliest;
-    spread(who, of(who), not_from, to, [&](int t, const std::vector<bool>& where) {
-      if (!earliest && t <= latest && where[static_cast<std::size_t>(to)]) earliest = t;
+    spread(who, of(who), not_from, to, [&](int t, const std::vector<char>& where) {
+      if (t <= latest && where[static_cast<std::size_t>(to)]) earliest = t;
+      return earliest || t >= latest;
     });
     return earliest;
   }
+
+  // The least cost from `at_least` on that a path can have.
+  std::optional<int> next_cost(int who, const std::vector<Constraint>& list, int at_least) const {
+    std::optional<int> cost;
+    const std::vector<bool> may_rest = times_to_rest(who, list);
+    const auto goal = static_cast<std::size_t>(agent(who).last_goal());
+    spread(who, list, planners::nowhere, planners::nowhere, [&](int t, const std::vector<char>& where) {
+      if (t >= at_least && where[goal] && may_rest[static_cast<std::size_t>(t)]) cost = t;
+      return cost.has_value();
+    });
+    return cost;
+  }
   bool has_path(int who, const std::vector<Constraint>& list, int cost) const {
-    return possible_costs(who, list)[static_cast<std::size_t>(cost)];
+    return next_cost(who, list, cost) == cost;
   }
-  std::optional<int> least_cost(int who) const {
-    const auto possible = possible_costs(who, of(who));
-    const auto least = std::find(possible.begin(), possible.end(), true);
-    return least == possible.end() ? std::nullopt : std::optional(static_cast<int>(least - possible.begin()));
-  }
+  std::optional<int> least_cost(int who) const { return next_cost(who, of(who), 0); }
 
   // A path of that cost under the agent's constraints; there is one.
   Path draw_path(Random& random, int who, int cost) const {
@@ -231,6 +231,8 @@ class TwoAgents {
     }
     return steps;
   }
+
+  std::vector<Path> reach_;
 };
 
 }  // namespace dmrp::test

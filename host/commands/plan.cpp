@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// Plans once, in a process of its own, checks the paths and counts what they amount to.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "host/commands/commands.hpp"
+#include "host/experiment/adhoc_use.hpp"
+#include "host/input_error.hpp"
+#include "host/plan/plan_figures.hpp"
+#include "host/plan/plan_task.hpp"
+#include "host/plan/planner_process.hpp"
+#include "host/results/atomic_file.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sums of the same numbers in another order are not a contradiction.
+constexpr double same_cost = 1e-6;
+
+// What is known after planning; what is not, is nothing.
+struct Outcome {
+  bool solved = false;
+  std::optional<bool> valid;  // of the plan by what its planner promises
+  std::optional<PlanFigures> figures;
+  std::optional<std::uint32_t> conflicts;
+  std::optional<double> lower_bound;
+  std::optional<double> planning_ms;
+  std::optional<double> high_level_expanded;
+  std::optional<double> low_level_expanded;
+  double peak_rss_mb = 0.0;
+  std::string status;  // "ok", "no_solution", "timeout", or the kind of a fault
+  std::string detail;  // the planner's words, or the fault's
+  std::vector<std::string> warnings;
+};
+
+// Either a map with tasks, or a scenario.
+void check_what_is_planned(const PlanOptions& options) {
+  const bool whole_map = !options.map.empty() && !options.tasks.empty() && options.agents > 0;
+  const bool no_map = options.map.empty() && options.tasks.empty() && options.agents == 0;
+  if (options.scenario.empty() ? !whole_map : !no_map)
+    throw InputError("plan: needs --map, --scen and --agents together, or --scenario alone");
+}
+
+void check_paths_file(const fs::path& file) {
+  if (file.empty()) return;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (std::error_code ignored; !fs::is_directory(folder, ignored))
+    throw InputError(fmt::format("--paths {}: there is no folder {}", file.string(), folder.string()));
+  if (std::error_code ignored; fs::is_directory(file, ignored))
+    throw InputError(fmt::format("--paths {}: is a folder", file.string()));
+}
+
+void warn(const std::string& text) {
+  fmt::print(stderr, "warning: {}\n", text);
+}
+
+std::unique_ptr<PlanTask> task_on_map(const PlanOptions& options, const Experiment& experiment) {
+  const core::CellMap map = read_movingai_map(options.map, options.map.string());
+  MovingAiTasks read = read_movingai_tasks(options.tasks, options.tasks.string(), map);
+  if (options.agents > read.tasks.size())
+    throw InputError(fmt::format("--agents {}: {} has {} task{}", options.agents, read.shown_path, read.tasks.size(),
+                                 read.tasks.size() == 1 ? "" : "s"));
+  read.tasks.resize(options.agents);
+  for (std::size_t b = 0; b < read.tasks.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      if (read.tasks[a].start == read.tasks[b].start)
+        throw InputError(fmt::format("{}:{}:1: agents {} and {} both start at ({}, {})", read.shown_path,
+                                     read.tasks[b].line, a, b, read.tasks[a].start.x, read.tasks[a].start.y));
+  if (const std::string name = fs::path(read.map_name).filename().string(); name != options.map.filename().string())
+    warn(fmt::format("{}: its tasks are for '{}', not '{}'", read.shown_path, name, options.map.filename().string()));
+  return cell_task(map, read.tasks, experiment);
+}
+
+std::optional<double> statistic(const PlannerAnswer& answer, const char* name) {
+  for (const PlanStatistic& known : answer.statistics)
+    if (known.name == name) return known.value;
+  return std::nullopt;
+}
+
+// A planner's own figures must agree with its paths.
+void compare(const PlannerAnswer& answer, Outcome& outcome) {
+  const double cost = outcome.figures->cost;
+  const double tolerance = same_cost * std::max(1.0, cost);
+  if (const auto told = statistic(answer, "cost"); told && !(std::abs(*told - cost) <= tolerance))
+    outcome.warnings.push_back(fmt::format("the planner tells of a cost of {}, its paths cost {}", *told, cost));
+  if (outcome.lower_bound && !(*outcome.lower_bound <= cost + tolerance))
+    outcome.warnings.push_back(
+        fmt::format("the planner's lower bound {} is above the cost {}", *outcome.lower_bound, cost));
+}
+
+const char* status_name(std::int32_t status) {
+  if (status == DMRP_NO_SOLUTION) return "no_solution";
+  return status == DMRP_TIMEOUT ? "timeout" : "ok";
+}
+
+Outcome judge(const PlannerRun& run, const PlanTask& task, const PluginInfo& info) {
+  Outcome outcome;
+  outcome.peak_rss_mb = run.peak_rss_mb;
+  if (!run.answer) {
+    outcome.status = run.fault;
+    outcome.detail = run.detail;
+    return outcome;
+  }
+  const PlannerAnswer& answer = *run.answer;
+  outcome.status = status_name(answer.status);
+  outcome.detail = answer.text;
+  outcome.planning_ms = static_cast<double>(answer.planning_ns) * 1e-6;
+  outcome.lower_bound = statistic(answer, "lower_bound");
+  outcome.high_level_expanded = statistic(answer, "high_level_expanded");
+  outcome.low_level_expanded = statistic(answer, "low_level_expanded");
+  if (answer.paths.empty()) return outcome;
+
+  const PlanVerdict verdict = task.validate(answer.paths, info.connectivity);
+  const std::string breach = breach_of(verdict, info);
+  outcome.valid = breach.empty();
+  if (verdict.error.empty()) outcome.conflicts = verdict.conflicts;
+  if (!breach.empty()) {
+    outcome.status = fault_kind::bad_output;
+    outcome.detail = fmt::format("{}: plan(): {}", info.id, breach);
+    return outcome;
+  }
+  outcome.solved = true;
+  outcome.figures = figures_of(task.problem.c, answer.paths, info.connectivity);
+  compare(answer, outcome);
+  return outcome;
+}
+
+bool is_fault(const Outcome& outcome) {
+  return outcome.status != "ok" && outcome.status != "no_solution" && outcome.status != "timeout";
+}
+
+// Whole numbers without a fraction; null for what is unknown.
+nlohmann::ordered_json number(const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return nullptr;
+  constexpr double largest_whole = 9007199254740992.0;
+  if (*value == std::floor(*value) && std::abs(*value) < largest_whole) return static_cast<std::int64_t>(*value);
+  return *value;
+}
+
+void print_json(const Outcome& outcome, std::uint32_t robots) {
+  const auto& figures = outcome.figures;
+  nlohmann::ordered_json json;
+  json["solved"] = outcome.solved;
+  json["valid"] = outcome.valid ? nlohmann::ordered_json(*outcome.valid) : nullptr;
+  json["cost"] = figures ? number(figures->cost) : nullptr;
+  json["lower_bound"] = number(outcome.lower_bound);
+  json["makespan"] = figures ? nlohmann::ordered_json(figures->makespan) : nullptr;
+  json["plan_turns"] = figures ? nlohmann::ordered_json(figures->turns) : nullptr;
+  json["planning_ms"] = number(outcome.planning_ms);
+  json["high_level_expanded"] = number(outcome.high_level_expanded);
+  json["low_level_expanded"] = number(outcome.low_level_expanded);
+  json["peak_rss_mb"] = number(outcome.peak_rss_mb);
+  json["status"] = outcome.status;
+  json["robots"] = robots;
+  json["conflicts"] = outcome.conflicts ? nlohmann::ordered_json(*outcome.conflicts) : nullptr;
+  json["detail"] = outcome.detail;
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+std::string plural(std::int64_t n, const std::string& noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+void print_line(const char* name, const std::string& text) {
+  fmt::print("  {:<13}{}\n", name, text);
+}
+
+void print_text(const Outcome& outcome, const std::string& heading) {
+  fmt::print("{}\n", heading);
+  print_line("status", outcome.detail.empty() ? outcome.status : outcome.status + ": " + outcome.detail);
+  if (outcome.figures) {
+    print_line("cost", fmt::format("{:.8g}", outcome.figures->cost));
+    if (outcome.lower_bound) print_line("lower bound", fmt::format("{:.8g}", *outcome.lower_bound));
+    print_line("makespan", plural(outcome.figures->makespan, "step"));
+    print_line("turns", std::to_string(outcome.figures->turns));
+    print_line("conflicts", std::to_string(outcome.conflicts.value_or(0)));
+  } else if (outcome.lower_bound) {
+    print_line("lower bound", fmt::format("{:.8g}", *outcome.lower_bound));
+  }
+  if (outcome.planning_ms) print_line("planning", fmt::format("{:.3f} ms", *outcome.planning_ms));
+  std::vector<std::string> expanded;
+  if (outcome.high_level_expanded) expanded.push_back(fmt::format("{:.0f} high level", *outcome.high_level_expanded));
+  if (outcome.low_level_expanded) expanded.push_back(fmt::format("{:.0f} low level", *outcome.low_level_expanded));
+  if (!expanded.empty()) print_line("expanded", fmt::format("{}", fmt::join(expanded, ", ")));
+  print_line("memory", fmt::format("{:.1f} MB", outcome.peak_rss_mb));
+}
+
+}  // namespace
+
+int plan_command(const PlanOptions& options) {
+  check_what_is_planned(options);
+  check_paths_file(options.paths);
+  Experiment experiment = options.map.empty() ? adhoc_experiment(options.scenario) : Experiment();
+  experiment.seed = options.seed;
+  experiment.limits.planner_time_s = options.time_limit_s;
+  if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
+    throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));
+  add_planner(experiment, options.planner, options.plugins, options.settings);
+  for (const std::string& text : experiment.warnings) warn(text);
+  const auto task = options.map.empty() ? scenario_task(experiment) : task_on_map(options, experiment);
+
+  const PluginInfo& info = experiment.global_planners[0].info;
+  const PlannerRun run = run_planner(experiment, *task);
+  const Outcome outcome = judge(run, *task, info);
+  for (const std::string& text : outcome.warnings) warn(info.id + ": " + text);
+  if (is_fault(outcome)) fmt::print(stderr, "{}\n", outcome.detail);
+  if (!options.paths.empty()) {
+    // what an earlier call has left there is not this one's plan
+    if (outcome.solved)
+      write_file_atomically(options.paths, paths_csv(task->problem.c, run.answer->paths));
+    else if (std::error_code ignored; fs::is_regular_file(options.paths, ignored))
+      fs::remove(options.paths, ignored);
+  }
+
+  if (options.json)
+    print_json(outcome, task->problem.c.robot_count);
+  else if (!is_fault(outcome))
+    print_text(outcome, fmt::format("{} · {} · {}", info.id,
+                                    options.map.empty() ? experiment.scenarios[0].label : options.map.stem().string(),
+                                    plural(task->problem.c.robot_count, "robot")));
+  return is_fault(outcome) ? exit_status::faults : exit_status::done;
+}
+
+}  // namespace dmrp::host

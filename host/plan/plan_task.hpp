@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// plan_task.hpp: all that one call of plan() is given, and what its answer is checked against.
+#pragma once
+
+#include <memory>
+
+#include "core/world_view.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/experiment/movingai.hpp"
+#include "host/trial/planning.hpp"
+#include "host/trial/variant_world.hpp"
+
+namespace dmrp::host {
+
+struct PlanTask {
+  std::shared_ptr<const core::StaticGeometry> geometry;
+  std::unique_ptr<const VariantWorld> variant;       // of a scenario
+  std::unique_ptr<const core::WorldView> cell_view;  // of a map of cells
+  StagedProblem problem;
+
+  const dmrp_world& world() const { return variant ? variant->view.world() : cell_view->world(); }
+
+  PlanVerdict validate(const PlannedPaths& paths, std::uint32_t connectivity) const {
+    return validate_plan(problem.c, paths, connectivity,
+                         [this](auto from, auto to, double r) { return geometry->sweep_is_free(from, to, r); });
+  }
+};
+
+// The first planning problem of a trial in the experiment's only scenario, which must outlive the task. The robots must
+// stand on cells of their own, as check_world() has it.
+std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment);
+
+// Points on the cells of a map: 1 m cells, robots of radius 0, every free cell open. Of the simulation's settings the
+// step duration counts.
+std::unique_ptr<PlanTask> cell_task(const core::CellMap& map, const std::vector<MovingAiTask>& tasks,
+                                    const Experiment& experiment);
+
+}  // namespace dmrp::host

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// fewest_turns.hpp: a bound on the turns that are left.
+#pragma once
+
+#include "grid_graph.hpp"
+
+namespace dmrp::planners {
+
+// Fewest turns from one location to another, walls and others aside, for a robot that came in direction `heading` (or
+// none).
+inline std::int32_t fewest_turns(const GridGraph& graph, Location from, Location to, Direction heading) {
+  const std::int32_t east = to % graph.width() - from % graph.width();
+  const std::int32_t north = to / graph.width() - from / graph.width();
+  if (heading == GridGraph::no_direction) return east != 0 && north != 0 ? 1 : 0;
+  const bool runs_north = heading % 2 == 1;
+  const std::int32_t along = runs_north ? north : east;
+  const std::int32_t across = runs_north ? east : north;
+  const bool is_behind = heading < 2 ? along < 0 : along > 0;
+  return (is_behind ? 1 : 0) + (across != 0 ? 1 : 0);
+}
+
+}  // namespace dmrp::planners

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// safe_intervals.hpp: which robot is where and when, by location: sorted lists of occupations with safe intervals
+// between them. Robots are added and taken out one by one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "problem.hpp"
+
+namespace dmrp::planners {
+
+// `agent` is at a location from one step to another, both included.
+struct Occupation {
+  std::int32_t from;
+  std::int32_t to;
+  std::int32_t agent;
+};
+
+// The safe intervals of a location are the gaps between its occupations. Gap i lies before occupation i and may be
+// empty; the last gap has no occupation after it.
+class SafeIntervals {
+ public:
+  explicit SafeIntervals(const GridGraph& graph) : lists_(static_cast<std::size_t>(graph.location_count())) {}
+
+  // The path must have no vertex conflict with those added before.
+  void add(std::int32_t agent, PathView path);
+  // A path that was added.
+  void remove(PathView path);
+
+  // In the order of time, disjoint.
+  std::span<const Occupation> occupations(Location location) const {
+    const List& list = lists_[static_cast<std::size_t>(location)];
+    return {pool_.data() + list.begin, list.count};
+  }
+
+  // The first occupation that ends at `t` or later; the number of occupations if there is none. So `t` lies in that
+  // occupation, or in the gap before it.
+  static std::size_t index_at(std::span<const Occupation> occupations, std::int32_t t) {
+    // without branches that depend on the data, since these cannot be foreseen
+    const Occupation* first = occupations.data();
+    std::size_t count = occupations.size();
+    while (count > 1) {
+      const std::size_t half = count / 2;
+      first += first[half - 1].to < t ? half : 0;
+      count -= half;
+    }
+    const auto index = static_cast<std::size_t>(first - occupations.data());
+    return count == 1 && first->to < t ? index + 1 : index;
+  }
+
+  // Whether a robot other than `agent` stands in the way of a move (or wait) that arrives at time t > 0.
+  bool is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const;
+
+  // The robots that a path has conflicts with, each once, in the order of time.
+  void list_conflicts(PathView path, std::vector<std::int32_t>& agents) const;
+
+ private:
+  // A part of the pool: 2^(size_class + 2) occupations, of which the first `count` are in use.
+  struct List {
+    std::uint32_t begin = 0;
+    std::uint32_t count = 0;
+    std::int32_t size_class = -1;
+  };
+  static std::size_t capacity(std::int32_t size_class) { return size_class < 0 ? 0 : std::size_t{4} << size_class; }
+
+  // The robot at `location` at time t, or -1.
+  std::int32_t agent_at(Location location, std::int32_t t) const;
+  void insert(Location location, const Occupation& occupation);
+  void erase(Location location, std::int32_t from);
+  void grow(List& list);
+
+  std::vector<List> lists_;
+  std::vector<Occupation> pool_;
+  std::vector<std::vector<std::uint32_t>> unused_;  // parts of the pool to be used again, by size class
+};
+
+}  // namespace dmrp::planners

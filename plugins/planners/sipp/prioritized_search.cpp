@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "prioritized_search.hpp"
+
+#include <algorithm>
+#include <dmrp/toolkit/random.hpp>
+#include <numeric>
+
+#include "../mapf/solvability.hpp"
+
+namespace dmrp::planners {
+
+namespace {
+
+// An attempt ends when each robot was displaced so often on average.
+constexpr std::int64_t displacements_a_robot = 10;
+
+// After a restart every other robot stays where it starts for fewer steps than this. Where two have to yield to each
+// other no order helps, but a delay often does.
+constexpr std::uint64_t delay_limit = 8;
+
+// The most joint positions that a proof that there is no plan visits.
+constexpr std::size_t joint_state_limit = 300'000;
+
+}  // namespace
+
+PrioritizedSearch::PrioritizedSearch(const Problem& problem, const std::vector<TourTable>& tables, std::uint64_t seed,
+                                     StopSignal& stop)
+    : problem_(problem),
+      tables_(tables),
+      seed_(seed),
+      stop_(stop),
+      planned_(problem.graph),
+      low_level_(problem.graph, planned_),
+      paths_(problem.agents.size()) {}
+
+PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
+  for (std::int64_t restart = 0; restart <= restart_limit; ++restart) {
+    const Attempt result = attempt(restart);
+    if (result == Attempt::succeeded) return Result::solved;
+    if (result == Attempt::stopped) return Result::stopped;
+    if (restart > 0) continue;
+    const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+    if (found) return obstruction_ = *found, Result::unsolvable;
+  }
+  return Result::restart_limit;
+}
+
+// Plans all robots in the first order, or in one drawn at random.
+PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
+  begin(restart);
+  const std::int64_t limit =
+      statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
+  while (!order_.empty()) {
+    const std::int32_t agent = order_.front();
+    order_.pop_front();
+    const SippSearch::Result result = plan(agent);
+    if (result == SippSearch::Result::stopped) return Attempt::stopped;
+    if (result == SippSearch::Result::none || statistics_.displaced > limit) return Attempt::failed;
+  }
+  return restart == 0 ? Attempt::succeeded : tighten();
+}
+
+// What delays have cost: each robot anew among all others, without, until none gains.
+PrioritizedSearch::Attempt PrioritizedSearch::tighten() {
+  std::size_t unchanged = 0;
+  for (std::size_t who = 0; unchanged < paths_.size(); who = (who + 1) % paths_.size()) {
+    planned_.remove(paths_[who]);
+    const auto result = low_level_.search(problem_.agents[who], tables_[who], {}, 0, stop_, path_);
+    const bool gains = result == SippSearch::Result::free && path_.size() < paths_[who].size();
+    if (gains) paths_[who] = path_;
+    planned_.add(static_cast<std::int32_t>(who), paths_[who]);
+    if (result == SippSearch::Result::stopped) return Attempt::stopped;
+    unchanged = gains ? 0 : unchanged + 1;
+  }
+  return Attempt::succeeded;
+}
+
+void PrioritizedSearch::begin(std::int64_t restart) {
+  statistics_.restarts = restart;
+  for (std::size_t i = 0; i < paths_.size(); ++i) take_back(static_cast<std::int32_t>(i));
+  prices_.assign(paths_.size(), 1);
+  delays_.assign(paths_.size(), 0);
+  order_.resize(paths_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+
+  toolkit::Stream random(seed_, "sipp.order", restart);
+  random.shuffle(order_);
+  if (restart > 0) {
+    for (std::int32_t& delay : delays_)
+      if (random.below(2) == 0) delay = static_cast<std::int32_t>(random.below(delay_limit));
+    return;
+  }
+  const auto distance = [this](std::int32_t agent) {
+    const auto who = static_cast<std::size_t>(agent);
+    return tables_[who].distance(0, problem_.agents[who].start);
+  };
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
+}
+
+SippSearch::Result PrioritizedSearch::plan(std::int32_t agent) {
+  const auto who = static_cast<std::size_t>(agent);
+  const auto result = low_level_.search(problem_.agents[who], tables_[who], prices_, delays_[who], stop_, path_);
+  if (result != SippSearch::Result::free && result != SippSearch::Result::displacing) return result;
+  if (result == SippSearch::Result::displacing) displace_those_in_the_way();
+  paths_[who] = path_;
+  planned_.add(agent, paths_[who]);
+  return result;
+}
+
+void PrioritizedSearch::displace_those_in_the_way() {
+  planned_.list_conflicts(path_, in_the_way_);
+  for (const std::int32_t other : in_the_way_) {
+    take_back(other);
+    order_.push_back(other);
+    ++prices_[static_cast<std::size_t>(other)];
+  }
+  statistics_.displaced += static_cast<std::int64_t>(in_the_way_.size());
+}
+
+void PrioritizedSearch::take_back(std::int32_t agent) {
+  std::vector<Location>& path = paths_[static_cast<std::size_t>(agent)];
+  planned_.remove(path);
+  path.clear();
+}
+
+PrioritizedStatistics PrioritizedSearch::statistics() const {
+  PrioritizedStatistics statistics = statistics_;
+  statistics.low_level_expanded = low_level_.expanded();
+  return statistics;
+}
+
+}  // namespace dmrp::planners

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// How much the planners solve, and how fast: instances of the MovingAI benchmark and the shipped scenarios, each
+// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to standard
+// error, and a list of {"name", "value", "unit"} to standard output.
+//
+// median: of planning_ms over all instances, where one that was not solved counts as the time limit; mean: over the
+// solved ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_runs.hpp"
+#include "planner_sets.hpp"
+
+namespace {
+
+using namespace dmrp::bench;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> planners;
+  std::vector<std::string> on;  // MAP:N[,N]...
+  std::vector<std::string> scenarios;
+  std::vector<std::string> libraries;
+  int instances = 0;  // 0: as the set says
+  int times = 20;
+  double time_limit_s = 10.0;
+  bool quick = false;
+  bool json = false;
+  fs::path host;
+  fs::path data;
+};
+
+// What became of a set.
+struct Row {
+  PlannerSet set;
+  int robots = 0;
+  int solved = 0;
+  double median_ms = 0.0;
+  std::optional<double> mean_ms;
+  std::optional<double> nodes;
+  double peak_rss_mb = 0.0;
+  std::vector<std::string> troubles;
+};
+
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(fs::temp_directory_path() / ("bench_planners_" + std::to_string(getpid()))) {
+    fs::create_directory(path_);
+  }
+  ~ScratchFolder() { fs::remove_all(path_); }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+// The folder of a map, in the layout of the test data; nothing if it is not there.
+std::optional<Instance> instance_of(const fs::path& data, const PlannerSet& set, int number) {
+  if (!set.scenario.empty()) return Instance{{}, {}, 0, set.scenario};
+  const std::string tasks = fmt::format("{}-random-{}.scen", set.map, number);
+  for (const auto& [maps, scens] :
+       {std::pair{data / "movingai/maps", data / "movingai/scens"}, std::pair{data / "generated", data / "generated"}})
+    if (fs::exists(maps / (set.map + ".map")) && fs::exists(scens / tasks))
+      return Instance{maps / (set.map + ".map"), scens / tasks, set.agents, ""};
+  return std::nullopt;
+}
+
+std::string place_of(const Row& row) {
+  return row.set.scenario.empty() ? row.set.map : row.set.scenario;
+}
+
+Row measure(const Bench& bench, const PlannerSet& set, const KnownPlanner& known, const fs::path& data) {
+  Row row{set, set.agents, 0, 0.0, {}, {}, 0.0, {}};
+  std::vector<double> all_ms, solved_ms, nodes;
+  for (int number = 1; number <= set.instances; ++number) {
+    const auto instance = instance_of(data, set, number);
+    if (!instance) throw std::runtime_error(fmt::format("{}-random-{}.scen is missing", set.map, number));
+    const PlannerRunResult result = run(bench, set.planner, known, *instance);
+    if (!result.trouble.empty()) row.troubles.push_back(fmt::format("instance {}: {}", number, result.trouble));
+    row.peak_rss_mb = std::max(row.peak_rss_mb, result.peak_rss_mb);
+    if (result.robots > 0) row.robots = result.robots;
+    all_ms.push_back(result.solved ? result.planning_ms : 1e3 * bench.time_limit_s);
+    if (!result.solved) continue;
+    solved_ms.push_back(result.planning_ms);
+    if (result.high_level_expanded) nodes.push_back(*result.high_level_expanded);
+  }
+  row.solved = static_cast<int>(solved_ms.size());
+  row.median_ms = median(all_ms).value_or(0.0);
+  double sum = 0.0;
+  for (const double ms : solved_ms) sum += ms;
+  if (!solved_ms.empty()) row.mean_ms = sum / static_cast<double>(solved_ms.size());
+  row.nodes = median(nodes);
+  return row;
+}
+
+std::string cell(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
+}
+
+void print_heading(std::FILE* out) {
+  fmt::print(out, "{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9}\n", "planner", "map", "agents", "solved",
+             "median ms", "mean ms", "nodes", "memory MB");
+}
+
+void print(std::FILE* out, const Row& row) {
+  fmt::print(out, "{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9.1f}{}\n", short_name(row.set.planner),
+             place_of(row), row.robots, fmt::format("{}/{}", row.solved, row.set.instances), cell(row.median_ms, 3),
+             cell(row.mean_ms, 3), cell(row.nodes, 0), row.peak_rss_mb,
+             row.solved < row.set.wanted ? fmt::format("  wanted: {}", row.set.wanted) : "");
+  for (const std::string& trouble : row.troubles) fmt::print(out, "    {}\n", trouble);
+  std::fflush(out);
+}
+
+// The id, and the settings where another row has the same planner on the same agents.
+std::string name_of(const Row& row, const std::vector<Row>& rows) {
+  const auto twins = std::count_if(rows.begin(), rows.end(), [&](const Row& other) {
+    return other.set.planner.id == row.set.planner.id && place_of(other) == place_of(row) && other.robots == row.robots;
+  });
+  std::string id = row.set.planner.id;
+  if (twins > 1)
+    for (const std::string& setting : row.set.planner.settings) id += " " + setting;
+  return fmt::format("planner/{}/{}/{}/", id, place_of(row), row.robots);
+}
+
+void print_json(const std::vector<Row>& rows) {
+  std::vector<std::string> lines;
+  for (const Row& row : rows) {
+    const std::string name = name_of(row, rows);
+    const auto add = [&](const char* what, const nlohmann::ordered_json& value, const char* unit) {
+      lines.push_back(nlohmann::ordered_json{{"name", name + what}, {"value", value}, {"unit", unit}}.dump());
+    };
+    add("solved", row.solved, "1");
+    add("median_ms", row.median_ms, "ms");
+    if (row.mean_ms) add("mean_ms", *row.mean_ms, "ms");
+    if (row.nodes) add("high_level_expanded", *row.nodes, "1");
+    add("peak_rss_mb", row.peak_rss_mb, "MB");
+  }
+  fmt::print("[\n  {}\n]\n", fmt::join(lines, ",\n  "));
+}
+
+std::vector<std::string> scenarios_beside(const fs::path& host) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(host.parent_path().parent_path() / "share/dmrp/scenarios", ignored))
+    if (fs::exists(entry.path() / "scenario.toml")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// "MAP:N,N" as sets of one planner.
+void add_sets(const PlannerChoice& planner, const std::string& on, std::vector<PlannerSet>& sets) {
+  const std::size_t colon = on.rfind(':');
+  if (colon == std::string::npos) throw std::runtime_error("--on " + on + ": needs MAP:N[,N...]");
+  std::istringstream numbers(on.substr(colon + 1));
+  for (std::string number; std::getline(numbers, number, ',');) {
+    const int agents = std::atoi(number.c_str());
+    if (agents < 1) throw std::runtime_error("--on " + on + ": needs MAP:N[,N...]");
+    sets.push_back({planner, on.substr(0, colon), agents, 5, -1, ""});
+  }
+}
+
+// What is asked for: the chosen planners on the chosen places, or the standing list, narrowed to the chosen planners.
+std::vector<PlannerSet> sets_of(const Options& options, const std::vector<KnownPlanner>& known) {
+  std::vector<PlannerChoice> chosen;
+  for (const std::string& text : options.planners) chosen.push_back(planner_choice(text));
+  std::vector<PlannerSet> sets;
+  if (!options.on.empty() || !options.scenarios.empty()) {
+    if (chosen.empty())
+      for (const KnownPlanner& planner : known) chosen.push_back({planner.id, {}});
+    for (const PlannerChoice& planner : chosen) {
+      for (const std::string& on : options.on) add_sets(planner, on, sets);
+      for (const std::string& scenario : options.scenarios)
+        sets.push_back({planner, "", 0, options.times, options.times, scenario});
+    }
+  } else {
+    sets = options.quick ? quick_sets() : acceptance_sets();
+    const auto more = scenario_sets(known, scenarios_beside(options.host), options.quick ? 3 : options.times);
+    sets.insert(sets.end(), more.begin(), more.end());
+    std::erase_if(sets, [&](const PlannerSet& set) {
+      return !chosen.empty() && std::none_of(chosen.begin(), chosen.end(), [&](const PlannerChoice& planner) {
+        return planner.id == set.planner.id && (planner.settings.empty() || planner == set.planner);
+      });
+    });
+  }
+  for (PlannerSet& set : sets)
+    if (options.instances > 0 && set.scenario.empty() && set.instances != options.instances) {
+      set.instances = options.instances;
+      set.wanted = -1;
+    }
+  return sets;
+}
+
+int run_all(const Options& options) {
+  const ScratchFolder scratch;
+  const Bench bench{options.host, scratch.path(), options.libraries, options.time_limit_s};
+  const std::vector<KnownPlanner> known = known_planners(bench);
+  std::vector<Row> rows;
+  bool sound = true;
+  std::FILE* const table = options.json ? stderr : stdout;
+  print_heading(table);
+  for (const PlannerSet& set : sets_of(options, known)) {
+    const auto planner = std::find_if(known.begin(), known.end(),
+                                      [&](const KnownPlanner& candidate) { return candidate.id == set.planner.id; });
+    if (planner == known.end() || !instance_of(options.data, set, set.instances)) {
+      fmt::print(stderr, "left out: {} on {}: {}\n", short_name(set.planner), set.map,
+                 planner == known.end() ? "there is no such planner" : "not in the test data");
+      continue;
+    }
+    rows.push_back(measure(bench, set, *planner, options.data));
+    sound = sound && rows.back().troubles.empty();
+    print(table, rows.back());
+  }
+  if (options.json) print_json(rows);
+  return sound ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  options.host = fs::read_symlink("/proc/self/exe").parent_path() / "dmrp-host";
+  const char* const data = std::getenv("DMRP_TEST_DATA");
+  options.data = data ? data : DMRP_TEST_DATA;
+  CLI::App app("Measures global planners: without options on the project's standing list and the shipped scenarios.");
+  app.add_option("--planner", options.planners, "only this one, as \"eecbs suboptimality=1.2\"")
+      ->allow_extra_args(false);
+  app.add_option("--on", options.on, "on these agents of a map in place of the standing list")
+      ->type_name("MAP:N[,N...]")
+      ->allow_extra_args(false);
+  app.add_option("--scenario", options.scenarios, "on a scenario in place of the standing list")
+      ->allow_extra_args(false);
+  app.add_option("--plugin", options.libraries, "another plugin library")->type_name("LIB.so")->allow_extra_args(false);
+  app.add_option("--instances", options.instances, "random-1 to random-K of every map")->check(CLI::Range(1, 25));
+  app.add_option("--times", options.times, "how often a scenario is planned")->check(CLI::Range(1, 1000));
+  app.add_option("--time-limit", options.time_limit_s, "seconds for each plan")->check(CLI::Range(1e-3, 1e6));
+  app.add_flag("--quick", options.quick, "some of the standing list");
+  app.add_flag("--json", options.json, "a list of name, value, unit");
+  app.add_option("--host", options.host, "dmrp-host (default: the one beside this program)");
+  app.add_option("--data", options.data, "folder of the maps (default: DMRP_TEST_DATA)");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run_all(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_planners: {}\n", error.what());
+    return 2;
+  }
+}

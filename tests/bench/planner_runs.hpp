@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// planner_runs.hpp: runs planners by `dmrp-host plan`, one process a run, and judges the paths that they write.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dmrp::bench {
+
+// A planner with the parameters that differ from its defaults.
+struct PlannerChoice {
+  std::string id;
+  std::vector<std::string> settings;  // key=value
+
+  bool operator==(const PlannerChoice&) const = default;
+};
+
+// "eecbs suboptimality=1.2" for dmrp.planner.eecbs; ids of others are written in full.
+PlannerChoice planner_choice(const std::string& text);
+
+// The same for people: "eecbs 1.2".
+std::string short_name(const PlannerChoice& planner);
+
+// One instance: either tasks on a map, or a shipped scenario.
+struct Instance {
+  std::filesystem::path map;
+  std::filesystem::path tasks;
+  int agents = 0;
+  std::string scenario;  // empty: the map's
+};
+
+struct PlannerRunResult {
+  bool solved = false;
+  double planning_ms = 0.0;
+  std::optional<double> high_level_expanded;
+  double peak_rss_mb = 0.0;
+  int robots = 0;
+  std::string trouble;  // a plan that is not what it is said to be, a fault, a mistake; empty otherwise
+};
+
+struct Bench {
+  std::filesystem::path host;     // dmrp-host
+  std::filesystem::path scratch;  // a folder of its own
+  std::vector<std::string> libraries;
+  double time_limit_s = 10.0;
+};
+
+// What the libraries hold: ids and connectivity of the planners.
+struct KnownPlanner {
+  std::string id;
+  int connectivity = 4;
+  bool uncoordinated = false;
+};
+std::vector<KnownPlanner> known_planners(const Bench& bench);
+
+PlannerRunResult run(const Bench& bench, const PlannerChoice& planner, const KnownPlanner& known,
+                     const Instance& instance);
+
+}  // namespace dmrp::bench
