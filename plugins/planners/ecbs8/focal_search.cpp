@@ -30,7 +30,8 @@ FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances&
   if (constraints.allows(agent.start, agent.start, Graph::no_direction, 0))
     generate(task, {0, agent.start, -1, 0, 0, 0, -1, 0, Graph::no_direction, false, Status::open}, true);
 
-  while (!stop.poll()) {
+  // an expansion is more than one unit of work
+  while (!stop.poll() && !stop.poll()) {
     while (!open_.empty() && states_[static_cast<std::size_t>(open_.front().state)].status != Status::open) {
       std::pop_heap(open_.begin(), open_.end(), IsWorse{});
       open_.pop_back();
