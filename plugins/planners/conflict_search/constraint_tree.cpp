@@ -7,6 +7,7 @@ namespace dmrp::planners {
 
 namespace {
 
+constexpr std::size_t first_block_size = std::size_t{1} << 12;
 constexpr std::size_t block_size = std::size_t{1} << 16;
 
 template <class Element, class Elements>
@@ -27,7 +28,7 @@ void ConstraintTree::reset(std::size_t agent_count, std::vector<std::int32_t> me
   splits_.clear();
   if (blocks_.size() > 1) blocks_.resize(1);
   block_used_ = 0;
-  block_size_ = blocks_.empty() ? 0 : block_size;
+  block_size_ = 0;
   met_.assign(agent_count, 0);
   walk_ = 0;
 }
@@ -50,10 +51,14 @@ std::uint32_t ConstraintTree::add_split(Split split) {
 
 PathView ConstraintTree::store(PathView path) {
   if (block_used_ + path.size() > block_size_) {
-    // The first block is kept from one search to the next, so it has the standard size.
-    if (blocks_.empty() && path.size() > block_size) blocks_.push_back(std::make_unique<Location[]>(block_size));
-    block_size_ = std::max(path.size(), block_size);
-    blocks_.push_back(std::make_unique<Location[]>(block_size_));
+    // The first block is kept from one search to the next, so its size is always the same.
+    if (blocks_.empty()) blocks_.push_back(std::make_unique_for_overwrite<Location[]>(first_block_size));
+    if (blocks_.size() == 1 && block_used_ == 0 && path.size() <= first_block_size) {
+      block_size_ = first_block_size;
+    } else {
+      block_size_ = std::max(path.size(), block_size);
+      blocks_.push_back(std::make_unique_for_overwrite<Location[]>(block_size_));
+    }
     block_used_ = 0;
   }
   Location* const begin = blocks_.back().get() + block_used_;

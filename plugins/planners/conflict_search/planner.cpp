@@ -24,7 +24,7 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
 
   const ConflictSearchOptions chosen = options();
   MddCache mdds(problem, *tables);
-  const Corridors corridors(problem.graph);
+  CorridorReasoning corridors(problem, *tables);
   ConflictSearch search(problem, *tables, corridors, mdds, chosen, stop);
   std::vector<std::int32_t> everybody(problem.agents.size());
   std::iota(everybody.begin(), everybody.end(), 0);

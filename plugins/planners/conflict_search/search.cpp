@@ -30,8 +30,9 @@ bool is_vertex(const Conflict& conflict) {
 
 }  // namespace
 
-ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
-                               MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop)
+ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables,
+                               CorridorReasoning& corridors, MddCache& mdds, const ConflictSearchOptions& options,
+                               StopSignal& stop)
     : problem_(problem),
       tables_(tables),
       corridors_(corridors),
@@ -44,9 +45,7 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
       node_mdds_(problem.agents.size(), nullptr),
-      constraint_table_(problem.graph),
-      corridor_tables_{ConstraintTable(problem.graph), ConstraintTable(problem.graph)},
-      earliest_arrival_(problem.graph) {}
+      constraint_table_(problem.graph) {}
 
 ConflictSearch::~ConflictSearch() = default;
 
@@ -294,19 +293,16 @@ void ConflictSearch::classify(NodeConflict& conflict) {
 }
 
 std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict& conflict) {
-  const auto passage = find_passage(corridors_, conflict, path_of(conflict.a).locations, path_of(conflict.b).locations);
+  const PathView path_a = path_of(conflict.a).locations;
+  const PathView path_b = path_of(conflict.b).locations;
+  const auto passage = corridors_.find_passage(conflict, path_a, path_b);
   if (!passage) return std::nullopt;
-  const std::array<std::int32_t, 2> agents = {conflict.a, conflict.b};
-  for (std::size_t i = 0; i < 2; ++i) {
-    tree_.gather_constraints(entered_, agents[i], constraints_);
-    corridor_tables_[i].fill(problem_.agents[static_cast<std::size_t>(agents[i])], constraints_);
-  }
-  const auto known_of = [&](std::size_t i) {
-    const auto who = static_cast<std::size_t>(agents[i]);
-    return CorridorAgent{problem_.agents[who], tables_[who], corridor_tables_[i], mdd_of(agents[i]),
-                         path_of(agents[i]).locations};
-  };
-  return find_corridor(problem_.graph, *passage, conflict, known_of(0), known_of(1), earliest_arrival_);
+  const Mdd& mdd_a = mdd_of(conflict.a);
+  const Mdd& mdd_b = mdd_of(conflict.b);
+  tree_.gather_constraints(entered_, conflict.a, constraints_);
+  tree_.gather_constraints(entered_, conflict.b, other_constraints_);
+  return corridors_.find_split(*passage, conflict, {conflict.a, path_a, constraints_, mdd_a},
+                               {conflict.b, path_b, other_constraints_, mdd_b});
 }
 
 // Whether all of the agent's paths of least cost arrive there (from there) at that time.

@@ -11,12 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "../mapf/corridor.hpp"
 #include "../mapf/mdd.hpp"
 #include "../mapf/rectangle.hpp"
 #include "../mapf/safe_interval_search.hpp"
 #include "../mapf/space_time_search.hpp"
 #include "constraint_tree.hpp"
+#include "corridor_reasoning.hpp"
 #include "node_queue.hpp"
 #include "vertex_cover.hpp"
 
@@ -52,7 +52,7 @@ class ConflictSearch {
   enum class Result { solved, unsolvable, stopped, node_limit };
 
   // What is used is kept: all arguments must live as long as the search.
-  ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, const Corridors& corridors,
+  ConflictSearch(const Problem& problem, const std::vector<TourTable>& tables, CorridorReasoning& corridors,
                  MddCache& mdds, const ConflictSearchOptions& options, StopSignal& stop);
   ~ConflictSearch();
 
@@ -109,7 +109,7 @@ class ConflictSearch {
 
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
-  const Corridors& corridors_;
+  CorridorReasoning& corridors_;
   MddCache& mdds_;
   ConflictSearchOptions options_;
   StopSignal& stop_;
@@ -150,9 +150,8 @@ class ConflictSearch {
   std::unordered_map<PairKey, std::int32_t, PairKeyHash> pair_weights_;  // never iterated over
 
   ConstraintTable constraint_table_;
-  std::array<ConstraintTable, 2> corridor_tables_;
-  EarliestArrival earliest_arrival_;
   std::vector<Constraint> constraints_;
+  std::vector<Constraint> other_constraints_;
   std::array<Child, 2> children_;
 };
 

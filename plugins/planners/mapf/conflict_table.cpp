@@ -32,7 +32,7 @@ void ConflictTable::put_in(std::int32_t agent) {
   for (std::int32_t t = 0; t <= cost_of(path); ++t) {
     const auto step = static_cast<std::size_t>(t);
     Link& first = first_[cell(path[step], t)];
-    next[step] = first;
+    next[step] = is_passed(path[step], t) ? first : Link{0};
     first = static_cast<Link>(agent + 1);
     passed_[word(path[step], t)] |= std::uint64_t{1} << (t % 64);
   }
@@ -59,7 +59,7 @@ void ConflictTable::take_out(std::int32_t agent) {
 void ConflictTable::grow(std::int32_t horizon) {
   horizon_ = std::max(2 * horizon_, (horizon + 63) / 64 * 64);
   passed_.assign(location_count_ * static_cast<std::size_t>(horizon_) / 64, 0);
-  first_.assign(location_count_ * static_cast<std::size_t>(horizon_), 0);
+  first_ = std::make_unique_for_overwrite<Link[]>(location_count_ * static_cast<std::size_t>(horizon_));
   for (std::size_t agent = 0; agent < paths_.size(); ++agent) put_in(static_cast<std::int32_t>(agent));
 }
 

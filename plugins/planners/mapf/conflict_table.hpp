@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "constraint.hpp"
@@ -90,7 +91,7 @@ class ConflictTable {
   std::size_t location_count_;
   std::int32_t horizon_ = 0;                // times told apart, a multiple of 64
   std::vector<std::uint64_t> passed_;       // by location and time, a bit each: whether somebody is there on its way
-  std::vector<Link> first_;                 // likewise: the first of them
+  std::unique_ptr<Link[]> first_;           // likewise: the first of them; set only where the bit is
   std::vector<std::vector<Link>> next_;     // by agent and time: the next one in the same list
   std::vector<Link> resting_;               // by location: who ends there ...
   std::vector<std::int32_t> resting_from_;  // ... and when; or forever

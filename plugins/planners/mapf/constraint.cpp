@@ -37,10 +37,6 @@ bool satisfies(PathView path, const Constraint& constraint) {
   return false;
 }
 
-ConstraintTable::ConstraintTable(const GridGraph& graph)
-    : epoch_of_(static_cast<std::size_t>(graph.location_count()), 0),
-      first_(static_cast<std::size_t>(graph.location_count()), -1) {}
-
 void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> constraints) {
   ++epoch_;
   entries_.clear();
@@ -78,6 +74,8 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
       std::unique(landmarks_.begin(), landmarks_.end(),
                   [](const Landmark& a, const Landmark& b) { return a.t == b.t && a.location == b.location; }),
       landmarks_.end());
+  for (std::size_t i = 1; i < landmarks_.size(); ++i)
+    if (landmarks_[i].t == landmarks_[i - 1].t) finish_from_ = forever;  // nobody is in two places
 }
 
 bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const {
@@ -106,6 +104,10 @@ bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& fi
 
 void ConstraintTable::add_entry(Location location, const Entry& entry) {
   const auto at = static_cast<std::size_t>(location);
+  if (epoch_of_.empty()) {
+    epoch_of_.resize(location_count_, 0);
+    first_.resize(location_count_, -1);
+  }
   entries_.push_back(entry);
   entries_.back().next = epoch_of_[at] == epoch_ ? first_[at] : -1;
   epoch_of_[at] = epoch_;

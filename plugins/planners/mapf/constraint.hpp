@@ -70,7 +70,8 @@ class ConstraintTable {
     Location location;
   };
 
-  explicit ConstraintTable(const GridGraph& graph);
+  explicit ConstraintTable(const GridGraph& graph)
+      : location_count_(static_cast<std::size_t>(graph.location_count())) {}
 
   // `agent` is whom the constraints are of; they are its own and those for_another().
   void fill(const Agent& agent, std::span<const Constraint> constraints);
@@ -87,7 +88,7 @@ class ConstraintTable {
   }
 
   // Whether some arrival at `to` is not allowed.
-  bool constrains(Location to) const { return epoch_of_[static_cast<std::size_t>(to)] == epoch_; }
+  bool constrains(Location to) const { return !entries_.empty() && epoch_of_[static_cast<std::size_t>(to)] == epoch_; }
 
   // Whether the agent may be at `location` at time t, and over which times from `first` to before `end` around t that
   // stays the same; narrows [first, end) to them. Landmarks elsewhere forbid a place, too.
@@ -112,7 +113,7 @@ class ConstraintTable {
   // ... to here (forever: any time).
   std::int32_t finish_until() const { return finish_until_; }
 
-  // In the order of time; no two at one time unless nothing satisfies them.
+  // In the order of time; no two at one time unless finish_from() is forever.
   std::span<const Landmark> landmarks() const { return landmarks_; }
 
  private:
@@ -124,7 +125,9 @@ class ConstraintTable {
   };
   void add_entry(Location location, const Entry& entry);
 
-  std::vector<std::uint32_t> epoch_of_;  // by location: first_ is of this filling if it equals epoch_
+  std::size_t location_count_;
+  std::vector<std::uint32_t> epoch_of_;  // by location, from the first entry on: first_ is of this filling if it
+                                         // equals epoch_
   std::vector<std::int32_t> first_;
   std::vector<Entry> entries_;
   std::vector<Landmark> landmarks_;

@@ -200,8 +200,14 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
   } else if (rest != forever) {
     interval.end = std::min(interval.end, rest + 1);
   }
+  const Agent& agent = request_->agent;
+  // Where a tour has the same goal twice, waiting there is a step of the next leg: not like arriving later.
+  if (leg < agent.last_leg() && location == agent.goal(leg) && location == agent.goal(leg + 1)) {
+    interval.first = t;
+    interval.end = t + 1;
+  }
   // Where the path may end, those times are not like the ones before.
-  if (location == request_->agent.last_goal() && leg == request_->agent.last_leg()) {
+  if (location == agent.last_goal() && leg == agent.last_leg()) {
     const std::int32_t finish_from = constraints.finish_from();
     if (t < finish_from)
       interval.end = std::min(interval.end, finish_from);

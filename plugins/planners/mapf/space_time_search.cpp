@@ -39,6 +39,7 @@ void SpaceTimeSearch::reset(const LowLevelRequest& request) {
       std::max(request.lower_bound, least_cost_by_way_of(request, 0, request.agent.start, 0, false));
   focal_.reset(least_f, request.suboptimality);
   nodes_.clear();
+  if (slots_.empty()) slots_.resize(1024);
   ++epoch_;
 }
 

@@ -12,7 +12,8 @@ class SpaceTimeSearch {
  public:
   explicit SpaceTimeSearch(const GridGraph& graph) : graph_(graph) {}
 
-  // Later events: after the last constraint and the last move of the others time is not told apart.
+  // From the last constraint and the last move of the others on, time is not told apart: of two ways to be somewhere
+  // then the earlier one is kept, even if it has more conflicts.
   LowLevelResult search(const LowLevelRequest& request, StopSignal& stop, LowLevelPath& found);
 
   std::int64_t expanded() const { return expanded_; }
@@ -57,7 +58,7 @@ class SpaceTimeSearch {
   std::int32_t horizon_ = 0;  // from here on time is not told apart
   FocalList focal_;
   std::vector<Node> nodes_;
-  std::vector<Slot> slots_ = std::vector<Slot>(1024);  // open addressing by key
+  std::vector<Slot> slots_;  // open addressing by key
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;
 };

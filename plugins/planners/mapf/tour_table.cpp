@@ -20,21 +20,21 @@ std::int32_t rest_of_tour(const TourTable& table, const GridGraph& graph, const 
 
 }  // namespace
 
-TourTable::TourTable(const GridGraph& graph, const Agent& agent, StopSignal& stop)
+TourTable::TourTable(const GridGraph& graph, const Agent& agent, std::vector<Location>& queue, StopSignal& stop)
     : location_count_(static_cast<std::size_t>(graph.location_count())),
       distance_(agent.goals.size() * location_count_, unreachable) {
-  for (std::int32_t leg = agent.last_leg(); leg >= 0 && !stop.raised(); --leg) fill_leg(graph, agent, leg, stop);
+  for (std::int32_t leg = agent.last_leg(); leg >= 0 && !stop.raised(); --leg) fill_leg(graph, agent, leg, queue, stop);
 }
 
 // Breadth-first from the goal.
-void TourTable::fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, StopSignal& stop) {
+void TourTable::fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, std::vector<Location>& queue,
+                         StopSignal& stop) {
   const Location goal = agent.goal(leg);
   if (goal == nowhere) return;
   const std::int32_t rest = rest_of_tour(*this, graph, agent, leg);
   if (rest >= unreachable) return;
   std::int32_t* const distance = distance_.data() + static_cast<std::size_t>(leg) * location_count_;
-  std::vector<Location> queue = {goal};
-  queue.reserve(location_count_);
+  queue.assign(1, goal);
   distance[goal] = rest;
   for (std::size_t next = 0; next < queue.size(); ++next) {
     if (stop.poll()) return;
@@ -51,8 +51,9 @@ void TourTable::fill_leg(const GridGraph& graph, const Agent& agent, std::int32_
 std::optional<std::vector<TourTable>> make_tour_tables(const Problem& problem, StopSignal& stop) {
   std::vector<TourTable> tables;
   tables.reserve(problem.agents.size());
+  std::vector<Location> queue;
   for (const Agent& agent : problem.agents) {
-    tables.emplace_back(problem.graph, agent, stop);
+    tables.emplace_back(problem.graph, agent, queue, stop);
     if (stop.raised()) return std::nullopt;
   }
   return tables;

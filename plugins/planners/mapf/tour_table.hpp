@@ -16,8 +16,8 @@ class TourTable {
  public:
   static constexpr std::int32_t unreachable = 1 << 28;
 
-  // Unfinished, and not to be used, if `stop` says so.
-  TourTable(const GridGraph& graph, const Agent& agent, StopSignal& stop);
+  // Unfinished, and not to be used, if `stop` says so. `queue` is scratch.
+  TourTable(const GridGraph& graph, const Agent& agent, std::vector<Location>& queue, StopSignal& stop);
 
   // Steps from `location`, on the way to goal `leg`, until the tour's end; or unreachable.
   std::int32_t distance(std::int32_t leg, Location location) const {
@@ -25,7 +25,8 @@ class TourTable {
   }
 
  private:
-  void fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, StopSignal& stop);
+  void fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, std::vector<Location>& queue,
+                StopSignal& stop);
 
   std::size_t location_count_;
   std::vector<std::int32_t> distance_;
