@@ -28,10 +28,11 @@ FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances&
   lower_bound_ = std::max(lower_bound, distances.distance(0, agent.start));
   bound_ = suboptimality.limit(lower_bound_);
   if (constraints.allows(agent.start, agent.start, Graph::no_direction, 0))
-    generate(task, {0, agent.start, -1, 0, 0, 0, -1, 0, Graph::no_direction, false, false}, true);
+    generate(task, {0, agent.start, -1, 0, 0, 0, -1, 0, Graph::no_direction, false, Status::open}, true);
 
-  while (!stop.poll()) {
-    while (!open_.empty() && states_[static_cast<std::size_t>(open_.front().state)].is_closed) {
+  // an expansion is more than one unit of work
+  while (!stop.poll() && !stop.poll()) {
+    while (!open_.empty() && states_[static_cast<std::size_t>(open_.front().state)].status != Status::open) {
       std::pop_heap(open_.begin(), open_.end(), IsWorse{});
       open_.pop_back();
     }
@@ -40,7 +41,7 @@ FocalSearch::Result FocalSearch::search(const Agent& agent, const TourDistances&
     const std::int32_t best = pop_focal();
     if (best < 0) continue;
     State& state = states_[static_cast<std::size_t>(best)];
-    state.is_closed = true;
+    state.status = Status::expanded;
     ++expanded_;
     if (state.rests) {
       trace_back(best, out);
@@ -113,12 +114,12 @@ void FocalSearch::raise_bound(const Task& task, Cost lower_bound) {
   }
 }
 
-// -1 if the top was closed.
+// -1 if the top is no longer open.
 std::int32_t FocalSearch::pop_focal() {
-  const std::int32_t best = focal_.front().state;
+  const std::int32_t best = focal_.front().state();
   std::pop_heap(focal_.begin(), focal_.end(), IsWorse{});
   focal_.pop_back();
-  return states_[static_cast<std::size_t>(best)].is_closed ? -1 : best;
+  return states_[static_cast<std::size_t>(best)].status == Status::open ? best : -1;
 }
 
 void FocalSearch::expand(const Task& task, std::int32_t parent) {
@@ -130,8 +131,10 @@ void FocalSearch::expand(const Task& task, std::int32_t parent) {
     const Location to = moves ? graph_.neighbor(from.location, d) : from.location;
     if (to == nowhere || task.distances.distance(leg, to) >= unreachable) continue;
     if (!task.constraints.allows(from.location, to, d, t)) continue;
+    const Cost g = from.g + (moves ? step_cost(d) : wait_cost);
+    if (is_beaten(task, leg, to, t, g, from.conflicts)) continue;
     State state;
-    state.g = from.g + (moves ? step_cost(d) : wait_cost);
+    state.g = g;
     state.location = to;
     state.parent = parent;
     state.t = t;
@@ -141,7 +144,7 @@ void FocalSearch::expand(const Task& task, std::int32_t parent) {
     state.leg = static_cast<std::int16_t>(leg);
     state.heading = moves ? static_cast<std::int8_t>(d) : from.heading;
     state.rests = false;
-    state.is_closed = false;
+    state.status = Status::open;
     generate(task, state, moves || leg != from.leg);
   }
 }
@@ -172,9 +175,7 @@ void FocalSearch::push(const Task& task, const State& state) {
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end(), IsWorse{});
 
-  const FocalEntry entry{
-      f_with_conflicts(state, f),
-      static_cast<std::uint64_t>(turns_in_all) << 32 | static_cast<std::uint64_t>(INT32_MAX - state.t), index};
+  const FocalEntry entry{f_with_conflicts(state, f), tie_of(turns_in_all, state.t, index)};
   if (f <= bound_) {
     focal_.push_back(entry);
     std::push_heap(focal_.begin(), focal_.end(), IsWorse{});
@@ -182,6 +183,12 @@ void FocalSearch::push(const Task& task, const State& state) {
     waiting_.push_back({f, entry});
     std::push_heap(waiting_.begin(), waiting_.end(), IsWorse{});
   }
+}
+
+std::uint64_t FocalSearch::tie_of(std::int32_t turns, std::int32_t t, std::int32_t state) {
+  constexpr std::int32_t most = UINT16_MAX;
+  return static_cast<std::uint64_t>(std::min(turns, most)) << 48 |
+         static_cast<std::uint64_t>(most - std::min(t, most)) << 32 | (UINT32_MAX - static_cast<std::uint32_t>(state));
 }
 
 // To end without further conflicts the robot must not come to rest before all others have passed its goal; if it cannot
@@ -194,10 +201,18 @@ Cost FocalSearch::f_with_conflicts(const State& state, Cost f) const {
   return f + conflict_cost * (state.conflicts + conflicts_after(state.t + static_cast<std::int32_t>(steps_left)));
 }
 
+// Whether `known` makes the new state of its place and time useless. What was expanded is not expanded again for the
+// sake of turns.
+bool FocalSearch::is_as_good(const Task& task, const State& known, const State& state, std::int32_t turns_in_all) {
+  if (known.status == Status::useless || known.g > state.g || known.conflicts > state.conflicts) return false;
+  return known.g < state.g || known.conflicts < state.conflicts || known.status == Status::expanded ||
+         known.turns + task.distances.turns(known.leg, known.location, known.heading) <= turns_in_all;
+}
+
 // Stores the state unless another of its place and time is as good; closes those that it makes useless.
 bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns_in_all) {
   if (2 * slots_used_ >= slots_.size()) grow_slots();
-  const std::uint64_t identity = identity_of(task, state);
+  const std::uint64_t identity = identity_of(task, state.leg, state.location, state.t);
   Slot& slot = find_slot(identity);
   const auto index = static_cast<std::int32_t>(states_.size());
   State entered = state;
@@ -205,16 +220,11 @@ bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns
     slot = {identity, epoch_, index};
     ++slots_used_;
   } else {
-    for (std::int32_t i = slot.first; i >= 0;) {
+    for (std::int32_t i = slot.first; i >= 0; i = states_[static_cast<std::size_t>(i)].same_place)
+      if (is_as_good(task, states_[static_cast<std::size_t>(i)], state, turns_in_all)) return false;
+    for (std::int32_t i = slot.first; i >= 0; i = states_[static_cast<std::size_t>(i)].same_place) {
       State& other = states_[static_cast<std::size_t>(i)];
-      i = other.same_place;
-      if (other.g <= state.g && other.conflicts <= state.conflicts) {
-        if (other.g < state.g || other.conflicts < state.conflicts || other.is_closed) return false;
-        if (other.turns + task.distances.turns(other.leg, other.location, other.heading) <= turns_in_all) return false;
-        other.is_closed = true;
-      } else if (state.g <= other.g && state.conflicts <= other.conflicts) {
-        other.is_closed = true;
-      }
+      if (state.g <= other.g && state.conflicts <= other.conflicts) other.status = Status::useless;
     }
     entered.same_place = slot.first;
     slot.first = index;
@@ -223,10 +233,26 @@ bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns
   return true;
 }
 
-std::uint64_t FocalSearch::identity_of(const Task& task, const State& state) const {
-  const auto time = static_cast<std::uint64_t>(std::min(state.t, task.static_from));
-  const auto place = static_cast<std::uint64_t>(state.leg) * static_cast<std::uint64_t>(graph_.location_count()) +
-                     static_cast<std::uint64_t>(state.location);
+// Whether a step need not be looked at: some state of its place and time is better, even if the step meets nobody. Ends
+// of paths are looked at always, for a path must not end with a wait.
+bool FocalSearch::is_beaten(const Task& task, std::int32_t leg, Location location, std::int32_t t, Cost g,
+                            std::int32_t conflicts) {
+  if (slots_.empty() || (leg == task.agent.last_leg() && location == task.agent.last_goal())) return false;
+  const Slot& slot = find_slot(identity_of(task, leg, location, t));
+  if (slot.epoch != epoch_) return false;
+  for (std::int32_t i = slot.first; i >= 0; i = states_[static_cast<std::size_t>(i)].same_place) {
+    const State& other = states_[static_cast<std::size_t>(i)];
+    if (other.status != Status::useless && other.g <= g && other.conflicts <= conflicts &&
+        (other.g < g || other.conflicts < conflicts || other.status == Status::expanded))
+      return true;
+  }
+  return false;
+}
+
+std::uint64_t FocalSearch::identity_of(const Task& task, std::int32_t leg, Location location, std::int32_t t) const {
+  const auto time = static_cast<std::uint64_t>(std::min(t, task.static_from));
+  const auto place = static_cast<std::uint64_t>(leg) * static_cast<std::uint64_t>(graph_.location_count()) +
+                     static_cast<std::uint64_t>(location);
   return place * (static_cast<std::uint64_t>(task.static_from) + 1) + time;
 }
 

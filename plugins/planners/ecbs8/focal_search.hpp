@@ -40,6 +40,8 @@ class FocalSearch {
   std::int64_t expanded() const { return expanded_; }
 
  private:
+  // Useless is what another state of the same place and time replaces.
+  enum class Status : std::uint8_t { open, expanded, useless };
   struct State {
     Cost g;
     Location location;
@@ -50,13 +52,15 @@ class FocalSearch {
     std::int32_t same_place;  // the next state of the same place and time, or -1
     std::int16_t leg;
     std::int8_t heading;
-    bool rests;      // at the last goal for good
-    bool is_closed;  // expanded, or not worth it
+    bool rests;  // at the last goal for good
+    Status status;
   };
   struct FocalEntry {
     Cost f_with_conflicts;
-    std::uint64_t turns_and_time_left;  // the estimate of the whole path's turns
-    std::int32_t state;
+    std::uint64_t
+        tie;  // from above: the estimate of the whole path's turns, the time left, the state (the newest first)
+
+    std::int32_t state() const { return static_cast<std::int32_t>(UINT32_MAX - static_cast<std::uint32_t>(tie)); }
   };
   struct OpenEntry {
     Cost f;
@@ -70,8 +74,7 @@ class FocalSearch {
   struct IsWorse {
     bool operator()(const FocalEntry& a, const FocalEntry& b) const {
       if (a.f_with_conflicts != b.f_with_conflicts) return a.f_with_conflicts > b.f_with_conflicts;
-      if (a.turns_and_time_left != b.turns_and_time_left) return a.turns_and_time_left > b.turns_and_time_left;
-      return a.state < b.state;
+      return a.tie > b.tie;
     }
     bool operator()(const OpenEntry& a, const OpenEntry& b) const { return a.f > b.f; }
     bool operator()(const WaitingEntry& a, const WaitingEntry& b) const { return a.f > b.f; }
@@ -99,11 +102,14 @@ class FocalSearch {
   void generate(const Task& task, const State& state, bool is_arrival);
   void push(const Task& task, const State& state);
   Cost f_with_conflicts(const State& state, Cost f) const;
+  static bool is_as_good(const Task& task, const State& known, const State& state, std::int32_t turns_in_all);
   bool enter(const Task& task, const State& state, std::int32_t turns_in_all);
   void raise_bound(const Task& task, Cost lower_bound);
   std::int32_t pop_focal();
   std::int32_t conflicts_after(std::int32_t t) const;
-  std::uint64_t identity_of(const Task& task, const State& state) const;
+  bool is_beaten(const Task& task, std::int32_t leg, Location location, std::int32_t t, Cost g, std::int32_t conflicts);
+  std::uint64_t identity_of(const Task& task, std::int32_t leg, Location location, std::int32_t t) const;
+  static std::uint64_t tie_of(std::int32_t turns, std::int32_t t, std::int32_t state);
   Slot& find_slot(std::uint64_t identity);
   void grow_slots();
   void trace_back(std::int32_t last, BoundedPath& out) const;

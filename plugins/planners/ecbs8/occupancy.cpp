@@ -2,6 +2,7 @@
 #include "occupancy.hpp"
 
 #include <algorithm>
+#include <new>
 
 namespace dmrp::planners::ecbs8 {
 
@@ -14,12 +15,13 @@ constexpr std::int32_t nobody_rests = INT32_MAX;
 Occupancy::Occupancy(const Graph& graph, std::size_t agent_count)
     : graph_(graph),
       location_count_(static_cast<std::size_t>(graph.location_count())),
-      cells_(location_count_, Cell{0, 0}),
       links_(agent_count),
       rest_time_(location_count_, nobody_rests),
       rest_agent_(location_count_, -1),
       paths_(agent_count),
-      met_at_(agent_count, -1) {}
+      met_at_(agent_count, -1) {
+  add_rows(1);
+}
 
 Occupancy::Step Occupancy::step_of(Location from, Location to, Direction d) const {
   if (!Graph::is_diagonal(d)) return {from, to, false, {nowhere, nowhere}};
@@ -43,12 +45,19 @@ void Occupancy::set(std::int32_t agent, PathView path) {
   if (!path.empty()) put_in(agent, path);
 }
 
+// By calloc(), which leaves large blocks to the system to clear when they are touched: most cells never are.
+void Occupancy::add_rows(std::int32_t count) {
+  const std::size_t cells = static_cast<std::size_t>(count) * location_count_;
+  blocks_.emplace_back(static_cast<Cell*>(std::calloc(std::max<std::size_t>(cells, 1), sizeof(Cell))));
+  if (!blocks_.back()) throw std::bad_alloc();
+  for (std::int32_t i = 0; i < count; ++i)
+    rows_.push_back(blocks_.back().get() + static_cast<std::size_t>(i) * location_count_);
+  row_count_ += count;
+}
+
 void Occupancy::put_in(std::int32_t agent, PathView path) {
   const auto size = static_cast<std::int32_t>(path.size());
-  if (size > row_count_) {
-    row_count_ = size;
-    cells_.resize(static_cast<std::size_t>(row_count_) * location_count_, Cell{0, 0});
-  }
+  if (size > row_count_) add_rows(size - row_count_);
   std::vector<Links>& links = links_[static_cast<std::size_t>(agent)];
   if (links.size() < path.size()) links.resize(path.size());
   const auto link = static_cast<Link>(agent + 1);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "step_cost.hpp"
@@ -56,6 +58,9 @@ class Occupancy {
     Link here;     // who is here on its way to its last goal
     Link passing;  // whose diagonals that arrive now pass beside this cell
   };
+  struct FreeCells {
+    void operator()(Cell* cells) const { std::free(cells); }
+  };
   // An agent's links at one time: here, and at both cells beside its diagonal.
   struct Links {
     Link here;
@@ -71,12 +76,8 @@ class Occupancy {
     bool is_beside(Location location) const { return is_diagonal && (location == beside[0] || location == beside[1]); }
   };
 
-  Cell& cell(Location location, std::int32_t t) {
-    return cells_[static_cast<std::size_t>(t) * location_count_ + static_cast<std::size_t>(location)];
-  }
-  const Cell& cell(Location location, std::int32_t t) const {
-    return cells_[static_cast<std::size_t>(t) * location_count_ + static_cast<std::size_t>(location)];
-  }
+  Cell& cell(Location location, std::int32_t t) { return rows_[static_cast<std::size_t>(t)][location]; }
+  const Cell& cell(Location location, std::int32_t t) const { return rows_[static_cast<std::size_t>(t)][location]; }
   bool rests_at(Location location, std::int32_t t) const { return rest_time_[static_cast<std::size_t>(location)] <= t; }
   Links& links(std::int32_t agent, std::int32_t t) {
     return links_[static_cast<std::size_t>(agent)][static_cast<std::size_t>(t)];
@@ -101,6 +102,7 @@ class Occupancy {
   void visit_met(const Step& step, std::int32_t t, Visit visit) const;
   bool classify(std::int32_t agent, const Step& step, std::int32_t other, std::int32_t t, Conflict& out) const;
 
+  void add_rows(std::int32_t count);
   void put_in(std::int32_t agent, PathView path);
   void take_out(std::int32_t agent);
   void unlink_here(std::int32_t agent, Location location, std::int32_t t);
@@ -108,10 +110,11 @@ class Occupancy {
 
   const Graph& graph_;
   std::size_t location_count_;
-  std::int32_t row_count_ = 1;
-  std::vector<Cell> cells_;                // by time and location
-  std::vector<std::vector<Links>> links_;  // by agent and time
-  std::vector<std::int32_t> rest_time_;    // by location: from when somebody rests there
+  std::int32_t row_count_ = 0;
+  std::vector<Cell*> rows_;                                 // by time, each by location
+  std::vector<std::unique_ptr<Cell[], FreeCells>> blocks_;  // where the rows are
+  std::vector<std::vector<Links>> links_;                   // by agent and time
+  std::vector<std::int32_t> rest_time_;                     // by location: from when somebody rests there
   std::vector<std::int32_t> rest_agent_;
   std::vector<PathView> paths_;
   std::vector<std::int32_t> met_at_;  // scratch of list(): by agent, the last step in which it was met
