@@ -1,286 +1,312 @@
 // SPDX-License-Identifier: MIT
-// The shared parts of the planners: what the low level and the MDDs promise, against exhaustive methods.
-#include <algorithm>
+// The shared parts of the planners, against exhaustive methods.
 #include <catch2/catch.hpp>
-#include <dmrp/plugin.hpp>
-#include <map>
+#include <numeric>
 #include <set>
-#include <tuple>
 
+#include "conflict_search/vertex_cover.hpp"
+#include "low_level_case.hpp"
 #include "mapf/mdd.hpp"
 #include "mapf/solvability.hpp"
-#include "mapf/space_time_astar.hpp"
-#include "planning_case.hpp"
-#include "random.hpp"
 
 using namespace dmrp::test;
 using namespace dmrp::planners;
 
 namespace {
 
-StopSignal& never() {
-  static StopSignal stop([] { return false; });
-  return stop;
+// A walk on the case's grid; some are long, for tables that have to grow.
+std::vector<Location> draw_walk(Random& random, const LowLevelCase& c) {
+  std::vector<Location> walk = {random.one_in(2) ? 0 : 11};
+  for (int steps = random.one_in(10) ? 60 + random.below(100) : random.below(10); steps > 0; --steps) {
+    const std::vector<Location> reach = c.reach(walk.back());
+    walk.push_back(reach[static_cast<std::size_t>(random.below(static_cast<int>(reach.size())))]);
+  }
+  return walk;
 }
 
-Problem problem_of(const PlanningCase& c) {
-  const CProblem host(c);
-  return make_problem(dmrp::PlanningProblem(host.problem()), true);
+// What a constraint asks of a path that rests at its end, by looking at all times there are.
+bool satisfies_by_definition(PathView path, const Constraint& c) {
+  const int cost = cost_of(path);
+  for (int t = 0; t < 200; ++t) {
+    const Location at = LowLevelCase::place(path, t);
+    if (c.kind == Constraint::Kind::avoid_vertex && c.t <= t && t < c.until && at == c.location) return false;
+    if (c.kind == Constraint::Kind::avoid_move && t == c.t && t <= cost && at == c.location &&
+        LowLevelCase::place(path, t - 1) == c.from)
+      return false;
+    if (c.kind == Constraint::Kind::pass_vertex && t == c.t && at != c.location) return false;
+  }
+  if (c.kind == Constraint::Kind::finish_after) return cost > c.t;
+  return c.kind != Constraint::Kind::finish_by || cost <= c.t;
 }
 
-// One agent (number 2) with random constraints, among two others whose paths are random walks.
-struct LowLevelCase {
-  Problem problem;
-  std::vector<std::vector<Location>> others;
-  std::vector<Constraint> constraints;
+using ListedConflict = std::tuple<int, int, int, Location, Location>;
 
-  static PlanningCase grid(Random& random) {
-    PlanningCase c({"....", ".#..", "...."});
-    const CellXY start{random.below(4), 0};
-    std::vector<CellXY> goals;
-    for (int n = random.one_in(3) ? 2 : 1; n > 0; --n) goals.push_back({random.below(4), 2});
-    return c.robot(start, goals);
+std::multiset<ListedConflict> conflicts_by_definition(int agent, PathView path, int other, PathView others) {
+  std::multiset<ListedConflict> out;
+  const auto at = LowLevelCase::place;
+  const int a = std::min(agent, other);
+  const int b = std::max(agent, other);
+  const PathView first = agent < other ? path : others;
+  for (int t = 0; t < static_cast<int>(std::max(path.size(), others.size())); ++t) {
+    if (at(path, t) == at(others, t))
+      out.insert({t, a, b, at(path, t), nowhere});
+    else if (t > 0 && at(path, t) == at(others, t - 1) && at(path, t - 1) == at(others, t))
+      out.insert({t, a, b, at(first, t), at(first, t - 1)});
   }
+  return out;
+}
 
-  explicit LowLevelCase(uint64_t seed) : LowLevelCase(Random(seed)) {}
-  explicit LowLevelCase(Random random) : problem(problem_of(grid(random))) {
-    const Location goal = problem.agents[0].last_goal();
-    while (others.size() < 2) {
-      std::vector<Location> walk = {8 + random.below(4)};
-      for (int steps = random.below(7); steps > 0; --steps) {
-        const Location to = problem.graph.neighbor(walk.back(), random.below(4));
-        walk.push_back(to == nowhere ? walk.back() : to);
-      }
-      if (walk.back() != goal && (others.empty() || others[0].back() != walk.back())) others.push_back(walk);
+// Levels of places on some path of the cost: forward from the start, then back from the end.
+using Places = std::set<std::pair<Location, int>>;
+std::vector<Places> places_by_definition(const LowLevelCase& c, int cost) {
+  std::vector<Places> levels(static_cast<std::size_t>(cost) + 1);
+  const auto successors = [&](const std::pair<Location, int>& from, int t) {
+    Places out;
+    const int leg = c.agent().leg_after(from.second, from.first);
+    const bool is_at_end = from.first == c.agent().last_goal() && from.second == c.agent().last_leg();
+    for (const Location to : c.reach(from.first))
+      if (c.may_arrive(from.first, to, t + 1) && !(is_at_end && to == from.first && t + 1 == cost))
+        out.insert({to, leg});
+    return out;
+  };
+  levels[0].insert({c.agent().start, 0});
+  for (int t = 0; t < cost; ++t)
+    for (const auto& place : levels[static_cast<std::size_t>(t)])
+      levels[static_cast<std::size_t>(t) + 1].merge(successors(place, t));
+  for (int t = cost; t >= 0; --t) {
+    Places kept;
+    for (const auto& place : levels[static_cast<std::size_t>(t)]) {
+      bool ends = t == cost && place == std::pair(c.agent().last_goal(), c.agent().last_leg());
+      if (t < cost)
+        for (const auto& next : successors(place, t))
+          ends = ends || levels[static_cast<std::size_t>(t) + 1].count(next);
+      if (ends) kept.insert(place);
     }
-    for (int n = random.below(7); n > 0; --n) {
-      const Location location = random.below(12);
-      if (location == 5) continue;
-      const Location from = random.one_in(2) ? problem.graph.neighbor(location, random.below(4)) : nowhere;
-      constraints.push_back({2, location, from, 1 + random.below(7)});
-    }
-    if (random.one_in(2)) constraints.push_back({2, goal, nowhere, 1 + random.below(8)});
+    levels[static_cast<std::size_t>(t)] = kept;
   }
+  return levels;
+}
 
-  bool allows(Location from, Location to, int t) const {
-    for (const Constraint& c : constraints)
-      if (c.t == t && c.location == to && (c.from == nowhere || c.from == from)) return false;
-    return true;
-  }
-  Location where(const std::vector<Location>& path, int t) const {
-    return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-  }
-  int conflicts(Location from, Location to, int t) const {
-    int count = 0;
-    for (const auto& path : others) {
-      if (where(path, t) == to)
-        ++count;
-      else if (from != to && where(path, t) == from && where(path, t - 1) == to)
-        ++count;
-    }
-    return count;
-  }
-  int rest_from() const {
-    int from = 0;
-    for (const Constraint& c : constraints)
-      if (c.location == problem.agents[0].last_goal() && c.from == nowhere) from = std::max(from, c.t + 1);
-    return from;
-  }
-};
-
-using Quality = std::tuple<int, int, int>;  // steps, conflicts, turns
-
-// By dynamic programming over time: the best of each (location, heading, leg).
-std::optional<Quality> best_quality(const LowLevelCase& c) {
-  const Agent& agent = c.problem.agents[0];
-  std::map<std::tuple<Location, int, int>, std::pair<int, int>> reached;
-  reached[{agent.start, 4, 0}] = {0, 0};
-  std::optional<Quality> best;
-  for (int t = 0; t < 40 && !best; ++t) {
-    for (const auto& [state, quality] : reached) {
-      const auto [location, heading, leg] = state;
-      if (location != agent.last_goal() || leg != agent.last_leg() || t < c.rest_from()) continue;
-      int after = 0;
-      for (int later = t + 1; later < 10; ++later) after += c.conflicts(location, location, later);
-      const Quality whole{t, quality.first + after, quality.second};
-      best = best ? std::min(*best, whole) : whole;
-    }
-    std::map<std::tuple<Location, int, int>, std::pair<int, int>> next;
-    for (const auto& [state, quality] : reached) {
-      const auto [location, heading, leg] = state;
-      for (int d = 0; d <= 4; ++d) {
-        const Location to = d == 4 ? location : c.problem.graph.neighbor(location, d);
-        if (to == nowhere || !c.allows(location, to, t + 1)) continue;
-        const int turn = d != 4 && heading != 4 && heading != d ? 1 : 0;
-        const std::pair<int, int> arrived{quality.first + c.conflicts(location, to, t + 1), quality.second + turn};
-        const std::tuple<Location, int, int> key{to, d == 4 ? heading : d, agent.leg_after(leg, location)};
-        const auto [at, is_new] = next.emplace(key, arrived);
-        if (!is_new) at->second = std::min(at->second, arrived);
-      }
-    }
-    reached = std::move(next);
+// By trying all values up to the greatest weight.
+int least_cover_by_trying(const std::vector<DependentPair>& pairs, int agents, int most) {
+  std::vector<int> value(static_cast<std::size_t>(agents), 0);
+  int best = agents * most;
+  for (std::size_t i = 0; i < value.size();) {
+    const bool covers = std::all_of(pairs.begin(), pairs.end(), [&](const DependentPair& pair) {
+      return value[static_cast<std::size_t>(pair.a)] + value[static_cast<std::size_t>(pair.b)] >= pair.weight;
+    });
+    if (covers) best = std::min(best, std::accumulate(value.begin(), value.end(), 0));
+    for (i = 0; i < value.size() && ++value[i] > most; ++i) value[i] = 0;
   }
   return best;
 }
 
-Quality quality_of(const LowLevelCase& c, PathView path) {
-  int conflicts = 0;
-  for (int t = 1; t < static_cast<int>(path.size()) + 10; ++t) {
-    const auto at = [&](int s) { return path[std::min(static_cast<std::size_t>(s), path.size() - 1)]; };
-    conflicts += c.conflicts(at(t - 1), at(t), t);
-  }
-  return {cost_of(path), conflicts, count_turns(c.problem.graph, path)};
-}
-
-struct Searched {
-  SpaceTimeAStar::Result result;
-  std::vector<Location> path;
-  std::vector<Conflict> conflicts;
-};
-
-Searched search(const LowLevelCase& c, const TourTable& table) {
-  ConflictTable others(c.problem.graph, 3);
-  others.set(0, c.others[1]);
-  others.set(0, {});  // leaves no trace
-  for (int i = 0; i < 2; ++i) others.set(i, c.others[static_cast<std::size_t>(i)]);
-  ConstraintTable constraints(c.problem.graph);
-  constraints.fill({{2, 0, nowhere, 30}});  // forgotten by the next
-  constraints.fill(c.constraints);
-  SpaceTimeAStar astar(c.problem.graph);
-  Searched out{SpaceTimeAStar::Result::none, {}, {}};
-  out.result = astar.search(c.problem.agents[0], table, constraints, others, never(), out.path);
-  if (out.result == SpaceTimeAStar::Result::found) others.list(2, out.path, out.conflicts);
-  return out;
-}
-
 }  // namespace
 
-TEST_CASE("space-time A* finds the fewest steps, then conflicts, then turns") {
-  for (uint64_t seed = 0; seed < 3000; ++seed) {
+TEST_CASE("a path satisfies a constraint by its definition") {
+  int satisfied = 0;
+  int broken = 0;
+  for (uint64_t seed = 0; seed < 4000; ++seed) {
     CAPTURE(seed);
     const LowLevelCase c(seed);
-    const TourTable table(c.problem.graph, c.problem.agents[0], never());
-    const Searched searched = search(c, table);
-    const std::optional<Quality> best = best_quality(c);
-    REQUIRE(best);
-    REQUIRE(searched.result == SpaceTimeAStar::Result::found);
-    for (std::size_t t = 1; t < searched.path.size(); ++t)
-      REQUIRE(c.allows(searched.path[t - 1], searched.path[t], static_cast<int>(t)));
-    REQUIRE(cost_of(searched.path) >= c.rest_from());
-    REQUIRE(quality_of(c, searched.path) == *best);
-  }
-}
-
-TEST_CASE("space-time A* ends where constraints leave no path, or when stopped") {
-  PlanningCase c({"..."});
-  c.robot({0, 0}, {{2, 0}});
-  const Problem problem = problem_of(c);
-  const TourTable table(problem.graph, problem.agents[0], never());
-  const ConflictTable nobody(problem.graph, 1);
-  ConstraintTable constraints(problem.graph);
-  SpaceTimeAStar astar(problem.graph);
-  std::vector<Location> path;
-  constraints.fill({{0, 0, nowhere, 3}, {0, 1, 0, 1}, {0, 1, 0, 2}, {0, 1, nowhere, 3}});
-  CHECK(astar.search(problem.agents[0], table, constraints, nobody, never(), path) == SpaceTimeAStar::Result::none);
-
-  // Kept off its goal at 5: it may be there before, but ends there at 6 at the earliest.
-  constraints.fill({{0, 2, nowhere, 5}});
-  REQUIRE(astar.search(problem.agents[0], table, constraints, nobody, never(), path) == SpaceTimeAStar::Result::found);
-  CHECK(cost_of(path) == 6);
-  CHECK(path[5] == 1);
-
-  StopSignal stop([] { return true; });
-  stop.poll_now();
-  CHECK(astar.search(problem.agents[0], table, constraints, nobody, stop, path) == SpaceTimeAStar::Result::stopped);
-}
-
-TEST_CASE("the conflict table lists every conflict once, in the order of time") {
-  for (uint64_t seed = 0; seed < 500; ++seed) {
-    CAPTURE(seed);
-    const LowLevelCase c(seed);
-    const TourTable table(c.problem.graph, c.problem.agents[0], never());
-    const Searched searched = search(c, table);
-    if (searched.result != SpaceTimeAStar::Result::found) continue;
-    // Until everybody rests: a path's end that stands on another's way counts step by step.
-    std::multiset<std::tuple<int, int, Location>> expected;
-    std::size_t steps = searched.path.size();
-    for (const auto& path : c.others) steps = std::max(steps, path.size());
-    for (int t = 0; t < static_cast<int>(steps); ++t)
-      for (int other = 0; other < 2; ++other) {
-        const auto& path = c.others[static_cast<std::size_t>(other)];
-        const Location to = c.where(searched.path, t);
-        const Location from = c.where(searched.path, std::max(0, t - 1));
-        if (c.where(path, t) == to)
-          expected.insert({t, other, to});
-        else if (t > 0 && from != to && c.where(path, t) == from && c.where(path, t - 1) == to)
-          expected.insert({t, other, from});  // seen from the other agent, whose number is smaller
-      }
-    std::multiset<std::tuple<int, int, Location>> listed;
-    for (const Conflict& conflict : searched.conflicts) {
-      REQUIRE(conflict.b == 2);
-      listed.insert({conflict.t, conflict.a, conflict.location});
+    Random random(seed);
+    const std::vector<Location> path = draw_walk(random, c);
+    for (const Constraint& constraint : c.constraints) {
+      const bool expected = satisfies_by_definition(path, constraint);
+      REQUIRE(satisfies(path, constraint) == expected);
+      ++(expected ? satisfied : broken);
     }
-    REQUIRE(listed == expected);
   }
+  CHECK(satisfied > 1000);
+  CHECK(broken > 1000);
 }
 
-TEST_CASE("an MDD holds exactly the places of all best paths") {
+TEST_CASE("what an agent promises keeps the others away") {
+  const Constraint passes = pass_vertex(3, 7, 5);
+  REQUIRE(passes.binds_others());
+  CHECK(passes.for_another(4) == avoid_vertex(4, 7, 5));
+  const Constraint finishes = finish_by(3, 7, 5);
+  REQUIRE(finishes.binds_others());
+  CHECK(finishes.for_another(4) == avoid_vertex_range(4, 7, 5, forever));
+  CHECK_FALSE(finish_after(3, 7, 5).binds_others());
+  CHECK_FALSE(avoid_vertex(3, 7, 5).binds_others());
+  CHECK_FALSE(avoid_move(3, 6, 7, 5).binds_others());
+}
+
+TEST_CASE("a constraint table says what is allowed, and for how long that stays so") {
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     CAPTURE(seed);
     const LowLevelCase c(seed);
-    const Agent& agent = c.problem.agents[0];
-    std::vector<TourTable> tables;
-    tables.emplace_back(c.problem.graph, agent, never());
-    const Searched searched = search(c, tables[0]);
-    if (searched.result != SpaceTimeAStar::Result::found) continue;
-    const int cost = cost_of(searched.path);
-
-    // Places reached from the start, and of these the ones from which the end can be reached, step by step.
-    using Place = std::pair<Location, int>;
-    std::vector<std::set<Place>> levels(static_cast<std::size_t>(cost) + 1);
-    const auto successors = [&](Place from, int t) {
-      std::vector<Place> out;
-      for (int d = 0; d <= 4; ++d) {
-        const Location to = d == 4 ? from.first : c.problem.graph.neighbor(from.first, d);
-        if (to != nowhere && c.allows(from.first, to, t + 1))
-          out.push_back({to, agent.leg_after(from.second, from.first)});
-      }
-      return out;
-    };
-    levels[0].insert({agent.start, 0});
-    for (int t = 0; t < cost; ++t)
-      for (const Place& place : levels[static_cast<std::size_t>(t)])
-        for (const Place& next : successors(place, t)) levels[static_cast<std::size_t>(t) + 1].insert(next);
-    for (int t = cost; t >= 0; --t) {
-      std::set<Place> kept;
-      for (const Place& place : levels[static_cast<std::size_t>(t)]) {
-        bool ends = t == cost && place == Place{agent.last_goal(), agent.last_leg()};
-        if (t < cost)
-          for (const Place& next : successors(place, t))
-            ends = ends || levels[static_cast<std::size_t>(t) + 1].count(next);
-        if (ends) kept.insert(place);
-      }
-      levels[static_cast<std::size_t>(t)] = kept;
+    ConstraintTable table(c.problem.graph);
+    table.fill(c.agent(), std::vector<Constraint>{avoid_vertex(0, 3, 4), pass_vertex(0, 3, 2), finish_after(0, 3, 9)});
+    table.fill(c.agent(), c.constraints);  // and no more of those before
+    const bool ends = table.finish_from() < LowLevelCase::horizon;
+    for (int t = 0; t < 30 && ends; ++t) {
+      const bool is_in_time = table.finish_from() <= t && t <= table.finish_until();
+      REQUIRE(is_in_time == (c.may_rest(t) && t >= c.rest_from()));
     }
+    for (Location at = 0; at < c.problem.graph.location_count(); ++at)
+      for (int t = 0; t < 20; ++t) {
+        std::int32_t first = 0;
+        std::int32_t end = forever;
+        const bool is_allowed = table.narrow(at, t, first, end);
+        REQUIRE(is_allowed == c.may_be(at, t));
+        REQUIRE(first <= t);
+        REQUIRE(end > t);
+        if (!is_allowed) {
+          for (int later = t; later < std::min(end, 30); ++later) REQUIRE_FALSE(c.may_be(at, later));
+          continue;
+        }
+        for (int other = first; other < std::min(end, 30); ++other) REQUIRE(c.may_be(at, other));
+        REQUIRE((first == 0 || !c.may_be(at, first - 1)));
+        REQUIRE((end == forever || !c.may_be(at, end)));
+        for (const Location from : c.reach(at)) {
+          if (t == 0 || !c.may_be(at, t)) continue;
+          REQUIRE(table.allows_move(from, at, t) == c.may_arrive(from, at, t));
+          REQUIRE(table.allows(from, at, t) == c.may_arrive(from, at, t));
+        }
+      }
+  }
+}
 
-    MddCache cache(c.problem, tables);
-    const Mdd& mdd = cache.get(0, c.constraints, cost);
-    REQUIRE(mdd.cost() == cost);
+TEST_CASE("a conflict table knows who is where, whoever came and went") {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    const LowLevelCase c(seed);
+    Random random(seed);
+    constexpr int agents = 5;
+    ConflictTable table(c.problem.graph, agents);
+    std::vector<std::vector<Location>> paths(agents);
+    for (int change = 0; change < 12; ++change) {
+      const auto agent = static_cast<std::size_t>(random.below(agents));
+      table.set(static_cast<std::int32_t>(agent), {});
+      paths[agent].clear();
+      std::vector<Location> walk = draw_walk(random, c);
+      const bool ends_alone = std::none_of(
+          paths.begin(), paths.end(), [&](const auto& path) { return !path.empty() && path.back() == walk.back(); });
+      if (!ends_alone || random.one_in(4)) continue;
+      paths[agent] = std::move(walk);
+      table.set(static_cast<std::int32_t>(agent), paths[agent]);
+    }
+    int longest = 0;
+    for (const auto& path : paths) longest = std::max(longest, cost_of(path));
+    REQUIRE(table.rest_from() == longest);
+    for (Location at = 0; at < c.problem.graph.location_count(); ++at) {
+      std::set<int> passed;  // times
+      int visits_left = 0;
+      for (const auto& path : paths)
+        for (int t = 0; t < static_cast<int>(path.size()); ++t)
+          if (path[static_cast<std::size_t>(t)] == at) passed.insert(t), ++visits_left;
+      const auto resting = std::find_if(paths.begin(), paths.end(),
+                                        [&](const auto& path) { return !path.empty() && path.back() == at; });
+      REQUIRE(table.resting_from(at) == (resting == paths.end() ? forever : cost_of(*resting)));
+      for (int t = 0; t < longest + 3; ++t) {
+        const auto next = passed.lower_bound(t);
+        const auto after = passed.upper_bound(t);
+        REQUIRE(table.is_passed(at, t) == (passed.count(t) == 1));
+        REQUIRE(table.next_passed(at, t) == (next == passed.end() ? forever : *next));
+        REQUIRE(table.previous_passed(at, t) == (after == passed.begin() ? -1 : *std::prev(after)));
+        for (const auto& path : paths)
+          if (t < static_cast<int>(path.size()) && path[static_cast<std::size_t>(t)] == at) --visits_left;
+        REQUIRE(table.count_after(at, t) == visits_left);
+        for (const Location from : c.reach(at)) {
+          int count = 0;
+          for (const auto& path : paths) {
+            if (path.empty()) continue;
+            const bool meets = LowLevelCase::place(path, t) == at;
+            const bool swaps = t > 0 && LowLevelCase::place(path, t) == from && LowLevelCase::place(path, t - 1) == at;
+            count += meets || swaps ? 1 : 0;
+          }
+          REQUIRE(table.count_at(from, at, t) == count);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a conflict table lists every conflict once, in the order of time") {
+  int listed = 0;
+  for (uint64_t seed = 0; seed < 1000; ++seed) {
+    CAPTURE(seed);
+    const LowLevelCase c(seed);
+    Random random(seed + 5);
+    ConflictTable table(c.problem.graph, 9);
+    std::multiset<ListedConflict> expected;
+    const std::vector<Location> path = draw_walk(random, c);
+    for (std::size_t i = 0; i < c.others.size(); ++i) {
+      const auto other = static_cast<std::int32_t>(i < 2 ? i : i + 1);  // some before and some after number 2
+      table.set(other, c.others[i]);
+      expected.merge(conflicts_by_definition(2, path, other, c.others[i]));
+    }
+    std::vector<Conflict> conflicts;
+    table.list(2, path, conflicts);
+    REQUIRE(std::is_sorted(conflicts.begin(), conflicts.end(), [](auto& x, auto& y) { return x.t < y.t; }));
+    std::multiset<ListedConflict> found;
+    for (const Conflict& conflict : conflicts)
+      found.insert({conflict.t, conflict.a, conflict.b, conflict.location, conflict.from});
+    REQUIRE(found == expected);
+    listed += static_cast<int>(found.size());
+  }
+  CHECK(listed > 1000);
+}
+
+TEST_CASE("an MDD holds exactly the places of all paths of least cost") {
+  int with_landmarks = 0;
+  for (uint64_t seed = 0; seed < 4000; ++seed) {
+    CAPTURE(seed);
+    const LowLevelCase c(seed);
+    const std::map<int, int> costs = c.fewest_conflicts_by_cost(Counting::by_step);
+    if (costs.empty()) continue;
+    const int cost = costs.begin()->first;
+    const auto tables = make_tour_tables(c.problem, never());
+    MddCache cache(c.problem, *tables);
+    std::vector<Constraint> constraints = c.constraints;
+    const auto mdd = cache.get(0, constraints, std::max(0, cost - static_cast<int>(seed % 4)));
+    REQUIRE(mdd->cost() == cost);
+    const std::vector<Places> expected = places_by_definition(c, cost);
     for (int t = 0; t <= cost; ++t) {
-      std::multiset<Place> nodes;
+      Places places;
       std::set<Location> locations;
-      for (const Mdd::Node& node : mdd.level(t)) {
-        nodes.insert({node.location, node.leg});
+      for (const Mdd::Node& node : mdd->level(t)) {
+        REQUIRE(places.insert({node.location, node.leg}).second);
         locations.insert(node.location);
       }
-      const auto& expected = levels[static_cast<std::size_t>(t)];
-      REQUIRE(nodes == std::multiset<Place>(expected.begin(), expected.end()));
-      REQUIRE(mdd.must_be_at(searched.path[static_cast<std::size_t>(t)], t) == (locations.size() == 1));
+      REQUIRE(places == expected[static_cast<std::size_t>(t)]);
+      for (const Location location : locations) REQUIRE(mdd->must_be_at(location, t) == (locations.size() == 1));
     }
-    auto reordered = c.constraints;
-    std::reverse(reordered.begin(), reordered.end());
-    REQUIRE(&cache.get(0, reordered, cost) == &mdd);
+    REQUIRE(mdd->must_be_at(c.agent().last_goal(), cost + 3));
+    std::reverse(constraints.begin(), constraints.end());
+    if (!constraints.empty()) constraints.push_back(constraints.front());
+    REQUIRE(cache.get(0, constraints, 0) == mdd);
+    for (const Constraint& constraint : c.constraints)
+      with_landmarks += constraint.kind == Constraint::Kind::pass_vertex ? 1 : 0;
   }
+  CHECK(with_landmarks > 300);
+}
+
+TEST_CASE("a weighted vertex cover is the least there is") {
+  for (uint64_t seed = 0; seed < 1500; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const int agents = 2 + random.below(4);
+    const int most = 1 + random.below(4);
+    std::vector<DependentPair> pairs;
+    for (int a = 0; a < agents; ++a)
+      for (int b = a + 1; b < agents; ++b)
+        if (random.one_in(2)) pairs.push_back({10 * a, 10 * b, 1 + random.below(most)});
+    std::vector<DependentPair> numbered = pairs;
+    for (DependentPair& pair : numbered) pair.a /= 10, pair.b /= 10;
+    REQUIRE(least_edge_weighted_cover(pairs) == least_cover_by_trying(numbered, agents, most));
+  }
+}
+
+TEST_CASE("where the least weighted vertex cover takes long to find, a lower bound stands for it") {
+  std::vector<DependentPair> all;
+  for (int a = 0; a < 40; ++a)
+    for (int b = a + 1; b < 40; ++b) all.push_back({a, b, 1 + (a * 7 + b * 3) % 4});
+  const int cover = least_edge_weighted_cover(all);
+  CHECK(cover >= 4 * 10);  // of pairs without a common agent
+  CHECK(cover <= 40 * 2);  // two each cover all
 }
 
 TEST_CASE("a graph follows the edge mask both ways") {
