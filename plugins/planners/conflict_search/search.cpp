@@ -11,11 +11,12 @@ namespace dmrp::planners {
 
 namespace {
 
-// Every restart may go on for so many times as long as the one before.
-constexpr double restart_growth = 1.5;
+// The first search takes conflicts before steps, which finds what is easy soonest; it gets this part of a restart.
+constexpr std::int64_t first_share = 4;
 
-// A problem that is still unsolved at the first restart is worth a proof that it has no plan, if that visits at most so
-// many joint positions.
+// A problem that is still unsolved after so many expansions is worth a proof that it has no plan ...
+constexpr std::int64_t expansions_before_proof = 1000;
+// ... if that visits at most so many joint positions.
 constexpr std::size_t joint_state_limit = 300'000;
 
 // Two agents are searched for their least joint cost with so many nodes at most.
@@ -62,24 +63,24 @@ ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, st
   for (const std::int32_t agent : members_) occupied_.set(agent, {});
   members_ = std::move(members);
   std::vector<std::int32_t> order = members_;
-  auto nodes_left = static_cast<double>(options_.node_limit);
-  auto nodes = static_cast<double>(options_.restart_after > 0 ? options_.restart_after : options_.node_limit);
+  std::int64_t nodes_left = options_.node_limit;
+  std::int64_t nodes_of_restart = options_.restart_after;
   lower_bound_ = 0;
+  expansions_of_run_ = 0;
   for (std::int32_t restart = 0;; ++restart) {
-    nodes = std::min(nodes, nodes_left);
-    const Result result = search_from(order, constraints, static_cast<std::int64_t>(nodes));
+    std::int64_t nodes = nodes_left;
+    if (options_.restart_after > 0) {
+      nodes = std::min(nodes, restart == 0 ? nodes_of_restart / first_share + 1 : nodes_of_restart);
+      if (restart > 0) nodes_of_restart += nodes_of_restart / 2;
+    }
+    conflict_steps_ = restart == 0 ? 0 : options_.conflict_steps;
+    const Result result = search_from(order, constraints, nodes);
     lower_bound_ = queue_.lower_bound();
     nodes_left -= nodes;
     if (result != Result::node_limit || nodes_left <= 0) return result;
-    if (restart == 0 && members_.size() == problem_.agents.size()) {
-      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
-      if (stop_.raised()) return Result::stopped;
-      if (found) return obstruction_ = *found, Result::unsolvable;
-    }
     for (const std::int32_t agent : members_) occupied_.set(agent, {});
     toolkit::Stream stream(options_.seed, "restart", restart);
     stream.shuffle(order);
-    nodes *= restart_growth;
   }
 }
 
@@ -104,6 +105,11 @@ ConflictSearch::Result ConflictSearch::search_from(const std::vector<std::int32_
       continue;
     expand(choice.node);
     if (stop_.poll_now()) return Result::stopped;
+    if (++expansions_of_run_ == expansions_before_proof) {
+      const auto found = find_joint_obstruction(problem_, joint_state_limit, stop_);
+      if (stop_.raised()) return Result::stopped;
+      if (found) return obstruction_ = *found, Result::unsolvable;
+    }
     if (tree_.node_count() >= node_limit) {
       queue_.raise_bound();
       return Result::node_limit;
@@ -400,7 +406,7 @@ bool ConflictSearch::replan(NodeId parent, std::int32_t agent, Child& child) {
   LowLevelPath& found = child.found[number];
   LowLevelRequest request = {problem_.agents[who], tables_[who], constraint_table_, occupied_};
   request.suboptimality = options_.suboptimality;
-  request.conflict_steps = options_.conflict_steps;
+  request.conflict_steps = conflict_steps_;
   request.lower_bound = parent == no_node ? 0 : path_of(agent).lower_bound;
   const LowLevelResult result = options_.safe_intervals ? safe_interval_search_.search(request, stop_, found)
                                                         : space_time_search_.search(request, stop_, found);

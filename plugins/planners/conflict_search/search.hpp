@@ -120,6 +120,8 @@ class ConflictSearch {
   SafeIntervalSearch safe_interval_search_;
   SpaceTimeSearch space_time_search_;
   ConflictSearchStatistics statistics_;
+  std::int32_t conflict_steps_ = 0;
+  std::int64_t expansions_of_run_ = 0;
   std::int32_t lower_bound_ = 0;  // what the searches before the last restart have proved
   std::string obstruction_;
 

@@ -9,10 +9,10 @@ namespace dmrp::planners {
 
 // EECBS(w) of Li, Ruml, Koenig 2021: focal search on the low level, explicit estimation search on the high level, with
 // prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
-// Each is a parameter. Beyond the paper: the low level weighs conflicts against steps (`conflict_steps`; 0 is the
-// paper's order, conflicts first), robots in conflict are replanned as they are before a node is split
+// Each is a parameter. Beyond the paper: robots in conflict are replanned as they are before a node is split
 // (`replan_in_place`), and searches that go on for long are restarted with the robots in another order
-// (`restart_after`; rapid randomized restarts, Cohen et al. 2018), what was proved of the lower bound being kept.
+// (`restart_after`; rapid randomized restarts, Cohen et al. 2018), what was proved of the lower bound being kept. From
+// then on the low level weighs conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
 //
 // cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
 class Eecbs final : public ConflictSearchPlanner {
@@ -43,12 +43,14 @@ class Eecbs final : public ConflictSearchPlanner {
       param("conflict_steps", 1)
           .unit("1")
           .range(0, 1'000'000)
-          .doc("steps that a robot's path may be longer for a conflict less; 0: as many as the bound allows");
+          .doc("after the first restart: steps that a path may be longer for a conflict less; 0: any within the bound");
   Param<std::int64_t> restart_after =
-      param("restart_after", 800)
+      param("restart_after", 1200)
           .unit("1")
           .range(0, 1'000'000'000)
-          .doc("nodes after which the search begins anew, the robots in another order; 0: never");
+          .doc(
+              "nodes after which the search begins anew, the robots in another order; half as many more each time; a "
+              "quarter the first time; 0: never");
   Param<bool> safe_intervals =
       param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
