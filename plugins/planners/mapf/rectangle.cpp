@@ -141,9 +141,11 @@ Front first_front(const Frame& frame, const Mdd& mdd, std::int32_t t) {
 // the pure ones.
 Front next_front(const GridGraph& graph, const Frame& frame, const Mdd& mdd, std::int32_t t, const Front& before) {
   Front front;
+  const bool all_ways_are_known = t < mdd.cost() || !mdd.may_wait_at_end();
   for (const Mdd::Node& node : mdd.level(t)) {
     const Coordinates c = frame.at(node.location);
-    FrontNode next{node.location, frame.in_phase(c, t), false, std::numeric_limits<std::int32_t>::max()};
+    FrontNode next{node.location, all_ways_are_known && frame.in_phase(c, t), false,
+                   std::numeric_limits<std::int32_t>::max()};
     for (Direction d = 0; d <= GridGraph::direction_count; ++d) {
       const Location from = d == GridGraph::direction_count ? node.location : graph.predecessor(node.location, d);
       const FrontNode* parent = from == nowhere ? nullptr : find(before, from);
