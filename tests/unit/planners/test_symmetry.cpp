@@ -85,17 +85,24 @@ struct ConflictCase {
   std::array<TwoAgents::Path, 2> paths;
   std::optional<Conflict> conflict;
 
-  // The paths are up to `slack` longer than need be.
-  ConflictCase(Random& random, const PlanningCase& grid, bool constrained, int slack) : pair(grid) {
+  // The paths are up to `slack` longer than need be. With `late_ends` the agents must not come to rest as soon as they
+  // could.
+  ConflictCase(Random& random, const PlanningCase& grid, bool constrained, int slack, bool late_ends = false)
+      : pair(grid) {
     for (int who = 0; who < 2; ++who) {
       const auto i = static_cast<std::size_t>(who);
       if (!pair.least_cost(who)) return;
       if (constrained) draw_constraints(random, pair, who);
+      if (late_ends)
+        pair.constraints[i].push_back(finish_after(who, pair.agent(who).last_goal(), *pair.least_cost(who)));
+      if (!pair.least_cost(who)) return;
       least[i] = *pair.least_cost(who);
       int cost = least[i] + random.below(slack + 1);
       while (!pair.has_path(who, pair.of(who), cost)) --cost;
       paths[i] = pair.draw_path(random, who, cost);
     }
+    for (const TwoAgents::Path& path : paths)
+      if (path.size() > 1 && path.back() == path[path.size() - 2]) return;  // its cost would be less
     const std::vector<Conflict> conflicts = TwoAgents::conflicts(paths[0], paths[1]);
     if (!conflicts.empty())
       conflict =
@@ -162,13 +169,13 @@ std::optional<SymmetrySplit> rectangle_of(const ConflictCase& c) {
   return find_rectangle(c.pair.problem.graph, *c.conflict, c.mdd(0), c.mdd(1), c.paths[0], c.paths[1]);
 }
 
-Tally draw_rectangles(uint64_t seed, int draws, bool constrained, int slack) {
+Tally draw_rectangles(uint64_t seed, int draws, bool constrained, int slack, bool late_ends = false) {
   Random random(seed);
   Tally tally;
   for (int i = 0; i < draws; ++i) {
     const ConflictCase c(random,
                          draw_grid(random, random.one_in(5) ? Traffic::any : Traffic::crossing, 4 + random.below(40)),
-                         constrained, slack);
+                         constrained, slack, late_ends);
     if (!c.conflict) continue;
     CAPTURE(seed, i);
     if (const auto split = rectangle_of(c)) check_split(c, *split, tally);
@@ -227,8 +234,9 @@ TEST_CASE("the exhaustive search over pairs of paths finds a pair that breaks tw
 
 TEST_CASE("a rectangle split loses no pair of paths without conflict and names rises in cost") {
   const Tally plain = draw_rectangles(1, 3000, false, 0);
-  const Tally constrained = draw_rectangles(2, 4000, true, 0);
-  const Tally longer = draw_rectangles(3, 12000, true, 3);
+  const Tally constrained = draw_rectangles(2, 6000, true, 0);
+  const Tally longer = draw_rectangles(3, 20000, true, 3);
+  CHECK(draw_rectangles(4, 20000, true, 3, true).splits > 30);
   for (const Tally& tally : {plain, constrained, longer}) {
     CHECK(tally.splits > 100);
     CHECK(tally.raising[0] > 5);

@@ -182,7 +182,8 @@ class TwoAgents {
             if (step->to != step->from) states &= static_cast<States>(~states_with(bit));  // who rests stays
             if (step->breaks_set) states = switch_on(2 + bit, states);
             const auto who = static_cast<std::size_t>(bit);
-            if (step->to == agent(bit).last_goal() && may_rest[who][static_cast<std::size_t>(t)])
+            const bool is_wait = t > 0 && step->to == step->from;  // who waited at its end was at rest before
+            if (!is_wait && step->to == agent(bit).last_goal() && may_rest[who][static_cast<std::size_t>(t)])
               states |= come_to_rest(bit, ends_too_early(sets[who], t), states);
           }
           next[at(a.to, b.to)] |= states;
