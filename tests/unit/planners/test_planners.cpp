@@ -26,7 +26,9 @@ const std::vector<SolvedCase>& solved_cases() {
     std::vector<SolvedCase> out;
     for (uint64_t seed = 0; seed < 2400; ++seed) {
       const PlanningCase c = random_case(seed, seed % 4 == 3 ? 4 : 3);
-      out.push_back({c, JointSearch(c).optimum()});
+      JointSearch search(c, 30'000);
+      const std::optional<int> optimum = search.optimum();
+      if (!search.gave_up()) out.push_back({c, optimum});
     }
     return out;
   }();
@@ -47,7 +49,7 @@ void share_out(std::vector<Variant>& variants, std::size_t variants_of_a_case) {
     CAPTURE(variant.name);
     CHECK(variant.tally.solved > 20);
     CHECK(variant.tally.unsolvable > 3);
-    CHECK(variant.tally.given_up < 10);
+    CHECK(variant.tally.given_up * 2 < variant.tally.solved);
   }
 }
 
@@ -101,6 +103,7 @@ TEST_CASE("random small problems: CBS as it is finds the joint optimum, individu
     if (c.optimum && *c.optimum > own.cost()) ++coordinated;
   }
   // The draw must hold enough of each kind to mean something.
+  CHECK(solved_cases().size() > 2350);
   CHECK(as_it_is.tally.solved > 1800);
   CHECK(as_it_is.tally.unsolvable > 300);
   CHECK(as_it_is.tally.given_up < 10);
@@ -137,7 +140,9 @@ TEST_CASE("random small problems: EECBS with any improvements stays within its b
   std::vector<Variant> variants;
   for (const double suboptimality : {1.0, 1.05, 1.2, 1.5}) {
     const auto add = [&](const std::string& key, const ParamOverride& value) {
-      variants.emplace_back(eecbs, key, suboptimality, ParamOverrides{{"node_limit", 300}, {key, value}});
+      const auto* number = std::get_if<int64_t>(&value);
+      variants.emplace_back(eecbs, key + (number ? "=" + std::to_string(*number) : ""), suboptimality,
+                            ParamOverrides{{"node_limit", 300}, {key, value}});
     };
     for (const std::string& improvement : improvements) add(improvement, improvement == "disjoint_splitting");
     add("explicit_estimation", false);
