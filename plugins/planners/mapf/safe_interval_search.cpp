@@ -201,14 +201,15 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
     interval.end = std::min(interval.end, rest + 1);
   }
   const Agent& agent = request_->agent;
-  // Where a tour has the same goal twice, waiting there is a step of the next leg: not like arriving later.
-  if (leg < agent.last_leg() && location == agent.goal(leg) && location == agent.goal(leg + 1)) {
-    interval.first = t;
-    interval.end = t + 1;
+  const std::int32_t finish_from = constraints.finish_from();
+  // Where a tour ends on the goal it has just reached, who comes before it may end has to go away again: the step in
+  // which it ends must not be a wait.
+  if (leg + 1 == agent.last_leg() && location == agent.goal(leg) && location == agent.goal(leg + 1)) {
+    if (t < finish_from) return {t, t + 1, true, interval.conflicts};
+    interval.first = std::max(interval.first, finish_from);
   }
   // Where the path may end, those times are not like the ones before.
   if (location == agent.last_goal() && leg == agent.last_leg()) {
-    const std::int32_t finish_from = constraints.finish_from();
     if (t < finish_from)
       interval.end = std::min(interval.end, finish_from);
     else
