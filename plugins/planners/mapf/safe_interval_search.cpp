@@ -202,9 +202,10 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
   }
   const Agent& agent = request_->agent;
   const std::int32_t finish_from = constraints.finish_from();
-  // Where a tour ends on the goal it has just reached, who comes before it may end has to go away again: the step in
-  // which it ends must not be a wait.
-  if (leg + 1 == agent.last_leg() && location == agent.goal(leg) && location == agent.goal(leg + 1)) {
+  // Where all goals left of a tour are here, who comes before it may end has to go away again: the step in which it ends
+  // must not be a wait.
+  const auto is_here = [&](Location goal) { return goal == location; };
+  if (leg < agent.last_leg() && std::all_of(agent.goals.begin() + leg, agent.goals.end(), is_here)) {
     if (t < finish_from) return {t, t + 1, true, interval.conflicts};
     interval.first = std::max(interval.first, finish_from);
   }

@@ -13,6 +13,8 @@
 
 namespace dmrp::test {
 
+inline constexpr const char* planner_library = "libdmrp_planners.so";
+inline constexpr const char* individual = "dmrp.planner.individual";
 inline constexpr const char* cbs = "dmrp.planner.cbs";
 inline constexpr const char* ecbs = "dmrp.planner.ecbs";
 inline constexpr const char* eecbs = "dmrp.planner.eecbs";
@@ -38,7 +40,7 @@ struct Variant {
   Variant(const std::string& id, const std::string& what, double w, ParamOverrides overrides)
       : name(id + " " + what), suboptimality(w) {
     if (id != cbs) overrides["suboptimality"] = w;
-    planner = std::make_unique<PluginUnderTest>("libdmrp_planners.so", id, std::move(overrides));
+    planner = std::make_unique<PluginUnderTest>(planner_library, id, std::move(overrides));
   }
 };
 
