@@ -10,7 +10,7 @@ std::optional<Passage> CorridorReasoning::find_passage(const Conflict& conflict,
 
 std::optional<SymmetrySplit> CorridorReasoning::find_split(const Passage& passage, const Conflict& conflict,
                                                            const Party& a, const Party& b) {
-  if (!scratch_) scratch_.emplace(problem_.graph);
+  if (!scratch_) scratch_.emplace(problem_.graph, stop_);
   const auto known_of = [this](const Party& party, ConstraintTable& table) {
     const auto who = static_cast<std::size_t>(party.agent);
     table.fill(problem_.agents[who], party.constraints);

@@ -12,8 +12,8 @@ namespace dmrp::planners {
 
 class CorridorReasoning {
  public:
-  CorridorReasoning(const Problem& problem, const std::vector<TourTable>& tables)
-      : problem_(problem), tables_(tables) {}
+  CorridorReasoning(const Problem& problem, const std::vector<TourTable>& tables, StopSignal& stop)
+      : problem_(problem), tables_(tables), stop_(stop) {}
 
   // What is known of an agent in the node that has the conflict. `constraints` are the agent's.
   struct Party {
@@ -30,8 +30,8 @@ class CorridorReasoning {
 
  private:
   struct Scratch {
-    explicit Scratch(const GridGraph& graph)
-        : tables{ConstraintTable(graph), ConstraintTable(graph)}, earliest_arrival(graph) {}
+    Scratch(const GridGraph& graph, StopSignal& stop)
+        : tables{ConstraintTable(graph), ConstraintTable(graph)}, earliest_arrival(graph, &stop) {}
 
     std::array<ConstraintTable, 2> tables;
     EarliestArrival earliest_arrival;
@@ -39,6 +39,7 @@ class CorridorReasoning {
 
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
+  StopSignal& stop_;
   std::optional<Corridors> corridors_;
   std::optional<Scratch> scratch_;
 };

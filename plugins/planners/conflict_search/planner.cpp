@@ -23,8 +23,8 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
   }
 
   const ConflictSearchOptions chosen = options();
-  MddCache mdds(problem, *tables);
-  CorridorReasoning corridors(problem, *tables);
+  MddCache mdds(problem, *tables, &stop);
+  CorridorReasoning corridors(problem, *tables, stop);
   ConflictSearch search(problem, *tables, corridors, mdds, chosen, stop);
   std::vector<std::int32_t> everybody(problem.agents.size());
   std::iota(everybody.begin(), everybody.end(), 0);

@@ -156,12 +156,14 @@ bool ConflictSearch::inform(NodeId id) {
     for (const std::int32_t agent : {a, b}) {
       if (is_counted[static_cast<std::size_t>(agent)]) continue;
       is_counted[static_cast<std::size_t>(agent)] = true;
-      raise += mdd_of(agent).cost() - path_of(agent).lower_bound;
+      const Mdd* const mdd = mdd_of(agent);
+      if (!mdd) return true;  // stopped
+      raise += mdd->cost() - path_of(agent).lower_bound;
     }
   std::vector<DependentPair> dependent;
   for (const Pair& pair : pairs_) {
     const std::int32_t weight = pair_weight(pair);
-    if (stop_.raised()) return true;
+    if (stop_.poll_now()) return true;
     if (weight >= no_solution) return false;
     if (weight > 0) dependent.push_back({pair.first, pair.second, weight});
   }
@@ -256,7 +258,10 @@ std::uint32_t ConflictSearch::choose_conflict() {
     classify(tree_.conflict(first));
     return first;
   }
-  for (const std::uint32_t index : conflicts_) classify(tree_.conflict(index));
+  for (const std::uint32_t index : conflicts_) {
+    if (stop_.poll_now()) break;
+    classify(tree_.conflict(index));
+  }
   return *std::min_element(conflicts_.begin(), conflicts_.end(), [&](std::uint32_t x, std::uint32_t y) {
     const NodeConflict& a = tree_.conflict(x);
     const NodeConflict& b = tree_.conflict(y);
@@ -290,8 +295,7 @@ void ConflictSearch::classify(NodeConflict& conflict) {
   if (options_.corridor_reasoning && (symmetry = find_corridor_split(c))) {
     conflict.reasoning = NodeConflict::Reasoning::corridor;
   } else if (options_.rectangle_reasoning && is_vertex(c) && conflict.cardinality != NodeConflict::Cardinality::full) {
-    symmetry =
-        find_rectangle(problem_.graph, c, mdd_of(c.a), mdd_of(c.b), path_of(c.a).locations, path_of(c.b).locations);
+    symmetry = find_rectangle_split(c);
     if (symmetry) conflict.reasoning = NodeConflict::Reasoning::rectangle;
   }
   if (!symmetry) return;
@@ -304,18 +308,27 @@ std::optional<SymmetrySplit> ConflictSearch::find_corridor_split(const Conflict&
   const PathView path_b = path_of(conflict.b).locations;
   const auto passage = corridors_.find_passage(conflict, path_a, path_b);
   if (!passage) return std::nullopt;
-  const Mdd& mdd_a = mdd_of(conflict.a);
-  const Mdd& mdd_b = mdd_of(conflict.b);
+  const Mdd* const mdd_a = mdd_of(conflict.a);
+  const Mdd* const mdd_b = mdd_of(conflict.b);
+  if (!mdd_a || !mdd_b) return std::nullopt;
   tree_.gather_constraints(entered_, conflict.a, constraints_);
   tree_.gather_constraints(entered_, conflict.b, other_constraints_);
-  return corridors_.find_split(*passage, conflict, {conflict.a, path_a, constraints_, mdd_a},
-                               {conflict.b, path_b, other_constraints_, mdd_b});
+  return corridors_.find_split(*passage, conflict, {conflict.a, path_a, constraints_, *mdd_a},
+                               {conflict.b, path_b, other_constraints_, *mdd_b});
+}
+
+std::optional<SymmetrySplit> ConflictSearch::find_rectangle_split(const Conflict& conflict) {
+  const Mdd* const mdd_a = mdd_of(conflict.a);
+  const Mdd* const mdd_b = mdd_of(conflict.b);
+  if (!mdd_a || !mdd_b) return std::nullopt;
+  return find_rectangle(problem_.graph, conflict, *mdd_a, *mdd_b, path_of(conflict.a).locations,
+                        path_of(conflict.b).locations);
 }
 
 // Whether all of the agent's paths of least cost arrive there (from there) at that time.
 bool ConflictSearch::must_arrive(std::int32_t agent, Location from, Location to, std::int32_t t) {
-  const Mdd& mdd = mdd_of(agent);
-  return mdd.must_be_at(to, t) && (from == nowhere || mdd.must_be_at(from, t - 1));
+  const Mdd* const mdd = mdd_of(agent);
+  return mdd && mdd->must_be_at(to, t) && (from == nowhere || mdd->must_be_at(from, t - 1));
 }
 
 Split ConflictSearch::split_on(const NodeConflict& conflict) {
@@ -341,14 +354,15 @@ Split ConflictSearch::plain_split(const Conflict& c) {
   return {{{pass_vertex(c.a, c.location, c.t)}, {avoid_vertex(c.a, c.location, c.t)}}};
 }
 
-const Mdd& ConflictSearch::mdd_of(std::int32_t agent) {
+// Null if the search was stopped.
+const Mdd* ConflictSearch::mdd_of(std::int32_t agent) {
   const std::uint64_t signature = signatures_[static_cast<std::size_t>(agent)];
   NodeMdd& known = node_mdds_[static_cast<std::size_t>(agent)];
   if (!known.mdd || known.signature != signature) {
     tree_.gather_constraints(entered_, agent, constraints_);
     known = {signature, mdds_.get(agent, constraints_, path_of(agent).lower_bound)};
   }
-  return *known.mdd;
+  return known.mdd.get();
 }
 
 // False if an agent has no path under the constraints (or the search was stopped).
@@ -490,7 +504,10 @@ double ConflictSearch::estimate(const Node& node) const {
 // How much more the two agents' least joint cost is than their least costs together, under the node's constraints.
 std::int32_t ConflictSearch::pair_weight(const Pair& pair) {
   const auto [a, b] = pair;
-  const std::int32_t least = mdd_of(a).cost() + mdd_of(b).cost();
+  const Mdd* const mdd_a = mdd_of(a);
+  const Mdd* const mdd_b = mdd_of(b);
+  if (!mdd_a || !mdd_b) return 0;  // stopped
+  const std::int32_t least = mdd_a->cost() + mdd_b->cost();
   const PairKey key = {a, b, signatures_[static_cast<std::size_t>(a)], signatures_[static_cast<std::size_t>(b)]};
   const auto [at, is_new] = pair_weights_.emplace(key, 0);
   if (!is_new) return at->second;

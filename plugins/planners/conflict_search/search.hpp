@@ -88,10 +88,11 @@ class ConflictSearch {
   std::uint32_t choose_conflict();
   void classify(NodeConflict& conflict);
   std::optional<SymmetrySplit> find_corridor_split(const Conflict& conflict);
+  std::optional<SymmetrySplit> find_rectangle_split(const Conflict& conflict);
   bool must_arrive(std::int32_t agent, Location from, Location to, std::int32_t t);
   Split split_on(const NodeConflict& conflict);
   Split plain_split(const Conflict& conflict);
-  const Mdd& mdd_of(std::int32_t agent);
+  const Mdd* mdd_of(std::int32_t agent);
 
   bool make_child(NodeId parent, const std::vector<Constraint>& constraints, Child& child);
   bool replan_all(NodeId parent, const std::vector<std::int32_t>& agents, const std::vector<Constraint>& constraints,

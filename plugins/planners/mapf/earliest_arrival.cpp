@@ -12,8 +12,8 @@ constexpr std::int32_t max_visits = 20'000;  // of one search
 
 }  // namespace
 
-EarliestArrival::EarliestArrival(const GridGraph& graph)
-    : graph_(&graph), visited_in_(static_cast<std::size_t>(graph.location_count()), 0) {}
+EarliestArrival::EarliestArrival(const GridGraph& graph, StopSignal* stop)
+    : graph_(&graph), stop_(stop), visited_in_(static_cast<std::size_t>(graph.location_count()), 0) {}
 
 // From landmark to landmark: the agent is at each, or has been where it is to go before.
 std::optional<std::int32_t> EarliestArrival::search(const Query& query) {
@@ -49,7 +49,7 @@ EarliestArrival::Outcome EarliestArrival::search_stage(const Query& query, Locat
   visits_.clear();
   push(query, from, t, latest);
   for (std::int32_t count = 0; !open_.empty(); ++count) {
-    if (count == max_visits) return Outcome::gave_up;
+    if (count == max_visits || (stop_ && stop_->poll())) return Outcome::gave_up;
     std::pop_heap(open_.begin(), open_.end(), is_worse);
     const Open best = open_.back();
     open_.pop_back();

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "constraint.hpp"
+#include "stop_signal.hpp"
 #include "tour_table.hpp"
 
 namespace dmrp::planners {
 
 class EarliestArrival {
  public:
-  explicit EarliestArrival(const GridGraph& graph);
+  explicit EarliestArrival(const GridGraph& graph, StopSignal* stop = nullptr);
 
   struct Query {
     const Agent& agent;
@@ -28,7 +29,8 @@ class EarliestArrival {
   };
 
   // A time before which the agent cannot be there: the earliest but for what is asked of it after it has been there;
-  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out. The graph must be symmetric.
+  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out or `stop` says so. The graph must
+  // be symmetric.
   std::optional<std::int32_t> search(const Query& query);
 
  private:
@@ -50,6 +52,7 @@ class EarliestArrival {
   std::int32_t lower_bound(const Query& query, Location from) const;
 
   const GridGraph* graph_;
+  StopSignal* stop_;
   std::vector<Open> open_;
   std::vector<std::uint32_t> visited_in_;  // by location without constraints: the stage
   std::vector<Visit> visits_;              // of locations with constraints

@@ -31,12 +31,13 @@ bool at_landmark(const ConstraintTable& constraints, Location location, std::int
 // Adds the places that can be reached at time t from level t - 1 and from which the end can still be reached by `cost`.
 void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, const TourTable& table,
                 const ConstraintTable& constraints, std::int32_t t, std::int32_t cost,
-                std::vector<std::uint32_t>& node_at) {
+                std::vector<std::uint32_t>& node_at, StopSignal* stop) {
   const auto level_begin = static_cast<std::uint32_t>(growth.nodes.size());
   const std::uint32_t previous = growth.level_begin.back();
   growth.level_begin.push_back(level_begin);
   const auto locations = static_cast<std::size_t>(graph.location_count());
   for (std::uint32_t parent = previous; parent < level_begin; ++parent) {
+    if (stop && stop->poll()) return;
     const Mdd::Node from = growth.nodes[parent].node;
     const std::int32_t leg = agent.leg_after(from.leg, from.location);
     growth.nodes[parent].successors_begin = static_cast<std::uint32_t>(growth.successors.size());
@@ -72,13 +73,16 @@ void mark(Growth& growth, const Agent& agent) {
 }  // namespace
 
 Mdd::Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
-         std::int32_t cost) {
+         std::int32_t cost, StopSignal* stop) {
   if (cost < constraints.finish_from() || cost > constraints.finish_until()) return;
   Growth growth;
   growth.level_begin.push_back(0);
   growth.nodes.push_back({{agent.start, 0}, 0, 0, false});
   std::vector<std::uint32_t> node_at(agent.goals.size() * static_cast<std::size_t>(graph.location_count()), 0);
-  for (std::int32_t t = 1; t <= cost; ++t) grow_level(growth, graph, agent, table, constraints, t, cost, node_at);
+  for (std::int32_t t = 1; t <= cost; ++t) {
+    grow_level(growth, graph, agent, table, constraints, t, cost, node_at, stop);
+    if (stop && stop->raised()) return;
+  }
   mark(growth, agent);
   if (!growth.nodes.front().leads_to_the_end) return;
 
@@ -115,7 +119,8 @@ std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constra
     if (it->second.constraints == constraints) return it->second.mdd;
   constraint_table_.fill(problem_.agents[who], constraints);
   for (std::int32_t cost = at_least;; ++cost) {
-    Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost);
+    Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost, stop_);
+    if (stop_ && stop_->poll()) return nullptr;
     if (mdd.is_empty()) continue;
     size_ += mdd.node_count() + 2 * static_cast<std::size_t>(cost) + 4 * constraints.size();
     return of_agent_[who].emplace(hash, Entry{constraints, std::make_shared<const Mdd>(std::move(mdd))})->second.mdd;

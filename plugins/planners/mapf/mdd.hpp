@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "constraint.hpp"
+#include "stop_signal.hpp"
 #include "tour_table.hpp"
 
 namespace dmrp::planners {
@@ -20,9 +21,9 @@ class Mdd {
     std::int32_t leg;
   };
 
-  // Empty if there is no path of this cost. If there is, it is the least under the constraints.
+  // Empty if there is no path of this cost, or if `stop` says so. `cost` is at most the least under the constraints.
   Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
-      std::int32_t cost);
+      std::int32_t cost, StopSignal* stop = nullptr);
 
   bool is_empty() const { return nodes_.empty(); }
   std::size_t node_count() const { return nodes_.size(); }
@@ -45,10 +46,15 @@ class Mdd {
 // The MDDs made so far, keyed by what they follow from: the agent and its constraints.
 class MddCache {
  public:
-  MddCache(const Problem& problem, const std::vector<TourTable>& tables)
-      : problem_(problem), tables_(tables), constraint_table_(problem.graph), of_agent_(problem.agents.size()) {}
+  MddCache(const Problem& problem, const std::vector<TourTable>& tables, StopSignal* stop = nullptr)
+      : problem_(problem),
+        tables_(tables),
+        stop_(stop),
+        constraint_table_(problem.graph),
+        of_agent_(problem.agents.size()) {}
 
-  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`.
+  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`. Sorts
+  // the constraints. Null if `stop` says so.
   std::shared_ptr<const Mdd> get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least);
 
   // Forgets everything once it has grown too large.
@@ -63,6 +69,7 @@ class MddCache {
 
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
+  StopSignal* stop_;
   ConstraintTable constraint_table_;
   std::vector<ByHash> of_agent_;
   std::size_t size_ = 0;  // nodes of all

@@ -112,13 +112,13 @@ class JointReachability {
     direction_.assign(from_.size(), connectivity);
     add_reached();
     for (std::size_t next = 0; next < queue_.size(); ++next) {
-      if (stop.poll()) return true;
+      if (stop.raised()) return true;
       unpack(queue_[next]);
       end_reached_ = end_reached_ || from_ == ends;
       note_goals();
       if (end_reached_ && std::all_of(missing_.begin(), missing_.end(), [](const auto& m) { return m.empty(); }))
         return true;
-      move_agent(0);
+      move_agent(0, stop);
     }
     return false;
   }
@@ -150,12 +150,13 @@ class JointReachability {
   }
 
   // Tries all moves of agent i and those after it that do not conflict with the moves of the agents before.
-  void move_agent(std::size_t i) {
+  void move_agent(std::size_t i, StopSignal& stop) {
+    if (stop.poll()) return;
     if (i == from_.size()) return add_reached();
     for (Direction d = 0; d <= connectivity; ++d) {
       to_[i] = d == connectivity ? from_[i] : problem_.graph.neighbor(from_[i], d);
       direction_[i] = d;
-      if (to_[i] != nowhere && !conflicts_with_earlier(i)) move_agent(i + 1);
+      if (to_[i] != nowhere && !conflicts_with_earlier(i)) move_agent(i + 1, stop);
     }
   }
 

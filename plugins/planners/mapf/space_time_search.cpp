@@ -86,10 +86,11 @@ void SpaceTimeSearch::offer(Node node) {
   Id& known = slot_of(node.key);
   if (known != none) {
     const Node& other = nodes_[known];
-    const auto rank = [](const Node& n) { return std::tuple(n.f, n.conflicts, n.turns); };
-    const bool is_only_straighter = other.f == node.f && other.conflicts == node.conflicts;
+    // by time, not by f: where a lower bound has raised f, the later node may have the same
+    const auto rank = [](const Node& n) { return std::tuple(n.t, n.conflicts, n.turns); };
+    const bool is_only_straighter = other.t == node.t && other.conflicts == node.conflicts;
     if (rank(other) <= rank(node) || (is_only_straighter && !other.is_open)) return;
-    node.is_fresh = other.is_fresh || other.f > node.f;
+    node.is_fresh = other.is_fresh || other.t > node.t;
     close(known);
   }
   known = static_cast<Id>(nodes_.size());
