@@ -19,6 +19,7 @@ struct Growth {
   std::vector<GrowingNode> nodes;
   std::vector<std::uint32_t> level_begin;
   std::vector<std::uint32_t> successors;
+  bool can_wait_at_end = false;
 };
 
 // False if the agent has to be elsewhere at that time.
@@ -45,7 +46,10 @@ void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, cons
       const Location to = d == GridGraph::direction_count ? from.location : graph.neighbor(from.location, d);
       if (to == nowhere || t + table.distance(leg, to) > cost || !constraints.allows(from.location, to, t)) continue;
       if (!at_landmark(constraints, to, t)) continue;
-      if (t == cost && to == from.location && leg == from.leg) continue;  // it would have ended before
+      if (t == cost && to == from.location && leg == from.leg) {  // it would have ended before
+        growth.can_wait_at_end = true;
+        continue;
+      }
       // A number from an earlier level is smaller than level_begin, and one not yet set points elsewhere.
       std::uint32_t& at = node_at[static_cast<std::size_t>(leg) * locations + static_cast<std::size_t>(to)];
       const bool known = at >= level_begin && at < growth.nodes.size();
@@ -84,6 +88,7 @@ Mdd::Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, con
     if (stop && stop->raised()) return;
   }
   mark(growth, agent);
+  can_wait_at_end_ = growth.can_wait_at_end;
   if (!growth.nodes.front().leads_to_the_end) return;
 
   growth.level_begin.push_back(static_cast<std::uint32_t>(growth.nodes.size()));

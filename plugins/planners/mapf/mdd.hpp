@@ -35,12 +35,17 @@ class Mdd {
     return {nodes_.data() + level_begin_[at], nodes_.data() + level_begin_[at + 1]};
   }
 
+  // Whether the agent can be at its goal at cost() by a wait: no path of this cost does so, as it would have ended before,
+  // but one that goes away again may.
+  bool can_wait_at_end() const { return can_wait_at_end_; }
+
   // Whether every path of this cost is at `location` at time t (or rests there by then).
   bool must_be_at(Location location, std::int32_t t) const;
 
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> level_begin_;
+  bool can_wait_at_end_ = false;
 };
 
 // The MDDs made so far, keyed by what they follow from: the agent and its constraints.

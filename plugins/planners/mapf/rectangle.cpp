@@ -239,6 +239,7 @@ std::optional<SymmetrySplit> find_rectangle(const GridGraph& graph, const Confli
   if (conflict.from != nowhere || t == 0 || t > cost_of(path_a) || t > cost_of(path_b) || t > mdd_a.cost() ||
       t > mdd_b.cost())
     return std::nullopt;
+  if (mdd_a.can_wait_at_end() || mdd_b.can_wait_at_end()) return std::nullopt;
   const std::optional<Frame> frame = frame_of(graph, conflict, path_a, path_b);
   if (!frame || !has_one_leg(mdd_a) || !has_one_leg(mdd_b)) return std::nullopt;
   if (!holds(mdd_a.level(t), conflict.location) || !holds(mdd_b.level(t), conflict.location)) return std::nullopt;
