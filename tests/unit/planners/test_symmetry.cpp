@@ -227,7 +227,7 @@ TEST_CASE("the exhaustive search over pairs of paths finds a pair that breaks tw
 
 TEST_CASE("a rectangle split loses no pair of paths without conflict and names rises in cost") {
   const Tally plain = draw_rectangles(1, 3000, false, 0);
-  const Tally constrained = draw_rectangles(2, 4000, true, 0);
+  const Tally constrained = draw_rectangles(2, 6000, true, 0);
   const Tally longer = draw_rectangles(3, 12000, true, 3);
   for (const Tally& tally : {plain, constrained, longer}) {
     CHECK(tally.splits > 100);
