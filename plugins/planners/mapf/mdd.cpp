@@ -19,7 +19,7 @@ struct Growth {
   std::vector<GrowingNode> nodes;
   std::vector<std::uint32_t> level_begin;
   std::vector<std::uint32_t> successors;
-  bool can_wait_at_end = false;
+  bool may_wait_at_end = false;
 };
 
 // False if the agent has to be elsewhere at that time.
@@ -47,7 +47,7 @@ void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, cons
       if (to == nowhere || t + table.distance(leg, to) > cost || !constraints.allows(from.location, to, t)) continue;
       if (!at_landmark(constraints, to, t)) continue;
       if (t == cost && to == from.location && leg == from.leg) {  // it would have ended before
-        growth.can_wait_at_end = true;
+        growth.may_wait_at_end = true;
         continue;
       }
       // A number from an earlier level is smaller than level_begin, and one not yet set points elsewhere.
@@ -88,8 +88,8 @@ Mdd::Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, con
     if (stop && stop->raised()) return;
   }
   mark(growth, agent);
-  can_wait_at_end_ = growth.can_wait_at_end;
   if (!growth.nodes.front().leads_to_the_end) return;
+  may_wait_at_end_ = growth.may_wait_at_end;
 
   growth.level_begin.push_back(static_cast<std::uint32_t>(growth.nodes.size()));
   for (std::size_t level = 0; level + 1 < growth.level_begin.size(); ++level) {

@@ -25,6 +25,10 @@ class Mdd {
   Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
       std::int32_t cost, StopSignal* stop = nullptr);
 
+  // Whether the agent can be at its goal one step before and wait there, but must not have come to rest so early. (So a
+  // longer path can meet the last node by a way that is not in here: no other node can be met like that.)
+  bool may_wait_at_end() const { return may_wait_at_end_; }
+
   bool is_empty() const { return nodes_.empty(); }
   std::size_t node_count() const { return nodes_.size(); }
   std::int32_t cost() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
@@ -35,17 +39,13 @@ class Mdd {
     return {nodes_.data() + level_begin_[at], nodes_.data() + level_begin_[at + 1]};
   }
 
-  // Whether the agent can be at its goal at cost() by a wait: no path of this cost does so, as it would have ended before,
-  // but one that goes away again may.
-  bool can_wait_at_end() const { return can_wait_at_end_; }
-
   // Whether every path of this cost is at `location` at time t (or rests there by then).
   bool must_be_at(Location location, std::int32_t t) const;
 
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> level_begin_;
-  bool can_wait_at_end_ = false;
+  bool may_wait_at_end_ = false;
 };
 
 // The MDDs made so far, keyed by what they follow from: the agent and its constraints.

@@ -141,9 +141,11 @@ Front first_front(const Frame& frame, const Mdd& mdd, std::int32_t t) {
 // the pure ones.
 Front next_front(const GridGraph& graph, const Frame& frame, const Mdd& mdd, std::int32_t t, const Front& before) {
   Front front;
+  const bool all_ways_are_known = t < mdd.cost() || !mdd.may_wait_at_end();
   for (const Mdd::Node& node : mdd.level(t)) {
     const Coordinates c = frame.at(node.location);
-    FrontNode next{node.location, frame.in_phase(c, t), false, std::numeric_limits<std::int32_t>::max()};
+    FrontNode next{node.location, all_ways_are_known && frame.in_phase(c, t), false,
+                   std::numeric_limits<std::int32_t>::max()};
     for (Direction d = 0; d <= GridGraph::direction_count; ++d) {
       const Location from = d == GridGraph::direction_count ? node.location : graph.predecessor(node.location, d);
       const FrontNode* parent = from == nowhere ? nullptr : find(before, from);
@@ -239,7 +241,6 @@ std::optional<SymmetrySplit> find_rectangle(const GridGraph& graph, const Confli
   if (conflict.from != nowhere || t == 0 || t > cost_of(path_a) || t > cost_of(path_b) || t > mdd_a.cost() ||
       t > mdd_b.cost())
     return std::nullopt;
-  if (mdd_a.can_wait_at_end() || mdd_b.can_wait_at_end()) return std::nullopt;
   const std::optional<Frame> frame = frame_of(graph, conflict, path_a, path_b);
   if (!frame || !has_one_leg(mdd_a) || !has_one_leg(mdd_b)) return std::nullopt;
   if (!holds(mdd_a.level(t), conflict.location) || !holds(mdd_b.level(t), conflict.location)) return std::nullopt;

@@ -12,8 +12,8 @@
 // phase since a time when all of a's were to the left of all of b's, one agent has to stay off its whole barrier.
 //
 // That holds for paths longer than those of the MDDs too: whoever reaches a node of its MDD came by a way in the MDD,
-// as it could go on to the end at least cost from there. (Not so at the goal, where a path that came by a wait could not
-// end: nothing is done about agents that can.)
+// as it could go on to the end at least cost from there. (The last node alone may be reached otherwise: by waiting at
+// the goal where that is too early to come to rest. Then it is on no barrier.)
 #pragma once
 
 #include <optional>
