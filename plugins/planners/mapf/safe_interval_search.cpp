@@ -201,14 +201,16 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
     interval.end = std::min(interval.end, rest + 1);
   }
   const Agent& agent = request_->agent;
-  // Where a tour has the same goal twice, waiting there is a step of the next leg: not like arriving later.
-  if (leg < agent.last_leg() && location == agent.goal(leg) && location == agent.goal(leg + 1)) {
-    interval.first = t;
-    interval.end = t + 1;
+  const std::int32_t finish_from = constraints.finish_from();
+  // Where all goals left of a tour are here, who comes before it may end has to go away again: the step in which it ends
+  // must not be a wait.
+  const auto is_here = [&](Location goal) { return goal == location; };
+  if (leg < agent.last_leg() && std::all_of(agent.goals.begin() + leg, agent.goals.end(), is_here)) {
+    if (t < finish_from) return {t, t + 1, true, interval.conflicts};
+    interval.first = std::max(interval.first, finish_from);
   }
   // Where the path may end, those times are not like the ones before.
   if (location == agent.last_goal() && leg == agent.last_leg()) {
-    const std::int32_t finish_from = constraints.finish_from();
     if (t < finish_from)
       interval.end = std::min(interval.end, finish_from);
     else

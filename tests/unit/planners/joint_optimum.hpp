@@ -16,7 +16,9 @@ namespace dmrp::test {
 
 class JointSearch {
  public:
-  explicit JointSearch(const PlanningCase& c) : case_(c) {
+  // Problems with more joint positions to look at than `most_states` are given up.
+  explicit JointSearch(const PlanningCase& c, std::size_t most_states = std::numeric_limits<std::size_t>::max())
+      : case_(c), most_states_(most_states) {
     for (const CaseRobot& robot : c.robots) {
       if (robot.state == DMRP_ROBOT_ACTIVE)
         robots_.push_back(&robot);
@@ -26,7 +28,7 @@ class JointSearch {
     for (const CaseRobot* robot : robots_) distances_.push_back(distances_to_the_end(*robot));
   }
 
-  // Nothing if there is no plan.
+  // Nothing if there is no plan (or the search gave up).
   std::optional<int> optimum() {
     State start;
     for (const CaseRobot* robot : robots_) start.push_back({robot->start, 0, false});
@@ -35,6 +37,7 @@ class JointSearch {
         if (start[a].cell == start[b].cell) return std::nullopt;
     offer_with_rests(start, 0, 0);
     while (!open_.empty()) {
+      if (best_.size() > most_states_) return std::nullopt;
       const auto [f, code] = open_.top();
       open_.pop();
       const int cost = best_.at(code);
@@ -46,6 +49,8 @@ class JointSearch {
     }
     return std::nullopt;
   }
+
+  bool gave_up() const { return best_.size() > most_states_; }
 
   // Of robot `index` among the active ones, alone: nothing if it is cut off.
   std::optional<int> alone(std::size_t index) const {
@@ -180,6 +185,7 @@ class JointSearch {
 
   using Open = std::pair<int, uint64_t>;
   const PlanningCase& case_;
+  std::size_t most_states_;
   std::vector<const CaseRobot*> robots_;
   std::vector<CellXY> resting_;
   std::vector<std::vector<int>> distances_;

@@ -177,9 +177,9 @@ class LowLevelCase {
   static PlanningCase draw_grid(Random& random) {
     PlanningCase c({"....", ".#..", "...."});
     if (random.one_in(3)) c.thin_wall({2, 1}, {3, 1}).thin_wall({2, 0}, {2, 1});
-    std::vector<CellXY> goals;
-    for (int n = random.one_in(3) ? 2 + random.below(2) : 1; n > 0; --n)
-      goals.push_back(!goals.empty() && random.one_in(3) ? goals.back() : CellXY{random.below(4), 2});
+    std::vector<CellXY> goals = {{random.below(4), 2}};
+    if (random.one_in(3)) goals.push_back(random.one_in(3) ? goals.back() : CellXY{random.below(4), 2});
+    if (random.one_in(6)) goals.insert(goals.begin(), CellXY{random.below(4), 0});
     return c.robot({random.below(4), 2 * random.below(2)}, goals);
   }
   Location draw_location(Random& random) const {

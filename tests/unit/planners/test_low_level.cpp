@@ -96,10 +96,13 @@ TEMPLATE_TEST_CASE("a low level finds a path of least cost, and of these one wit
     REQUIRE(result == (conflicts_by_cost.empty() ? LowLevelResult::none : LowLevelResult::found));
     if (conflicts_by_cost.empty()) continue;
     const auto [cost, conflicts] = *conflicts_by_cost.begin();
-    check_path(c, counting, planning.path);
-    REQUIRE(cost_of(planning.path.locations) == cost);
-    REQUIRE(planning.path.lower_bound == cost);
-    REQUIRE(planning.path.conflicts == conflicts);
+    for (const int known : {0, cost}) {  // a bound from before, or none
+      REQUIRE(planning.run(1, 0, known) == LowLevelResult::found);
+      check_path(c, counting, planning.path);
+      REQUIRE(cost_of(planning.path.locations) == cost);
+      REQUIRE(planning.path.lower_bound == cost);
+      REQUIRE(planning.path.conflicts == conflicts);
+    }
     ++with_path;
     with_conflicts += conflicts > 0 ? 1 : 0;
     late += cost > 6 ? 1 : 0;

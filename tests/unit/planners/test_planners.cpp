@@ -1,321 +1,212 @@
 // SPDX-License-Identifier: MIT
+// CBS, ECBS, EECBS and individual shortest paths through the C interface, against the optimum over joint positions.
 #include <catch2/catch.hpp>
 
 #include "joint_optimum.hpp"
-#include "plan_check.hpp"
+#include "planner_variants.hpp"
 #include "random_case.hpp"
 
 using namespace dmrp::test;
 
 namespace {
 
-const char* const library = "libdmrp_planners.so";
-const char* const cbs = "dmrp.planner.cbs";
-const char* const individual = "dmrp.planner.individual";
+const std::vector<std::string> by_conflicts = {cbs, ecbs, eecbs};
+
+// Small problems with their optimum, found once for all test cases.
+struct SolvedCase {
+  PlanningCase problem;
+  std::optional<int> optimum;
+};
+const std::vector<SolvedCase>& solved_cases() {
+  static const std::vector<SolvedCase> cases = [] {
+    std::vector<SolvedCase> out;
+    for (uint64_t seed = 0; seed < 2400; ++seed) {
+      const PlanningCase c = random_case(seed, seed % 4 == 3 ? 4 : 3);
+      JointSearch search(c, 10'000);
+      const std::optional<int> optimum = search.optimum();
+      if (!search.gave_up()) out.push_back({c, optimum});
+    }
+    return out;
+  }();
+  return cases;
+}
+
+// Each case is for some of the variants, so that each variant has a good share of the cases, and together they have
+// all of them.
+void share_out(std::vector<Variant>& variants, std::size_t variants_of_a_case) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < solved_cases().size(); ++i) {
+    CAPTURE(i);
+    const SolvedCase& c = solved_cases()[i];
+    for (std::size_t k = 0; k < variants_of_a_case; ++k, next = (next + 1) % variants.size())
+      plan_and_check(variants[next], c.problem, c.optimum);
+  }
+  for (const Variant& variant : variants) {
+    CAPTURE(variant.name);
+    CHECK(variant.tally.solved > 20);
+    CHECK(variant.tally.unsolvable > 3);
+    CHECK(variant.tally.given_up * 2 < variant.tally.solved);
+  }
+}
+
+std::vector<std::string> all_but(const std::vector<std::string>& out) {
+  std::vector<std::string> in;
+  for (const std::string& improvement : improvements)
+    if (improvement != "disjoint_splitting" && std::find(out.begin(), out.end(), improvement) == out.end())
+      in.push_back(improvement);
+  if (std::find(out.begin(), out.end(), "disjoint_splitting") != out.end()) in.push_back("disjoint_splitting");
+  return in;
+}
 
 }  // namespace
 
 TEST_CASE("the library describes its planners") {
-  const dmrp_descriptor* a = PluginLibrary::load(library).find(individual);
-  const dmrp_descriptor* b = PluginLibrary::load(library).find(cbs);
-  REQUIRE(a);
-  REQUIRE(b);
-  CHECK(a->kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(a->connectivity == DMRP_CONNECTIVITY_4);
-  CHECK(a->planner_flags == DMRP_PLANNER_UNCOORDINATED);
-  CHECK(b->kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(b->connectivity == DMRP_CONNECTIVITY_4);
-  CHECK(b->planner_flags == 0);
+  const PluginLibrary& plugins = PluginLibrary::load(planner_library);
+  for (const std::string& id : by_conflicts) {
+    CAPTURE(id);
+    const dmrp_descriptor* descriptor = plugins.find(id);
+    REQUIRE(descriptor);
+    CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
+    CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+    CHECK(descriptor->planner_flags == 0);
+  }
+  const dmrp_descriptor* descriptor = plugins.find(individual);
+  REQUIRE(descriptor);
+  CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(descriptor->planner_flags == DMRP_PLANNER_UNCOORDINATED);
 }
 
-TEST_CASE("random small problems: CBS finds the joint optimum, individual each robot's own") {
-  // Some of these problems take CBS millions of nodes: it may give up on very few, and its bound must hold there too.
-  PluginUnderTest cbs_planner(library, cbs, {{"node_limit", 2000}});
-  PluginUnderTest individual_planner(library, individual);
-  int solvable = 0;
+TEST_CASE("random small problems: CBS as it is finds the joint optimum, individual each robot's own") {
+  Variant as_it_is(cbs, "as it is", 1, {{"node_limit", 2000}});
+  PluginUnderTest individual_planner(planner_library, individual);
   int coordinated = 0;
-  int unsolvable = 0;
-  int given_up = 0;
-  for (uint64_t seed = 0; seed < 1500; ++seed) {
-    CAPTURE(seed);
-    const PlanningCase c = random_case(seed);
-    JointSearch search(c);
-    const std::optional<int> optimum = search.optimum();
+  for (const SolvedCase& c : solved_cases()) {
+    CAPTURE(&c - solved_cases().data());
+    plan_and_check(as_it_is, c.problem, c.optimum);
 
-    const Plan plan = run_planner(cbs_planner, c);
-    if (optimum && plan.status == DMRP_TIMEOUT) {
-      ++given_up;
-      REQUIRE(plan.statistics.at("lower_bound") <= *optimum);
-    } else if (optimum) {
-      ++solvable;
-      REQUIRE(plan.status == DMRP_OK);
-      REQUIRE(check_plan(c, plan) == "");
-      REQUIRE(plan.cost() == *optimum);
-      REQUIRE(plan.statistics.at("cost") == *optimum);
-      REQUIRE(plan.statistics.at("lower_bound") == *optimum);
-    } else {
-      ++unsolvable;
-      REQUIRE(plan.status == DMRP_NO_SOLUTION);
-    }
-
-    PlanningCase without_resting = c;
+    PlanningCase without_resting = c.problem;
     for (CaseRobot& robot : without_resting.robots) robot.state = DMRP_ROBOT_ACTIVE;
     const JointSearch alone(without_resting);
     const Plan own = run_planner(individual_planner, without_resting);
     bool cut_off = false;
-    for (std::size_t i = 0; i < c.robots.size(); ++i) cut_off = cut_off || !alone.alone(i);
+    for (std::size_t i = 0; i < c.problem.robots.size(); ++i) cut_off = cut_off || !alone.alone(i);
     REQUIRE(own.status == (cut_off ? DMRP_NO_SOLUTION : DMRP_OK));
     if (cut_off) continue;
     REQUIRE(check_paths(without_resting, own) == "");
-    for (std::size_t i = 0; i < c.robots.size(); ++i)
+    for (std::size_t i = 0; i < c.problem.robots.size(); ++i)
       REQUIRE(static_cast<int>(own.paths[i].size()) - 1 == *alone.alone(i));
-    if (plan.status == DMRP_OK && plan.cost() > own.cost()) ++coordinated;
+    if (c.optimum && *c.optimum > own.cost()) ++coordinated;
   }
   // The draw must hold enough of each kind to mean something.
-  CHECK(solvable > 1000);
+  CHECK(solved_cases().size() > 2350);
+  CHECK(as_it_is.tally.solved > 1800);
+  CHECK(as_it_is.tally.unsolvable > 300);
+  CHECK(as_it_is.tally.given_up < 10);
   CHECK(coordinated > 100);
-  CHECK(unsolvable > 50);
-  CHECK(given_up < 15);
 }
 
-TEST_CASE("crowded small problems: CBS finds the joint optimum") {
-  PluginUnderTest planner(library, cbs);
-  for (uint64_t seed = 0; seed < 60; ++seed) {
-    CAPTURE(seed);
-    Random random(seed + 77);
-    PlanningCase c({"....", ".#..", "....", "...#"});
-    std::vector<CellXY> starts;
-    std::vector<CellXY> goals;
-    for (std::vector<CellXY>* cells : {&starts, &goals})
-      while (cells->size() < 4) {
-        const CellXY cell{random.below(4), random.below(4)};
-        if (c.is_free(cell) && std::find(cells->begin(), cells->end(), cell) == cells->end()) cells->push_back(cell);
+TEST_CASE("random small problems: CBS with any improvements finds the joint optimum") {
+  std::vector<Variant> variants;
+  for (const bool safe_intervals : {true, false}) {
+    const ParamOverrides common = {{"node_limit", 300}, {"safe_intervals", safe_intervals}};
+    variants.push_back(cbs_with({}, common));
+    variants.push_back(cbs_with(all_but({}), common));
+    for (std::size_t a = 0; a < improvements.size(); ++a)
+      for (std::size_t b = 0; b <= a; ++b) {  // each alone and, as a == b, in pairs; on with all others off, and off
+        std::vector<std::string> some = {improvements[a]};
+        if (b != a) some.push_back(improvements[b]);
+        variants.push_back(cbs_with(some, common));
+        variants.push_back(cbs_with(all_but(some), common));
       }
-    for (std::size_t i = 0; i < 4; ++i) c.robot(starts[i], {goals[i]});
-    const Plan plan = run_planner(planner, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    REQUIRE(plan.cost() == JointSearch(c).optimum());
   }
+  share_out(variants, 8);
 }
 
-TEST_CASE("one robot takes a shortest path with fewest turns") {
-  for (const char* id : {individual, cbs}) {
+TEST_CASE("random small problems: ECBS stays within its bound") {
+  std::vector<Variant> variants;
+  for (const double suboptimality : {1.0, 1.05, 1.2, 1.5})
+    for (const bool safe_intervals : {true, false})
+      variants.emplace_back(ecbs, "", suboptimality,
+                            ParamOverrides{{"node_limit", 300}, {"safe_intervals", safe_intervals}});
+  share_out(variants, 2);
+}
+
+TEST_CASE("random small problems: EECBS with any improvements stays within its bound") {
+  std::vector<Variant> variants;
+  for (const double suboptimality : {1.0, 1.05, 1.2, 1.5}) {
+    const auto add = [&](const std::string& key, const ParamOverride& value) {
+      const auto* number = std::get_if<int64_t>(&value);
+      variants.emplace_back(eecbs, key + (number ? "=" + std::to_string(*number) : ""), suboptimality,
+                            ParamOverrides{{"node_limit", 300}, {key, value}});
+    };
+    for (const std::string& improvement : improvements) add(improvement, improvement == "disjoint_splitting");
+    add("explicit_estimation", false);
+    add("replan_in_place", false);
+    add("safe_intervals", false);
+    for (const int64_t steps : {0, 1, 3}) add("conflict_steps", steps);
+    for (const int64_t nodes : {0, 1, 2, 3, 4, 5}) add("restart_after", nodes);
+  }
+  share_out(variants, 6);
+}
+
+TEST_CASE("crowded small problems: optimal where nothing else is asked for") {
+  for (const std::string& id : by_conflicts) {
     CAPTURE(id);
-    SECTION(std::string("on an empty grid: at most one turn, ") + id) {
-      for (int x = 0; x < 9; x += 2)
-        for (int y = 0; y < 7; y += 3) {
-          PlanningCase c(std::vector<std::string>(7, "........."));
-          c.robot({4, 3}, {{x, y}});
-          const Plan plan = run_planner(id, c);
-          REQUIRE(plan.status == DMRP_OK);
-          REQUIRE(check_plan(c, plan) == "");
-          REQUIRE(plan.cost() == std::abs(x - 4) + std::abs(y - 3));
-          REQUIRE(turns_of(plan.paths[0]) == (x != 4 && y != 3 ? 1 : 0));
+    Variant planner(id, "crowded", 1, {{"node_limit", 20000}});
+    for (uint64_t seed = 0; seed < 60; ++seed) {
+      CAPTURE(seed);
+      Random random(seed + 77);
+      PlanningCase c({"....", ".#..", "....", "...#"});
+      std::vector<CellXY> starts;
+      std::vector<CellXY> goals;
+      for (std::vector<CellXY>* cells : {&starts, &goals})
+        while (cells->size() < 4) {
+          const CellXY cell{random.below(4), random.below(4)};
+          if (c.is_free(cell) && std::find(cells->begin(), cells->end(), cell) == cells->end()) cells->push_back(cell);
         }
+      for (std::size_t i = 0; i < 4; ++i) c.robot(starts[i], {goals[i]});
+      plan_and_check(planner, c, JointSearch(c).optimum());
     }
-    SECTION(std::string("two turns where a staircase would take five, ") + id) {
-      PlanningCase c({"...##", "....#", "#....", "##..."});
-      c.robot({0, 0}, {{4, 3}});
-      const Plan plan = run_planner(id, c);
-      REQUIRE(plan.status == DMRP_OK);
-      CHECK(plan.cost() == 7);
-      CHECK(turns_of(plan.paths[0]) == 2);
-    }
-    SECTION(std::string("start is goal, ") + id) {
-      PlanningCase c({"..."});
-      c.robot({1, 0}, {{1, 0}});
-      const Plan plan = run_planner(id, c);
-      REQUIRE(plan.status == DMRP_OK);
-      REQUIRE(check_plan(c, plan) == "");
-      CHECK(plan.cost() == 0);
-    }
-    SECTION(std::string("round a thin wall, ") + id) {
-      PlanningCase c({"....", "...."});
-      c.thin_wall({1, 0}, {2, 0}).robot({1, 0}, {{2, 0}});
-      const Plan plan = run_planner(id, c);
-      REQUIRE(plan.status == DMRP_OK);
-      REQUIRE(check_plan(c, plan) == "");
-      CHECK(plan.cost() == 3);
-    }
-    SECTION(std::string("a one-way edge is taken in its direction only, ") + id) {
-      PlanningCase c({"...", "..."});
-      c.close_one_way({1, 0}, {2, 0});
-      PlanningCase back = c;
-      c.robot({1, 0}, {{2, 0}});
-      back.robot({2, 0}, {{1, 0}});
-      CHECK(run_planner(id, c).cost() == 3);
-      CHECK(run_planner(id, back).cost() == 1);
-    }
-    SECTION(std::string("a tour, ") + id) {
-      PlanningCase c({".....", ".###.", "....."});
-      c.robot({0, 0}, {{4, 0}, {0, 0}, {2, 2}});
-      const Plan plan = run_planner(id, c);
-      REQUIRE(plan.status == DMRP_OK);
-      REQUIRE(check_plan(c, plan) == "");
-      CHECK(plan.cost() == 4 + 4 + 4);
-      CHECK(plan.paths[0].back().goal_index == 3 + 2);
-    }
-    SECTION(std::string("equal goals in a row cost a wait each, ") + id) {
-      PlanningCase c({"..."});
-      c.robot({0, 0}, {{2, 0}, {2, 0}, {2, 0}, {1, 0}});
-      const Plan plan = run_planner(id, c);
-      REQUIRE(plan.status == DMRP_OK);
-      REQUIRE(check_plan(c, plan) == "");
-      CHECK(plan.cost() == 2 + 2 + 1);
-    }
-    SECTION(std::string("a goal that is cut off, ") + id) {
-      PlanningCase c({"..#.", "..#."});
-      c.robot({0, 0}, {{3, 0}});
-      CHECK(run_planner(id, c).status == DMRP_NO_SOLUTION);
-    }
-    SECTION(std::string("a goal in a wall and one off the map, ") + id) {
-      PlanningCase in_wall({"..#."});
-      in_wall.robot({0, 0}, {{2, 0}});
-      CHECK(run_planner(id, in_wall).status == DMRP_NO_SOLUTION);
-      PlanningCase outside({"..#."});
-      outside.robot({0, 0}, {{-3, 5}});
-      CHECK(run_planner(id, outside).status == DMRP_NO_SOLUTION);
-    }
-    SECTION(std::string("nobody to plan for, ") + id) {
-      PlanningCase c({"..."});
-      CHECK(run_planner(id, c).status == DMRP_OK);
-      c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED);
-      const Plan plan = run_planner(id, c);
-      CHECK(plan.status == DMRP_OK);
-      CHECK(check_plan(c, plan) == "");
-    }
+    CHECK(planner.tally.given_up == 0);
   }
 }
 
-TEST_CASE("individual ignores the others") {
-  PlanningCase c({"....."});
-  c.robot({0, 0}, {{4, 0}}).robot({4, 0}, {{0, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FAILED);
-  const Plan plan = run_planner(individual, c);
-  REQUIRE(plan.status == DMRP_OK);
-  CHECK(check_paths(c, plan) == "");
-  CHECK(check_conflicts(c, plan) != "");
-  CHECK(plan.cost() == 8);
+TEST_CASE("EECBS restarts in another order by another seed, and keeps its promises") {
+  Variant restarting(eecbs, "restarts", 1.2, {{"node_limit", 300}, {"restart_after", 1}});
+  int different = 0;
+  for (std::size_t i = 0; i < solved_cases().size(); i += 12) {
+    CAPTURE(i);
+    const SolvedCase& c = solved_cases()[i];
+    std::optional<Plan> first;
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+      CAPTURE(seed);
+      const Plan plan = run_planner(*restarting.planner, c.problem, seed);
+      check_answer(c.problem, plan, 1.2, c.optimum, restarting.tally);
+      if (!first) first = plan;
+      different += same_bits(*first, plan) ? 0 : 1;
+    }
+  }
+  CHECK(different > 10);
 }
 
-TEST_CASE("CBS resolves what robots can do to each other") {
-  SECTION("a swap in a corridor with one bay") {
-    PlanningCase c({".......", "###.###"});
-    c.robot({0, 0}, {{6, 0}}).robot({6, 0}, {{0, 0}});
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 6 + 6 + 3);  // into the bay, a wait there, and out again
-    CHECK(plan.cost() == JointSearch(c).optimum());
-  }
-  SECTION("a goal that blocks another's only way: the robot there comes late or steps aside") {
-    PlanningCase c({"....", "#.##", "#.##"});
-    c.robot({3, 0}, {{1, 1}}).robot({0, 0}, {{1, 2}});
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == JointSearch(c).optimum());
-  }
-  SECTION("a robot at its goal makes way and comes back") {
-    PlanningCase c({".....", "##.##"});
-    c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}});
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 4 + 3);
-  }
-  SECTION("four robots turn in a ring without a free cell beside") {
-    PlanningCase c({"..", ".."});
-    c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{1, 1}}).robot({1, 1}, {{0, 1}}).robot({0, 1}, {{0, 0}});
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 4);
-  }
-  SECTION("robots that rest are obstacles") {
-    PlanningCase c({"...", "...", "..."});
-    c.robot({0, 1}, {{2, 1}}).robot({1, 1}, {}, DMRP_ROBOT_FINISHED);
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 4);
-  }
-  SECTION("in a corridor one robot follows another on its tour, to a goal that the other crosses before") {
-    PlanningCase c({".....", "####."});
-    c.robot({0, 0}, {{4, 0}, {0, 0}}).robot({4, 1}, {{2, 0}});
-    const Plan plan = run_planner(cbs, c);
-    REQUIRE(plan.status == DMRP_OK);
-    REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 8 + 7);  // the second moves when the first turns round, one step behind it
-  }
-}
-
-TEST_CASE("CBS proves that there is no plan") {
-  SECTION("a swap in a corridor without a bay, however long") {
-    PlanningCase c({std::string(200, '.')});
-    c.robot({0, 0}, {{199, 0}}).robot({199, 0}, {{0, 0}});
-    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
-  }
-  SECTION("two robots that end on one cell") {
-    PlanningCase c({"...", "..."});
-    c.robot({0, 0}, {{1, 1}}).robot({2, 0}, {{1, 1}});
-    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
-  }
-  SECTION("a goal under a robot that rests") {
-    PlanningCase c({"...", "..."});
-    c.robot({0, 0}, {{2, 1}}).robot({2, 1}, {}, DMRP_ROBOT_FAILED);
-    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
-  }
-  SECTION("a resting robot cuts the map in two") {
-    PlanningCase c({"....."});
-    c.robot({0, 0}, {{4, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FINISHED);
-    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
-  }
-  SECTION("two of three robots in a ring would have to change places") {
-    PlanningCase c({"..", ".."});
-    c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
-    CHECK(run_planner(cbs, c).status == DMRP_NO_SOLUTION);
-  }
-}
-
-TEST_CASE("CBS gives up when told to") {
-  // Nobody can pass, but the part is too large for a proof.
-  std::vector<std::string> rows(2, std::string(120, '.'));
-  rows[1].assign(120, '#');
-  rows[1][60] = '.';
-  PlanningCase c(rows);
-  for (int i = 0; i < 4; ++i) c.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
-  SECTION("by its own limit") {
-    const Plan plan = run_planner(cbs, c, {{"node_limit", 50}});
-    CHECK(plan.status == DMRP_TIMEOUT);
-    CHECK(plan.statistics.at("high_level_generated") >= 50);
-    CHECK(plan.statistics.at("high_level_generated") <= 52);
-  }
-  SECTION("by the host") {
-    PluginUnderTest planner(library, cbs);
-    int asked = 0;
-    planner.host().should_stop = [&] { return ++asked > 100; };
-    CHECK(run_planner(planner, c).status == DMRP_TIMEOUT);
-    CHECK(asked == 101);
-    planner.host().should_stop = nullptr;
-    PlanningCase easy({"..."});
-    easy.robot({0, 0}, {{2, 0}});
-    CHECK(run_planner(planner, easy).status == DMRP_OK);
-  }
-  SECTION("the host is asked often: also by individual") {
-    PluginUnderTest planner(library, individual);
-    planner.host().should_stop = [] { return true; };
-    PlanningCase large(std::vector<std::string>(60, std::string(60, '.')));
-    large.robot({0, 0}, {{59, 59}});
-    CHECK(run_planner(planner, large).status == DMRP_TIMEOUT);
-  }
-}
-
-TEST_CASE("the same problem gives the same bits, whatever came before") {
-  PluginUnderTest used(library, cbs);
-  for (uint64_t seed = 2000; seed < 2040; ++seed) {
-    const PlanningCase c = random_case(seed);
-    PluginUnderTest fresh(library, cbs);
-    REQUIRE(same_bits(run_planner(used, c, seed), run_planner(fresh, c, seed)));
+TEST_CASE("the same problem and seed give the same bits, whatever came before and whoever plans between") {
+  const std::vector<std::pair<std::string, ParamOverrides>> planners = {
+      {cbs, {{"node_limit", 300}}},
+      {ecbs, {{"node_limit", 300}}},
+      {eecbs, {{"node_limit", 300}}},
+      {eecbs, {{"node_limit", 300}, {"restart_after", 1}}}};
+  std::vector<std::unique_ptr<PluginUnderTest>> used;
+  for (const auto& [id, overrides] : planners)
+    used.push_back(std::make_unique<PluginUnderTest>(planner_library, id, overrides));
+  for (uint64_t seed = 5000; seed < 5060; ++seed) {
+    CAPTURE(seed);
+    const PlanningCase c = random_case(seed, 4);
+    std::vector<Plan> plans;
+    for (const auto& planner : used) plans.push_back(run_planner(*planner, c, seed));
+    for (std::size_t i = planners.size(); i-- > 0;) {
+      PluginUnderTest fresh(planner_library, planners[i].first, planners[i].second);
+      REQUIRE(same_bits(plans[i], run_planner(fresh, c, seed)));
+    }
   }
 }

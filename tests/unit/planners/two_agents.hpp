@@ -103,13 +103,22 @@ class TwoAgents {
     return earliest;
   }
 
-  // The least cost from `at_least` on that a path can have.
+  // The least cost from `at_least` on that a path can have: it ends with a move to its goal, or where it begins.
   std::optional<int> next_cost(int who, const std::vector<Constraint>& list, int at_least) const {
     std::optional<int> cost;
     const std::vector<bool> may_rest = times_to_rest(who, list);
-    const auto goal = static_cast<std::size_t>(agent(who).last_goal());
+    const Location goal = agent(who).last_goal();
+    std::vector<char> before;
     spread(who, list, planners::nowhere, planners::nowhere, [&](int t, const std::vector<char>& where) {
-      if (t >= at_least && where[goal] && may_rest[static_cast<std::size_t>(t)]) cost = t;
+      bool arrives = t == 0 && where[static_cast<std::size_t>(goal)];
+      for (std::size_t from = 0; from < before.size(); ++from) {
+        const auto place = static_cast<Location>(from);
+        const Path& there = reach(place);
+        arrives = arrives || (before[from] && place != goal && may_arrive(list, place, goal, t) &&
+                              std::find(there.begin(), there.end(), goal) != there.end());
+      }
+      if (t >= at_least && arrives && may_rest[static_cast<std::size_t>(t)]) cost = t;
+      before = where;
       return cost.has_value();
     });
     return cost;
@@ -130,7 +139,8 @@ class TwoAgents {
         if (t == cost) here[from] = static_cast<Location>(from) == agent(who).last_goal();
         if (t < cost)
           for (const Location to : reach(static_cast<Location>(from)))
-            if (ways[static_cast<std::size_t>(t) + 1][static_cast<std::size_t>(to)] &&
+            if ((t + 1 < cost || to != static_cast<Location>(from)) &&
+                ways[static_cast<std::size_t>(t) + 1][static_cast<std::size_t>(to)] &&
                 may_arrive(of(who), static_cast<Location>(from), to, t + 1))
               here[from] = true;
       }
@@ -139,7 +149,8 @@ class TwoAgents {
     for (int t = 1; t <= cost; ++t) {
       Path next;
       for (const Location to : reach(path.back()))
-        if (ways[static_cast<std::size_t>(t)][static_cast<std::size_t>(to)] && may_arrive(of(who), path.back(), to, t))
+        if (ways[static_cast<std::size_t>(t)][static_cast<std::size_t>(to)] &&
+            may_arrive(of(who), path.back(), to, t) && (t < cost || to != path.back()))
           next.push_back(to);
       path.push_back(next[static_cast<std::size_t>(random.below(static_cast<int>(next.size())))]);
     }
@@ -182,8 +193,8 @@ class TwoAgents {
             if (step->to != step->from) states &= static_cast<States>(~states_with(bit));  // who rests stays
             if (step->breaks_set) states = switch_on(2 + bit, states);
             const auto who = static_cast<std::size_t>(bit);
-            const bool is_wait = t > 0 && step->to == step->from;  // who waited at its end was at rest before
-            if (!is_wait && step->to == agent(bit).last_goal() && may_rest[who][static_cast<std::size_t>(t)])
+            const bool arrives = step->to == agent(bit).last_goal() && (t == 0 || step->from != step->to);
+            if (arrives && may_rest[who][static_cast<std::size_t>(t)])
               states |= come_to_rest(bit, ends_too_early(sets[who], t), states);
           }
           next[at(a.to, b.to)] |= states;
