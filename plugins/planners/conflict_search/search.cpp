@@ -157,7 +157,7 @@ bool ConflictSearch::inform(NodeId id) {
       if (is_counted[static_cast<std::size_t>(agent)]) continue;
       is_counted[static_cast<std::size_t>(agent)] = true;
       const Mdd* const mdd = mdd_of(agent);
-      if (!mdd) return true;  // stopped
+      if (!mdd || stop_.poll_now()) return true;  // stopped
       raise += mdd->cost() - path_of(agent).lower_bound;
     }
   std::vector<DependentPair> dependent;
@@ -179,7 +179,7 @@ bool ConflictSearch::inform(NodeId id) {
 }
 
 // Splits the node on a conflict, or finds that a child's path helps without one.
-bool ConflictSearch::expand(NodeId id) {
+void ConflictSearch::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
     enter(id);
@@ -192,7 +192,7 @@ bool ConflictSearch::expand(NodeId id) {
       has_paths[i] = make_child(id, split[i], children_[i]);
       if (has_paths[i] && options_.bypass && is_bypass(id, children_[i])) bypass = &children_[i];
     }
-    if (stop_.raised()) return false;
+    if (stop_.raised()) return;
     if (bypass) {
       id = add(*bypass, id, false);
       continue;
@@ -203,10 +203,9 @@ bool ConflictSearch::expand(NodeId id) {
     note_errors(tree_.node(id), nodes);
     for (std::size_t i = 0; i < 2; ++i)
       if (has_paths[i]) push(add(children_[i], id, true));
-    return true;
+    return;
   }
-  queue_.push(id);  // the last bypass left no conflict
-  return true;
+  queue_.push(id);  // the last bypass or replanning left no conflict
 }
 
 // Replans agents, one after the other, as long as that leaves fewer pairs in conflict (or as many at less cost): at the

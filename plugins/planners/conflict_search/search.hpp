@@ -81,7 +81,7 @@ class ConflictSearch {
                      std::int64_t node_limit);
   bool plan_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints);
   void enter(NodeId id);
-  bool expand(NodeId id);
+  void expand(NodeId id);
   NodeId replan_in_place(NodeId id);
   bool inform(NodeId id);
 

@@ -59,6 +59,7 @@ void ConflictTable::take_out(std::int32_t agent) {
 void ConflictTable::grow(std::int32_t horizon) {
   horizon_ = std::max(2 * horizon_, (horizon + 63) / 64 * 64);
   passed_.assign(location_count_ * static_cast<std::size_t>(horizon_) / 64, 0);
+  first_.reset();  // not both at a time: it is large
   first_ = std::make_unique_for_overwrite<Link[]>(location_count_ * static_cast<std::size_t>(horizon_));
   for (std::size_t agent = 0; agent < paths_.size(); ++agent) put_in(static_cast<std::int32_t>(agent));
 }

@@ -7,8 +7,6 @@
 
 namespace dmrp::planners {
 
-namespace {}  // namespace
-
 Descriptor Sipp::describe() {
   return Descriptor("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
       .vendor("dmrp")
