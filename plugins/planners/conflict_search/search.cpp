@@ -71,7 +71,7 @@ ConflictSearch::Result ConflictSearch::run(std::vector<std::int32_t> members, st
     std::int64_t nodes = nodes_left;
     if (options_.restart_after > 0) {
       nodes = std::min(nodes, restart == 0 ? nodes_of_restart / first_share + 1 : nodes_of_restart);
-      if (restart > 0) nodes_of_restart += nodes_of_restart / 2;
+      if (restart > 0) nodes_of_restart += nodes_of_restart / 2 + 1;
     }
     conflict_steps_ = restart == 0 ? 0 : options_.conflict_steps;
     const Result result = search_from(order, constraints, nodes);

@@ -42,7 +42,7 @@ class Eecbs final : public ConflictSearchPlanner {
   Param<std::int64_t> conflict_steps =
       param("conflict_steps", 1)
           .unit("1")
-          .range(0, 1'000'000)
+          .range(0, 1000)
           .doc("after the first restart: steps that a path may be longer for a conflict less; 0: any within the bound");
   Param<std::int64_t> restart_after =
       param("restart_after", 1200)
