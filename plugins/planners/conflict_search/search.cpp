@@ -25,6 +25,14 @@ constexpr std::int64_t pair_node_limit = 10;
 // The cost of a pair without any solution.
 constexpr std::int32_t no_solution = 1 << 24;
 
+// What the agents' paths will hardly exceed.
+std::int32_t expected_steps(const Problem& problem, const std::vector<TourTable>& tables) {
+  std::int32_t longest = 0;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    longest = std::max(longest, tables[i].distance(0, problem.agents[i].start));
+  return longest + longest / 4;
+}
+
 bool is_vertex(const Conflict& conflict) {
   return conflict.from == nowhere;
 }
@@ -44,7 +52,7 @@ ConflictSearch::ConflictSearch(const Problem& problem, const std::vector<TourTab
       safe_interval_search_(problem.graph),
       space_time_search_(problem.graph),
       paths_(problem.agents.size()),
-      occupied_(problem.graph, problem.agents.size()),
+      occupied_(problem.graph, problem.agents.size(), expected_steps(problem, tables)),
       signatures_(problem.agents.size()),
       node_mdds_(problem.agents.size()),
       constraint_table_(problem.graph) {}
@@ -167,9 +175,11 @@ bool ConflictSearch::inform(NodeId id) {
     if (weight >= no_solution) return false;
     if (weight > 0) dependent.push_back({pair.first, pair.second, weight});
   }
+  const std::int32_t cover = least_edge_weighted_cover(dependent, stop_);
+  if (stop_.raised()) return true;
   Node& node = tree_.node(id);
   node.is_informed = true;
-  const std::int32_t informed = node.lower_bound + raise + least_edge_weighted_cover(dependent);
+  const std::int32_t informed = node.lower_bound + raise + cover;
   if (informed <= node.f) return true;
   node.f = informed;
   node.estimated_cost = std::max(node.estimated_cost, static_cast<double>(node.f));

@@ -18,8 +18,8 @@ using Adjacency = std::vector<std::vector<Edge>>;
 // Depth-first branch and bound over one connected part: vertices in the order given, each value tried from the least.
 class CoverSearch {
  public:
-  CoverSearch(const Adjacency& edges, std::vector<std::size_t> part)
-      : edges_(edges), order_(std::move(part)), value_(edges.size(), unset) {}
+  CoverSearch(const Adjacency& edges, std::vector<std::size_t> part, StopSignal& stop)
+      : stop_(stop), edges_(edges), order_(std::move(part)), value_(edges.size(), unset) {}
 
   // Nothing found within the limit: best() is an upper bound only.
   bool run() {
@@ -51,7 +51,7 @@ class CoverSearch {
     return sum;
   }
   void assign(std::size_t i, std::int32_t sum) {
-    if (++states_ > state_limit) return;
+    if (++states_ > state_limit || stop_.poll()) return;
     if (i == order_.size()) {
       best_ = std::min(best_, sum);
       return;
@@ -69,6 +69,7 @@ class CoverSearch {
     }
   }
 
+  StopSignal& stop_;
   const Adjacency& edges_;
   std::vector<std::size_t> order_;
   std::vector<std::int32_t> value_;
@@ -115,7 +116,7 @@ std::vector<std::size_t> connected_part(const Adjacency& edges, std::size_t star
 
 }  // namespace
 
-std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs) {
+std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs, StopSignal& stop) {
   std::vector<std::int32_t> agents;
   for (const DependentPair& pair : pairs) agents.insert(agents.end(), {pair.a, pair.b});
   std::sort(agents.begin(), agents.end());
@@ -133,7 +134,7 @@ std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs) 
   for (std::size_t v = 0; v < agents.size(); ++v) {
     if (seen[v]) continue;
     const std::vector<std::size_t> part = connected_part(edges, v, seen);
-    CoverSearch search(edges, part);
+    CoverSearch search(edges, part, stop);
     sum += search.run() ? search.best() : sum_of_disjoint_pairs(edges, part);
   }
   return sum;

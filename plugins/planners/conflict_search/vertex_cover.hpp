@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "../mapf/stop_signal.hpp"
+
 namespace dmrp::planners {
 
 // Two agents whose costs together are at least `weight` (> 0) above the sum of their least costs.
@@ -16,7 +18,8 @@ struct DependentPair {
 
 // The least sum of whole numbers x >= 0, one an agent, with x[a] + x[b] >= weight for every pair: an edge-weighted
 // vertex cover (Li, Felner, Boyarski, Ma, Koenig: Improved heuristics for MAPF with CBS, IJCAI 2019). Exact for parts
-// of the graph that a bounded search settles; for others a lower bound by disjoint pairs.
-std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs);
+// of the graph that a bounded search settles; for others a lower bound by disjoint pairs. Not to be used if `stop` says
+// so.
+std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs, StopSignal& stop);
 
 }  // namespace dmrp::planners

@@ -6,13 +6,14 @@
 
 namespace dmrp::planners {
 
-ConflictTable::ConflictTable(const GridGraph& graph, std::size_t agent_count)
+ConflictTable::ConflictTable(const GridGraph& graph, std::size_t agent_count, std::int32_t expected_steps)
     : location_count_(static_cast<std::size_t>(graph.location_count())),
       next_(agent_count),
       resting_(location_count_, 0),
       resting_from_(location_count_, forever),
       paths_(agent_count) {
   if (agent_count >= std::numeric_limits<Link>::max()) throw std::length_error("more than 65534 robots");
+  if (expected_steps > 0) grow(expected_steps + 1);
 }
 
 void ConflictTable::set(std::int32_t agent, PathView path) {

@@ -27,7 +27,8 @@ struct Conflict {
 
 class ConflictTable {
  public:
-  ConflictTable(const GridGraph& graph, std::size_t agent_count);
+  // Makes room for paths of `expected_steps`; for longer ones it grows, which takes long when there are many.
+  ConflictTable(const GridGraph& graph, std::size_t agent_count, std::int32_t expected_steps = 0);
 
   // Puts an agent's path in the place of the one before. The path must stay where it is. No two agents may end at one
   // location. An empty path takes the agent out.

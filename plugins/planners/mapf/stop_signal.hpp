@@ -12,8 +12,8 @@ class StopSignal {
  public:
   explicit StopSignal(std::function<bool()> should_stop) : should_stop_(std::move(should_stop)) {}
 
-  // Call once a unit of work of well under a microsecond; the host is asked every 512th time. Once raised, stays so.
-  bool poll() { return ++polls_ % 512 == 0 ? poll_now() : raised_; }
+  // Call once a unit of work of well under a microsecond; the host is asked every 256th time. Once raised, stays so.
+  bool poll() { return ++polls_ % 256 == 0 ? poll_now() : raised_; }
 
   // Asks the host.
   bool poll_now() { return raised_ = raised_ || should_stop_(); }

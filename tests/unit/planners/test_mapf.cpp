@@ -296,7 +296,7 @@ TEST_CASE("a weighted vertex cover is the least there is") {
         if (random.one_in(2)) pairs.push_back({10 * a, 10 * b, 1 + random.below(most)});
     std::vector<DependentPair> numbered = pairs;
     for (DependentPair& pair : numbered) pair.a /= 10, pair.b /= 10;
-    REQUIRE(least_edge_weighted_cover(pairs) == least_cover_by_trying(numbered, agents, most));
+    REQUIRE(least_edge_weighted_cover(pairs, never()) == least_cover_by_trying(numbered, agents, most));
   }
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("where the least weighted vertex cover takes long to find, a lower bou
   std::vector<DependentPair> all;
   for (int a = 0; a < 40; ++a)
     for (int b = a + 1; b < 40; ++b) all.push_back({a, b, 1 + (a * 7 + b * 3) % 4});
-  const int cover = least_edge_weighted_cover(all);
+  const int cover = least_edge_weighted_cover(all, never());
   CHECK(cover >= 4 * 10);  // of pairs without a common agent
   CHECK(cover <= 40 * 2);  // two each cover all
 }
