@@ -8,6 +8,7 @@
 #include "ext/distance_field.h"
 #include "ext/lidar.h"
 #include "ext/local_costmap.h"
+#include "ext/obstacle_clusters.h"
 #include "global_planner.h"
 #include "local_controller.h"
 #include "metric.h"

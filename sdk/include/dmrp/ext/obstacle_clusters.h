@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+// ext/obstacle_clusters.h: the obstacles of the local costmap as few convex shapes, for controllers that measure
+// distances to obstacles rather than read costs. An extension of the host for local controllers.
+#ifndef DMRP_EXT_OBSTACLE_CLUSTERS_H
+#define DMRP_EXT_OBSTACLE_CLUSTERS_H
+
+#include "../values.h"
+
+#define DMRP_EXT_OBSTACLE_CLUSTERS "dmrp.obstacle_clusters/1"
+
+// A convex shape over lethal cells that hang together. Array element.
+typedef struct dmrp_obstacle_cluster {
+  uint32_t vertex_count;  // 1: a point; 2: a segment; more: a convex polygon, counter-clockwise
+  uint32_t reserved;
+  const dmrp_vec2* vertices;  // world frame; centres of lethal cells
+} dmrp_obstacle_cluster;
+
+// Every lethal cell's centre lies within tolerance_m of a cluster, and no point of a cluster is farther than tolerance_m
+// from the centre of a lethal cell: a room's corner is two segments, never a triangle across it.
+// Cells that an agent of the observation accounts for are left out: agents are known with their velocity.
+typedef struct dmrp_obstacle_cluster_list {
+  uint32_t struct_size;
+  uint32_t count;
+  uint32_t stride;  // of clusters
+  uint32_t reserved;
+  int64_t t_ns;  // of the scan behind them
+  double tolerance_m;
+  const dmrp_obstacle_cluster* clusters;
+} dmrp_obstacle_cluster_list;
+
+typedef struct dmrp_obstacle_clusters dmrp_obstacle_clusters;
+struct dmrp_obstacle_clusters {
+  uint32_t struct_size;
+  uint32_t reserved;
+  void* context;  // the host's own
+
+  // The clusters about the instance's robot, derived on demand, at most once a scan. Valid until the call of step()
+  // that asks returns.
+  // [step]
+  const dmrp_obstacle_cluster_list* (*clusters)(const dmrp_obstacle_clusters* extension);
+};
+
+DMRP_ASSERT_SIZE(dmrp_obstacle_cluster, 16);
+DMRP_ASSERT_SIZE(dmrp_obstacle_cluster_list, 40);
+DMRP_ASSERT_SIZE(dmrp_obstacle_clusters, 24);
+
+#endif
