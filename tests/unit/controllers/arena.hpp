@@ -8,6 +8,7 @@
 #include <dmrp/local_controller.h>
 #include <dmrp/world.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -127,6 +128,10 @@ Drive run(const std::string& controller, const Course& course, const ParamOverri
 
 // Drives robots of one world until each has arrived or is out of time. Each must have the others among its walkers.
 void drive_together(const std::vector<Trip*>& trips);
+
+// The same for two robots under one controller; neither course has the other among its walkers yet.
+std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
+                               const ParamOverrides& overrides = {});
 
 // Waypoints a metre apart along the corners, all but the first corner's own kept.
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners);
