@@ -4,5 +4,6 @@
 
 #include "dwa/dwa.hpp"
 #include "pure_pursuit/pure_pursuit.hpp"
+#include "teb/teb.hpp"
 
-DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa)
+DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa, dmrp::controllers::Teb)
