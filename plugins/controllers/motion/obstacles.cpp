@@ -17,9 +17,9 @@ namespace {
 using toolkit::PolygonView;
 
 struct Witness {
-  double distance_m = 0.0;   // negative inside
-  Vec2 normal = {1.0, 0.0};  // unit, from the obstacle to the robot
-  Vec2 on_robot = {0.0, 0.0};
+  double distance_m = 0.0;      // negative inside
+  Vec2 normal = {1.0, 0.0};     // unit, from the obstacle to the robot
+  Vec2 lever_end = {0.0, 0.0};  // the distance changes with the robot's turn as if it were fixed to the robot here
 };
 
 void bound(Obstacle& obstacle) {
@@ -48,7 +48,7 @@ Witness to_point(const Vec2* vertices, std::uint32_t count, Vec2 point) {
   const Vec2 away = point - nearest;
   const double distance_m = toolkit::norm(away);
   Witness witness;
-  witness.on_robot = point;
+  witness.lever_end = point;
   witness.distance_m = inside ? -distance_m : distance_m;
   if (distance_m > 0.0) witness.normal = (inside ? -1.0 : 1.0) * away / distance_m;
   return witness;
@@ -70,16 +70,18 @@ Vec2 vertex_lowest_along(PolygonView polygon, Vec2 direction) {
 Witness across_sides(PolygonView robot, PolygonView obstacle) {
   Witness deepest;
   deepest.distance_m = -std::numeric_limits<double>::infinity();
-  const auto try_normal = [&](Vec2 normal) {  // from the obstacle to the robot
+  const auto try_normal = [&](Vec2 normal, bool of_robot) {  // from the obstacle to the robot
     const double gap_m = lowest_along(robot, normal) + lowest_along(obstacle, -normal);
-    if (gap_m > deepest.distance_m) deepest = {gap_m, normal, vertex_lowest_along(robot, normal)};
+    if (!(gap_m > deepest.distance_m)) return;
+    // a side of the robot turns about the obstacle's corner, a corner of it about the robot's place
+    deepest = {gap_m, normal, of_robot ? vertex_lowest_along(obstacle, -normal) : vertex_lowest_along(robot, normal)};
   };
   const auto outward = [](const dmrp_segment& edge) {
     return toolkit::normalized(-toolkit::perpendicular(edge.to - edge.from));
   };
-  for (std::size_t i = 0; i < robot.size(); ++i) try_normal(-outward(robot.edge(i)));
+  for (std::size_t i = 0; i < robot.size(); ++i) try_normal(-outward(robot.edge(i)), true);
   if (obstacle.size() >= 2)
-    for (std::size_t i = 0; i < obstacle.size(); ++i) try_normal(outward(obstacle.edge(i)));
+    for (std::size_t i = 0; i < obstacle.size(); ++i) try_normal(outward(obstacle.edge(i)), false);
   return deepest;
 }
 
@@ -165,8 +167,7 @@ Separation separation(const Footprint& footprint, const Pose& robot, const Obsta
     corners[i] = at + Vec2{c * corner.x - s * corner.y, s * corner.x + c * corner.y};
   }
   const Witness witness = to_polygon(PolygonView(corners, count), obstacle.vertices, obstacle.vertex_count);
-  // the witness turns with the robot
-  const Vec2 lever = toolkit::perpendicular(witness.on_robot - at);
+  const Vec2 lever = toolkit::perpendicular(witness.lever_end - at);
   return {witness.distance_m - obstacle.radius_m, witness.normal, toolkit::dot(witness.normal, lever)};
 }
 
