@@ -72,8 +72,9 @@ void InitialGuess::shifted(const Problem& problem, double elapsed_s, Trajectory&
   nodes_.clear();
   nodes_.push_back({problem.start, 0.0});
   const std::size_t states = trajectory.size();
-  const double turns = problem.start.theta - between(trajectory.states[0], trajectory.states[1],
-                                                     std::min(1.0, elapsed_s / trajectory.dt_s)).theta;
+  const double turns =
+      problem.start.theta -
+      between(trajectory.states[0], trajectory.states[1], std::min(1.0, elapsed_s / trajectory.dt_s)).theta;
   const double whole_turns = 2.0 * toolkit::pi * std::round(turns / (2.0 * toolkit::pi));
   for (std::size_t k = 1; k < states; ++k) {
     const double t_s = static_cast<double>(k) * trajectory.dt_s - elapsed_s;

@@ -135,8 +135,7 @@ void InteriorPoint::assemble_stage(std::size_t k) {
     constexpr std::array<StageEntry, 3> entries = {at_x, at_y, at_dt};
     const double bend = -pair.multiplier * c.curvature;
     for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = a; b < 3; ++b)
-        stage.hessian[entries[a]][entries[b]] += bend * c.tangent[a] * c.tangent[b];
+      for (std::size_t b = a; b < 3; ++b) stage.hessian[entries[a]][entries[b]] += bend * c.tangent[a] * c.tangent[b];
   }
 }
 
@@ -159,8 +158,7 @@ void InteriorPoint::assemble() {
     const double over_side = weights[i] - t.multiplier;
     const double under_side = weights[i] + t.multiplier;
     const double sigma = 1.0 / (t.over / over_side + t.under / under_side);
-    stage.gradient[i] +=
-        t.multiplier + sigma * (now_.terminal_error[i] - barrier_ / over_side + barrier_ / under_side);
+    stage.gradient[i] += t.multiplier + sigma * (now_.terminal_error[i] - barrier_ / over_side + barrier_ / under_side);
     stage.hessian[i][i] += sigma;
   }
 }
@@ -258,8 +256,7 @@ double InteriorPoint::residual(const Point& point) const {
     for (const double defect : t.defect) sum += std::abs(defect);
   const std::array<double, 3> weights = problem_->terminal_weights();
   for (std::size_t i = 0; i < 3; ++i)
-    if (weights[i] > 0.0)
-      sum += std::abs(point.terminal_error[i] - point.terminal[i].over + point.terminal[i].under);
+    if (weights[i] > 0.0) sum += std::abs(point.terminal_error[i] - point.terminal[i].over + point.terminal[i].under);
   return sum;
 }
 
@@ -341,7 +338,8 @@ bool InteriorPoint::search() {
     const Merit after = {residual(next_), barrier_value(next_)};
     if (!passes_filter(after)) continue;
     // where the step promises less cost rather than less infeasibility, it has to keep that
-    const bool is_descent = rise < 0.0 && std::pow(-rise * step, cost_power) > std::pow(before.residual, residual_power);
+    const bool is_descent =
+        rise < 0.0 && std::pow(-rise * step, cost_power) > std::pow(before.residual, residual_power);
     if (is_descent ? after.value > before.value + sufficient_decrease * step * rise + rounding
                    : after.residual > (1.0 - filter_margin) * before.residual + 1e-12 &&
                          after.value > before.value - filter_margin * before.residual + rounding)
@@ -357,8 +355,7 @@ bool InteriorPoint::search() {
 }
 
 void InteriorPoint::move_multipliers(double primal_step, double dual_step) {
-  for (std::size_t i = 0; i < now_.pairs.size(); ++i)
-    now_.pairs[i].multiplier += dual_step * pair_steps_[i].multiplier;
+  for (std::size_t i = 0; i < now_.pairs.size(); ++i) now_.pairs[i].multiplier += dual_step * pair_steps_[i].multiplier;
   for (std::size_t i = 0; i < 3; ++i) now_.terminal[i].multiplier += dual_step * terminal_steps_[i].multiplier;
   for (std::size_t k = 0; k < multipliers_.size(); ++k)
     for (std::size_t i = 0; i < state_size; ++i)

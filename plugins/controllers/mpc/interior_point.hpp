@@ -17,18 +17,18 @@ namespace dmrp::controllers::mpc {
 
 struct SolverSettings {
   int iterations = 100;
-  double tolerance = 1e-4;       // of the optimality conditions
-  double barrier_start = 1e-1;   // lower for starts near the solution
-  double barrier_end = 1e-5;     // of the order of the error of the cost, by active constraint
+  double tolerance = 1e-4;      // of the optimality conditions
+  double barrier_start = 1e-1;  // lower for starts near the solution
+  double barrier_end = 1e-5;    // of the order of the error of the cost, by active constraint
 };
 
 struct SolverReport {
   bool converged = false;
   int iterations = 0;
-  double cost_s = 0.0;             // with the elastic terms
-  double excess_m = 0.0;           // the greatest violation of an obstacle's constraint ...
-  double terminal_error_m = 0.0;   // ... and what is left of the way to the goal
-  double infeasibility = 0.0;      // sum of what is left of all others
+  double cost_s = 0.0;            // with the elastic terms
+  double excess_m = 0.0;          // the greatest violation of an obstacle's constraint ...
+  double terminal_error_m = 0.0;  // ... and what is left of the way to the goal
+  double infeasibility = 0.0;     // sum of what is left of all others
 };
 
 class InteriorPoint {

@@ -47,8 +47,7 @@ double corner_curvature(const Footprint& footprint, Vec2 robot, const Obstacle& 
 Constraint keep_away(const Problem& problem, const Obstacle& obstacle, std::size_t k, const StageVector& w) {
   const double stages_ahead = static_cast<double>(k);
   const double ahead_s = stages_ahead * w[at_dt];
-  const Separation apart =
-      separation(*problem.footprint, {w[at_x], w[at_y], w[at_theta]}, obstacle, ahead_s);
+  const Separation apart = separation(*problem.footprint, {w[at_x], w[at_y], w[at_theta]}, obstacle, ahead_s);
   Constraint c;
   c.is_elastic = true;
   c.value = problem.min_obstacle_dist_m - apart.distance_m;

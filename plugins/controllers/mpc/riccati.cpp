@@ -58,8 +58,7 @@ void RiccatiRecursion::end_at(const QuadraticStage& stage, double shift, CostToG
   }
 }
 
-bool RiccatiRecursion::step_back(const QuadraticStage& stage, double shift, const CostToGo& next,
-                                 CostToGo& out) const {
+bool RiccatiRecursion::step_back(const QuadraticStage& stage, double shift, const CostToGo& next, CostToGo& out) const {
   const Transition& t = stage.transition;
   // Q = hessian + T' P T, q = gradient + T' (P d + p)
   std::array<StageVector, state_size> half;  // rows of P T
