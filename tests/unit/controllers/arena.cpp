@@ -14,10 +14,7 @@ namespace {
 constexpr double step_s = 0.02;
 constexpr std::int64_t step_ns = 20'000'000;
 constexpr std::int64_t period_ns = 100'000'000;
-constexpr std::uint32_t window_cells = 120;
-constexpr double resolution_m = 0.05;
-constexpr double cost_scaling = 5.0;
-constexpr double inflation_radius_m = 0.55;
+constexpr double tracking_range_m = 10.0;
 
 dmrp_pose moved(const dmrp_pose& from, const dmrp_twist& velocity, double dt) {
   const double heading = from.theta + 0.5 * velocity.omega * dt;
@@ -42,6 +39,11 @@ Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s) {
           }};
 }
 
+Walker robot_of(const Trip& other) {
+  return {0.25, [&other](double, dmrp_vec2) { return toolkit::position(other.pose()); }, DMRP_AGENT_ROBOT,
+          [&other] { return other.velocity(); }};
+}
+
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
   std::vector<dmrp_vec2> path = {corners.front()};
   for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -54,17 +56,14 @@ std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
 
 Trip::Trip(const std::string& controller, Course course, ParamOverrides overrides)
     : original_(std::move(course)),
+      sensors_(original_.sight),
       plugin_(std::make_unique<PluginUnderTest>("libdmrp_controllers.so", controller, std::move(overrides))) {
   limits_ = {sizeof(limits_), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
   footprint_ = {sizeof(footprint_), 0, 0.25, 0.25, nullptr};
   grid_.struct_size = sizeof(grid_);
   grid_.resolution_m = 1.0;
-  extension_.struct_size = sizeof(extension_);
-  extension_.context = this;
-  extension_.costmap = [](const dmrp_local_costmap* extension) {
-    return static_cast<const dmrp_costmap*>(&static_cast<Trip*>(extension->context)->costmap_);
-  };
-  if (original_.costmap) plugin_->host().extensions[DMRP_EXT_LOCAL_COSTMAP] = &extension_;
+  if (original_.costmap) sensors_.offer(plugin_->host());
+  if (original_.annotate) notes_.offer(plugin_->host());
   start();
 }
 
@@ -73,6 +72,9 @@ Trip::~Trip() = default;
 void Trip::start() {
   course_ = original_;
   drive_ = {};
+  sensors_.reset();
+  notes_.trajectories.clear();
+  notes_.notes.clear();
   pose_ = course_.start;
   velocity_ = {0.0, 0.0, 0.0};
   t_ns_ = 0;
@@ -111,13 +113,24 @@ bool Trip::finished() const {
   return drive_.arrived || drive_.time_s >= course_.time_limit_s;
 }
 
+dmrp_vec2 Trip::velocity() const {
+  return finished() ? dmrp_vec2{0.0, 0.0} : velocity_.v_x * toolkit::from_angle(pose_.theta);
+}
+
 void Trip::control_period() {
+  decide();
+  for (std::int64_t k = 0; k < period_ns / step_ns; ++k) drive_on();
+}
+
+void Trip::decide() {
+  if (finished()) return;
   if (course_.change) course_.change(course_, drive_.time_s, pose_);
   if (course_.revision != sent_revision_) send_path();
-  build_costmap();
+  sensors_.set_boxes(course_.boxes);
+  track();
+  sensors_.look(pose_, t_ns_, bodies_, agents_);
   observe();
   command();
-  for (std::int64_t k = 0; k < period_ns / step_ns && !finished(); ++k) drive_on();
 }
 
 void Trip::send_path() {
@@ -141,61 +154,23 @@ void Trip::send_path() {
   waypoints_.shrink_to_fit();
 }
 
-void Trip::build_costmap() {
-  // the surfaces of boxes and walkers, on the world's lattice
-  const auto lattice = [](double centre) {
-    return static_cast<std::int64_t>(std::floor(centre / resolution_m)) - window_cells / 2;
-  };
-  const std::int64_t column_0 = lattice(pose_.x);
-  const std::int64_t row_0 = lattice(pose_.y);
-  costmap_ = {sizeof(costmap_),
-              window_cells,
-              window_cells,
-              0,
-              t_ns_,
-              resolution_m,
-              {static_cast<double>(column_0) * resolution_m, static_cast<double>(row_0) * resolution_m},
-              footprint_.inscribed_radius_m,
-              inflation_radius_m,
-              cost_scaling,
-              nullptr};
-  lethal_.assign(window_cells * window_cells, 0);
-  const auto mark = [&](double x, double y) {
-    const auto column = static_cast<std::int64_t>(std::floor((x - costmap_.origin.x) / resolution_m));
-    const auto row = static_cast<std::int64_t>(std::floor((y - costmap_.origin.y) / resolution_m));
-    if (column >= 0 && row >= 0 && column < window_cells && row < window_cells)
-      lethal_[static_cast<std::size_t>(row * window_cells + column)] = 1;
-  };
-  const auto mark_line = [&](dmrp_vec2 from, dmrp_vec2 to) {
-    const int steps = 1 + static_cast<int>(toolkit::distance(from, to) / 0.02);
-    for (int i = 0; i <= steps; ++i) {
-      const dmrp_vec2 at = toolkit::lerp(from, to, static_cast<double>(i) / steps);
-      mark(at.x, at.y);
-    }
-  };
-  for (const Box& box : course_.boxes) {
-    const dmrp_vec2 a = box.lower, c = box.upper, b = {c.x, a.y}, d = {a.x, c.y};
-    mark_line(a, b), mark_line(b, c), mark_line(c, d), mark_line(d, a);
+void Trip::track() {
+  bodies_.clear();
+  agents_.clear();
+  const dmrp_vec2 here = toolkit::position(pose_);
+  for (std::size_t i = 0; i < course_.walkers.size(); ++i) {
+    const Walker& walker = course_.walkers[i];
+    const dmrp_vec2 at = walker.at(drive_.time_s, here);
+    bodies_.push_back({at, walker.radius_m});
+    if (!course_.tracking || toolkit::distance(here, at) > tracking_range_m) continue;
+    const dmrp_vec2 velocity =
+        walker.velocity ? walker.velocity() : (at - walker.at(drive_.time_s - step_s, here)) / step_s;
+    const double heading = std::atan2(velocity.y, velocity.x);
+    if (!sensors_.sees(here, at)) continue;
+    agents_.push_back({i, walker.kind, 0, {at.x, at.y, heading}, velocity, walker.radius_m});
   }
-  for (const Walker& walker : course_.walkers) {
-    const dmrp_vec2 centre = walker.at(drive_.time_s, toolkit::position(pose_));
-    for (int i = 0; i < 120; ++i) {
-      const dmrp_vec2 rim = centre + walker.radius_m * toolkit::from_angle(i * toolkit::pi / 60.0);
-      mark(rim.x, rim.y);
-    }
-  }
-  const std::vector<float>& distances =
-      transform_.compute(window_cells, window_cells, resolution_m, lethal_.data(), 10.0);
-  costs_.resize(lethal_.size());
-  for (std::size_t i = 0; i < costs_.size(); ++i) {
-    const double distance = distances[i];
-    const double decay = 252.0 * std::exp(-cost_scaling * (distance - footprint_.inscribed_radius_m));
-    costs_[i] = distance <= 0.0                                   ? DMRP_COST_LETHAL
-                : distance < footprint_.inscribed_radius_m - 1e-6 ? DMRP_COST_INSCRIBED
-                : distance > inflation_radius_m + 1e-6            ? DMRP_COST_FREE
-                                                                  : static_cast<std::uint8_t>(std::min(252.0, decay));
-  }
-  costmap_.costs = costs_.data();
+  const auto by_kind = [](const dmrp_agent& a, const dmrp_agent& b) { return a.kind < b.kind; };
+  std::stable_sort(agents_.begin(), agents_.end(), by_kind);
 }
 
 void Trip::observe() {
@@ -220,6 +195,8 @@ void Trip::observe() {
   now.released_waypoint = std::min(course_.released, static_cast<std::uint32_t>(waypoints_.size() - 1));
   now.limits = &limits_;
   now.footprint = &footprint_;
+  now.agents = agents_.data();
+  now.agent_count = static_cast<std::uint32_t>(agents_.size());
   now.agent_stride = sizeof(dmrp_agent);
 }
 
@@ -248,6 +225,7 @@ void Trip::command() {
 }
 
 void Trip::drive_on() {
+  if (finished()) return;
   velocity_.v_x = ramp(velocity_.v_x, command_.v_x, limits_.a_max * step_s);
   velocity_.omega = ramp(velocity_.omega, command_.omega, limits_.alpha_max * step_s);
   observation_.applied = velocity_;
@@ -292,6 +270,29 @@ Drive run(const std::string& controller, const Course& course, const ParamOverri
   Trip trip(controller, course, overrides);
   while (!trip.finished()) trip.control_period();
   return trip.result();
+}
+
+void drive_together(const std::vector<Trip*>& trips) {
+  const auto is_finished = [](const Trip* trip) { return trip->finished(); };
+  while (!std::all_of(trips.begin(), trips.end(), is_finished)) {
+    for (Trip* trip : trips) trip->decide();
+    for (std::int64_t k = 0; k < period_ns / step_ns; ++k)
+      for (Trip* trip : trips) trip->drive_on();
+  }
+}
+
+std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
+                               const ParamOverrides& overrides) {
+  // the first looks for the second only once it drives
+  const Trip* second_trip = nullptr;
+  one.walkers.push_back({0.25, [&](double, dmrp_vec2) { return toolkit::position(second_trip->pose()); },
+                         DMRP_AGENT_ROBOT, [&] { return second_trip->velocity(); }});
+  Trip first(controller, std::move(one), overrides);
+  other.walkers.push_back(robot_of(first));
+  Trip second(controller, std::move(other), overrides);
+  second_trip = &second;
+  drive_together({&first, &second});
+  return {first.result(), second.result()};
 }
 
 }  // namespace dmrp::test

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// arena.hpp: a small world in which one controller drives one robot, in closed loop through the C ABI.
+// arena.hpp: a small world in which controllers drive robots, in closed loop through the C ABI.
 //
-// A unicycle with acceleration limits at 50 Hz, control at 10 Hz, a costmap rasterised from the shapes and people
-// themselves (surfaces within range, as if seen from everywhere), progress and arrival as a host judges them.
+// A unicycle with acceleration limits at 50 Hz, control at 10 Hz, progress and arrival as a host judges them, sensors
+// as arena_sensors.hpp has them. One robot a Trip; several Trips can share a world (drive_together).
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
 #include <dmrp/local_controller.h>
 #include <dmrp/world.h>
 
+#include <array>
 #include <cstdint>
-#include <dmrp/toolkit/distance_transform.hpp>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "../plugin_under_test.hpp"
+#include "arena_sensors.hpp"
 
 namespace dmrp::test {
-
-struct Box {
-  dmrp_vec2 lower;
-  dmrp_vec2 upper;
-};
 
 // A disc that is where `at` says; moves through everything.
 struct Walker {
   double radius_m = 0.3;
   std::function<dmrp_vec2(double t_s, dmrp_vec2 robot)> at;
+  std::uint32_t kind = DMRP_AGENT_PERSON;
+  std::function<dmrp_vec2()> velocity = nullptr;  // none: by differences of `at`
 };
 
 Walker standing(dmrp_vec2 at);
 Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s = 0.0);  // then stands
+
+class Trip;
+Walker robot_of(const Trip& other);  // `other` must live as long
 
 struct Course {
   std::vector<Box> boxes;
@@ -41,7 +41,10 @@ struct Course {
   dmrp_pose start = {0.0, 0.0, 0.0};
   double goal_heading = NAN;
   double time_limit_s = 120.0;
-  bool costmap = true;
+  bool tracking = true;  // walkers are agents of the observation where the robot sees their centre within 10 m
+  Sight sight = Sight::everywhere;
+  bool costmap = true;    // false: no lidar, costmap, field or clusters
+  bool annotate = false;  // true: what the controller says is kept in Trip::notes()
   // Called before each control period: may add boxes or walkers, change the path (and then raise `revision`), set
   // `released`.
   std::function<void(Course&, double t_s, const dmrp_pose&)> change;
@@ -78,18 +81,26 @@ class Trip {
   bool finished() const;
   void control_period();
   const Drive& result() const { return drive_; }
+  const ArenaNotes& notes() const { return notes_; }
+  const dmrp_pose& pose() const { return pose_; }
+  dmrp_vec2 velocity() const;  // world frame; zero once finished
+
+  // The two halves of control_period(), for several in one world: the command, then five steps of the physics.
+  void decide();
+  void drive_on();
 
  private:
   void send_path();
   void observe();
+  void track();
   void command();
-  void drive_on();
   void judge();
-  void build_costmap();
   double static_clearance(dmrp_vec2 at) const;
 
   Course original_;
   Course course_;
+  ArenaSensors sensors_;
+  ArenaNotes notes_;
   std::unique_ptr<PluginUnderTest> plugin_;
   Drive drive_;
   dmrp_world world_{};
@@ -98,15 +109,12 @@ class Trip {
   dmrp_footprint footprint_{};
   dmrp_goal goal_{};
   dmrp_grid grid_{};
-  dmrp_local_costmap extension_{};
-  dmrp_costmap costmap_{};
   dmrp_observation observation_{};
   dmrp_command command_{};
   std::vector<dmrp_waypoint> waypoints_;
   std::vector<double> arcs_;
-  std::vector<std::uint8_t> costs_;
-  std::vector<std::uint8_t> lethal_;
-  toolkit::DistanceTransform transform_;
+  std::vector<core::Disc> bodies_;
+  std::vector<dmrp_agent> agents_;
   std::uint64_t sent_revision_ = 0;
   std::int64_t t_ns_ = 0;
   dmrp_pose pose_{};
@@ -117,6 +125,13 @@ class Trip {
 
 // Drives until the goal or the course's time limit.
 Drive run(const std::string& controller, const Course& course, const ParamOverrides& overrides = {});
+
+// Drives robots of one world until each has arrived or is out of time. Each must have the others among its walkers.
+void drive_together(const std::vector<Trip*>& trips);
+
+// The same for two robots under one controller; neither course has the other among its walkers yet.
+std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
+                               const ParamOverrides& overrides = {});
 
 // Waypoints a metre apart along the corners, all but the first corner's own kept.
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners);

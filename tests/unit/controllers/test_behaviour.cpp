@@ -4,132 +4,109 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
-#include "arena.hpp"
+#include "controllers.hpp"
 
 using namespace dmrp::test;
 
-namespace {
-
-const std::string pure_pursuit = "dmrp.controller.pure_pursuit";
-const std::string dwa = "dmrp.controller.dwa";
-
-// Horizontal walls 0.2 m thick on both sides of y = 0.
-std::vector<Box> corridor(double width, double from_x = -2.0, double to_x = 12.0) {
-  return {{{from_x, 0.5 * width}, {to_x, 0.5 * width + 0.2}}, {{from_x, -0.5 * width - 0.2}, {to_x, -0.5 * width}}};
-}
-
-void check_sound(const Drive& drive) {
-  CHECK(drive.breaches == std::vector<std::string>{});
-  CHECK(drive.static_clearance_m > 0.0);
-}
-
-void check_arrives(const Drive& drive, double within_s) {
-  check_sound(drive);
-  CHECK(drive.arrived);
-  CHECK(drive.time_s < within_s);
-}
-
-}  // namespace
-
 TEST_CASE("A straight corridor is driven straight and fast") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {10.0, 0.0}});
   course.boxes = corridor(2.0);
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 17.0);  // 12.5 s at full speed, 0.8 s for speeding up and braking, 0.5 s to settle
   CHECK(drive.path_deviation_m < 0.05);
   CHECK(drive.turned_rad < 0.1);
 }
 
 TEST_CASE("A corner between walls") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}, {5.0, 5.0}});
   course.boxes = {{{-2.0, -1.2}, {6.2, -1.0}}, {{6.0, -1.0}, {6.2, 7.0}}, {{-2.0, 1.0}, {4.0, 7.0}}};
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 18.0);
   CHECK(drive.turned_rad < 2.5);
 }
 
 TEST_CASE("A doorway 0.3 m wider than the robot") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.boxes = {{{3.5, 0.4}, {3.7, 5.0}}, {{3.5, -5.0}, {3.7, -0.4}}};
-  check_arrives(run(id, course), 16.0);
+  check_arrives(run(controller, course), 16.0);
 }
 
 TEST_CASE("A door of 1.2 m two metres behind a corner") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
   course.boxes = {{{-2.0, 1.95}, {3.4, 2.1}}, {{4.6, 1.95}, {9.0, 2.1}}};
-  check_arrives(run(id, course), 16.0);
+  check_arrives(run(controller, course), 16.0);
 }
 
 TEST_CASE("A U-turn round the end of a wall") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}, {5.0, 2.0}, {0.0, 2.0}});
   course.boxes = {{{-2.0, 0.9}, {4.0, 1.1}}};
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 22.0);
   CHECK(drive.turned_rad < 4.5);
 }
 
 TEST_CASE("A start that faces away turns in place") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
   course.start = {0.0, 0.0, dmrp::toolkit::pi};
   course.boxes = corridor(1.2);
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 18.0);
   for (const dmrp_pose& pose : drive.poses) REQUIRE(pose.x > -0.1);
 }
 
 TEST_CASE("A goal right before a wall is reached without touching it") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
   course.boxes = {{{5.4, -3.0}, {5.6, 3.0}}};
   SECTION("with any heading") {
-    check_arrives(run(id, course), 13.0);
+    check_arrives(run(controller, course), 13.0);
   }
   SECTION("facing back") {
     course.goal_heading = dmrp::toolkit::pi;
-    const Drive drive = run(id, course);
+    const Drive drive = run(controller, course);
     check_arrives(drive, 18.0);
     CHECK(drive.turned_rad < 4.0);  // once, without swinging
   }
 }
 
 TEST_CASE("A goal beside a wall") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
   course.boxes = {{{2.0, 0.4}, {8.0, 0.6}}};
-  check_arrives(run(id, course), 13.0);
+  check_arrives(run(controller, course), 13.0);
 }
 
 TEST_CASE("A path that an unseen wall cuts off ends before it") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.boxes = corridor(2.0);
   course.boxes.push_back({{4.0, -1.0}, {4.3, 1.0}});
   course.time_limit_s = 30.0;
-  Drive drive = run(id, course);
+  Drive drive = run(controller, course);
   check_sound(drive);
   CHECK_FALSE(drive.arrived);
   CHECK(drive.end.x > 3.0);
@@ -140,69 +117,29 @@ TEST_CASE("A path that an unseen wall cuts off ends before it") {
     if (t_s >= 20.0 && now.boxes.size() == 3) now.boxes.pop_back();
   };
   course.time_limit_s = 60.0;
-  drive = run(id, course);
+  drive = run(controller, course);
   check_arrives(drive, 35.0);
 }
 
-TEST_CASE("DWA goes round a person who stands on the path") {
+TEST_CASE("Something that no plan knew stands on the path, with room beside it") {
+  const Controller controller = GENERATE(from_range(evading_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
-  course.walkers = {standing({4.0, 0.0})};
-  SECTION("in the open") {}
-  SECTION("in a corridor with room on both sides") {
+  course.sight = Sight::scan;
+  SECTION("a crate in the open") {
+    course.boxes = {{{3.7, -0.3}, {4.3, 0.4}}};
+  }
+  SECTION("half a corridor, closed") {
     course.boxes = corridor(2.4);
+    course.boxes.push_back({{3.8, -1.2}, {4.2, 0.1}});
   }
-  SECTION("who stands a little aside") {
-    course.walkers = {standing({4.0, 0.25})};
-  }
-  SECTION("and a second one behind") {
-    course.walkers = {standing({3.0, 0.1}), standing({5.5, -0.1})};
-  }
-  const Drive drive = run(dwa, course);
-  check_arrives(drive, 25.0);
-  CHECK(drive.walker_clearance_m > 0.0);
-}
-
-TEST_CASE("Pure pursuit waits for a person on the path and then goes on") {
-  Course course;
-  course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
-  course.walkers = {walking({4.0, 0.0}, {4.0, 4.0}, 1.0, 15.0)};
-  const Drive drive = run(pure_pursuit, course);
-  check_arrives(drive, 30.0);
-  CHECK(drive.walker_clearance_m > 0.0);
-}
-
-TEST_CASE("A person crossing in front") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  const double from_y = GENERATE(-1.0, 1.0);
-  const double start_s = GENERATE(0.0, 1.0);
-  CAPTURE(id, from_y, start_s);
-  Course course;
-  course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
-  course.walkers = {walking({4.0, 4.0 * from_y}, {4.0, -4.0 * from_y}, 1.2, start_s)};
-  const Drive drive = run(id, course);
-  check_arrives(drive, 25.0);
-  CHECK(drive.walker_clearance_m > 0.0);
-}
-
-TEST_CASE("Somebody comes, stands in the way for a while, and leaves") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
-  Course course;
-  course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
-  course.boxes = corridor(1.4);  // too narrow to pass
-  course.walkers = {{0.3, [](double t_s, dmrp_vec2) -> dmrp_vec2 {
-                       if (t_s < 25.0) return {std::max(4.0, 9.0 - 1.2 * t_s), 0.0};
-                       return {4.0 + 1.2 * (t_s - 25.0), 0.0};
-                     }}};
-  const Drive drive = run(id, course);
-  check_arrives(drive, 45.0);
-  CHECK(drive.walker_clearance_m > 0.0);
+  check_arrives(run(controller, course), 22.0);
 }
 
 TEST_CASE("A path replaced on the way") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.change = [](Course& now, double t_s, const dmrp_pose&) {
@@ -210,15 +147,15 @@ TEST_CASE("A path replaced on the way") {
     now.revision = 2;
     now.path = metre_path({{2.0, 0.0}, {2.0, 4.0}, {6.0, 4.0}});
   };
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 30.0);
   CHECK(drive.end.x == Approx(6.0).margin(0.2));
   CHECK(drive.end.y == Approx(4.0).margin(0.2));
 }
 
 TEST_CASE("A replan to the same goal while turning there does not start the approach anew") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}});
   course.goal_heading = dmrp::toolkit::pi;
@@ -227,29 +164,29 @@ TEST_CASE("A replan to the same goal while turning there does not start the appr
     ++now.revision;  // every control period
     now.path = {{pose.x, pose.y}, {4.0, 0.0}};
   };
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 16.0);
   CHECK(drive.turned_rad < 4.0);
 }
 
 TEST_CASE("Waits in a path do not stop a free robot") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = {{0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}, {3.0, 0.0}};
-  check_arrives(run(id, course), 9.0);
+  check_arrives(run(controller, course), 9.0);
 }
 
 TEST_CASE("The last released waypoint is not passed before it is released") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.released = 3;
   course.change = [](Course& now, double t_s, const dmrp_pose&) {
     if (t_s >= 15.0) now.released = 8;
   };
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 27.0);
   for (std::size_t k = 0; k <= 150; ++k) REQUIRE(drive.poses[k].x < 3.05);
   CHECK(drive.poses[150].x > 2.85);
@@ -258,23 +195,23 @@ TEST_CASE("The last released waypoint is not passed before it is released") {
 
 TEST_CASE("An excursion of the path is not skipped") {
   // out and back by one cell: under ordered execution others wait for the robot to come by
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {3.0, 0.0}, {6.0, 0.0}});
   course.released = 5;  // the tip of the excursion
   course.change = [](Course& now, double t_s, const dmrp_pose&) {
     if (t_s >= 20.0) now.released = 10;
   };
-  const Drive drive = run(id, course);
+  const Drive drive = run(controller, course);
   check_arrives(drive, 45.0);
   CHECK(drive.poses[200].y > 1.8);
 }
 
 TEST_CASE("A single waypoint, as waypoint dispatch sends it") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = {{3.0, 2.0}};
-  check_arrives(run(id, course), 12.0);
+  check_arrives(run(controller, course), 12.0);
 }

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the contract asks of the library and of an instance.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/angle.hpp>
 
-#include "arena.hpp"
+#include "controllers.hpp"
 
 using namespace dmrp::test;
 
 namespace {
-
-const std::string pure_pursuit = "dmrp.controller.pure_pursuit";
-const std::string dwa = "dmrp.controller.dwa";
 
 // Walls, a standing and a crossing person, a replan.
 Course eventful() {
@@ -40,9 +36,9 @@ bool same_bits(const Drive& a, const Drive& b) {
 
 TEST_CASE("The library describes its controllers") {
   const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
-  for (const std::string& id : {pure_pursuit, dwa}) {
-    CAPTURE(id);
-    const dmrp_descriptor* descriptor = library.find(id);
+  for (const Controller& controller : all_controllers()) {
+    CAPTURE(controller);
+    const dmrp_descriptor* descriptor = library.find(controller.id);
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
     CHECK(std::string(descriptor->license) == "MIT");
@@ -57,31 +53,61 @@ TEST_CASE("The library describes its controllers") {
       }
     }
   }
-  CHECK(std::string(library.find(dwa)->requires_[0]) == DMRP_EXT_LOCAL_COSTMAP);
-  CHECK(library.find(pure_pursuit)->requires_count == 0);
 }
 
-TEST_CASE("DWA cannot start without a costmap, pure pursuit drives without one") {
+TEST_CASE("A controller that requires an extension does not start without it, any other drives") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
   course.costmap = false;
-  Trip trip(dwa, course);
-  CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
-  const Drive drive = run(pure_pursuit, course);
-  CHECK(drive.breaches.empty());
-  CHECK(drive.arrived);
+  const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
+  if (library.find(controller.id)->requires_count > 0) {
+    Trip trip(controller.id, course, controller.tuned);
+    CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
+  } else {
+    check_arrives(run(controller, course), 10.0);
+  }
+}
+
+TEST_CASE("The defaults drive too") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  check_arrives(run(controller.id, course), 20.0);
+}
+
+TEST_CASE("What is annotated changes nothing") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course = eventful();
+  const Drive silent = run(controller, course);
+  course.annotate = true;
+  Trip trip(controller.id, course, controller.tuned);
+  while (!trip.finished()) trip.control_period();
+  CHECK(same_bits(silent, trip.result()));
+  const auto& said = trip.notes().trajectories;
+  const auto is_prediction = [](const ArenaNotes::Trajectory& t) { return t.role == DMRP_ANNOTATE_PREDICTED; };
+  CHECK(std::any_of(said.begin(), said.end(), is_prediction));
+  for (const ArenaNotes::Trajectory& trajectory : said) {
+    REQUIRE(trajectory.step_ns > 0);
+    REQUIRE(trajectory.poses.size() >= 2);
+    for (const dmrp_pose& pose : trajectory.poses)
+      REQUIRE((std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta)));
+  }
 }
 
 TEST_CASE("The same course gives the same bits: fresh, started again, and interleaved with other instances") {
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
   const Course course = eventful();
-  const Drive once = run(id, course);
+  const Drive once = run(controller, course);
   CHECK(once.breaches == std::vector<std::string>{});
-  CHECK(same_bits(once, run(id, course)));
+  CHECK(same_bits(once, run(controller, course)));
 
   // an instance that has been through another trial, broken off in the middle
-  Trip again(id, course);
+  Trip again(controller.id, course, controller.tuned);
   for (int k = 0; k < 60; ++k) again.control_period();
   again.start();
   while (!again.finished()) again.control_period();
@@ -90,9 +116,9 @@ TEST_CASE("The same course gives the same bits: fresh, started again, and interl
   Course other;
   other.path = metre_path({{1.0, 5.0}, {1.0, 1.0}});
   other.walkers = {standing({1.2, 3.0})};
-  Trip one(id, course);
-  Trip two(id, other);
-  Trip three(id, course);
+  Trip one(controller.id, course, controller.tuned);
+  Trip two(controller.id, other, controller.tuned);
+  Trip three(controller.id, course, controller.tuned);
   while (!one.finished()) {
     one.control_period();
     if (!two.finished()) two.control_period();
@@ -108,9 +134,9 @@ TEST_CASE("A robot that is already too near to something gets away from it") {
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
   course.walkers = {standing({0.0, 0.57})};
   course.time_limit_s = 20.0;
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
-  const Drive drive = run(id, course);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  const Drive drive = run(controller, course);
   CHECK(drive.arrived);
   CHECK(drive.walker_clearance_m > 0.0);
 }
@@ -123,9 +149,9 @@ TEST_CASE("A standing robot with an obstacle all around says so calmly") {
                   {{-0.5, 0.35}, {0.5, 0.45}},
                   {{-0.5, -0.45}, {0.5, -0.35}}};
   course.time_limit_s = 5.0;
-  const std::string id = GENERATE(pure_pursuit, dwa);
-  CAPTURE(id);
-  const Drive drive = run(id, course);
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  const Drive drive = run(controller, course);
   CHECK(drive.breaches == std::vector<std::string>{});
   CHECK_FALSE(drive.arrived);
   CHECK(drive.static_clearance_m > 0.0);

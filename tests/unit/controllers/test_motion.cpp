@@ -2,10 +2,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
 #include "fake_costmap.hpp"
 #include "plugins/controllers/motion/footprint_check.hpp"
+#include "plugins/controllers/motion/obstacles.hpp"
+#include "plugins/controllers/motion/oscillation_detector.hpp"
+#include "plugins/controllers/motion/path_ahead.hpp"
 #include "plugins/controllers/motion/path_tracker.hpp"
 #include "plugins/controllers/motion/stop_and_rotate.hpp"
 #include "plugins/controllers/motion/unicycle.hpp"
@@ -229,4 +234,173 @@ TEST_CASE("Footprints on the costmap") {
     CHECK(check.arc_cost({3.225, 3.025, 0.0}, 0.2, 0.0, 1.0, 10) >= 0);
     CHECK(check.arc_cost({3.225, 3.025, pi}, 0.2, 0.0, 1.0, 10) == in_collision);
   }
+}
+
+namespace {
+
+// Obstacles of an observation without agents.
+struct Clusters {
+  std::vector<std::vector<dmrp_vec2>> shapes;
+  std::vector<dmrp_obstacle_cluster> rows = {};
+  dmrp_obstacle_cluster_list list = {};
+
+  const dmrp_obstacle_cluster_list* c() {
+    rows.clear();
+    for (const auto& shape : shapes) rows.push_back({static_cast<std::uint32_t>(shape.size()), 0, shape.data()});
+    list = {sizeof(list), static_cast<std::uint32_t>(rows.size()), sizeof(dmrp_obstacle_cluster), 0, 0, 0.075,
+            rows.data()};
+    return &list;
+  }
+};
+
+const std::vector<dmrp_vec2> point = {{1.0, 2.0}};
+const std::vector<dmrp_vec2> segment = {{-1.0, 0.5}, {2.0, 0.5}};
+const std::vector<dmrp_vec2> triangle = {{0.0, 0.0}, {2.0, 0.0}, {1.0, 1.5}};
+const std::vector<dmrp_vec2> corners = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.3, -0.2}};
+const dmrp_footprint disc = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
+const dmrp_footprint box = {sizeof(dmrp_footprint), 4, std::hypot(0.3, 0.2), 0.2, corners.data()};
+
+}  // namespace
+
+TEST_CASE("Distances from a robot to obstacles") {
+  Now now;
+  Clusters clusters{{point, segment, triangle}};
+  dmrp_agent person = {7, DMRP_AGENT_PERSON, 0, {5.0, 0.0, 0.0}, {-1.0, 0.0}, 0.3};
+  now.c.agents = &person;
+  now.c.agent_count = 1;
+  ObstacleSet set;
+  set.gather(now.at(0.0, 0.0), clusters.c());
+  REQUIRE(set.all().size() == 4);
+
+  CHECK(separation(disc, {1.0, 4.0, 0.0}, set.all()[0], 0.0).distance_m == Approx(1.75));
+  CHECK(separation(disc, {0.0, -0.5, 0.0}, set.all()[1], 0.0).distance_m == Approx(0.75));
+  CHECK(separation(disc, {4.0, 0.5, 0.0}, set.all()[1], 0.0).distance_m == Approx(1.75));
+  CHECK(separation(disc, {1.0, -1.0, 0.0}, set.all()[2], 0.0).distance_m == Approx(0.75));
+  CHECK(separation(disc, {1.0, 0.1, 0.0}, set.all()[2], 0.0).distance_m == Approx(-0.35));  // inside
+  CHECK(separation(disc, {0.0, 0.0, 0.0}, set.all()[3], 0.0).distance_m == Approx(4.45));
+  CHECK(separation(disc, {0.0, 0.0, 0.0}, set.all()[3], 2.0).distance_m == Approx(2.45));  // walked 2 m nearer
+  CHECK(separation(box, {1.0, -1.0, 0.0}, set.all()[2], 0.0).distance_m == Approx(0.8));
+  CHECK(separation(box, {1.0, -1.0, pi / 2}, set.all()[2], 0.0).distance_m == Approx(0.7));
+  CHECK(separation(box, {1.0, -0.1, 0.0}, set.all()[2], 0.0).distance_m == Approx(-0.1));
+}
+
+TEST_CASE("The gradient of a distance is its slope") {
+  Now now;
+  Clusters clusters{{point, segment, triangle}};
+  dmrp_agent person = {7, DMRP_AGENT_PERSON, 0, {0.5, 1.0, 0.0}, {0.4, -0.3}, 0.3};
+  now.c.agents = &person;
+  now.c.agent_count = 1;
+  ObstacleSet set;
+  set.gather(now.at(0.0, 0.0), clusters.c());
+  const dmrp_footprint& footprint = GENERATE(std::cref(disc), std::cref(box));
+  dmrp::toolkit::Stream random(1, "poses");
+  constexpr double h = 1e-6;
+  int smooth = 0;
+  for (int i = 0; i < 400; ++i) {
+    const dmrp_pose at = {random.uniform(-2.0, 3.0), random.uniform(-2.0, 3.0), random.uniform(-pi, pi)};
+    for (const Obstacle& obstacle : set.all()) {
+      const auto distance = [&](double x, double y, double theta) {
+        return separation(footprint, {at.x + x, at.y + y, at.theta + theta}, obstacle, 1.3).distance_m;
+      };
+      const Separation here = separation(footprint, at, obstacle, 1.3);
+      CHECK(least_distance(footprint, {at.x, at.y}, obstacle, 1.3) <= here.distance_m + 1e-12);
+      const auto slope = [&](double x, double y, double theta) {
+        return (distance(h * x, h * y, h * theta) - distance(-h * x, -h * y, -h * theta)) / (2.0 * h);
+      };
+      // on a ridge, where two nearest points take turns, there is no gradient: one-sided slopes differ
+      const auto kink = [&](double x, double y, double theta) {
+        return std::abs(distance(h * x, h * y, h * theta) + distance(-h * x, -h * y, -h * theta) -
+                        2.0 * here.distance_m) > 1e-9;
+      };
+      if (kink(1, 0, 0) || kink(0, 1, 0) || kink(0, 0, 1)) continue;
+      ++smooth;
+      CHECK(here.gradient.x == Approx(slope(1, 0, 0)).margin(1e-5));
+      CHECK(here.gradient.y == Approx(slope(0, 1, 0)).margin(1e-5));
+      CHECK(here.gradient_theta == Approx(slope(0, 0, 1)).margin(1e-5));
+    }
+  }
+  CHECK(smooth > 1500);
+}
+
+TEST_CASE("The path ahead ends at its look-ahead, at the window or at the stop") {
+  Now now;
+  FakeCostmap costmap(120);  // 6 m
+  const dmrp_costmap c = costmap.c();
+  const CostmapView map(c);
+  PathTracker tracker;
+  send(tracker, {{1.0, 3.0}, {2.0, 3.0}, {3.0, 3.0}, {3.0, 4.0}, {3.0, 5.0}, {3.0, 6.0}, {3.0, 9.0}});
+  const dmrp::Observation here = now.at(1.5, 2.9);
+  tracker.update(here);
+  PathAhead ahead;
+
+  ahead.look(tracker, here, map, 1.0);
+  CHECK(ahead.points().front().x == Approx(1.5));
+  CHECK(ahead.points().front().y == Approx(3.0));
+  CHECK(ahead.goal().x == Approx(2.5));
+  CHECK(ahead.goal().theta == Approx(0.0).margin(1e-9));
+  CHECK_FALSE(ahead.ends_at_stop());
+  for (std::size_t i = 1; i < ahead.points().size(); ++i)
+    CHECK(dmrp::toolkit::distance(ahead.points()[i - 1], ahead.points()[i]) <= PathAhead::spacing_m + 1e-9);
+
+  ahead.look(tracker, here, map, 1.5);  // in the bend: halfway between the two directions
+  CHECK(ahead.goal().x == Approx(3.0));
+  CHECK(ahead.goal().theta == Approx(pi / 4));
+
+  ahead.look(tracker, here, map, 10.0);  // the window ends at y = 6
+  CHECK(ahead.goal().y == Approx(5.6).margin(PathAhead::spacing_m));
+  CHECK(ahead.goal().y <= 5.6);
+  CHECK(ahead.goal().theta == Approx(pi / 2));
+  CHECK_FALSE(ahead.ends_at_stop());
+
+  SECTION("a stop with a heading") {
+    now.c.goal.pose = {3.0, 4.5, 0.3};
+    send(tracker, {{1.0, 3.0}, {2.0, 3.0}, {3.0, 3.0}, {3.0, 4.5}});
+    const dmrp::Observation then = now.at(1.5, 2.9);
+    tracker.update(then);
+    ahead.look(tracker, then, map, 10.0);
+    CHECK(ahead.ends_at_stop());
+    CHECK(ahead.has_heading());
+    CHECK(ahead.goal().y == Approx(4.5));
+    CHECK(ahead.goal().theta == Approx(0.3));
+  }
+}
+
+TEST_CASE("A goal that is taken is moved back along the path") {
+  Now now;
+  FakeCostmap costmap(120);
+  costmap.mark(4.0, 3.0);
+  const dmrp_costmap c = costmap.c();
+  const CostmapView map(c);
+  PathTracker tracker;
+  send(tracker, {{1.0, 3.0}, {2.0, 3.0}, {3.0, 3.0}, {4.1, 3.0}});
+  const dmrp::Observation here = now.at(1.0, 3.0);
+  tracker.update(here);
+  PathAhead ahead;
+  ahead.look(tracker, here, map, 10.0);
+  REQUIRE(ahead.ends_at_stop());
+  FootprintCheck footprint(map, disc, 0.0, here.pose);
+  CHECK(ahead.retreat(footprint));
+  CHECK(ahead.goal().x < 3.76);
+  CHECK(ahead.goal().x > 3.6);
+  CHECK_FALSE(ahead.ends_at_stop());
+}
+
+TEST_CASE("Turning to and fro on the spot is noticed, driving and turning round are not") {
+  const dmrp_limits limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
+  OscillationDetector detector;
+  detector.reset(20);
+  const auto drive = [&](int periods, double v, auto omega_of) {
+    for (int i = 0; i < periods; ++i) detector.note({v, 0.0, omega_of(i)}, limits);
+  };
+  const auto to_and_fro = [](int i) { return i / 3 % 2 == 0 ? 0.5 : -0.5; };
+  drive(8, 0.0, to_and_fro);
+  CHECK_FALSE(detector.is_oscillating(0.1, 0.1));  // too soon to tell
+  drive(16, 0.0, to_and_fro);
+  CHECK(detector.is_oscillating(0.1, 0.1));
+  drive(20, 0.4, to_and_fro);
+  CHECK_FALSE(detector.is_oscillating(0.1, 0.1));  // gets on
+  drive(20, 0.0, [](int) { return 0.5; });
+  CHECK_FALSE(detector.is_oscillating(0.1, 0.1));  // turns round
+  drive(20, 0.0, [](int) { return 0.0; });
+  CHECK_FALSE(detector.is_oscillating(0.1, 0.1));  // stands
 }

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "obstacles.hpp"
+
+#include <dmrp/abi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/polygon.hpp>
+#include <dmrp/toolkit/segment.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+
+namespace dmrp::controllers {
+
+namespace {
+
+using toolkit::PolygonView;
+
+struct Witness {
+  double distance_m = 0.0;      // negative inside
+  Vec2 normal = {1.0, 0.0};     // unit, from the obstacle to the robot
+  Vec2 lever_end = {0.0, 0.0};  // the distance changes with the robot's turn as if it were fixed to the robot here
+};
+
+void bound(Obstacle& obstacle) {
+  Vec2 lower = obstacle.vertices[0];
+  Vec2 upper = lower;
+  for (std::uint32_t i = 1; i < obstacle.vertex_count; ++i) {
+    lower = {std::min(lower.x, obstacle.vertices[i].x), std::min(lower.y, obstacle.vertices[i].y)};
+    upper = {std::max(upper.x, obstacle.vertices[i].x), std::max(upper.y, obstacle.vertices[i].y)};
+  }
+  obstacle.center = 0.5 * (lower + upper);
+  obstacle.reach_m = 0.0;
+  for (std::uint32_t i = 0; i < obstacle.vertex_count; ++i)
+    obstacle.reach_m = std::max(obstacle.reach_m, toolkit::distance(obstacle.center, obstacle.vertices[i]));
+}
+
+// From the shape's vertices to a point, in the shape's own place.
+Witness to_point(const Vec2* vertices, std::uint32_t count, Vec2 point) {
+  Vec2 nearest = vertices[0];
+  bool inside = false;
+  if (count == 2) nearest = toolkit::closest_point(dmrp_segment{vertices[0], vertices[1]}, point);
+  if (count > 2) {
+    const PolygonView polygon(vertices, count);
+    nearest = toolkit::closest_border_point(polygon, point);
+    inside = toolkit::contains(polygon, point);
+  }
+  const Vec2 away = point - nearest;
+  const double distance_m = toolkit::norm(away);
+  Witness witness;
+  witness.lever_end = point;
+  witness.distance_m = inside ? -distance_m : distance_m;
+  if (distance_m > 0.0) witness.normal = (inside ? -1.0 : 1.0) * away / distance_m;
+  return witness;
+}
+
+double lowest_along(PolygonView polygon, Vec2 direction) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec2 vertex : polygon) lowest = std::min(lowest, toolkit::dot(vertex, direction));
+  return lowest;
+}
+
+Vec2 vertex_lowest_along(PolygonView polygon, Vec2 direction) {
+  return *std::min_element(polygon.begin(), polygon.end(), [direction](Vec2 a, Vec2 b) {
+    return toolkit::dot(a, direction) < toolkit::dot(b, direction);
+  });
+}
+
+// The least overlap along any side's normal, for two convex shapes that overlap; positive where a side parts them.
+Witness across_sides(PolygonView robot, PolygonView obstacle) {
+  Witness deepest;
+  deepest.distance_m = -std::numeric_limits<double>::infinity();
+  const auto try_normal = [&](Vec2 normal, bool of_robot) {  // from the obstacle to the robot
+    const double gap_m = lowest_along(robot, normal) + lowest_along(obstacle, -normal);
+    if (!(gap_m > deepest.distance_m)) return;
+    // a side of the robot turns about the obstacle's corner, a corner of it about the robot's place
+    deepest = {gap_m, normal, of_robot ? vertex_lowest_along(obstacle, -normal) : vertex_lowest_along(robot, normal)};
+  };
+  const auto outward = [](const dmrp_segment& edge) {
+    return toolkit::normalized(-toolkit::perpendicular(edge.to - edge.from));
+  };
+  for (std::size_t i = 0; i < robot.size(); ++i) try_normal(-outward(robot.edge(i)), true);
+  if (obstacle.size() >= 2)
+    for (std::size_t i = 0; i < obstacle.size(); ++i) try_normal(outward(obstacle.edge(i)), false);
+  return deepest;
+}
+
+// Between two convex shapes, the robot's in the world frame.
+Witness to_polygon(PolygonView robot, const Vec2* vertices, std::uint32_t count) {
+  const PolygonView obstacle(vertices, count);
+  const Witness sides = across_sides(robot, obstacle);
+  if (sides.distance_m <= 0.0) return sides;
+  // apart: some corner of one is nearest to the other
+  Witness nearest;
+  nearest.distance_m = std::numeric_limits<double>::infinity();
+  for (const Vec2 corner : robot) {
+    const Witness witness = to_point(vertices, count, corner);
+    if (witness.distance_m < nearest.distance_m) nearest = witness;
+  }
+  for (const Vec2 corner : obstacle) {
+    const Vec2 on_robot = toolkit::closest_border_point(robot, corner);
+    const Vec2 away = on_robot - corner;
+    const double distance_m = toolkit::norm(away);
+    if (distance_m < nearest.distance_m && distance_m > 0.0) nearest = {distance_m, away / distance_m, on_robot};
+  }
+  return nearest;
+}
+
+// A footprint with more corners than this is measured as the circle that holds it.
+constexpr std::size_t most_corners = 32;
+
+}  // namespace
+
+void ObstacleSet::clear() {
+  vertices_.clear();
+  obstacles_.clear();
+}
+
+void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double standing_m_s) {
+  clear();
+  const auto add = [this](const Vec2* vertices, std::uint32_t count) -> Obstacle& {
+    vertices_.insert(vertices_.end(), vertices, vertices + count);
+    Obstacle& obstacle = obstacles_.emplace_back();
+    obstacle.vertex_count = count;
+    return obstacle;
+  };
+  if (clusters) {
+    for (std::uint32_t i = 0; i < clusters->count; ++i) {
+      const auto& cluster = *DMRP_AT(dmrp_obstacle_cluster, clusters->clusters, clusters->stride, i);
+      add(cluster.vertices, cluster.vertex_count);
+    }
+  }
+  for (const Agent& agent : now.agents) {
+    const Vec2 center = toolkit::position(agent.pose);
+    Obstacle& obstacle = add(&center, 1);
+    obstacle.radius_m = agent.radius_m;
+    obstacle.is_agent = true;
+    if (toolkit::norm(agent.velocity) >= standing_m_s) obstacle.velocity = agent.velocity;
+  }
+  // only now do the vertices stay where they are
+  const Vec2* next = vertices_.data();
+  for (Obstacle& obstacle : obstacles_) {
+    obstacle.vertices = next;
+    next += obstacle.vertex_count;
+    bound(obstacle);
+  }
+}
+
+double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s) {
+  return toolkit::distance(robot, obstacle.center + ahead_s * obstacle.velocity) - obstacle.reach_m -
+         obstacle.radius_m - footprint.radius_m;
+}
+
+Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s) {
+  // in the frame that moves with the obstacle
+  const Vec2 at = toolkit::position(robot) - ahead_s * obstacle.velocity;
+  if (footprint.vertex_count == 0 || footprint.vertex_count > most_corners) {
+    const Witness witness = to_point(obstacle.vertices, obstacle.vertex_count, at);
+    return {witness.distance_m - obstacle.radius_m - footprint.radius_m, witness.normal, 0.0};
+  }
+  Vec2 corners[most_corners];
+  const std::size_t count = footprint.vertex_count;
+  const double c = std::cos(robot.theta);
+  const double s = std::sin(robot.theta);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 corner = footprint.vertices[i];
+    corners[i] = at + Vec2{c * corner.x - s * corner.y, s * corner.x + c * corner.y};
+  }
+  const Witness witness = to_polygon(PolygonView(corners, count), obstacle.vertices, obstacle.vertex_count);
+  const Vec2 lever = toolkit::perpendicular(witness.lever_end - at);
+  return {witness.distance_m - obstacle.radius_m, witness.normal, toolkit::dot(witness.normal, lever)};
+}
+
+}  // namespace dmrp::controllers

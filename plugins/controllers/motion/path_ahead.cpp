@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "path_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers {
+
+namespace {
+
+// The path's direction at a point is taken from as far before to as far behind it: bends are cut, not met head-on.
+constexpr double direction_reach_m = 0.3;
+
+bool is_inside(const CostmapView& map, Vec2 point, double margin_m) {
+  return map.index_of(point.x - margin_m, point.y - margin_m) >= 0 &&
+         map.index_of(point.x + margin_m, point.y + margin_m) >= 0;
+}
+
+double direction(Vec2 from, Vec2 to, double fallback) {
+  const Vec2 way = to - from;
+  return toolkit::norm(way) > 1e-6 ? std::atan2(way.y, way.x) : fallback;
+}
+
+}  // namespace
+
+void PathAhead::look(const PathTracker& tracker, const Observation& now, const CostmapView& map, double look_ahead_m,
+                     double window_margin_m) {
+  points_.clear();
+  const double whole_m = std::min(look_ahead_m, tracker.remaining_m());
+  ends_at_stop_ = look_ahead_m >= tracker.remaining_m();
+  const auto steps = static_cast<int>(std::ceil(whole_m / spacing_m));
+  double reached_m = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    const double arc_m = std::min(i * spacing_m, whole_m);
+    const Vec2 point = tracker.point_at(tracker.progress_m() + arc_m);
+    if (i > 0 && !is_inside(map, point, window_margin_m)) {
+      ends_at_stop_ = false;
+      break;
+    }
+    points_.push_back(point);
+    reached_m = arc_m;
+  }
+  goal_ = {points_.back().x, points_.back().y, 0.0};
+  has_heading_ = ends_at_stop_ && std::isfinite(tracker.stop().heading);
+  const double at_m = tracker.progress_m() + reached_m;
+  goal_.theta = has_heading_ ? tracker.stop().heading
+                             : direction(tracker.point_at(std::max(0.0, at_m - direction_reach_m)),
+                                         tracker.point_at(at_m + direction_reach_m), now.pose.theta);
+}
+
+bool PathAhead::retreat(FootprintCheck& footprint) {
+  const auto stands_free = [&footprint](Vec2 at, double theta) {
+    return footprint.cost(arc_state({at.x, at.y, theta})) != in_collision;
+  };
+  std::size_t last = points_.size() - 1;
+  while (last > 0 && !stands_free(points_[last], goal_.theta)) --last;
+  if (!stands_free(points_[last], goal_.theta)) return false;
+  if (last + 1 == points_.size()) return true;
+  points_.resize(last + 1);
+  ends_at_stop_ = has_heading_ = false;
+  const double theta = last > 0 ? direction(points_[last - 1], points_[last], goal_.theta) : goal_.theta;
+  goal_ = {points_[last].x, points_[last].y, theta};
+  return true;
+}
+
+}  // namespace dmrp::controllers

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "arena_sensors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::test {
+
+namespace {
+
+constexpr double robot_radius_m = 0.25;
+constexpr std::uint32_t window_cells = 120;
+constexpr double resolution_m = 0.05;
+constexpr double cost_scaling = 5.0;
+constexpr double inflation_radius_m = 0.55;
+constexpr double field_cap_m = 6.0;
+
+std::uint8_t cost_at(double distance) {
+  if (distance <= 0.0) return DMRP_COST_LETHAL;
+  if (distance < robot_radius_m - 1e-6) return DMRP_COST_INSCRIBED;
+  if (distance > inflation_radius_m + 1e-6) return DMRP_COST_FREE;
+  return static_cast<std::uint8_t>(std::min(252.0, 252.0 * std::exp(-cost_scaling * (distance - robot_radius_m))));
+}
+
+core::Scenario scenario_of(const std::vector<Box>& boxes) {
+  core::Scenario scenario;
+  scenario.lower = {-100.0, -100.0};
+  scenario.upper = {100.0, 100.0};
+  for (const Box& box : boxes) {
+    core::Shape shape;
+    shape.name = "box";
+    shape.vertices = {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
+    scenario.shapes.push_back(shape);
+  }
+  return scenario;
+}
+
+bool same(const Box& a, const Box& b) {
+  return a.lower == b.lower && a.upper == b.upper;
+}
+
+// Whether an agent of the observation accounts for this body.
+bool is_agent(const core::Disc& body, const std::vector<dmrp_agent>& agents) {
+  return std::any_of(agents.begin(), agents.end(), [&](const dmrp_agent& agent) {
+    return toolkit::distance(toolkit::position(agent.pose), body.center) < 1e-9;
+  });
+}
+
+}  // namespace
+
+ArenaSensors::ArenaSensors(Sight sight) : sight_(sight), rolling_(core::CostmapSettings{}, robot_radius_m) {
+  lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {
+                        return &static_cast<ArenaSensors*>(self->context)->scan_;
+                      }};
+  costmap_extension_ = {sizeof(dmrp_local_costmap), 0, this, [](const dmrp_local_costmap* self) -> const dmrp_costmap* {
+                          return &static_cast<ArenaSensors*>(self->context)->costmap_;
+                        }};
+  field_extension_ = {sizeof(dmrp_distance_field), 0, this, [](const dmrp_distance_field* self) -> const dmrp_field* {
+                        return &static_cast<ArenaSensors*>(self->context)->field_;
+                      }};
+  clusters_extension_ = {sizeof(dmrp_obstacle_clusters), 0, this,
+                         [](const dmrp_obstacle_clusters* self) -> const dmrp_obstacle_cluster_list* {
+                           return &static_cast<ArenaSensors*>(self->context)->clusters_;
+                         }};
+}
+
+void ArenaSensors::offer(FakeHost& host) const {
+  host.extensions[DMRP_EXT_LIDAR] = &lidar_extension_;
+  host.extensions[DMRP_EXT_LOCAL_COSTMAP] = &costmap_extension_;
+  host.extensions[DMRP_EXT_DISTANCE_FIELD] = &field_extension_;
+  host.extensions[DMRP_EXT_OBSTACLE_CLUSTERS] = &clusters_extension_;
+}
+
+void ArenaSensors::reset() {
+  rolling_.reset();
+}
+
+void ArenaSensors::set_boxes(const std::vector<Box>& boxes) {
+  if (geometry_ && std::equal(boxes.begin(), boxes.end(), boxes_.begin(), boxes_.end(), same)) return;
+  boxes_ = boxes;
+  geometry_ = std::make_shared<const core::StaticGeometry>(scenario_of(boxes));
+  lidar_ = std::make_unique<core::Lidar>(core::LidarSettings{}, geometry_);
+  ranges_.resize(lidar_->beams());
+}
+
+void ArenaSensors::look(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies,
+                        const std::vector<dmrp_agent>& agents) {
+  lidar_->scan(pose, bodies, ranges_);
+  scan_ = lidar_->describe(t_ns, ranges_);
+  if (sight_ == Sight::scan) {
+    rolling_.update(pose, scan_);
+    costmap_ = rolling_.costmap();
+    field_ = rolling_.distance_field();
+  } else {
+    see_everywhere(pose, t_ns, bodies);
+  }
+  gather_clusters(pose, bodies, agents);
+}
+
+void ArenaSensors::see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies) {
+  // the surfaces of boxes and bodies, on the world's lattice
+  const auto corner = [](double centre) {
+    return (std::floor(centre / resolution_m) - window_cells / 2) * resolution_m;
+  };
+  costmap_ = {
+      sizeof(costmap_), window_cells,       window_cells, 0,      t_ns, resolution_m, {corner(pose.x), corner(pose.y)},
+      robot_radius_m,   inflation_radius_m, cost_scaling, nullptr};
+  lethal_.assign(window_cells * window_cells, 0);
+  const auto mark = [&](dmrp_vec2 at) {
+    const auto column = static_cast<std::int64_t>(std::floor((at.x - costmap_.origin.x) / resolution_m));
+    const auto row = static_cast<std::int64_t>(std::floor((at.y - costmap_.origin.y) / resolution_m));
+    if (column >= 0 && row >= 0 && column < window_cells && row < window_cells)
+      lethal_[static_cast<std::size_t>(row * window_cells + column)] = 1;
+  };
+  const auto mark_line = [&](dmrp_vec2 from, dmrp_vec2 to) {
+    const int steps = 1 + static_cast<int>(toolkit::distance(from, to) / 0.02);
+    for (int i = 0; i <= steps; ++i) mark(toolkit::lerp(from, to, static_cast<double>(i) / steps));
+  };
+  for (const Box& box : boxes_) {
+    const dmrp_vec2 a = box.lower, c = box.upper, b = {c.x, a.y}, d = {a.x, c.y};
+    mark_line(a, b), mark_line(b, c), mark_line(c, d), mark_line(d, a);
+  }
+  for (const core::Disc& body : bodies)
+    for (int i = 0; i < 120; ++i) mark(body.center + body.radius_m * toolkit::from_angle(i * toolkit::pi / 60.0));
+
+  const std::vector<float>& distances =
+      transform_.compute(window_cells, window_cells, resolution_m, lethal_.data(), field_cap_m);
+  costs_.resize(lethal_.size());
+  std::transform(distances.begin(), distances.end(), costs_.begin(), [](float d) { return cost_at(d); });
+  costmap_.costs = costs_.data();
+  field_ = {sizeof(field_),  window_cells, window_cells,    0, t_ns, resolution_m,
+            costmap_.origin, field_cap_m,  distances.data()};
+}
+
+// The sides of boxes that face the robot, as far as they lie in the window, and bodies that nobody tracks.
+void ArenaSensors::gather_clusters(const dmrp_pose& pose, const std::vector<core::Disc>& bodies,
+                                   const std::vector<dmrp_agent>& agents) {
+  outlines_.clear();
+  const dmrp_vec2 lower = costmap_.origin;
+  const dmrp_vec2 upper = lower + dmrp_vec2{costmap_.width * resolution_m, costmap_.height * resolution_m};
+  for (const Box& box : boxes_) {
+    const dmrp_vec2 low = {std::max(box.lower.x, lower.x), std::max(box.lower.y, lower.y)};
+    const dmrp_vec2 high = {std::min(box.upper.x, upper.x), std::min(box.upper.y, upper.y)};
+    if (low.x > high.x || low.y > high.y) continue;
+    if (pose.x < box.lower.x && low.x == box.lower.x) outlines_.push_back({{low.x, low.y}, {low.x, high.y}});
+    if (pose.x > box.upper.x && high.x == box.upper.x) outlines_.push_back({{high.x, low.y}, {high.x, high.y}});
+    if (pose.y < box.lower.y && low.y == box.lower.y) outlines_.push_back({{low.x, low.y}, {high.x, low.y}});
+    if (pose.y > box.upper.y && high.y == box.upper.y) outlines_.push_back({{low.x, high.y}, {high.x, high.y}});
+  }
+  for (const core::Disc& body : bodies) {
+    if (is_agent(body, agents) || !toolkit::contains({lower, upper}, body.center)) continue;
+    std::vector<dmrp_vec2>& rim = outlines_.emplace_back();
+    for (int i = 0; i < 8; ++i) rim.push_back(body.center + body.radius_m * toolkit::from_angle(i * toolkit::pi / 4.0));
+  }
+  cluster_array_.clear();
+  for (const std::vector<dmrp_vec2>& outline : outlines_)
+    cluster_array_.push_back({static_cast<std::uint32_t>(outline.size()), 0, outline.data()});
+  clusters_ = {sizeof(clusters_),
+               static_cast<std::uint32_t>(cluster_array_.size()),
+               sizeof(dmrp_obstacle_cluster),
+               0,
+               costmap_.t_ns,
+               resolution_m,
+               cluster_array_.data()};
+}
+
+ArenaNotes::ArenaNotes() {
+  extension_.struct_size = sizeof(extension_);
+  extension_.context = this;
+  extension_.wanted = [](const dmrp_annotate*) -> std::int32_t { return 1; };
+  extension_.trajectory = [](const dmrp_annotate* self, std::uint32_t role, const dmrp_pose* poses, std::uint32_t count,
+                             std::int64_t step_ns) {
+    static_cast<ArenaNotes*>(self->context)->trajectories.push_back({role, step_ns, {poses, poses + count}});
+  };
+  extension_.note = [](const dmrp_annotate* self, const char* text) {
+    static_cast<ArenaNotes*>(self->context)->notes.push_back(text);
+  };
+}
+
+}  // namespace dmrp::test

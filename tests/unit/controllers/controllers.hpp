@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// controllers.hpp: the controllers that every behaviour test drives, with their tuned parameters (the one list), and
+// what is asked of all of them.
+#pragma once
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "arena.hpp"
+
+namespace dmrp::test {
+
+struct Controller {
+  std::string id;
+  ParamOverrides tuned;  // what differs from the defaults
+  bool evades = true;    // finds a way round what stands on the path; else waits for it to go
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Controller& controller) {
+  return out << controller.id;
+}
+
+inline std::vector<Controller> all_controllers() {
+  const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", {}, false},
+                                         {"dmrp.controller.dwa", {}},
+                                         {"dmrp.controller.teb", {}},
+                                         {"dmrp.controller.mpc", {}},
+                                         {"dmrp.controller.e3mop", {}}};
+  std::vector<Controller> there;
+  for (const Controller& controller : known)
+    if (PluginLibrary::load("libdmrp_controllers.so").find(controller.id)) there.push_back(controller);
+  return there;
+}
+
+inline std::vector<Controller> evading_controllers() {
+  std::vector<Controller> evading = all_controllers();
+  evading.erase(std::remove_if(evading.begin(), evading.end(), [](const Controller& c) { return !c.evades; }),
+                evading.end());
+  return evading;
+}
+
+inline Drive run(const Controller& controller, const Course& course) {
+  return run(controller.id, course, controller.tuned);
+}
+
+inline void check_sound(const Drive& drive) {
+  CHECK(drive.breaches == std::vector<std::string>{});
+  CHECK(drive.static_clearance_m > 0.0);
+}
+
+inline void check_arrives(const Drive& drive, double within_s) {
+  check_sound(drive);
+  CHECK(drive.arrived);
+  CHECK(drive.time_s < within_s);
+}
+
+// Horizontal walls 0.2 m thick on both sides of y = 0.
+inline std::vector<Box> corridor(double width, double from_x = -2.0, double to_x = 12.0) {
+  return {{{from_x, 0.5 * width}, {to_x, 0.5 * width + 0.2}}, {{from_x, -0.5 * width - 0.2}, {to_x, -0.5 * width}}};
+}
+
+}  // namespace dmrp::test
