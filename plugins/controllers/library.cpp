@@ -3,6 +3,7 @@
 #include <dmrp/plugin.hpp>
 
 #include "dwa/dwa.hpp"
+#include "e3mop/e3mop.hpp"
 #include "pure_pursuit/pure_pursuit.hpp"
 
-DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa)
+DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa, dmrp::controllers::E3mop)

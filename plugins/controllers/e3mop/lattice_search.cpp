@@ -56,13 +56,15 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
   const int nearest = nearest_direction(start.theta);
   for (const int aside : {0, 1, -1}) {
     const int heading = (nearest + aside + direction_count) % direction_count;
-    const double turn = std::abs(toolkit::difference(start.theta, directions()[static_cast<std::size_t>(heading)].theta));
+    const double turn =
+        std::abs(toolkit::difference(start.theta, directions()[static_cast<std::size_t>(heading)].theta));
     if (turn > std::atan2(1.0, 2.0)) continue;
     const auto cost = static_cast<Ticks>(std::ceil(turn / settings.omega_max * ticks_per_s));
     offer(center * direction_count + heading, cost, time_to_go(distance, space.frame.resolution_m, settings.v_max), -1,
           -1);
   }
 
+  Open nearest_to_goal = {0, INT32_MAX, -1};
   while (!open_.empty() && result.expanded < settings.max_expanded) {
     std::pop_heap(open_.begin(), open_.end(), [](const Open& a, const Open& b) {
       return a.total != b.total ? a.total > b.total : a.to_go > b.to_go;
@@ -77,10 +79,12 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
       trace(best.node, space, result);
       return;
     }
+    if (best.to_go < nearest_to_goal.to_go) nearest_to_goal = best;
     node.expanded = true;
     ++result.expanded;
     expand(best.node, space, settings);
   }
+  trace(nearest_to_goal.node, space, result);
 }
 
 void LatticeSearch::expand(std::int32_t node, const SearchSpace& space, const SearchSettings& settings) {
@@ -97,8 +101,7 @@ void LatticeSearch::expand(std::int32_t node, const SearchSpace& space, const Se
     const std::int32_t to_cell = space.frame.cell_at(column + motion.dx, row + motion.dy);
     const std::int32_t to = to_cell * direction_count + motion.to_heading;
     Ticks to_cost = cost + motion.duration;
-    if (is_start && motion.kind == MotionKind::turn)
-      to_cost += static_cast<Ticks>(settings.first_turn_s * ticks_per_s);
+    if (is_start && motion.kind == MotionKind::turn) to_cost += static_cast<Ticks>(settings.first_turn_s * ticks_per_s);
     const Node& known = nodes_[static_cast<std::size_t>(to)];
     if (known.search == search_ && known.cost <= to_cost) continue;
     const std::int32_t distance = space.goal.distance(to_cell);
@@ -124,12 +127,10 @@ void LatticeSearch::trace(std::int32_t node, const SearchSpace& space, SearchRes
                           directions()[static_cast<std::size_t>(way_.front() % direction_count)].theta});
   for (std::size_t i = 1; i < way_.size(); ++i) {
     const dmrp_vec2 from = space.frame.point_of(way_[i - 1] / direction_count);
-    const Motion& motion =
-        space.motions.at(static_cast<std::size_t>(nodes_[static_cast<std::size_t>(way_[i])].motion));
+    const Motion& motion = space.motions.at(static_cast<std::size_t>(nodes_[static_cast<std::size_t>(way_[i])].motion));
     for (std::uint32_t k = 0; k < motion.sample_count; ++k) {
       const MotionSample& sample = space.motions.samples()[motion.first_sample + k];
-      result.poses.push_back(
-          {from.x + sample.x, from.y + sample.y, std::atan2(sample.sin_theta, sample.cos_theta)});
+      result.poses.push_back({from.x + sample.x, from.y + sample.y, std::atan2(sample.sin_theta, sample.cos_theta)});
     }
   }
 }

@@ -28,15 +28,15 @@ struct SearchSettings {
   double omega_max = 1.0;            // rad/s
   bool pruning = true;               // drop motions that lead away from the heuristic's way
   std::int32_t max_expanded = 6000;  // states
-  double first_turn_s = 0.0;         // what turning in place costs at the start beyond its own time: a moving robot stops
+  double first_turn_s = 0.0;  // what turning in place costs at the start beyond its own time: a moving robot stops
 };
 
 struct SearchResult {
   bool found = false;
   Ticks duration = 0;         // travel time
   std::int32_t expanded = 0;  // states
-  // The way: places at most 0.05 m apart, headings along the lattice's directions and the arcs between them. Turns in
-  // place repeat the place.
+  // The way; where none was found, the way to the state that came nearest to the goal by the heuristic. Places at most
+  // 0.05 m apart, headings along the lattice's directions and the arcs between them. Turns in place repeat the place.
   std::vector<dmrp_pose> poses;
 };
 
