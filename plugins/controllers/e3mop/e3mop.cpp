@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../motion/unicycle.hpp"
+#include "path_follower.hpp"
 #include "velocity_profile.hpp"
 
 namespace dmrp::controllers {
@@ -27,10 +28,17 @@ constexpr double lead_m = 0.25;
 // So near to where the way is cut off, the robot waits.
 constexpr double wait_within_m = 0.2;
 
-// The tracker's feedback.
-constexpr double heading_gain = 2.0;
-constexpr double cross_gain = 3.0;
-constexpr double curvature_reach_m = 0.3;
+// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to do
+// does not change with every cycle.
+constexpr double kept_s = 0.3;
+constexpr double kept_m = 0.2;
+
+// A robot farther off its path than this starts a new one.
+constexpr double lost_m = 0.12;
+constexpr double lost_rad = 0.6;
+
+// A robot slower than this may leave in another direction than it heads for.
+constexpr double slow_m_s = 0.1;
 
 constexpr double sample_step_m = 0.05;
 
@@ -61,6 +69,7 @@ Status E3mop::start(const World&, std::uint64_t) {
   at_goal_.reset();
   limits_ = {};
   turning_ = false;
+  path_.clear();
   return Status::ok;
 }
 
@@ -84,36 +93,79 @@ Status E3mop::step(const Observation& now, Command& command) {
   const CostmapView map(*costmap_->costmap(costmap_));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
   const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+  const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   lay_out_global_path();
-  plan_.look(now.pose, foreseen_, foreseen, now.footprint.inscribed_radius_m);
-  if (!plan_.choose_goal(global_path_)) return Status::ok;
-  const double to_goal_m = toolkit::distance(toolkit::position(now.pose), plan_.goal());
-  if (plan_.is_cut() && to_goal_m < wait_within_m) return Status::ok;
+  const Pose from = keep_path(now, foreseen);
+  if (!plan(now, from, foreseen)) {
+    path_.clear();
+    return Status::ok;
+  }
 
+  // the direction in which the path leaves
+  const std::size_t lead_steps = static_cast<std::size_t>(std::ceil(lead_m / point_spacing));
+  const Vec2 lead = raw_points_[std::min(raw_points_.size(), kept_ + lead_steps) - 1];
+  const double aside = toolkit::difference(from.theta, toolkit::bearing(from, lead));
+  if (std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad)) {
+    turning_ = true;
+    path_.clear();
+    command.omega = turning_rate(toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), now);
+    return Status::ok;
+  }
+  turning_ = false;
+  if (!shape_path(now, foreseen)) {
+    path_.clear();
+    return Status::ok;
+  }
+  command = safe(now, follow(path_, now), seen);
+  annotate();
+  return Status::ok;
+}
+
+// The part of the last path that the robot is about to drive goes into raw_points_; returns where it ends, which is the
+// robot's own place where there is none.
+Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
+  raw_points_.clear();
+  raw_points_.push_back(toolkit::position(now.pose));
+  kept_ = 1;
+  start_theta_ = now.pose.theta;
+  if (path_.empty()) return now.pose;
+  const TrackingError error = tracking_error(path_, now.pose);
+  if (std::abs(error.cross_m) > lost_m || std::abs(error.aside_rad) > lost_rad) return now.pose;
+  const double reach_m = std::max(kept_m, kept_s * now.velocity.v_x);
+  const double first_m = path_[error.index].arc_m;
+  std::size_t last = error.index;
+  raw_points_[0] = path_[last].at;
+  for (std::size_t i = error.index + 1; i < path_.size() && path_[i].arc_m < first_m + reach_m + 1e-6; ++i) {
+    const PathPoint& point = path_[i];
+    if (!free_space.is_free(arc_state({point.at.x, point.at.y, point.theta}))) break;
+    if (point.arc_m - path_[last].arc_m < point_spacing - 1e-6) continue;
+    raw_points_.push_back(point.at);
+    last = i;
+  }
+  kept_ = raw_points_.size();
+  if (kept_ == 1) {
+    raw_points_[0] = toolkit::position(now.pose);
+    return now.pose;
+  }
+  start_theta_ = path_[error.index].theta;
+  return {path_[last].at.x, path_[last].at.y, path_[last].theta};
+}
+
+// The lattice path from there on. False where there is nowhere to go.
+bool E3mop::plan(const Observation& now, const Pose& from, const FreeSpace& free_space) {
+  plan_.look(from, foreseen_, free_space, now.footprint.inscribed_radius_m);
+  if (!plan_.choose_goal(global_path_)) return false;
+  const double to_goal_m = toolkit::distance(toolkit::position(now.pose), plan_.goal());
+  if (plan_.is_cut() && to_goal_m < wait_within_m) return false;
   SearchSettings settings;
   settings.v_max = now.limits.v_max;
   settings.omega_max = now.limits.omega_max;
   settings.pruning = pruning;
   settings.first_turn_s = std::abs(now.velocity.v_x) / now.limits.a_max;
-  plan_.search(now.pose, settings);
-  lay_points(now);
-  if (raw_points_.size() < 2) return Status::ok;
-
-  // the direction in which the path leaves
-  const Vec2 lead =
-      raw_points_[std::min(raw_points_.size() - 1, static_cast<std::size_t>(std::ceil(lead_m / point_spacing)))];
-  const double aside = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead));
-  turning_ = std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad);
-  if (turning_) {
-    command.omega = turning_rate(aside, now);
-    return Status::ok;
-  }
-  const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
-  if (!shape_path(now, foreseen)) return Status::ok;
-  command = safe(now, follow(now), seen);
-  annotate();
-  return Status::ok;
+  plan_.search(from, settings);
+  lay_points();
+  return raw_points_.size() > 1;
 }
 
 void E3mop::read_field(const Observation& now) {
@@ -143,12 +195,9 @@ void E3mop::lay_out_global_path() {
   }
 }
 
-// The lattice path, equally spaced, from the robot's place on; its end is the goal itself where it was reached.
-void E3mop::lay_points(const Observation& now) {
-  raw_points_.clear();
-  const std::vector<Pose>& poses = plan_.found().poses;
-  Vec2 last = toolkit::position(now.pose);
-  raw_points_.push_back(last);
+// The lattice path, equally spaced; its end is the goal itself where it was reached.
+void E3mop::lay_points() {
+  Vec2 last = raw_points_.back();
   double length_m = 0.0;
   const auto walk = [&](Vec2 to) {
     double left_m = toolkit::distance(last, to);
@@ -159,7 +208,7 @@ void E3mop::lay_points(const Observation& now) {
       raw_points_.push_back(last);
     }
   };
-  for (const Pose& pose : poses) walk(toolkit::position(pose));
+  for (const Pose& pose : plan_.found().poses) walk(toolkit::position(pose));
   if (!plan_.found().found || length_m >= smoothing_length) return;
   walk(plan_.goal());
   if (raw_points_.size() > 1 && toolkit::distance(raw_points_.back(), plan_.goal()) < 0.5 * point_spacing)
@@ -176,21 +225,23 @@ bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
   settings.safe_distance_m = safe_distance;
   settings.iterations = static_cast<int>(max_iterations);
   settings.needed_m = free_space.needed_m();
-  // the path leaves along the robot's heading
-  std::size_t fixed = 1;
-  if (points_.size() > 3) {
-    points_[1] = points_[0] + point_spacing * toolkit::from_angle(now.pose.theta);
+  std::size_t fixed = kept_;
+  std::optional<double> start_theta = start_theta_;
+  if (kept_ == 1 && now.velocity.v_x < slow_m_s) {
+    start_theta.reset();
+  } else if (kept_ == 1 && points_.size() > 3) {
+    points_[1] = points_[0] + point_spacing * toolkit::from_angle(start_theta_);
     fixed = 2;
   }
   smoother_.smooth(points_, fixed, foreseen_, settings);
-  if (fit(now, free_space)) return true;
+  if (fit(now, free_space, start_theta)) return true;
   points_ = raw_points_;
-  return fit(now, free_space);
+  return fit(now, free_space, start_theta);
 }
 
 // The spline and its speeds. False where it collides at once; where it collides later, it ends before.
-bool E3mop::fit(const Observation& now, const FreeSpace& free_space) {
-  spline_.fit(points_, now.pose.theta, sample_step_m, path_);
+bool E3mop::fit(const Observation& now, const FreeSpace& free_space, std::optional<double> start_theta) {
+  spline_.fit(points_, start_theta, sample_step_m, path_);
   const double braking_m = now.velocity.v_x * now.velocity.v_x / (2.0 * now.limits.a_max) + 0.3;
   for (std::size_t i = 1; i < path_.size(); ++i) {
     const PathPoint& point = path_[i];
@@ -202,39 +253,6 @@ bool E3mop::fit(const Observation& now, const FreeSpace& free_space) {
   if (path_.size() < 2) return false;
   plan_speeds(path_, now.velocity.v_x, 0.0, now.limits);
   return true;
-}
-
-// Feed-forward of the path's speed and curvature, feedback of the errors at the place where the robot will be when the
-// command acts.
-Command E3mop::follow(const Observation& now) const {
-  const double period_s = seconds(now.dt_ns);
-  ArcState at = arc_state(now.pose);
-  ArcStepper(now.velocity.v_x, now.velocity.omega, period_s).step(at);
-  std::size_t nearest = 0;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < path_.size(); ++i) {
-    const double distance_m = toolkit::distance({at.x, at.y}, path_[i].at);
-    if (distance_m < nearest_m) {
-      nearest = i;
-      nearest_m = distance_m;
-    }
-  }
-  const PathPoint& reference = path_[nearest];
-  const double cross_m = toolkit::cross(toolkit::from_angle(reference.theta), Vec2{at.x, at.y} - reference.at);
-  const double aside = toolkit::difference(reference.theta, std::atan2(at.sin_theta, at.cos_theta));
-  std::size_t beyond = nearest;
-  while (beyond + 1 < path_.size() && path_[beyond].arc_m < reference.arc_m + curvature_reach_m) ++beyond;
-  const double span_m = path_[beyond].arc_m - reference.arc_m;
-  const double curvature =
-      span_m > 0.0 ? toolkit::difference(reference.theta, path_[beyond].theta) / span_m : reference.curvature;
-
-  Command command;
-  const double speed = std::clamp(speed_after(path_, period_s), 0.0, now.limits.v_max);
-  command.v_x = std::clamp(toward(now.velocity.v_x, speed, now.limits.a_max * period_s), 0.0, now.limits.v_max);
-  const double omega = command.v_x * curvature - heading_gain * aside - cross_gain * command.v_x * cross_m;
-  command.omega = std::clamp(toward(now.velocity.omega, omega, now.limits.alpha_max * period_s), -now.limits.omega_max,
-                             now.limits.omega_max);
-  return command;
 }
 
 // The command, slower where its arc would run into something before the robot could stop.
@@ -255,8 +273,27 @@ Command E3mop::safe(const Observation& now, Command command, const FreeSpace& fr
   return command;
 }
 
-void E3mop::annotate() const {
+// The lattice path as what was considered, the profile as what is intended.
+void E3mop::annotate() {
   if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  constexpr double step_s = 0.1;
+  constexpr int steps = 30;
+  constexpr auto step_ns = static_cast<std::int64_t>(step_s * 1e9);
+  const std::vector<Pose>& lattice_path = plan_.found().poses;
+  if (lattice_path.size() > 1)
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, lattice_path.data(),
+                          static_cast<std::uint32_t>(lattice_path.size()), step_ns);
+  intended_.clear();
+  std::size_t i = 0;
+  for (int k = 0; k <= steps; ++k) {
+    while (i + 2 < path_.size() && path_[i + 1].time_s < k * step_s) ++i;
+    const double span_s = path_[i + 1].time_s - path_[i].time_s;
+    const double share = std::isfinite(span_s) ? std::clamp((k * step_s - path_[i].time_s) / span_s, 0.0, 1.0) : 0.0;
+    const Vec2 at = toolkit::lerp(path_[i].at, path_[i + 1].at, share);
+    intended_.push_back({at.x, at.y, path_[i].theta});
+  }
+  annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, intended_.data(),
+                        static_cast<std::uint32_t>(intended_.size()), step_ns);
 }
 
 }  // namespace dmrp::controllers

@@ -65,14 +65,14 @@ class E3mop final : public LocalController {
 
  private:
   void read_field(const Observation& now);
-  bool plan(const Observation& now);
+  Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
+  bool plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
   void lay_out_global_path();
-  void lay_points(const Observation& now);
+  void lay_points();
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
-  bool fit(const Observation& now, const e3mop::FreeSpace& free_space);
-  Command follow(const Observation& now) const;
+  bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta);
   Command safe(const Observation& now, Command command, const e3mop::FreeSpace& free_space) const;
-  void annotate() const;
+  void annotate();
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_distance_field* distance_field_ = nullptr;
@@ -88,8 +88,11 @@ class E3mop final : public LocalController {
   std::vector<Vec2> global_path_;  // what of the path ahead is planned to
   std::vector<Vec2> raw_points_;   // the lattice path, equally spaced
   std::vector<Vec2> points_;       // optimised
+  std::size_t kept_ = 1;           // of them stay where they are: the last cycle's path
+  double start_theta_ = 0.0;       // in which the path leaves
   std::vector<e3mop::PathPoint> path_;
-  dmrp_limits limits_{};  // that the lattice was made for
+  std::vector<Pose> intended_;  // of the annotation
+  dmrp_limits limits_{};        // that the lattice was made for
   bool turning_ = false;
 };
 

@@ -19,13 +19,13 @@ class FreeSpace {
   // `outline` is for polygons; NULL makes a polygon count as the circle about it.
   FreeSpace(const ClearanceField& field, const Footprint& footprint, double padding_m, const Pose& now,
             const FootprintCheck* outline = nullptr)
-      : field_(&field),
-        outline_(footprint.vertex_count > 0 ? outline : nullptr),
-        start_(toolkit::position(now)),
-        start_clearance_m_(field.of_cell(now.x, now.y)) {
+      : field_(&field), outline_(footprint.vertex_count > 0 ? outline : nullptr), start_(toolkit::position(now)) {
     const double radius_m = outline_ ? footprint.inscribed_radius_m : footprint.radius_m;
     surely_m_ = static_cast<float>(footprint.radius_m + padding_m);
     needed_m_ = static_cast<float>(radius_m + padding_m);
+    const double start_clearance_m = field.at(start_).distance_m;
+    escapes_ = start_clearance_m < needed_m_ + 0.7 * field.resolution_m();
+    tolerated_m_ = std::min<double>(start_clearance_m, needed_m_) - waver_m;
   }
 
   // How far a place must be from every obstacle, whatever the heading.
@@ -34,28 +34,29 @@ class FreeSpace {
   bool is_free(const ArcState& at) const {
     const float clearance_m = field_->of_cell(at.x, at.y);
     if (clearance_m >= surely_m_) return true;
-    if (clearance_m < needed_m_) return tolerated(at, clearance_m);
+    if (clearance_m < needed_m_) return tolerated(at);
     return !outline_ || outline_->cost(at) != in_collision;
   }
 
-  // Whether a robot that stands too near to something may be at this place, whose clearance is too small.
-  bool tolerated(const ArcState& at, double clearance_m) const {
-    if (!(start_clearance_m_ < needed_m_)) return false;
+  // Whether a robot that stands too near to something may be at this place, whose cell is too near too.
+  bool tolerated(const ArcState& at) const {
+    if (!escapes_) return false;
     const double dx = at.x - start_.x;
     const double dy = at.y - start_.y;
-    return dx * dx + dy * dy < escape_reach_m * escape_reach_m && clearance_m >= start_clearance_m_ - waver_m;
+    return dx * dx + dy * dy < escape_reach_m * escape_reach_m && field_->at({at.x, at.y}).distance_m >= tolerated_m_;
   }
 
  private:
   // How far an escape may lead through places that are too near.
   static constexpr double escape_reach_m = 0.6;
-  // Beside a wall the distance wavers by so much from cell to cell.
-  static constexpr double waver_m = 0.011;
+  // Along a wall the distance wavers by so much.
+  static constexpr double waver_m = 0.01;
 
   const ClearanceField* field_;
   const FootprintCheck* outline_;
   Vec2 start_;
-  float start_clearance_m_;
+  bool escapes_ = false;  // the robot's own place is too near to something, or nearly so
+  double tolerated_m_ = 0.0;
   float surely_m_;
   float needed_m_;
 };

@@ -26,7 +26,7 @@ void LocalPlan::look(const Pose& robot, const ClearanceField& field, const FreeS
       const Vec2 at = frame_.point_of(cell);
       const double clearance_m = field.of_cell(at.x, at.y);
       open_cells_[static_cast<std::size_t>(cell)] =
-          clearance_m >= inscribed_radius_m || free_space.tolerated({at.x, at.y, 1.0, 0.0}, clearance_m);
+          clearance_m >= inscribed_radius_m || free_space.tolerated({at.x, at.y, 1.0, 0.0});
     }
   }
 }
