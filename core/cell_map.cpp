@@ -2,6 +2,7 @@
 #include "core/cell_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <limits>
@@ -102,6 +103,26 @@ void find_clearances(const CellMap& map, PlanningGrid& grid) {
   }
 }
 
+// A corner of the world that is no thicker than this is left to its border.
+constexpr double thinnest_corner_m = 1e-6;
+
+// Between each side of the turned map and the corner of the world before it. `corners`: of the map, counter-clockwise.
+void append_corners(const std::array<dmrp_vec2, 4>& corners, PlacedBoxes& out) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const dmrp_vec2 from = corners[i];
+    const dmrp_vec2 to = corners[(i + 1) % corners.size()];
+    const dmrp_vec2 side = to - from;
+    if (std::abs(side.x) < thinnest_corner_m || std::abs(side.y) < thinnest_corner_m) continue;
+    // the outside is on the right of a side
+    const dmrp_vec2 beyond = {side.y > 0.0 ? out.world.upper.x : out.world.lower.x,
+                              side.x > 0.0 ? out.world.lower.y : out.world.upper.y};
+    Shape shape;
+    shape.name = "outside of the map " + std::to_string(i + 1);
+    shape.vertices = {to, from, beyond};
+    out.shapes.push_back(std::move(shape));
+  }
+}
+
 }  // namespace
 
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin) {
@@ -115,6 +136,30 @@ std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin)
     shapes.push_back(std::move(shape));
   }
   return shapes;
+}
+
+PlacedBoxes place_boxes(const CellMap& map, double cell_m, dmrp_pose origin) {
+  const dmrp_vec2 corner = {origin.x, origin.y};
+  const dmrp_vec2 size = {cell_m * map.width, cell_m * map.height};
+  if (origin.theta == 0.0) return {{corner, corner + size}, boxes_of(map, cell_m, corner)};
+
+  const double c = std::cos(origin.theta);
+  const double s = std::sin(origin.theta);
+  const auto placed = [&](dmrp_vec2 p) { return corner + dmrp_vec2{c * p.x - s * p.y, s * p.x + c * p.y}; };
+  PlacedBoxes out;
+  out.shapes = boxes_of(map, cell_m, {0.0, 0.0});
+  for (Shape& shape : out.shapes)
+    for (dmrp_vec2& vertex : shape.vertices) vertex = placed(vertex);
+
+  const std::array<dmrp_vec2, 4> corners = {placed({0.0, 0.0}), placed({size.x, 0.0}), placed(size),
+                                            placed({0.0, size.y})};
+  out.world = {corners[0], corners[0]};
+  for (const dmrp_vec2 p : corners) {
+    out.world.lower = {std::min(out.world.lower.x, p.x), std::min(out.world.lower.y, p.y)};
+    out.world.upper = {std::max(out.world.upper.x, p.x), std::max(out.world.upper.y, p.y)};
+  }
+  append_corners(corners, out);
+  return out;
 }
 
 PlanningGrid planning_grid_of(const CellMap& map, double cell_m) {

@@ -3,12 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <vector>
 
 #include "core/planning_grid.hpp"
 #include "core/scenario.hpp"
 
 namespace dmrp::core {
+
+// What readers of maps take: of cells along a side, and altogether.
+inline constexpr std::uint32_t longest_map_side = 10'000;
+inline constexpr std::uint64_t most_map_cells = 1 << 24;
 
 // Row-major from the lower left, as dmrp_grid is: index = row * width + column.
 struct CellMap {
@@ -23,6 +28,14 @@ struct CellMap {
 
 // The blocked cells as few boxes that do not overlap; the lower left cell's corner is at `origin`.
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin);
+
+// A map whose lower left corner is at `origin` and whose rows run along origin.theta: its blocked cells as boxes, and
+// what the world around it holds beyond its sides, at its corners, as up to four triangles.
+struct PlacedBoxes {
+  toolkit::Rectangle world;
+  std::vector<Shape> shapes;
+};
+PlacedBoxes place_boxes(const CellMap& map, double cell_m, dmrp_pose origin);
 
 // What build_planning_grid() gives for these boxes, this cell size and a robot of radius and margin 0, origin (0, 0),
 // straight from the cells: moves between free neighbours are open, diagonal ones where both cells beside are free too.

@@ -77,7 +77,7 @@ std::vector<ParameterValue> read_settings(const std::vector<std::string>& settin
   for (const std::string& setting : settings) text += toml_line(setting);
   try {
     const TomlDocument document("--set", text);
-    return read_parameters(document.root(), info, fs::current_path()).front().values;
+    return read_parameters(document.root(), info, fs::current_path(), {}).front().values;
   } catch (const InputError& error) {
     std::size_t line = 0;
     int read = 0;

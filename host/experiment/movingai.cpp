@@ -7,18 +7,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 
+#include "host/experiment/read_file.hpp"
 #include "host/input_error.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-constexpr std::uint32_t longest_side = 10'000;
-constexpr std::uint64_t most_cells = 1 << 24;
 constexpr std::string_view free_letters = ".GS";
 constexpr std::string_view blocked_letters = "@OTW";
 
@@ -31,14 +28,8 @@ struct Field {
 // The lines of a file, without their ends, whichever those are.
 class Lines {
  public:
-  Lines(const std::filesystem::path& file, std::string shown_path) : shown_path_(std::move(shown_path)) {
-    if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored))
-      throw InputError(shown_path_ + ": there is no such file");
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    text_ = text.str();
-    if (!stream && !text_.empty()) throw InputError(shown_path_ + ": the file cannot be read");
+  Lines(const std::filesystem::path& file, std::string shown_path)
+      : shown_path_(std::move(shown_path)), text_(read_file(file, shown_path_)) {
     for (std::string_view rest = text_; !rest.empty();) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       std::string_view line = rest.substr(0, end);
@@ -113,11 +104,13 @@ Size read_header(const Lines& lines) {
     if (fields.size() == 2 && fields[0].text == "width") side = &Size::width;
     if (!side || size.*side != 0)
       lines.fail(line, 1, fmt::format("expected '{} N'", size.height == 0 ? "height" : "width"));
-    size.*side = lines.whole_number(line, fields[1], side == &Size::height ? "height" : "width", 1, longest_side);
+    size.*side =
+        lines.whole_number(line, fields[1], side == &Size::height ? "height" : "width", 1, core::longest_map_side);
   }
-  if (std::uint64_t{size.width} * size.height > most_cells)
-    lines.fail(3, 1,
-               fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, most_cells));
+  if (std::uint64_t{size.width} * size.height > core::most_map_cells)
+    lines.fail(
+        3, 1,
+        fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::most_map_cells));
   if (lines.line(4) != "map") lines.fail(4, 1, "expected 'map'");
   return size;
 }
@@ -163,8 +156,8 @@ MovingAiTask read_task(const Lines& lines, std::size_t line, const core::CellMap
                fmt::format("a task has {} fields (bucket, map, width, height, start x, y, goal x, y, length), not {}",
                            field_count, fields.size()));
   lines.whole_number(line, fields[0], "the bucket", 0, 1'000'000'000);
-  const std::uint32_t width = lines.whole_number(line, fields[2], "the map's width", 1, longest_side);
-  const std::uint32_t height = lines.whole_number(line, fields[3], "the map's height", 1, longest_side);
+  const std::uint32_t width = lines.whole_number(line, fields[2], "the map's width", 1, core::longest_map_side);
+  const std::uint32_t height = lines.whole_number(line, fields[3], "the map's height", 1, core::longest_map_side);
   if (width != map.width || height != map.height)
     lines.fail(line, fields[2].column,
                fmt::format("the task is for another map: '{}' of {} x {} cells, not {} x {}",

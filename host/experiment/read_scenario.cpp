@@ -6,24 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
-#include <fstream>
 #include <limits>
-#include <optional>
-#include <sstream>
 
 #include "host/executable.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/movingai.hpp"
 #include "host/experiment/nearest_name.hpp"
+#include "host/experiment/read_file.hpp"
+#include "host/experiment/read_map.hpp"
 #include "host/experiment/toml_document.hpp"
-#include "host/input_error.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
 constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-constexpr double longest_side_m = 10'000.0;
 constexpr double farthest_m = 1e6;  // of a coordinate
 constexpr double longest_s = 1e6;
 constexpr std::int64_t most_people = 10'000;  // of a flow
@@ -206,74 +202,6 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
   }
 }
 
-// A map and where it lies in the world.
-struct PlacedMap {
-  core::CellMap cells;
-  double cell_m = 1.0;
-};
-
-// A file that scenario.toml names, relative to itself.
-std::filesystem::path named_file(const TomlValue& value, const std::filesystem::path& folder, const char* suffix,
-                                 ScenarioFile& out) {
-  const std::filesystem::path file = (folder / value.line()).lexically_normal();
-  if (file.extension() != suffix) value.fail(fmt::format("'{}' must be a {} file", value.key(), suffix));
-  if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored))
-    value.fail(fmt::format("no file '{}' beside the scenario file", value.text()));
-  out.files.push_back(file);
-  return file;
-}
-
-// As a message calls a file that is named in the one shown as `shown_path`.
-std::string shown_beside(const std::string& shown_path, const std::string& name) {
-  return (std::filesystem::path(shown_path).parent_path() / name).lexically_normal().string();
-}
-
-std::optional<PlacedMap> read_map(const TomlTable& root, const std::filesystem::path& folder,
-                                  const std::string& shown_path, ScenarioFile& out) {
-  const auto table = root.find_table("map");
-  if (!table) return std::nullopt;
-  table->allow_only({"file", "cell_m"});
-  PlacedMap map;
-  const TomlValue name = table->need("file");
-  const std::filesystem::path file = named_file(name, folder, ".map", out);
-  map.cells = read_movingai_map(file, shown_beside(shown_path, name.text()));
-  const auto cell = table->find("cell_m");
-  if (cell) map.cell_m = positive(*cell, longest_side_m);
-  core::Scenario& scenario = out.scenario;
-  const dmrp_vec2 extent = {map.cell_m * map.cells.width, map.cell_m * map.cells.height};
-  if (extent.x > longest_side_m || extent.y > longest_side_m)
-    (cell ? *cell : name).fail(fmt::format("the world must be at most {0} m by {0} m", longest_side_m));
-  scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
-  scenario.shapes = core::boxes_of(map.cells, map.cell_m, scenario.lower);
-  out.size = name.position();
-  return map;
-}
-
-void read_tasks(const TomlTable& table, const std::optional<PlacedMap>& map, const std::filesystem::path& folder,
-                const std::string& shown_path, ScenarioFile& out) {
-  table.allow_only({"scen", "count"});
-  const TomlValue name = table.need("scen");
-  if (!map) name.fail("'scen' needs a [map] that its tasks are for");
-  const std::filesystem::path file = named_file(name, folder, ".scen", out);
-  const MovingAiTasks read = read_movingai_tasks(file, shown_beside(shown_path, name.text()), map->cells);
-  std::size_t count = read.tasks.size();
-  if (const auto asked = table.find("count")) {
-    count = static_cast<std::size_t>(asked->integer(1));
-    if (count > read.tasks.size())
-      asked->fail(fmt::format("{} has {} task{}, not {}", read.shown_path, read.tasks.size(),
-                              read.tasks.size() == 1 ? "" : "s", count));
-  }
-  const auto pose_of = [&](MovingAiCell cell) {
-    const dmrp_vec2 center = center_of(cell, map->cells, map->cell_m);
-    return dmrp_pose{out.scenario.lower.x + center.x, out.scenario.lower.y + center.y, free_heading};
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    out.scenario.robots.push_back(
-        {fmt::format("robot {}", i + 1), pose_of(read.tasks[i].start), {pose_of(read.tasks[i].goal)}});
-    out.robots.push_back(name.position());
-  }
-}
-
 void read_header(const TomlTable& root, const std::filesystem::path& file, ScenarioFile& out) {
   core::Scenario& scenario = out.scenario;
   const auto header = root.find_table("scenario");
@@ -301,29 +229,21 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, longest_s);
 }
 
-std::string read_text(const std::filesystem::path& file, const std::string& shown) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(shown + ":1:1: the file cannot be read");
-  return text.str();
-}
-
 }  // namespace
 
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;
-  out.document = std::make_shared<TomlDocument>(shown_path, read_text(file, shown_path));
+  out.document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
   const TomlTable root = out.document->root();
   root.allow_only({"scenario", "map", "box", "circle", "polygon", "robot", "robots", "people", "region", "flow"});
   read_header(root, file, out);
-  const auto map = read_map(root, file.parent_path(), shown_path, out);
+  const auto map = read_map(root, file, shown_path, out);
   read_shapes(root, "box", read_box, out);
   read_shapes(root, "circle", read_circle, out);
   read_shapes(root, "polygon", read_polygon, out);
   if (const auto tasks = root.find_table("robots")) {
     if (const auto listed = root.find("robot")) listed->fail_at_key("a scenario has either [[robot]] or [robots]");
-    read_tasks(*tasks, map, file.parent_path(), shown_path, out);
+    read_tasks(*tasks, map, file, shown_path, out);
   } else {
     read_robots(root, out);
   }

@@ -12,6 +12,8 @@
 
 namespace dmrp::host {
 
+inline constexpr double longest_side_m = 10'000.0;  // of a world
+
 struct ScenarioFile {
   core::Scenario scenario;
   std::vector<std::filesystem::path> files;  // that it is made of beside scenario.toml, absolute: a map, tasks

@@ -8,7 +8,6 @@
 #include <dmrp/toolkit/random.hpp>
 
 #include "core/robot_task.hpp"
-#include "core/sensing.hpp"
 
 namespace dmrp::host {
 
@@ -89,7 +88,7 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const core::PathProgr
   const auto goals = world_.goals(robot);
   const dmrp_robot& body =
       *DMRP_AT(dmrp_robot, variant_.view.world().robots, variant_.view.world().robot_stride, robot);
-  core::visible_agents(world_, robot, agents_);
+  const std::vector<dmrp_agent>& agents = drivers_[robot].sensors->agents();
 
   dmrp_observation observation{};
   observation.struct_size = sizeof(observation);
@@ -107,8 +106,8 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const core::PathProgr
   observation.released_waypoint = last_waypoint;
   observation.limits = body.limits;
   observation.footprint = body.footprint;
-  observation.agents = agents_.data();
-  observation.agent_count = static_cast<std::uint32_t>(agents_.size());
+  observation.agents = agents.data();
+  observation.agent_count = static_cast<std::uint32_t>(agents.size());
   observation.agent_stride = sizeof(dmrp_agent);
 
   Driver& driver = drivers_[robot];

@@ -68,7 +68,6 @@ class Cast {
   std::vector<Driver> drivers_;
   dmrp_pedestrian_model pedestrian_table_{};
   std::vector<dmrp_vec2> velocities_;
-  std::vector<dmrp_agent> agents_;
   std::vector<dmrp_call> calls_;
 };
 

@@ -16,20 +16,29 @@ RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::
   field_extension_ = {sizeof(dmrp_distance_field), 0, this, [](const dmrp_distance_field* self) -> const dmrp_field* {
                         return &static_cast<RobotSensors*>(self->context)->costmap_->distance_field();
                       }};
+  clusters_extension_ = {sizeof(dmrp_obstacle_clusters), 0, this,
+                         [](const dmrp_obstacle_clusters* self) -> const dmrp_obstacle_cluster_list* {
+                           return &static_cast<RobotSensors*>(self->context)->clusters();
+                         }};
 }
 
 const void* RobotSensors::extension(const std::string& id) {
   if (id == DMRP_EXT_LIDAR) return &lidar_extension_;
-  if (id != DMRP_EXT_LOCAL_COSTMAP && id != DMRP_EXT_DISTANCE_FIELD) return nullptr;
-  if (!costmap_) {
+  const void* of_costmap = nullptr;
+  if (id == DMRP_EXT_LOCAL_COSTMAP) of_costmap = &costmap_extension_;
+  if (id == DMRP_EXT_DISTANCE_FIELD) of_costmap = &field_extension_;
+  if (id == DMRP_EXT_OBSTACLE_CLUSTERS) of_costmap = &clusters_extension_;
+  if (of_costmap && !costmap_) {
     costmap_ = std::make_unique<core::LocalCostmap>(world_.robot_settings().costmap, world_.robot_settings().radius_m);
     costmap_->update(world_.robots()[robot_].pose, scan());
   }
-  return id == DMRP_EXT_LOCAL_COSTMAP ? static_cast<const void*>(&costmap_extension_) : &field_extension_;
+  return of_costmap;
 }
 
 void RobotSensors::tick() {
   scan_is_fresh_ = false;
+  agents_are_fresh_ = false;
+  fresh_clusters_ = nullptr;
   if (costmap_) costmap_->update(world_.robots()[robot_].pose, scan());
 }
 
@@ -40,6 +49,17 @@ const dmrp_scan& RobotSensors::scan() {
     scan_is_fresh_ = true;
   }
   return scan_;
+}
+
+const std::vector<dmrp_agent>& RobotSensors::agents() {
+  if (!agents_are_fresh_) core::visible_agents(world_, robot_, agents_);
+  agents_are_fresh_ = true;
+  return agents_;
+}
+
+const dmrp_obstacle_cluster_list& RobotSensors::clusters() {
+  if (!fresh_clusters_) fresh_clusters_ = &clusters_.derive(costmap_->costmap(), agents());
+  return *fresh_clusters_;
 }
 
 }  // namespace dmrp::host

@@ -5,6 +5,7 @@
 #include <dmrp/ext/distance_field.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
+#include <dmrp/ext/obstacle_clusters.h>
 
 #include <memory>
 #include <string>
@@ -12,18 +13,21 @@
 
 #include "core/costmap.hpp"
 #include "core/lidar.hpp"
+#include "core/obstacle_clusters.hpp"
 #include "core/world.hpp"
 
 namespace dmrp::host {
 
 // The ids of the extensions that this host offers to local controllers.
 inline const std::vector<std::string>& offered_extensions() {
-  static const std::vector<std::string> ids = {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD};
+  static const std::vector<std::string> ids = {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD,
+                                               DMRP_EXT_OBSTACLE_CLUSTERS};
   return ids;
 }
 
 // One robot's sensors in one trial. Nothing is computed that nobody asked for: scans when they are read, the costmap
-// on every scan from the moment it is subscribed to (it has a history), its distance field when it is read.
+// on every scan from the moment it is subscribed to (it has a history), its distance field and the obstacles' clusters
+// when they are read.
 class RobotSensors {
  public:
   // `world` and `lidar` outlive it; the lidar serves all robots.
@@ -31,14 +35,19 @@ class RobotSensors {
   RobotSensors(const RobotSensors&) = delete;
   RobotSensors& operator=(const RobotSensors&) = delete;
 
-  // The extension behind an id, nullptr if it is not offered. Asking for the costmap or its field subscribes to it.
+  // The extension behind an id, nullptr if it is not offered. Asking for the costmap or what is derived from it
+  // subscribes to it.
   const void* extension(const std::string& id);
 
   // A control tick begins: what was read before is out of date.
   void tick();
 
+  // The others that the robot is told of, as in its observation.
+  const std::vector<dmrp_agent>& agents();
+
  private:
   const dmrp_scan& scan();
+  const dmrp_obstacle_cluster_list& clusters();
 
   const core::World& world_;
   std::uint32_t robot_;
@@ -46,10 +55,15 @@ class RobotSensors {
   std::vector<float> ranges_;
   dmrp_scan scan_{};
   bool scan_is_fresh_ = false;
+  std::vector<dmrp_agent> agents_;
+  bool agents_are_fresh_ = false;
   std::unique_ptr<core::LocalCostmap> costmap_;  // there once somebody has subscribed
+  core::ObstacleClusters clusters_;
+  const dmrp_obstacle_cluster_list* fresh_clusters_ = nullptr;
   dmrp_lidar lidar_extension_{};
   dmrp_local_costmap costmap_extension_{};
   dmrp_distance_field field_extension_{};
+  dmrp_obstacle_clusters clusters_extension_{};
 };
 
 }  // namespace dmrp::host
