@@ -128,7 +128,6 @@ void Mpc::pose_problem(const Observation& now) {
   problem_.start = {now.pose.x, now.pose.y, now.pose.theta};
   problem_.before = {std::clamp(now.applied.v_x, limits.v_min, limits.v_max),
                      std::clamp(now.applied.omega, -limits.omega_max, limits.omega_max)};
-  problem_.before_s = seconds(now.dt_ns);
   problem_.v_min = limits.v_min;
   problem_.v_max = limits.v_max;
   problem_.omega_max = limits.omega_max;

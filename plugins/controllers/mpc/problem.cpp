@@ -86,16 +86,16 @@ void Problem::constraints(std::size_t stages, std::size_t k, const StageVector& 
   if (k == 0) {
     *out++ = bound(-1.0, at_dt, w, dt_min_s);
     *out++ = bound(1.0, at_dt, w, -dt_max_s);
-    // the first control follows the one applied within a control period
-    *out++ = bound(1.0, at_v, w, -before.v - a_max * before_s);
-    *out++ = bound(-1.0, at_v, w, before.v - a_max * before_s);
-    *out++ = bound(1.0, at_omega, w, -before.omega - alpha_max * before_s);
-    *out++ = bound(-1.0, at_omega, w, before.omega - alpha_max * before_s);
-  } else if (k + 1 < stages) {
+  }
+  if (k + 1 < stages) {
     for (const double sign : {1.0, -1.0}) {
       *out++ = rate_bound(sign, at_v, at_v_before, w, a_max);
       *out++ = rate_bound(sign, at_omega, at_omega_before, w, alpha_max);
     }
+    *out++ = bound(1.0, at_v, w, -v_max);
+    *out++ = bound(-1.0, at_v, w, v_min);
+    *out++ = bound(1.0, at_omega, w, -omega_max);
+    *out++ = bound(-1.0, at_omega, w, -omega_max);
   } else if (ends_at_rest) {
     for (const double sign : {1.0, -1.0}) {
       *out = bound(sign, at_v_before, w, -a_max * w[at_dt]);
@@ -103,12 +103,6 @@ void Problem::constraints(std::size_t stages, std::size_t k, const StageVector& 
       *out = bound(sign, at_omega_before, w, -alpha_max * w[at_dt]);
       (out++)->gradient[at_dt] = -alpha_max;
     }
-  }
-  if (k + 1 < stages) {
-    *out++ = bound(1.0, at_v, w, -v_max);
-    *out++ = bound(-1.0, at_v, w, v_min);
-    *out++ = bound(1.0, at_omega, w, -omega_max);
-    *out++ = bound(-1.0, at_omega, w, -omega_max);
   }
   for (const Obstacle* obstacle : obstacles[k]) *out++ = keep_away(*this, *obstacle, k, w);
 }

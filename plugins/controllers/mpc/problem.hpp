@@ -57,8 +57,7 @@ struct Transition {
 
 struct Problem {
   State start;
-  Control before;         // applied now ...
-  double before_s = 0.1;  // ... and to be left within this, the control period
+  Control before;  // applied now
   State goal;
   bool fixes_heading = true;  // at the goal
   bool ends_at_rest = false;
