@@ -27,7 +27,7 @@ inline std::vector<Controller> all_controllers() {
   const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", {}, false},
                                          {"dmrp.controller.dwa", {}},
                                          {"dmrp.controller.teb", {}},
-                                         {"dmrp.controller.mpc", {}},
+                                         {"dmrp.controller.mpc", {{"min_obstacle_dist", 0.1}}},
                                          {"dmrp.controller.e3mop", {}}};
   std::vector<Controller> there;
   for (const Controller& controller : known)
