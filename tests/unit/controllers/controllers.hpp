@@ -26,7 +26,11 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 inline std::vector<Controller> all_controllers() {
   const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", {}, false},
                                          {"dmrp.controller.dwa", {}},
-                                         {"dmrp.controller.teb", {}},
+                                         {"dmrp.controller.teb",
+                                          {{"min_obstacle_dist", 0.1},
+                                           {"inflation_dist", 0.3},
+                                           {"dynamic_obstacle_inflation_dist", 0.4},
+                                           {"obstacle_association_cutoff_factor", 10.0}}},
                                          {"dmrp.controller.mpc", {{"min_obstacle_dist", 0.1}}},
                                          {"dmrp.controller.e3mop", {}}};
   std::vector<Controller> there;
