@@ -28,6 +28,7 @@ struct PluginUse {
   PluginInfo info;
   std::string label;                       // for people; unique among the uses of its kind
   std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
+  std::filesystem::path parameter_file{};  // that some of them come from; absolute, empty if there is none
 };
 
 // A scenario with a number of robots.

@@ -139,6 +139,31 @@ TEST_CASE("mistakes in an experiment file") {
   }
 }
 
+TEST_CASE("mistakes in a parameter file") {
+  const ExperimentFolder folder;
+  const auto told = [](const std::string& lines) {
+    write_file("set.toml", lines);
+    return message_of(with(experiment_text, "params = {", "params_file = \"set.toml\"\nparams = {"), scenario_text);
+  };
+  CHECK(told("weight = 2") == "no error");
+  CHECK(told("greedy = true\n wieght = 2") ==
+        "set.toml:2:2: unknown key 'wieght' for test.planner (did you mean 'weight'?)");
+  CHECK(told("# heavy\nweight = 20") == "set.toml:2:10: 'weight' must be from 1 to 10 m, not 20");
+  CHECK(told("weight = [2, 3]") == "set.toml:1:10: 'weight' must be a number, not an array");
+  CHECK(told("[params]\nweight = 2") == "set.toml:1:2: unknown key 'params' for test.planner");
+  CHECK(told("table = \"tabel.csv\"") == "set.toml:1:9: 'table' names no file: 'tabel.csv'");
+  CHECK(told("weight = = 2").substr(0, 14) == "set.toml:1:10:");
+
+  const auto unnamed = [](const std::string& value) {
+    return message_of(with(experiment_text, "params = {", "params_file = " + value + "\nparams = {"), scenario_text);
+  };
+  CHECK(unnamed("3") == "experiment.toml:12:15: 'params_file' must be a string, not an integer");
+  CHECK(unnamed("\"\"") == "experiment.toml:12:15: 'params_file' must not be empty");
+  CHECK(unnamed("\"sit.toml\"")
+            .find("experiment.toml:12:15: no parameter file 'sit.toml' beside the experiment file "
+                  "(shipped: ") == 0);
+}
+
 TEST_CASE("mistakes in an experiment's settings") {
   const ExperimentFolder folder;
   const std::pair<const char*, const char*> mistakes[] = {

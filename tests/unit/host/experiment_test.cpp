@@ -228,6 +228,42 @@ TEST_CASE("a sweep makes a labelled variant of every combination") {
   CHECK(labels_of(e.metrics) == std::vector<std::string>{"Time"});
 }
 
+TEST_CASE("a parameter file gives values that params and sweep override") {
+  const ExperimentFolder folder;
+  write_file("sets/good.toml", "weight = 4\nexpansions = 7\ngreedy = true\ntable = \"near.csv\"\n");
+  write_file("sets/near.csv", "1\n");
+  const Experiment e =
+      load(with(experiment_text, "params = { weight = 1.5 }",
+                "params_file = \"sets/good.toml\"\nparams = { weight = 1.5 }\nsweep = { greedy = [false, true] }"));
+  REQUIRE(e.global_planners.size() == 2);
+  const PluginUse& use = e.global_planners[0];
+  CHECK(use.label == "Planner (greedy off)");
+  CHECK(use.parameter_file == folder.path() / "sets/good.toml");
+  CHECK(value_of(use, "weight").number == 1.5);
+  CHECK(value_of(use, "expansions").integer == 7);
+  CHECK(value_of(use, "greedy").integer == 0);
+  CHECK(value_of(e.global_planners[1], "greedy").integer == 1);
+  CHECK(value_of(use, "table").text == folder.path() / "sets/near.csv");  // relative to the file that names it
+  CHECK(value_of(use, "order").text == "first");
+  CHECK(e.local_controllers[0].parameter_file.empty());
+
+  // with the values written out it is another file but the same parameters
+  const Experiment again = load(effective_toml(e));
+  CHECK(effective_toml(again) == effective_toml(e));
+  CHECK(again.global_planners[0].parameter_file.empty());
+
+  SECTION("for plugins of every kind, and without values") {
+    write_file("empty.toml", "# nothing\n");
+    const Experiment all =
+        load(with(with(experiment_text, "\"test.controller\"", "\"test.controller\"\nparams_file = \"empty.toml\""),
+                  "\"test.model\"", "\"test.model\"\nparams_file = \"./empty.toml\"") +
+             "[[metric]]\nuse = \"test.time\"\nparams_file = \"" + (folder.path() / "empty.toml").string() + "\"\n");
+    CHECK(all.local_controllers[0].parameter_file == folder.path() / "empty.toml");
+    CHECK(all.pedestrian_models[0].parameter_file == folder.path() / "empty.toml");
+    CHECK(all.metrics[0].parameter_file == folder.path() / "empty.toml");
+  }
+}
+
 TEST_CASE("robots named by number are the first of the list") {
   const ExperimentFolder folder;
   const Experiment e = load(full_experiment());
@@ -313,9 +349,16 @@ TEST_CASE("the digest changes with all that an experiment reads") {
     write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 3"));
     CHECK(changed());
   }
-  SECTION("a parameter file") {
+  SECTION("a file that a parameter names") {
     write_file("table.csv", "1,3\n");
     CHECK(changed());
+  }
+  SECTION("a file of parameters, even where its values are the same") {
+    const std::string text = with(experiment_text, "params = {", "params_file = \"set.toml\"\nparams = {");
+    write_file("set.toml", "expansions = 7\n");
+    const std::string before = experiment_digest(load(text));
+    write_file("set.toml", "expansions = 7  # seven\n");
+    CHECK(experiment_digest(load(text)) != before);
   }
 }
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// e3mop.hpp: state lattice search with pruned motion primitives, path optimisation with a banded structure, and
+// time-optimal speeds.
+//
+// Wen, Zhang, Gao, Yuan, Fang: E3MoP: Efficient motion planning based on heuristic-guided motion primitives pruning and
+// path optimization with sparse-banded structure, IEEE Transactions on Automation Science and Engineering 19 (2022).
+#ifndef DMRP_CONTROLLERS_E3MOP_E3MOP_HPP
+#define DMRP_CONTROLLERS_E3MOP_E3MOP_HPP
+
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/distance_field.h>
+#include <dmrp/ext/local_costmap.h>
+
+#include <dmrp/plugin.hpp>
+#include <optional>
+
+#include "../motion/path_ahead.hpp"
+#include "../motion/stop_and_rotate.hpp"
+#include "local_plan.hpp"
+#include "path_smoother.hpp"
+#include "spline_path.hpp"
+
+namespace dmrp::controllers {
+
+class E3mop final : public LocalController {
+ public:
+  static Descriptor describe();
+
+  Param<bool> pruning =
+      param("pruning", true).doc("drop motion primitives that lead away from the heuristic's way to the goal");
+  Param<double> lattice_resolution =
+      param("lattice_resolution", 0.1).unit("m").range(0.05, 0.5).doc("cell of the state lattice");
+  Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 3.0)
+                                                     .unit("m")
+                                                     .range(0.5, 100.0)
+                                                     .doc("length of the path that is planned to, inside the window");
+  Param<double> weight_smoothness = param("weight_smoothness", 1.0)
+                                        .unit("1/m^2")
+                                        .range(1e-6, 1e6)
+                                        .doc("w_s: weight of the path's second differences");
+  Param<double> weight_obstacle = param("weight_obstacle", 10.0)
+                                      .unit("1/m^2")
+                                      .range(0.0, 1e7)
+                                      .doc("w_o: weight of being nearer to obstacles than safe_distance");
+  Param<double> safe_distance = param("safe_distance", 0.5)
+                                    .unit("m")
+                                    .range(0.0, 5.0)
+                                    .doc("d_s: what the robot's centre should keep from obstacles");
+  Param<double> point_spacing =
+      param("point_spacing", 0.1).unit("m").range(0.02, 1.0).doc("between the points that are optimised");
+  Param<double> smoothing_length =
+      param("smoothing_length", 3.0).unit("m").range(0.3, 20.0).doc("length of the path that is optimised");
+  Param<std::int64_t> max_iterations =
+      param("max_iterations", 100).unit("1").range(0, 1000).doc("of Levenberg-Marquardt, at most");
+  Param<double> footprint_padding =
+      param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
+  Param<double> prediction_time = param("prediction_time", 1.0)
+                                      .unit("s")
+                                      .range(0.0, 10.0)
+                                      .doc("the way of visible agents that counts as occupied ahead of them");
+
+  Status start(const World& world, std::uint64_t seed) override;
+  void set_path(Path path, std::uint64_t revision) override;
+  Status step(const Observation& now, Command& command) override;
+
+ private:
+  void read_field(const Observation& now);
+  Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
+  bool plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
+  void lay_out_global_path();
+  void lay_points();
+  bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
+  bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta);
+  Command safe(const Observation& now, Command command, const e3mop::FreeSpace& free_space) const;
+  void annotate();
+
+  const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_distance_field* distance_field_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
+  PathTracker tracker_;
+  PathAhead ahead_;
+  StopAndRotate at_goal_;
+  e3mop::ClearanceField field_;     // what the sensors see now
+  e3mop::ClearanceField foreseen_;  // with the ways of visible agents
+  e3mop::LocalPlan plan_;
+  e3mop::PathSmoother smoother_;
+  e3mop::SplinePath spline_;
+  std::vector<Vec2> global_path_;  // what of the path ahead is planned to
+  std::vector<Vec2> raw_points_;   // the lattice path, equally spaced
+  std::vector<Vec2> points_;       // optimised
+  std::size_t kept_ = 1;           // of them stay where they are: the last cycle's path
+  double start_theta_ = 0.0;       // in which the path leaves
+  std::vector<e3mop::PathPoint> path_;
+  std::vector<Pose> intended_;  // of the annotation
+  dmrp_limits limits_{};        // that the lattice was made for
+  bool turning_ = false;
+};
+
+}  // namespace dmrp::controllers
+
+#endif
