@@ -13,7 +13,6 @@
 #include "bench_controllers_allocations.hpp"
 #include "core/ending.hpp"
 #include "core/progress.hpp"
-#include "core/sensing.hpp"
 #include "core/world.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
@@ -140,9 +139,9 @@ class Recording {
   }
 
   void observe(std::uint32_t robot, Frame& frame) {
-    core::visible_agents(world_, robot, frame.agents);
     const core::RobotState& state = world_.robots()[robot];
-    const Driver& driver = *drivers_[robot];
+    Driver& driver = *drivers_[robot];
+    frame.agents = driver.sensors.agents();
     const dmrp_robot& body = *DMRP_AT(dmrp_robot, driver.view.robots, driver.view.robot_stride, robot);
     dmrp_observation& now = frame.observation;
     now.struct_size = sizeof(now);

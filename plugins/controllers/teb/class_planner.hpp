@@ -7,9 +7,11 @@
 #define DMRP_CONTROLLERS_TEB_CLASS_PLANNER_HPP
 
 #include <cstdint>
+#include <dmrp/toolkit/random.hpp>
 #include <vector>
 
 #include "band_optimizer.hpp"
+#include "roadmap.hpp"
 
 namespace dmrp::controllers::teb {
 
@@ -30,8 +32,11 @@ struct ReinitTuning {
 
 struct Candidate {
   TimedElasticBand band;
+  Signature signature = 0;
   double cost = 0.0;
   bool is_usable = true;
+  bool is_initial_plan = false;  // the way along the path
+  bool was_best = false;         // chosen last
 };
 
 class ClassPlanner {
@@ -42,7 +47,7 @@ class ClassPlanner {
   // Forgets the bands: the next plan() begins anew.
   void clear();
 
-  // Brings the bands up to date and optimises them.
+  // Brings the bands up to date, looks for ways that have none yet, and optimises them all.
   void plan(const Task& task);
 
   // The band chosen, nullptr where there is none.
@@ -56,18 +61,32 @@ class ClassPlanner {
 
  private:
   bool goal_has_jumped(const Pose& goal) const;
-  Candidate& add();
+  void renew();
+  void explore(const Task& task);
+  void lay_out_way(const Task& task, const std::vector<Vec2>& points);
+  Candidate* find(Signature signature);
+  Candidate* add();
+  void optimise(const Task& task);
   void remove_unusable();
-  void choose();
+  void choose(std::int64_t t_ns);
+  void drop_detours();
 
   BandTuning band_tuning_;
   ClassTuning class_tuning_;
   ReinitTuning reinit_;
   BandOptimizer optimizer_;
+  Roadmap roadmap_;
+  toolkit::Stream random_{0, "teb.roadmap"};
   std::vector<Candidate> candidates_;  // the first count_; the others keep their buffers
   std::size_t count_ = 0;
   std::size_t best_ = 0;
+  Candidate laid_out_;  // a new band, before it is known to be of a class of its own
+  std::vector<Vec2> way_;
+  const std::vector<Vec2> no_via_points_;
+  std::vector<Mark> marks_;  // of the cycle's obstacles
   Pose last_goal_ = {0.0, 0.0, 0.0};
+  std::int64_t switched_ns_ = 0;  // when another way was last chosen
+  bool has_switched_ = false;
 };
 
 }  // namespace dmrp::controllers::teb
