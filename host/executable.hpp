@@ -10,7 +10,7 @@ namespace dmrp::host {
 // Absolute, links resolved.
 const std::filesystem::path& executable_path();
 
-// share/dmrp of the installation: scenarios/, layouts/.
+// share/dmrp of the installation: scenarios/, layouts/, parameter_sets/.
 std::filesystem::path shared_data_path();
 
 // The folders of a colon-separated environment variable; empty ones left out.

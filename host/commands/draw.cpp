@@ -92,7 +92,7 @@ Plan plan_once(const Experiment& experiment) {
 }  // namespace
 
 int draw_command(const DrawOptions& options) {
-  Experiment experiment = adhoc_experiment(options.scenario);
+  Experiment experiment = adhoc_experiment(options.scenario, !options.planner.empty());
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);

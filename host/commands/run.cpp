@@ -86,9 +86,11 @@ Manifest manifest_of(const Experiment& experiment, const std::vector<std::string
   std::set<fs::path> parameters;
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
-    for (const PluginUse& use : *uses)
+    for (const PluginUse& use : *uses) {
+      if (!use.parameter_file.empty()) parameters.insert(use.parameter_file);
       for (const ParameterValue& value : use.parameters)
         if (value.type == DMRP_PARAM_PATH && !value.text.empty()) parameters.insert(value.text);
+    }
   for (const fs::path& file : parameters) manifest.files.push_back(hashed_file("parameter", file));
   return manifest;
 }

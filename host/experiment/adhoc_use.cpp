@@ -77,7 +77,7 @@ std::vector<ParameterValue> read_settings(const std::vector<std::string>& settin
   for (const std::string& setting : settings) text += toml_line(setting);
   try {
     const TomlDocument document("--set", text);
-    return read_parameters(document.root(), info, fs::current_path()).front().values;
+    return read_parameters(document.root(), info, fs::current_path(), {}).front().values;
   } catch (const InputError& error) {
     std::size_t line = 0;
     int read = 0;
@@ -89,7 +89,7 @@ std::vector<ParameterValue> read_settings(const std::vector<std::string>& settin
 
 }  // namespace
 
-Experiment adhoc_experiment(const std::string& scenario) {
+Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   const fs::path file = find_scenario(scenario, fs::current_path());
   if (file.empty()) {
     const auto shipped = shipped_scenarios();
@@ -99,7 +99,7 @@ Experiment adhoc_experiment(const std::string& scenario) {
   Experiment experiment;
   const ScenarioFile read = read_scenario_file(file, scenario.ends_with(".toml") ? scenario : file.string());
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
-  check_world(read, experiment);
+  if (to_plan) check_world(read, experiment);
   return experiment;
 }
 

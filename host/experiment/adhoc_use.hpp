@@ -9,8 +9,9 @@
 
 namespace dmrp::host {
 
-// An experiment of one scenario, named or given by its path, checked against the default robot. Throws InputError.
-Experiment adhoc_experiment(const std::string& scenario);
+// An experiment of one scenario, named or given by its path; `to_plan`: checked against the default robot and grid.
+// Throws InputError.
+Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
 
 // `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words are
 // strings. Throws InputError.

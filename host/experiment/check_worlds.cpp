@@ -46,7 +46,7 @@ class WorldCheck {
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
     if (core::person_count(scenario_) > 0) check_flows();
     const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
-    if (experiment_.simulation.grid_resolution_m < safe_cell_m)
+    if (scenario_.robots.size() > 1 && experiment_.simulation.grid_resolution_m < safe_cell_m)
       warn(file_.size,
            fmt::format("cells of {} m are smaller than 2 sqrt(2) r = {:.3f} m: robots that follow a valid plan can "
                        "touch",

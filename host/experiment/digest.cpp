@@ -14,9 +14,11 @@ std::string experiment_digest(const Experiment& experiment) {
   }
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
-    for (const PluginUse& use : *uses)
+    for (const PluginUse& use : *uses) {
+      if (!use.parameter_file.empty()) all += sha256_of_file(use.parameter_file);
       for (const ParameterValue& value : use.parameters)
         if (value.type == DMRP_PARAM_PATH && !value.text.empty()) all += sha256_of_file(value.text);
+    }
   return sha256_of_bytes(all);
 }
 

@@ -28,6 +28,7 @@ struct PluginUse {
   PluginInfo info;
   std::string label;                       // for people; unique among the uses of its kind
   std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
+  std::filesystem::path parameter_file{};  // that some of them come from; absolute, empty if there is none
 };
 
 // A scenario with a number of robots.
@@ -63,6 +64,7 @@ struct Experiment {
   core::SimulationSettings simulation;
   core::RobotSettings robot;
   RecordTraces traces = RecordTraces::all;
+  bool annotations = false;  // traces keep what plugins say through dmrp.annotate/1
   RunLimits limits;
   std::vector<std::string> warnings;  // one line each
 };

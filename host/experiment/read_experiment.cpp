@@ -9,24 +9,19 @@
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/nearest_name.hpp"
+#include "host/experiment/read_file.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/experiment/read_scenario.hpp"
 #include "host/experiment/read_settings.hpp"
 #include "host/experiment/toml_document.hpp"
 #include "host/input_error.hpp"
-#include "host/trial/robot_sensors.hpp"
+#include "host/trial/offered_extensions.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// A path as a person standing here would write it.
-std::string shown(const fs::path& path) {
-  const std::string near = path.lexically_proximate(fs::current_path()).string();
-  return near.starts_with("..") ? path.string() : near;
-}
 
 class Reader {
  public:
@@ -208,18 +203,20 @@ class Reader {
 
   void read_uses(const TomlTable& root, std::uint32_t kind, std::vector<PluginUse>& uses) {
     for (const TomlTable& table : root.tables(kind_name(kind))) {
-      table.allow_only({"use", "label", "params", "sweep"});
+      table.allow_only({"use", "label", "params_file", "params", "sweep"});
       const TomlValue use = table.need("use");
       const auto [library, info] = find_plugin(use, kind);
       check_extensions(use, *info);
       const auto label = table.find("label");
       const std::string name = label ? label->line() : info->name;
-      for (ParameterVariant& variant : read_parameters(table, *info, base())) {
+      const fs::path file = find_parameter_file(table, base());
+      for (ParameterVariant& variant : read_parameters(table, *info, base(), file)) {
         PluginUse made;
         made.library = library;
         made.info = *info;
         made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
         made.parameters = std::move(variant.values);
+        made.parameter_file = file;
         if (label_taken(uses, made.label))
           (label ? *label : use)
               .fail(
@@ -260,8 +257,7 @@ class Reader {
   }
 
   static void check_extensions(const TomlValue& use, const PluginInfo& info) {
-    static const std::vector<std::string> nothing;
-    const auto& offered = info.kind == DMRP_KIND_LOCAL_CONTROLLER ? offered_extensions() : nothing;
+    const std::vector<std::string> offered = offered_extensions(info.kind);
     for (const std::string& id : info.needs)
       if (std::find(offered.begin(), offered.end(), id) == offered.end())
         use.fail(fmt::format("{} needs the extension {}, which this host does not offer to a {} (offered: {})", info.id,

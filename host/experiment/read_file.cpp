@@ -25,4 +25,9 @@ std::string read_file(const std::filesystem::path& file, const std::string& show
   return text;
 }
 
+std::string shown(const std::filesystem::path& path) {
+  const std::string near = path.lexically_proximate(std::filesystem::current_path()).string();
+  return near.starts_with("..") ? path.string() : near;
+}
+
 }  // namespace dmrp::host

@@ -13,4 +13,7 @@ namespace dmrp::host {
 std::string read_file(const std::filesystem::path& file, const std::string& shown_path,
                       std::uintmax_t most_bytes = 1 << 28);
 
+// A path as a person standing here would write it.
+std::string shown(const std::filesystem::path& path);
+
 }  // namespace dmrp::host

@@ -6,11 +6,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/executable.hpp"
+#include "host/experiment/nearest_name.hpp"
+#include "host/experiment/read_file.hpp"
+
 namespace dmrp::host {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t most_variants = 1000;
+
+fs::path parameter_set_folder() {
+  return shared_data_path() / "parameter_sets";
+}
+
+// By their paths in the folder of parameter sets.
+std::vector<std::string> shipped_parameter_sets() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(parameter_set_folder(), ignored))
+    if (entry.is_regular_file(ignored)) names.push_back(entry.path().lexically_relative(parameter_set_folder()));
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 std::string unit_of(const ParameterSpec& spec) {
   return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit;
@@ -28,16 +48,16 @@ void check_range(const TomlValue& value, const ParameterSpec& spec, double numbe
 }
 
 // The default may name no file: it stays as it is.
-std::string resolve(const TomlValue& value, const ParameterSpec& spec, const std::filesystem::path& base) {
+std::string resolve(const TomlValue& value, const ParameterSpec& spec, const fs::path& base) {
   if (value.text() == spec.fallback.text) return value.text();
-  const std::filesystem::path path = base / value.text();
+  const fs::path path = base / value.text();
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
+  if (!fs::is_regular_file(path, ignored))
     value.fail(fmt::format("'{}' names no file: '{}'", value.key(), value.text()));
-  return std::filesystem::canonical(path).string();
+  return fs::canonical(path).string();
 }
 
-ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, const std::filesystem::path& base) {
+ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, const fs::path& base) {
   ParameterValue out;
   out.key = spec.fallback.key;
   out.type = spec.fallback.type;
@@ -97,7 +117,7 @@ std::string label_of(const ParameterValue& value) {
     case DMRP_PARAM_DOUBLE:
       return fmt::format("{} {}", value.key, value.number);
     case DMRP_PARAM_PATH:
-      return fmt::format("{} {}", value.key, std::filesystem::path(value.text).filename().string());
+      return fmt::format("{} {}", value.key, fs::path(value.text).filename().string());
     case DMRP_PARAM_DOUBLE_ARRAY:
       return fmt::format("{} [{}]", value.key, fmt::join(value.numbers, ", "));
     case DMRP_PARAM_STRING_ARRAY:
@@ -122,8 +142,7 @@ std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& vari
 }
 
 // The values of a swept key, told apart by their labels.
-std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSpec& spec,
-                                       const std::filesystem::path& base) {
+std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSpec& spec, const fs::path& base) {
   std::vector<ParameterValue> values;
   for (const TomlValue& element : entry.array()) {
     ParameterValue value = read_value(element, spec, base);
@@ -137,10 +156,26 @@ std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSp
 
 }  // namespace
 
-std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info,
-                                              const std::filesystem::path& base) {
+fs::path find_parameter_file(const TomlTable& use, const fs::path& base) {
+  const auto value = use.find("params_file");
+  if (!value) return {};
+  const std::string name = value->line();
+  for (const fs::path& folder : {base, parameter_set_folder()})
+    if (std::error_code ignored; fs::is_regular_file(folder / name, ignored)) return fs::canonical(folder / name);
+  const std::vector<std::string> shipped = shipped_parameter_sets();
+  value->fail(fmt::format("no parameter file '{}' beside the experiment file (shipped: {}){}", name,
+                          join_names(shipped), did_you_mean(name, shipped)));
+}
+
+std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info, const fs::path& base,
+                                              const fs::path& file) {
   std::vector<ParameterVariant> variants(1);
   for (const ParameterSpec& spec : info.parameters) variants[0].values.push_back(spec.fallback);
+  if (!file.empty()) {
+    const TomlDocument document(shown(file), read_file(file, shown(file)));
+    for (const auto& [entry, index] : declared_entries(document.root(), info))
+      variants[0].values[index] = read_value(entry, info.parameters[index], file.parent_path());
+  }
 
   std::vector<bool> set(info.parameters.size());
   if (const auto params = use.find_table("params"))

@@ -16,9 +16,14 @@ struct ParameterVariant {
   std::string label;
 };
 
-// Reads `params` and `sweep` of a plugin's table: one variant without a sweep, else the product of the swept values.
-// Paths are resolved against `base`. Throws InputError.
+// The file behind `params_file` of a plugin's table, absolute: relative to `base`, else a shipped one,
+// "controllers/tuned/dwa.toml". Empty without that key. Throws InputError.
+std::filesystem::path find_parameter_file(const TomlTable& use, const std::filesystem::path& base);
+
+// Reads the values of `file` (lines of key = value; empty: none), over them `params`, over these `sweep` of a plugin's
+// table: one variant without a sweep, else the product of the swept values. Paths are resolved against `base`, those of
+// `file` against its folder. Throws InputError.
 std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info,
-                                              const std::filesystem::path& base);
+                                              const std::filesystem::path& base, const std::filesystem::path& file);
 
 }  // namespace dmrp::host

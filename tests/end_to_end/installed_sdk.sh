@@ -13,7 +13,8 @@ prefix=$scratch/moved
 for file in include/dmrp/dmrp.h include/dmrp/plugin.hpp include/dmrp/toolkit/angle.hpp \
   lib/cmake/dmrp/{dmrpConfig,dmrpConfigVersion,dmrpTargets,dmrp_add_plugin}.cmake lib/cmake/dmrp/plugin_exports.map \
   bin/dmrp-host lib/dmrp/plugins/libdmrp_{planners,controllers,pedestrians,metrics}.so \
-  share/dmrp/layouts/summary.json share/dmrp/scenarios/mall/scenario.toml; do
+  share/dmrp/layouts/summary.json share/dmrp/scenarios/mall/scenario.toml \
+  share/dmrp/parameter_sets/controllers/tuned/dwa.toml; do
   [[ -f $prefix/$file ]] || fail "$file is not installed"
 done
 # whole folders of theirs: a source tree at /dmrp is no prefix of ${CMAKE_CURRENT_LIST_DIR}/dmrpTargets

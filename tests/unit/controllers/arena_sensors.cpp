@@ -42,13 +42,6 @@ bool same(const Box& a, const Box& b) {
   return a.lower == b.lower && a.upper == b.upper;
 }
 
-// Whether an agent of the observation accounts for this body.
-bool is_agent(const core::Disc& body, const std::vector<dmrp_agent>& agents) {
-  return std::any_of(agents.begin(), agents.end(), [&](const dmrp_agent& agent) {
-    return toolkit::distance(toolkit::position(agent.pose), body.center) < 1e-9;
-  });
-}
-
 }  // namespace
 
 ArenaSensors::ArenaSensors(Sight sight) : sight_(sight), rolling_(core::CostmapSettings{}, robot_radius_m) {
@@ -97,7 +90,7 @@ void ArenaSensors::look(const dmrp_pose& pose, std::int64_t t_ns, const std::vec
   } else {
     see_everywhere(pose, t_ns, bodies);
   }
-  gather_clusters(pose, bodies, agents);
+  clusters_ = cluster_finder_.derive(costmap_, agents);
 }
 
 void ArenaSensors::see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies) {
@@ -133,38 +126,6 @@ void ArenaSensors::see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, cons
   costmap_.costs = costs_.data();
   field_ = {sizeof(field_),  window_cells, window_cells,    0, t_ns, resolution_m,
             costmap_.origin, field_cap_m,  distances.data()};
-}
-
-// The sides of boxes that face the robot, as far as they lie in the window, and bodies that nobody tracks.
-void ArenaSensors::gather_clusters(const dmrp_pose& pose, const std::vector<core::Disc>& bodies,
-                                   const std::vector<dmrp_agent>& agents) {
-  outlines_.clear();
-  const dmrp_vec2 lower = costmap_.origin;
-  const dmrp_vec2 upper = lower + dmrp_vec2{costmap_.width * resolution_m, costmap_.height * resolution_m};
-  for (const Box& box : boxes_) {
-    const dmrp_vec2 low = {std::max(box.lower.x, lower.x), std::max(box.lower.y, lower.y)};
-    const dmrp_vec2 high = {std::min(box.upper.x, upper.x), std::min(box.upper.y, upper.y)};
-    if (low.x > high.x || low.y > high.y) continue;
-    if (pose.x < box.lower.x && low.x == box.lower.x) outlines_.push_back({{low.x, low.y}, {low.x, high.y}});
-    if (pose.x > box.upper.x && high.x == box.upper.x) outlines_.push_back({{high.x, low.y}, {high.x, high.y}});
-    if (pose.y < box.lower.y && low.y == box.lower.y) outlines_.push_back({{low.x, low.y}, {high.x, low.y}});
-    if (pose.y > box.upper.y && high.y == box.upper.y) outlines_.push_back({{low.x, high.y}, {high.x, high.y}});
-  }
-  for (const core::Disc& body : bodies) {
-    if (is_agent(body, agents) || !toolkit::contains({lower, upper}, body.center)) continue;
-    std::vector<dmrp_vec2>& rim = outlines_.emplace_back();
-    for (int i = 0; i < 8; ++i) rim.push_back(body.center + body.radius_m * toolkit::from_angle(i * toolkit::pi / 4.0));
-  }
-  cluster_array_.clear();
-  for (const std::vector<dmrp_vec2>& outline : outlines_)
-    cluster_array_.push_back({static_cast<std::uint32_t>(outline.size()), 0, outline.data()});
-  clusters_ = {sizeof(clusters_),
-               static_cast<std::uint32_t>(cluster_array_.size()),
-               sizeof(dmrp_obstacle_cluster),
-               0,
-               costmap_.t_ns,
-               resolution_m,
-               cluster_array_.data()};
 }
 
 ArenaNotes::ArenaNotes() {

@@ -17,6 +17,7 @@
 #include "../plugin_under_test.hpp"
 #include "core/costmap.hpp"
 #include "core/lidar.hpp"
+#include "core/obstacle_clusters.hpp"
 
 namespace dmrp::test {
 
@@ -54,8 +55,6 @@ class ArenaSensors {
 
  private:
   void see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies);
-  void gather_clusters(const dmrp_pose& pose, const std::vector<core::Disc>& bodies,
-                       const std::vector<dmrp_agent>& agents);
 
   Sight sight_;
   std::vector<Box> boxes_;
@@ -66,8 +65,7 @@ class ArenaSensors {
   std::vector<std::uint8_t> costs_;
   std::vector<std::uint8_t> lethal_;
   toolkit::DistanceTransform transform_;
-  std::vector<std::vector<dmrp_vec2>> outlines_;
-  std::vector<dmrp_obstacle_cluster> cluster_array_;
+  core::ObstacleClusters cluster_finder_;
 
   dmrp_scan scan_{};
   dmrp_costmap costmap_{};

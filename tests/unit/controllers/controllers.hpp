@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// controllers.hpp: the controllers that every behaviour test drives, with their tuned parameters (the one list), and
-// what is asked of all of them.
+// controllers.hpp: the controllers that every behaviour test drives, with the parameters tuned for them (the one
+// list), and what is asked of all of them.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "arena.hpp"
+#include "tuned_parameters.hpp"
 
 namespace dmrp::test {
 
 struct Controller {
   std::string id;
-  ParamOverrides tuned;  // what differs from the defaults
-  bool evades = true;    // finds a way round what stands on the path; else waits for it to go
+  bool evades = true;  // finds a way round what stands on the path; else waits for it to go
+  ParamOverrides tuned = tuned_parameters(id);
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Controller& controller) {
@@ -24,11 +25,11 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 }
 
 inline std::vector<Controller> all_controllers() {
-  const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", {}, false},
-                                         {"dmrp.controller.dwa", {}},
-                                         {"dmrp.controller.teb", {}},
-                                         {"dmrp.controller.mpc", {}},
-                                         {"dmrp.controller.e3mop", {}}};
+  const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", false},
+                                         {"dmrp.controller.dwa"},
+                                         {"dmrp.controller.teb"},
+                                         {"dmrp.controller.mpc"},
+                                         {"dmrp.controller.e3mop"}};
   std::vector<Controller> there;
   for (const Controller& controller : known)
     if (PluginLibrary::load("libdmrp_controllers.so").find(controller.id)) there.push_back(controller);

@@ -123,7 +123,6 @@ TEST_CASE("A path that an unseen wall cuts off ends before it") {
 
 TEST_CASE("Something that no plan knew stands on the path, with room beside it") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
-  CAPTURE(controller);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.sight = Sight::scan;
@@ -134,6 +133,7 @@ TEST_CASE("Something that no plan knew stands on the path, with room beside it")
     course.boxes = corridor(2.4);
     course.boxes.push_back({{3.8, -1.2}, {4.2, 0.1}});
   }
+  CAPTURE(controller);
   check_arrives(run(controller, course), 22.0);
 }
 

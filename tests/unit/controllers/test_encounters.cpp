@@ -10,7 +10,6 @@ using namespace dmrp::test;
 TEST_CASE("A person who stands on the path is gone round") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   const bool tracking = GENERATE(true, false);
-  CAPTURE(controller, tracking);
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.tracking = tracking;
@@ -28,6 +27,7 @@ TEST_CASE("A person who stands on the path is gone round") {
   SECTION("seen by the lidar only") {
     course.sight = Sight::scan;
   }
+  CAPTURE(controller, tracking);
   const Drive drive = run(controller, course);
   check_arrives(drive, 25.0);
   CHECK(drive.walker_clearance_m > 0.0);

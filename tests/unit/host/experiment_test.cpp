@@ -48,6 +48,7 @@ step_duration_s = 1.7
 planning_margin_m = 0.05
 tracking = "all"
 tracking_range_m = 7.7
+tracking_velocity_noise_sd = 0.15
 goal_tolerance_m = 0.3
 goal_tolerance_rad = 0.4
 goal_tolerance_speed = 0.5
@@ -63,11 +64,12 @@ v_max = 1.1
 omega_max = 2
 a_max = 3
 alpha_max = 4
-lidar = { beams = 90, field_of_view_rad = 3.1, range_min_m = 0.1, range_max_m = 9 }
+lidar = { beams = 90, field_of_view_rad = 3.1, range_min_m = 0.1, range_max_m = 9, noise_sd_m = 0.02, dropout_share = 0.05 }
 costmap = { resolution_m = 0.1, window_m = 5, obstacle_range_m = 3, raytrace_range_m = 3.5, inflation_radius_m = 0.6, cost_scaling = 6 }
 
 [record]
 traces = "failed"
+annotations = true
 
 [limits]
 planner_time_s = 1.5
@@ -172,6 +174,7 @@ TEST_CASE("all settings arrive") {
   CHECK(e.simulation.planning_margin_m == 0.05);
   CHECK(e.simulation.tracking == dmrp::core::Tracking::all);
   CHECK(e.simulation.tracking_range_m == 7.7);
+  CHECK(e.simulation.tracking_velocity_noise_sd == 0.15);
   CHECK(e.simulation.goal.tolerance_m == 0.3);
   CHECK(e.simulation.goal.tolerance_rad == 0.4);
   CHECK(e.simulation.goal.tolerance_speed == 0.5);
@@ -186,6 +189,8 @@ TEST_CASE("all settings arrive") {
   CHECK(e.robot.lidar.field_of_view_rad == 3.1);
   CHECK(e.robot.lidar.range_min_m == 0.1);
   CHECK(e.robot.lidar.range_max_m == 9.0);
+  CHECK(e.robot.lidar.noise_sd_m == 0.02);
+  CHECK(e.robot.lidar.dropout_share == 0.05);
   CHECK(e.robot.costmap.resolution_m == 0.1);
   CHECK(e.robot.costmap.window_m == 5.0);
   CHECK(e.robot.costmap.obstacle_range_m == 3.0);
@@ -193,6 +198,7 @@ TEST_CASE("all settings arrive") {
   CHECK(e.robot.costmap.inflation_radius_m == 0.6);
   CHECK(e.robot.costmap.cost_scaling == 6.0);
   CHECK(e.traces == RecordTraces::failed);
+  CHECK(e.annotations);
   CHECK(e.limits.planner_time_s == 1.5);
   CHECK(e.limits.step_time_s == 0.25);
   CHECK(e.limits.trial_wall_time_s == 100.0);
@@ -220,6 +226,42 @@ TEST_CASE("a sweep makes a labelled variant of every combination") {
     CHECK(value_of(use, "names").texts == std::vector<std::string>{"a", "b\\c"});
   }
   CHECK(labels_of(e.metrics) == std::vector<std::string>{"Time"});
+}
+
+TEST_CASE("a parameter file gives values that params and sweep override") {
+  const ExperimentFolder folder;
+  write_file("sets/good.toml", "weight = 4\nexpansions = 7\ngreedy = true\ntable = \"near.csv\"\n");
+  write_file("sets/near.csv", "1\n");
+  const Experiment e =
+      load(with(experiment_text, "params = { weight = 1.5 }",
+                "params_file = \"sets/good.toml\"\nparams = { weight = 1.5 }\nsweep = { greedy = [false, true] }"));
+  REQUIRE(e.global_planners.size() == 2);
+  const PluginUse& use = e.global_planners[0];
+  CHECK(use.label == "Planner (greedy off)");
+  CHECK(use.parameter_file == folder.path() / "sets/good.toml");
+  CHECK(value_of(use, "weight").number == 1.5);
+  CHECK(value_of(use, "expansions").integer == 7);
+  CHECK(value_of(use, "greedy").integer == 0);
+  CHECK(value_of(e.global_planners[1], "greedy").integer == 1);
+  CHECK(value_of(use, "table").text == folder.path() / "sets/near.csv");  // relative to the file that names it
+  CHECK(value_of(use, "order").text == "first");
+  CHECK(e.local_controllers[0].parameter_file.empty());
+
+  // with the values written out it is another file but the same parameters
+  const Experiment again = load(effective_toml(e));
+  CHECK(effective_toml(again) == effective_toml(e));
+  CHECK(again.global_planners[0].parameter_file.empty());
+
+  SECTION("for plugins of every kind, and without values") {
+    write_file("empty.toml", "# nothing\n");
+    const Experiment all =
+        load(with(with(experiment_text, "\"test.controller\"", "\"test.controller\"\nparams_file = \"empty.toml\""),
+                  "\"test.model\"", "\"test.model\"\nparams_file = \"./empty.toml\"") +
+             "[[metric]]\nuse = \"test.time\"\nparams_file = \"" + (folder.path() / "empty.toml").string() + "\"\n");
+    CHECK(all.local_controllers[0].parameter_file == folder.path() / "empty.toml");
+    CHECK(all.pedestrian_models[0].parameter_file == folder.path() / "empty.toml");
+    CHECK(all.metrics[0].parameter_file == folder.path() / "empty.toml");
+  }
 }
 
 TEST_CASE("robots named by number are the first of the list") {
@@ -307,9 +349,16 @@ TEST_CASE("the digest changes with all that an experiment reads") {
     write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 3"));
     CHECK(changed());
   }
-  SECTION("a parameter file") {
+  SECTION("a file that a parameter names") {
     write_file("table.csv", "1,3\n");
     CHECK(changed());
+  }
+  SECTION("a file of parameters, even where its values are the same") {
+    const std::string text = with(experiment_text, "params = {", "params_file = \"set.toml\"\nparams = {");
+    write_file("set.toml", "expansions = 7\n");
+    const std::string before = experiment_digest(load(text));
+    write_file("set.toml", "expansions = 7  # seven\n");
+    CHECK(experiment_digest(load(text)) != before);
   }
 }
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "guide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers::mpc {
+
+namespace {
+
+constexpr std::uint8_t easy_effort = 1;
+constexpr std::uint8_t close_effort = 2;
+constexpr std::uint8_t escape_effort = 6;
+
+// Within this about the robot, cells that are too near to an obstacle can be left.
+constexpr double escape_m = 0.4;
+
+constexpr std::int32_t straight_cost = 5;
+constexpr std::int32_t diagonal_cost = 7;
+
+struct Step {
+  std::int32_t columns;
+  std::int32_t rows;
+  std::int32_t cost;
+};
+constexpr std::array<Step, 8> steps = {{{1, 0, straight_cost},
+                                        {0, 1, straight_cost},
+                                        {-1, 0, straight_cost},
+                                        {0, -1, straight_cost},
+                                        {1, 1, diagonal_cost},
+                                        {-1, 1, diagonal_cost},
+                                        {-1, -1, diagonal_cost},
+                                        {1, -1, diagonal_cost}}};
+
+// Every so many cells of the way become a point.
+constexpr std::size_t cells_a_point = 4;
+
+}  // namespace
+
+void Guide::read(const CostmapView& map, dmrp_vec2 robot, double needed_m, double easy_m) {
+  const std::uint8_t highest = map.highest_cost_at(needed_m);
+  const std::uint8_t highest_easy = map.highest_cost_at(easy_m);
+  const auto cells = static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height());
+  efforts_.resize(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const std::uint8_t cost = map.costs()[i];
+    efforts_[i] = cost > highest ? 0 : cost > highest_easy ? close_effort : easy_effort;
+  }
+  const std::int32_t reach = static_cast<std::int32_t>(escape_m / map.resolution_m());
+  const std::int32_t column = map.column_of(robot.x);
+  const std::int32_t row = map.row_of(robot.y);
+  for (std::int32_t r = row - reach; r <= row + reach; ++r) {
+    for (std::int32_t c = column - reach; c <= column + reach; ++c) {
+      if (!map.contains(c, r)) continue;
+      const auto i = static_cast<std::size_t>(r * map.width() + c);
+      if (efforts_[i] == 0 && map.costs()[i] < DMRP_COST_LETHAL) efforts_[i] = escape_effort;
+    }
+  }
+}
+
+void Guide::spread(const CostmapView& map, dmrp_vec2 robot, double needed_m, double easy_m) {
+  read(map, robot, needed_m, easy_m);
+  costs_.assign(efforts_.size(), unreached);
+  from_.assign(efforts_.size(), -1);
+  for (std::vector<std::int32_t>& bucket : buckets_) bucket.clear();
+  const std::int32_t start = map.index_of(robot.x, robot.y);
+  if (start < 0) return;
+  costs_[static_cast<std::size_t>(start)] = 0;
+  buckets_[0].push_back(start);
+  std::size_t queued = 1;
+  for (std::int32_t now = 0; queued > 0; ++now) {
+    std::vector<std::int32_t>& bucket = buckets_[static_cast<std::size_t>(now) % bucket_count];
+    for (const std::int32_t cell : bucket) {
+      if (costs_[static_cast<std::size_t>(cell)] != now) continue;  // found a cheaper way since
+      const std::int32_t column = cell % map.width();
+      const std::int32_t row = cell / map.width();
+      for (const Step& step : steps) {
+        if (!map.contains(column + step.columns, row + step.rows)) continue;
+        const std::int32_t next = cell + step.rows * map.width() + step.columns;
+        const auto to = static_cast<std::size_t>(next);
+        if (efforts_[to] == 0) continue;
+        const std::int32_t cost = now + step.cost * efforts_[to];
+        if (cost >= costs_[to]) continue;
+        costs_[to] = cost;
+        from_[to] = cell;
+        buckets_[static_cast<std::size_t>(cost) % bucket_count].push_back(next);
+        ++queued;
+      }
+    }
+    queued -= bucket.size();
+    bucket.clear();
+  }
+}
+
+bool Guide::reaches(const CostmapView& map, dmrp_vec2 point) const {
+  const std::int32_t index = map.index_of(point.x, point.y);
+  return index >= 0 && costs_[static_cast<std::size_t>(index)] != unreached &&
+         efforts_[static_cast<std::size_t>(index)] != escape_effort;
+}
+
+void Guide::way_to(const CostmapView& map, dmrp_vec2 point, std::vector<dmrp_vec2>& points) const {
+  points.clear();
+  points.push_back(point);
+  std::int32_t cell = from_[static_cast<std::size_t>(map.index_of(point.x, point.y))];
+  for (std::size_t i = 1; cell >= 0; ++i) {
+    if (i % cells_a_point == 0) points.push_back(map.center(cell % map.width(), cell / map.width()));
+    cell = from_[static_cast<std::size_t>(cell)];
+  }
+  std::reverse(points.begin(), points.end());
+  // less of the grid's eight directions
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+      points[i] = 0.25 * points[i - 1] + 0.5 * points[i] + 0.25 * points[i + 1];
+}
+
+}  // namespace dmrp::controllers::mpc

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "initial_guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers::mpc {
+
+namespace {
+
+// Points nearer to the robot than this say nothing about its direction.
+constexpr double near_m = 0.25;
+
+// Turns sharper than this are made on the spot.
+constexpr double sharp_rad = 0.5;
+
+State between(const State& a, const State& b, double share) {
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.theta + share * (b.theta - a.theta)};
+}
+
+double distance(const State& a, const State& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+// The nearest angle to `near_to` that has the direction `angle`.
+double unwrapped(double angle, double near_to) {
+  return near_to + toolkit::difference(near_to, angle);
+}
+
+}  // namespace
+
+void InitialGuess::reserve(std::size_t points) {
+  nodes_.reserve(2 * points);
+}
+
+void InitialGuess::along(const Problem& problem, const std::vector<dmrp_vec2>& points, std::size_t states,
+                         Trajectory& out) {
+  nodes_.clear();
+  nodes_.push_back({problem.start, 0.0});
+  const auto turn_to = [&](double theta) {
+    State turned = nodes_.back().state;
+    const double angle = theta - turned.theta;
+    turned.theta = theta;
+    append(turned, std::abs(angle) / problem.omega_max);
+  };
+  for (std::size_t i = 1; i <= points.size(); ++i) {
+    const bool is_goal = i == points.size();
+    State next = is_goal ? problem.goal : State{points[i].x, points[i].y, 0.0};
+    const State& last = nodes_.back().state;
+    const double leg_m = distance(last, next);
+    const double to_goal_m = distance(next, problem.goal);
+    if (!is_goal && (leg_m < near_m || to_goal_m < near_m)) continue;
+    if (leg_m < 1e-3) continue;
+    next.theta = unwrapped(std::atan2(next.y - last.y, next.x - last.x), last.theta);
+    if (nodes_.size() == 1 && std::abs(next.theta - last.theta) > sharp_rad) turn_to(next.theta);
+    const double turn = std::abs(next.theta - nodes_.back().state.theta);
+    append(next, std::max(leg_m / problem.v_max, turn / problem.omega_max));
+  }
+  if (problem.fixes_heading) {
+    const double theta = unwrapped(problem.goal.theta, nodes_.back().state.theta);
+    if (std::abs(theta - nodes_.back().state.theta) > sharp_rad)
+      turn_to(theta);
+    else if (nodes_.size() > 1)
+      nodes_.back().state.theta = theta;
+  }
+  sample(problem, states, out);
+}
+
+void InitialGuess::shifted(const Problem& problem, double elapsed_s, Trajectory& trajectory) {
+  nodes_.clear();
+  nodes_.push_back({problem.start, 0.0});
+  const std::size_t states = trajectory.size();
+  const double turns =
+      problem.start.theta -
+      between(trajectory.states[0], trajectory.states[1], std::min(1.0, elapsed_s / trajectory.dt_s)).theta;
+  const double whole_turns = 2.0 * toolkit::pi * std::round(turns / (2.0 * toolkit::pi));
+  for (std::size_t k = 1; k < states; ++k) {
+    const double t_s = static_cast<double>(k) * trajectory.dt_s - elapsed_s;
+    // what comes too soon would tie the start to a pose that it is off by some error of the prediction
+    if (t_s < 0.5 * trajectory.dt_s && k + 1 < states) continue;
+    State state = trajectory.states[k];
+    state.theta += whole_turns;
+    nodes_.push_back({state, std::max(t_s, 1e-3)});
+  }
+  State end = problem.goal;
+  const State& last = nodes_.back().state;
+  const double leg_m = distance(last, end);
+  end.theta = problem.fixes_heading ? unwrapped(end.theta, last.theta) : last.theta;
+  append(end, std::max(leg_m / problem.v_max, std::abs(end.theta - last.theta) / problem.omega_max));
+  sample(problem, states, trajectory);
+}
+
+void InitialGuess::resized(const Problem& problem, std::size_t states, Trajectory& trajectory) {
+  nodes_.clear();
+  for (std::size_t k = 0; k < trajectory.size(); ++k)
+    nodes_.push_back({trajectory.states[k], static_cast<double>(k) * trajectory.dt_s});
+  sample(problem, states, trajectory);
+}
+
+// Equal steps over the nodes' time, and the controls that lead from each to the next at best.
+void InitialGuess::sample(const Problem& problem, std::size_t states, Trajectory& out) const {
+  const double whole_s = std::max(nodes_.back().t_s, 1e-2 * static_cast<double>(states - 1));
+  out.dt_s = std::clamp(whole_s / static_cast<double>(states - 1), problem.dt_min_s, problem.dt_max_s);
+  out.states.resize(states);
+  out.controls.resize(states - 1);
+  std::size_t node = 0;
+  for (std::size_t k = 0; k < states; ++k) {
+    const double t_s = static_cast<double>(k) * whole_s / static_cast<double>(states - 1);
+    while (node + 2 < nodes_.size() && nodes_[node + 1].t_s <= t_s) ++node;
+    if (node + 1 >= nodes_.size()) {
+      out.states[k] = nodes_.back().state;
+      continue;
+    }
+    const Node& a = nodes_[node];
+    const Node& b = nodes_[node + 1];
+    const double span_s = b.t_s - a.t_s;
+    out.states[k] = between(a.state, b.state, span_s > 0.0 ? std::clamp((t_s - a.t_s) / span_s, 0.0, 1.0) : 1.0);
+  }
+  for (std::size_t k = 0; k + 1 < states; ++k) {
+    const State& a = out.states[k];
+    const State& b = out.states[k + 1];
+    const double ahead_m = (b.x - a.x) * std::cos(a.theta) + (b.y - a.y) * std::sin(a.theta);
+    out.controls[k] = {std::clamp(ahead_m / out.dt_s, problem.v_min, problem.v_max),
+                       std::clamp((b.theta - a.theta) / out.dt_s, -problem.omega_max, problem.omega_max)};
+  }
+}
+
+}  // namespace dmrp::controllers::mpc

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// mpc.hpp: minimum-time model predictive control, as ROS's mpc_local_planner does it.
+//
+// Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with Non-Euclidean
+// Rotation Groups, European Control Conference 2021. Parameters are named as there; what is a limit of the robot there
+// comes from the observation here.
+#ifndef DMRP_CONTROLLERS_MPC_MPC_HPP
+#define DMRP_CONTROLLERS_MPC_MPC_HPP
+
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/local_costmap.h>
+#include <dmrp/ext/obstacle_clusters.h>
+
+#include <dmrp/plugin.hpp>
+
+#include "../motion/path_ahead.hpp"
+#include "../motion/stop_and_rotate.hpp"
+#include "association.hpp"
+#include "guide.hpp"
+#include "initial_guess.hpp"
+#include "interior_point.hpp"
+
+namespace dmrp::controllers {
+
+class Mpc final : public LocalController {
+ public:
+  static Descriptor describe();
+
+  Param<std::int64_t> grid_size_ref =
+      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a trajectory that starts anew");
+  Param<double> dt_ref = param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid is adapted to");
+  Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
+  Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
+  Param<double> dt_hyst_ratio =
+      param("dt_hyst_ratio", 0.1).unit("1").range(0.0, 1.0).doc("share of dt_ref that the time step may be off by");
+  Param<std::int64_t> min_grid_size = param("min_grid_size", 2).unit("1").range(2, 200).doc("least number of states");
+  Param<std::int64_t> max_grid_size =
+      param("max_grid_size", 50).unit("1").range(2, 200).doc("greatest number of states");
+  Param<bool> warm_start = param("warm_start", true).doc("start from what is left of the last trajectory");
+  Param<std::int64_t> outer_ocp_iterations =
+      param("outer_ocp_iterations", 5)
+          .unit("1")
+          .range(1, 100)
+          .doc("solutions a period, each with grid and obstacles adapted to the one before");
+  Param<std::int64_t> iterations =
+      param("iterations", 100).unit("1").range(1, 1000).doc("of the solver, for each solution");
+  Param<double> tol = param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("of the solver's optimality conditions");
+  Param<double> min_obstacle_dist =
+      param("min_obstacle_dist", 0.2).unit("m").range(0.0, 10.0).doc("kept free between the outlines");
+  Param<double> force_inclusion_dist = param("force_inclusion_dist", 0.5)
+                                           .unit("m")
+                                           .range(0.0, 10.0)
+                                           .doc("every obstacle nearer to a state than this is kept away from");
+  Param<double> cutoff_dist = param("cutoff_dist", 2.5)
+                                  .unit("m")
+                                  .range(0.0, 100.0)
+                                  .doc("beyond force_inclusion_dist and up to this, the nearest on either side");
+  Param<bool> enable_dynamic_obstacles =
+      param("enable_dynamic_obstacles", true).doc("agents are where their velocity will have taken them");
+  Param<std::int64_t> collision_check_no_poses =
+      param("collision_check_no_poses", -1)
+          .unit("1")
+          .range(-1, 200)
+          .doc("states whose footprint must be free on the costmap; -1: all");
+  Param<double> max_global_plan_lookahead_dist =
+      param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("of the path, to plan to");
+  Param<double> force_reinit_new_goal_dist = param("force_reinit_new_goal_dist", 1.0)
+                                                 .unit("m")
+                                                 .range(0.0, 100.0)
+                                                 .doc("starts anew where the end of the plan jumps farther than this");
+  Param<double> force_reinit_new_goal_angular = param("force_reinit_new_goal_angular", 1.57)
+                                                    .unit("rad")
+                                                    .range(0.0, 3.2)
+                                                    .doc("starts anew where the end of the plan turns more than this");
+
+  Status start(const World& world, std::uint64_t seed) override;
+  void set_path(Path path, std::uint64_t revision) override;
+  Status step(const Observation& now, Command& command) override;
+
+ private:
+  void pose_problem(const Observation& now);
+  bool choose_goal(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  bool plan(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  bool continue_last(const Observation& now);
+  bool plan_along(const Observation& now, FootprintCheck& footprint);
+  bool plan_by_guide(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  void spread_guide(const Observation& now, const CostmapView& map);
+  void optimise(double barrier_start);
+  std::size_t adapted_size() const;
+  bool is_feasible(const Observation& now, FootprintCheck& footprint) const;
+  bool is_free(const Observation& now, const mpc::State& state, double ahead_s, double least_m,
+               FootprintCheck& footprint) const;
+  void annotate() const;
+
+  const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_obstacle_clusters* clusters_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
+  PathTracker tracker_;
+  PathAhead ahead_;
+  StopAndRotate at_goal_;
+  ObstacleSet obstacles_;
+  std::vector<Obstacle> seen_;  // of obstacles_, as this controller takes them
+  mpc::Association association_;
+  mpc::Guide guide_;
+  bool guide_spread_ = false;  // this period
+  std::vector<Vec2> way_;      // to start from
+  mpc::InitialGuess guess_;
+  mpc::InteriorPoint solver_;
+  mpc::Problem problem_;
+  mpc::SolverReport report_;
+  mpc::Trajectory trajectory_;
+  bool has_trajectory_ = false;
+};
+
+}  // namespace dmrp::controllers
+
+#endif

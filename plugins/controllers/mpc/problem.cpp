@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers::mpc {
+
+namespace {
+
+constexpr std::size_t bounds_count = 4;  // of a control
+constexpr std::size_t rates_count = 4;   // of a control after another
+constexpr std::size_t step_count = 2;    // of dt
+
+// Writes sign * w[entry] + offset <= 0.
+Constraint bound(double sign, StageEntry entry, const StageVector& w, double offset) {
+  Constraint c;
+  c.value = sign * w[entry] + offset;
+  c.gradient[entry] = sign;
+  return c;
+}
+
+// sign * (w[to] - w[from]) - rate dt <= 0
+Constraint rate_bound(double sign, StageEntry to, StageEntry from, const StageVector& w, double rate) {
+  Constraint c;
+  c.value = sign * (w[to] - w[from]) - rate * w[at_dt];
+  c.gradient[to] = sign;
+  c.gradient[from] = -sign;
+  c.gradient[at_dt] = -rate;
+  return c;
+}
+
+// The reciprocal of the distance between a disc's centre and the obstacle's corner that it is nearest to; 0 where it is
+// nearest to a side. Polygons count as nearest by a side: their curvature is left out.
+double corner_curvature(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, const Separation& apart) {
+  if (footprint.vertex_count > 0) return 0.0;
+  const double to_center_m = apart.distance_m + footprint.radius_m + obstacle.radius_m;
+  if (to_center_m < 1e-3) return 0.0;
+  const Vec2 nearest = robot - to_center_m * apart.gradient;
+  for (std::uint32_t i = 0; i < obstacle.vertex_count; ++i)
+    if (toolkit::squared_distance(nearest, obstacle.vertices[i]) < 1e-12) return 1.0 / to_center_m;
+  return 0.0;
+}
+
+Constraint keep_away(const Problem& problem, const Obstacle& obstacle, std::size_t k, const StageVector& w) {
+  const double stages_ahead = static_cast<double>(k);
+  const double ahead_s = stages_ahead * w[at_dt];
+  const Separation apart = separation(*problem.footprint, {w[at_x], w[at_y], w[at_theta]}, obstacle, ahead_s);
+  Constraint c;
+  c.is_elastic = true;
+  c.value = problem.min_obstacle_dist_m - apart.distance_m;
+  c.gradient[at_x] = -apart.gradient.x;
+  c.gradient[at_y] = -apart.gradient.y;
+  c.gradient[at_theta] = -apart.gradient_theta;
+  c.gradient[at_dt] = stages_ahead * toolkit::dot(apart.gradient, obstacle.velocity);
+  const Vec2 relative = Vec2{w[at_x], w[at_y]} - ahead_s * obstacle.velocity;
+  c.curvature = corner_curvature(*problem.footprint, relative, obstacle, apart);
+  const Vec2 tangent = toolkit::perpendicular(apart.gradient);
+  c.tangent = {tangent.x, tangent.y, -stages_ahead * toolkit::dot(tangent, obstacle.velocity)};
+  return c;
+}
+
+}  // namespace
+
+std::array<double, 3> Problem::terminal_error(const State& last) const {
+  return {last.x - goal.x, last.y - goal.y, fixes_heading ? toolkit::wrap(last.theta - goal.theta) : 0.0};
+}
+
+StageVector Problem::stage(const Trajectory& at, std::size_t k) const {
+  const State& s = at.states[k];
+  const Control& previous = k > 0 ? at.controls[k - 1] : before;
+  const Control own = k < at.controls.size() ? at.controls[k] : Control{};
+  return {s.x, s.y, s.theta, previous.v, previous.omega, at.dt_s, own.v, own.omega};
+}
+
+std::size_t Problem::constraint_count(std::size_t stages, std::size_t k) const {
+  std::size_t count = obstacles[k].size();
+  if (k == 0) count += step_count;
+  if (k + 1 < stages) return count + bounds_count + rates_count;
+  return count + (ends_at_rest ? rates_count : 0);
+}
+
+void Problem::constraints(std::size_t stages, std::size_t k, const StageVector& w, Constraint* out) const {
+  if (k == 0) {
+    *out++ = bound(-1.0, at_dt, w, dt_min_s);
+    *out++ = bound(1.0, at_dt, w, -dt_max_s);
+  }
+  if (k + 1 < stages) {
+    for (const double sign : {1.0, -1.0}) {
+      *out++ = rate_bound(sign, at_v, at_v_before, w, a_max);
+      *out++ = rate_bound(sign, at_omega, at_omega_before, w, alpha_max);
+    }
+    *out++ = bound(1.0, at_v, w, -v_max);
+    *out++ = bound(-1.0, at_v, w, v_min);
+    *out++ = bound(1.0, at_omega, w, -omega_max);
+    *out++ = bound(-1.0, at_omega, w, -omega_max);
+  } else if (ends_at_rest) {
+    for (const double sign : {1.0, -1.0}) {
+      *out = bound(sign, at_v_before, w, -a_max * w[at_dt]);
+      (out++)->gradient[at_dt] = -a_max;
+      *out = bound(sign, at_omega_before, w, -alpha_max * w[at_dt]);
+      (out++)->gradient[at_dt] = -alpha_max;
+    }
+  }
+  for (const Obstacle* obstacle : obstacles[k]) *out++ = keep_away(*this, *obstacle, k, w);
+}
+
+Transition Problem::transition(const StageVector& w, const State& next) const {
+  const double c = std::cos(w[at_theta]);
+  const double s = std::sin(w[at_theta]);
+  const double dt = w[at_dt];
+  const double v = w[at_v];
+  Transition t;
+  t.defect = {w[at_x] + dt * v * c - next.x, w[at_y] + dt * v * s - next.y,
+              toolkit::wrap(w[at_theta] + dt * w[at_omega] - next.theta)};
+  t.x_by_theta = -dt * v * s;
+  t.x_by_dt = v * c;
+  t.x_by_v = dt * c;
+  t.y_by_theta = dt * v * c;
+  t.y_by_dt = v * s;
+  t.y_by_v = dt * s;
+  t.theta_by_dt = w[at_omega];
+  t.theta_by_omega = dt;
+  return t;
+}
+
+void Problem::add_transition_curvature(const StageVector& w, const double* multipliers, StageMatrix& hessian) const {
+  const double c = std::cos(w[at_theta]);
+  const double s = std::sin(w[at_theta]);
+  const double along = multipliers[0] * c + multipliers[1] * s;    // the multiplier's part ahead ...
+  const double across = -multipliers[0] * s + multipliers[1] * c;  // ... and to the left
+  hessian[at_theta][at_theta] -= along * w[at_dt] * w[at_v];
+  hessian[at_theta][at_dt] += across * w[at_v];
+  hessian[at_theta][at_v] += across * w[at_dt];
+  hessian[at_dt][at_v] += along;
+  hessian[at_dt][at_omega] += multipliers[2];
+}
+
+double Problem::cost(const Trajectory& at) const {
+  double sum = at.duration_s();
+  const std::array<double, 3> error = terminal_error(at.states.back());
+  const std::array<double, 3> weights = terminal_weights();
+  for (std::size_t i = 0; i < error.size(); ++i) sum += weights[i] * std::abs(error[i]);
+  for (std::size_t k = 1; k < at.size(); ++k) {
+    const StageVector w = stage(at, k);
+    for (const Obstacle* obstacle : obstacles[k])
+      sum += obstacle_weight * std::max(0.0, keep_away(*this, *obstacle, k, w).value);
+  }
+  return sum;
+}
+
+double Problem::violation(const Trajectory& at) const {
+  double worst = 0.0;
+  std::vector<Constraint> stage_constraints;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const StageVector w = stage(at, k);
+    stage_constraints.resize(constraint_count(at.size(), k));
+    constraints(at.size(), k, w, stage_constraints.data());
+    for (const Constraint& c : stage_constraints)
+      if (!c.is_elastic) worst = std::max(worst, c.value);
+    if (k + 1 == at.size()) break;
+    for (const double defect : transition(w, at.states[k + 1]).defect) worst = std::max(worst, std::abs(defect));
+  }
+  return worst;
+}
+
+}  // namespace dmrp::controllers::mpc

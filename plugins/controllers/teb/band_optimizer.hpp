@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// band_optimizer.hpp: brings a band into shape: outer iterations that resize and link it, inner ones that optimise it.
+#ifndef DMRP_CONTROLLERS_TEB_BAND_OPTIMIZER_HPP
+#define DMRP_CONTROLLERS_TEB_BAND_OPTIMIZER_HPP
+
+#include "../motion/levenberg_marquardt.hpp"
+#include "band_problem.hpp"
+
+namespace dmrp::controllers::teb {
+
+// Keeps its buffers from one band to the next.
+class BandOptimizer {
+ public:
+  void reserve(std::size_t poses);
+
+  // False where the optimisation broke down: a cost that is no number. The band is of no use then.
+  bool optimise(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning);
+
+  // Of a band as it lies.
+  double cost(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning, const CostScales& scales);
+
+ private:
+  BandProblem problem_;
+  LevenbergMarquardt<band_width> solver_;
+};
+
+}  // namespace dmrp::controllers::teb
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "obstacle_links.hpp"
+
+#include <algorithm>
+#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+
+namespace dmrp::controllers::teb {
+
+namespace {
+
+// A pose may move by so much before obstacles are linked anew.
+constexpr double slack_m = 0.5;
+
+// The nearest obstacle on one side of a pose.
+struct Nearest {
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::uint32_t obstacle = 0;
+  bool found() const { return distance_m < std::numeric_limits<double>::infinity(); }
+};
+
+bool is_farther(Vec2 from, const Obstacle& obstacle, double ahead_s, double reach_m) {
+  const double all_m = reach_m + obstacle.reach_m + obstacle.radius_m;
+  return toolkit::squared_distance(from, obstacle.center + ahead_s * obstacle.velocity) > all_m * all_m;
+}
+
+bool is_dynamic(const Obstacle& obstacle, const BandTuning& tuning) {
+  return tuning.include_dynamic_obstacles && obstacle.velocity != Vec2{0.0, 0.0};
+}
+
+}  // namespace
+
+void link_obstacles(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
+                    const BandTuning& tuning, std::vector<ObstacleLink>& links) {
+  links.clear();
+  const double forced_m = tuning.min_obstacle_dist * tuning.obstacle_association_force_inclusion_factor;
+  const double cutoff_m = tuning.min_obstacle_dist * tuning.obstacle_association_cutoff_factor;
+  const double dynamic_m = std::max(tuning.min_obstacle_dist, tuning.dynamic_obstacle_inflation_dist) + slack_m;
+  double ahead_s = 0.0;
+  for (std::uint32_t i = 1; i + 1 < band.size(); ++i) {
+    ahead_s += band.dt[i - 1];
+    const Pose pose = band.pose(i);
+    const Vec2 at = toolkit::position(pose);
+    const Vec2 heading = toolkit::from_angle(pose.theta);
+    Nearest left;
+    Nearest right;
+    for (std::uint32_t k = 0; k < obstacles.size(); ++k) {
+      const Obstacle& obstacle = obstacles[k];
+      if (is_dynamic(obstacle, tuning)) {
+        if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m)) links.push_back({i, k, ahead_s, true});
+        continue;
+      }
+      if (is_farther(at, obstacle, 0.0, footprint.radius_m + cutoff_m)) continue;
+      const Separation apart = separation(footprint, pose, obstacle, 0.0);
+      if (apart.distance_m < forced_m) {
+        links.push_back({i, k, 0.0, false});
+      } else if (apart.distance_m < cutoff_m) {
+        // away from the obstacle to the right: it lies on the left
+        Nearest& side = toolkit::cross(heading, apart.gradient) < 0.0 ? left : right;
+        if (apart.distance_m < side.distance_m) side = {apart.distance_m, k};
+      }
+    }
+    if (left.found()) links.push_back({i, left.obstacle, 0.0, false});
+    if (right.found()) links.push_back({i, right.obstacle, 0.0, false});
+  }
+}
+
+void link_via_points(const TimedElasticBand& band, const std::vector<Vec2>& points, std::vector<ViaPointLink>& links) {
+  links.clear();
+  for (std::uint32_t k = 0; k < points.size(); ++k) {
+    std::uint32_t nearest = 0;
+    double nearest_squared = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < band.size(); ++i) {
+      const double squared = toolkit::squared_distance(band.position(i), points[k]);
+      if (squared < nearest_squared) nearest = i, nearest_squared = squared;
+    }
+    if (nearest > 0 && nearest + 1 < band.size()) links.push_back({nearest, k});
+  }
+}
+
+}  // namespace dmrp::controllers::teb

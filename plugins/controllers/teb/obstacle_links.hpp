@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// obstacle_links.hpp: which poses of a band keep away from which obstacles, and which are drawn to which via-points.
+#ifndef DMRP_CONTROLLERS_TEB_OBSTACLE_LINKS_HPP
+#define DMRP_CONTROLLERS_TEB_OBSTACLE_LINKS_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "../motion/obstacles.hpp"
+#include "timed_elastic_band.hpp"
+
+namespace dmrp::controllers::teb {
+
+struct ObstacleLink {
+  std::uint32_t pose = 0;
+  std::uint32_t obstacle = 0;
+  double ahead_s = 0.0;     // when the robot is there; 0 for what counts as standing
+  bool is_dynamic = false;  // foreseen where it will be by then
+};
+
+struct ViaPointLink {
+  std::uint32_t pose = 0;
+  std::uint32_t point = 0;
+};
+
+// Of all poses but the ends. Standing obstacles, upstream's rule: all that are nearer to the pose than min_obstacle_dist
+// times the force inclusion factor, and the nearest on the left and on the right within min_obstacle_dist times the
+// cutoff factor. Moving ones: every pose for which they could count. Ordered by pose.
+void link_obstacles(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
+                    const BandTuning& tuning, std::vector<ObstacleLink>& links);
+
+// Each via-point to the pose nearest to it, unless that is an end of the band.
+void link_via_points(const TimedElasticBand& band, const std::vector<Vec2>& points, std::vector<ViaPointLink>& links);
+
+}  // namespace dmrp::controllers::teb
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// teb.hpp: the timed elastic band, as ROS's teb_local_planner does it.
+#ifndef DMRP_CONTROLLERS_TEB_TEB_HPP
+#define DMRP_CONTROLLERS_TEB_TEB_HPP
+
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/local_costmap.h>
+#include <dmrp/ext/obstacle_clusters.h>
+
+#include <dmrp/plugin.hpp>
+
+#include "../motion/oscillation_detector.hpp"
+#include "../motion/path_ahead.hpp"
+#include "../motion/path_tracker.hpp"
+#include "../motion/stop_and_rotate.hpp"
+#include "class_planner.hpp"
+#include "parameters.hpp"
+
+namespace dmrp::controllers {
+
+class Teb final : public teb::ParameterTable {
+ public:
+  static Descriptor describe();
+
+  Status start(const World& world, std::uint64_t seed) override;
+  void set_path(Path path, std::uint64_t revision) override;
+  Status step(const Observation& now, Command& command) override;
+
+ private:
+  double look_ahead_m(std::int64_t t_ns) const;
+  void watch_for_oscillation(const Observation& now);
+  Status drive(const Observation& now, const CostmapView& map, Command& command);
+  bool look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  teb::Task task(const Observation& now, bool is_cut);
+  Status wait(const Observation& now, FootprintCheck& footprint, Command& command);
+  bool is_feasible(const teb::TimedElasticBand& band, const Observation& now, FootprintCheck& footprint) const;
+  bool is_free(const Pose& pose, double ahead_s, const Observation& now, FootprintCheck& footprint) const;
+  bool stops_in_time(const Command& command, const Observation& now, FootprintCheck& footprint) const;
+  bool slow_down(Command& command, const Observation& now, FootprintCheck& footprint) const;
+  void annotate(const teb::TimedElasticBand& best) const;
+
+  const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_obstacle_clusters* clusters_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
+  PathTracker tracker_;
+  PathAhead path_;
+  StopAndRotate at_goal_;
+  ObstacleSet obstacles_;
+  OscillationDetector oscillation_;
+  teb::ClassPlanner planner_;
+  std::vector<Vec2> via_points_;
+  teb::Turn preferred_turn_ = teb::Turn::any;
+  std::int64_t oscillated_ns_ = 0;  // when it was last noticed
+  std::int64_t infeasible_ns_ = 0;  // when no feasible band was last found
+  int infeasible_in_a_row_ = 0;
+  bool was_infeasible_ = false;  // at infeasible_ns_, in this trial
+};
+
+}  // namespace dmrp::controllers
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "timed_elastic_band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::controllers::teb {
+
+namespace {
+
+// A first band turns in place before it drives where the way begins farther aside than this.
+constexpr double turn_first_rad = 0.25 * toolkit::pi;
+
+// How many poses may have been passed since the last cycle.
+constexpr std::size_t prune_ahead = 10;
+
+// Rounds of resizing: each halves what is far too long, so that ten part an interval a thousandfold.
+constexpr int resize_rounds = 10;
+
+double mean_heading(double from, double to) {
+  return toolkit::wrap(from + 0.5 * toolkit::difference(from, to));
+}
+
+void append_turn(TimedElasticBand& band, double heading, const Limits& limits, const BandTuning& tuning, Turn turn) {
+  const Pose from = band.pose(band.size() - 1);
+  double angle = toolkit::difference(from.theta, heading);
+  // about to face away, both ways are as good: the one asked for
+  if (turn == Turn::left && angle < 0.0) angle += 2.0 * toolkit::pi;
+  if (turn == Turn::right && angle > 0.0) angle -= 2.0 * toolkit::pi;
+  if (std::abs(angle) < turn_first_rad) return;
+  const double duration_s = std::abs(angle) / limits.omega_max;
+  const int steps = std::max(1, static_cast<int>(std::lround(duration_s / tuning.dt_ref)));
+  for (int i = 1; i <= steps; ++i) {
+    const double theta = toolkit::wrap(from.theta + angle * i / steps);
+    band.append({from.x, from.y, theta}, duration_s / steps);
+  }
+}
+
+// Straight to a point, the heading along the way.
+void append_leg(TimedElasticBand& band, Vec2 to, const Limits& limits, const BandTuning& tuning) {
+  const Pose from = band.pose(band.size() - 1);
+  const Vec2 way = to - toolkit::position(from);
+  const double heading = std::atan2(way.y, way.x);
+  const double reach_m = limits.v_max * tuning.dt_ref;
+  const int steps = std::max(1, static_cast<int>(std::lround(toolkit::norm(way) / reach_m)));
+  for (int i = 1; i <= steps; ++i) {
+    if (band.size() + 2 > tuning.max_samples) break;
+    const Vec2 at = toolkit::position(from) + (static_cast<double>(i) / steps) * way;
+    const Pose last = band.pose(band.size() - 1);
+    const double drive_s = toolkit::norm(way) / steps / limits.v_max;
+    const double turn_s = std::abs(toolkit::difference(last.theta, heading)) / limits.omega_max;
+    band.append({at.x, at.y, heading}, std::max(drive_s, turn_s));
+  }
+}
+
+}  // namespace
+
+void TimedElasticBand::reserve(std::size_t poses) {
+  x.reserve(poses);
+  y.reserve(poses);
+  theta.reserve(poses);
+  dt.reserve(poses);
+}
+
+void TimedElasticBand::clear() {
+  x.clear();
+  y.clear();
+  theta.clear();
+  dt.clear();
+}
+
+double TimedElasticBand::duration_s() const {
+  double sum = 0.0;
+  for (const double t : dt) sum += t;
+  return sum;
+}
+
+void TimedElasticBand::begin(const Pose& start) {
+  clear();
+  x.push_back(start.x);
+  y.push_back(start.y);
+  theta.push_back(start.theta);
+}
+
+void TimedElasticBand::append(const Pose& pose, double dt_s) {
+  x.push_back(pose.x);
+  y.push_back(pose.y);
+  theta.push_back(pose.theta);
+  dt.push_back(dt_s);
+}
+
+void TimedElasticBand::split(std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i + 1);
+  const double half_s = 0.5 * dt[i];
+  const Pose middle = {0.5 * (x[i] + x[i + 1]), 0.5 * (y[i] + y[i + 1]), mean_heading(theta[i], theta[i + 1])};
+  x.insert(x.begin() + at, middle.x);
+  y.insert(y.begin() + at, middle.y);
+  theta.insert(theta.begin() + at, middle.theta);
+  dt[i] = half_s;
+  dt.insert(dt.begin() + at, half_s);
+}
+
+void TimedElasticBand::remove(std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  const double before_s = dt[i - 1];
+  x.erase(x.begin() + at);
+  y.erase(y.begin() + at);
+  theta.erase(theta.begin() + at);
+  dt.erase(dt.begin() + at - 1);
+  dt[std::min(i - 1, dt.size() - 1)] += before_s;
+}
+
+void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const std::vector<Vec2>& points,
+             const Limits& limits, const BandTuning& tuning, Turn turn) {
+  const double reach_m = limits.v_max * tuning.dt_ref;
+  band.begin(start);
+  Vec2 first = toolkit::position(goal);
+  for (const Vec2 point : points) {
+    if (toolkit::distance(toolkit::position(start), point) < reach_m) continue;
+    first = point;
+    break;
+  }
+  if (toolkit::distance(toolkit::position(start), first) > 1e-6)
+    append_turn(band, toolkit::bearing(start, first), limits, tuning, turn);
+  for (const Vec2 point : points) {
+    const Vec2 last = band.position(band.size() - 1);
+    if (toolkit::distance(last, point) < reach_m) continue;
+    if (toolkit::distance(point, toolkit::position(goal)) < reach_m) break;
+    append_leg(band, point, limits, tuning);
+  }
+  append_leg(band, toolkit::position(goal), limits, tuning);
+  // the last pose is the goal, whatever the way's direction
+  const std::size_t last = band.size() - 1;
+  band.set_pose(last, goal);
+  const double turn_s = std::abs(toolkit::difference(band.theta[last - 1], goal.theta)) / limits.omega_max;
+  band.dt[last - 1] = std::max(band.dt[last - 1], turn_s);
+  while (band.size() < tuning.min_samples) {
+    const auto longest = std::max_element(band.dt.begin(), band.dt.end()) - band.dt.begin();
+    band.split(static_cast<std::size_t>(longest));
+  }
+}
+
+void move_ends(TimedElasticBand& band, const Pose& start, const Pose& goal, std::size_t min_samples) {
+  const Vec2 robot = toolkit::position(start);
+  std::size_t nearest = 0;
+  double nearest_m = toolkit::distance(band.position(0), robot);
+  const std::size_t last = std::min(band.size() > min_samples ? band.size() - min_samples : 0, prune_ahead);
+  for (std::size_t i = 1; i <= last; ++i) {
+    const double distance_m = toolkit::distance(band.position(i), robot);
+    if (!(distance_m < nearest_m)) break;
+    nearest = i;
+    nearest_m = distance_m;
+  }
+  const auto count = static_cast<std::ptrdiff_t>(nearest);
+  if (count > 0) {
+    for (std::vector<double>* values : {&band.x, &band.y, &band.theta, &band.dt})
+      values->erase(values->begin(), values->begin() + count);
+  }
+  band.set_pose(0, start);
+  band.set_pose(band.size() - 1, goal);
+}
+
+void resize(TimedElasticBand& band, const BandTuning& tuning) {
+  const double longest_s = tuning.dt_ref + tuning.dt_hysteresis;
+  const double shortest_s = tuning.dt_ref - tuning.dt_hysteresis;
+  bool changed = true;
+  for (int round = 0; round < resize_rounds && changed; ++round) {
+    changed = false;
+    for (std::size_t i = 0; i < band.dt.size(); ++i) {
+      if (band.dt[i] > longest_s && band.size() < tuning.max_samples) {
+        if (band.dt[i] > 2.0 * tuning.dt_ref || i + 1 == band.dt.size()) {
+          band.split(i);
+          ++i;
+          changed = true;
+        } else {
+          // the poses stay: what is too long goes on to the next interval
+          band.dt[i + 1] += band.dt[i] - tuning.dt_ref;
+          band.dt[i] = tuning.dt_ref;
+        }
+      } else if (band.dt[i] < shortest_s && band.size() > tuning.min_samples) {
+        const bool is_last = i + 1 == band.dt.size();
+        band.remove(is_last ? i : i + 1);
+        changed = true;
+      }
+    }
+  }
+}
+
+}  // namespace dmrp::controllers::teb

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// bench_controllers_tape.hpp: what a controller was told and what it answered, kept so that it can be told again.
+#pragma once
+
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/distance_field.h>
+#include <dmrp/ext/lidar.h>
+#include <dmrp/ext/local_costmap.h>
+#include <dmrp/ext/obstacle_clusters.h>
+#include <dmrp/local_controller.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dmrp::bench {
+
+// One call of step(). Of the extensions it holds what the controller asked for.
+struct Frame {
+  std::vector<dmrp_waypoint> path;  // not empty: set_path() came first
+  dmrp_observation observation{};
+  std::vector<dmrp_agent> agents;
+
+  dmrp_scan scan{};
+  std::vector<float> ranges;
+  dmrp_costmap costmap{};
+  std::vector<std::uint8_t> costs;
+  dmrp_field field{};
+  std::vector<float> distances_m;
+  dmrp_obstacle_cluster_list clusters{};
+  std::vector<std::uint32_t> vertex_counts;  // of clusters
+  std::vector<dmrp_vec2> vertices;
+
+  std::int32_t status = 0;
+  dmrp_command command{};
+};
+
+using Tape = std::vector<Frame>;  // one robot's way through one trial
+
+// Extensions that a controller is offered; each answers from where a derived class has it.
+class Perception {
+ public:
+  Perception();
+  Perception(const Perception&) = delete;
+  Perception& operator=(const Perception&) = delete;
+  virtual ~Perception() = default;
+
+  // nullptr for what it does not offer.
+  virtual const void* extension(const std::string& id) = 0;
+
+ protected:
+  virtual const dmrp_scan* scan() = 0;
+  virtual const dmrp_costmap* costmap() = 0;
+  virtual const dmrp_field* field() = 0;
+  virtual const dmrp_obstacle_cluster_list* clusters() = 0;
+
+  // The C struct of an id, nullptr if there is none.
+  const void* own(const std::string& id) const;
+
+ private:
+  dmrp_lidar lidar_{};
+  dmrp_local_costmap local_costmap_{};
+  dmrp_distance_field distance_field_{};
+  dmrp_obstacle_clusters obstacle_clusters_{};
+};
+
+// Passes on what a robot's real sensors say, and writes it down.
+class Recorder final : public Perception {
+ public:
+  // The extension behind an id, as the host offers it.
+  using Source = std::function<const void*(const std::string& id)>;
+  explicit Recorder(Source source) : source_(std::move(source)) {}
+
+  // What is read from now on belongs to this frame.
+  void write_to(Frame& frame) { frame_ = &frame; }
+
+  const void* extension(const std::string& id) override;
+
+ private:
+  const dmrp_scan* scan() override;
+  const dmrp_costmap* costmap() override;
+  const dmrp_field* field() override;
+  const dmrp_obstacle_cluster_list* clusters() override;
+
+  Source source_;
+  Frame* frame_ = nullptr;
+};
+
+// Says what was written down. Offers dmrp.annotate/1 besides, if told to listen.
+class Player final : public Perception {
+ public:
+  explicit Player(bool listens);
+
+  void read_from(const Frame& frame) { frame_ = &frame; }
+  const void* extension(const std::string& id) override;
+
+  // The number of the last note "iterations N", and forgets it; negative if there was none.
+  double take_iterations();
+
+ private:
+  const dmrp_scan* scan() override;
+  const dmrp_costmap* costmap() override;
+  const dmrp_field* field() override;
+  const dmrp_obstacle_cluster_list* clusters() override;
+
+  const Frame* frame_ = nullptr;
+  bool listens_;
+  double iterations_ = -1.0;
+  dmrp_annotate annotate_{};
+  dmrp_scan scan_{};
+  dmrp_costmap costmap_{};
+  dmrp_field field_{};
+  dmrp_obstacle_cluster_list clusters_{};
+  std::vector<dmrp_obstacle_cluster> cluster_array_;
+};
+
+}  // namespace dmrp::bench

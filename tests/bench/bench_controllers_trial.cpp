@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "bench_controllers_trial.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstring>
+#include <dmrp/toolkit/random.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "bench_controllers_allocations.hpp"
+#include "core/ending.hpp"
+#include "core/progress.hpp"
+#include "core/world.hpp"
+#include "host/trial/planning.hpp"
+#include "host/trial/robot_sensors.hpp"
+
+namespace dmrp::bench {
+
+namespace {
+
+constexpr std::int64_t budget_ns = 10'000'000'000;
+
+std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32_t index) {
+  return toolkit::Stream(seed, purpose, index).next_u64();
+}
+
+double thread_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
+  return {sizeof(dmrp_path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0, waypoints.data()};
+}
+
+// One robot while its trial is recorded.
+struct Driver {
+  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+      : sensors(world, robot, lidar, seed), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
+
+  host::RobotSensors sensors;
+  Recorder recorder;
+  host::Instance* controller = nullptr;
+  dmrp_local_controller table{};
+  dmrp_world view{};
+  core::PathProgress progress;
+  std::vector<dmrp_waypoint> path;
+};
+
+class Recording {
+ public:
+  Recording(const TrialUnderTest& trial, host::InstancePool& pool)
+      : trial_(trial),
+        world_(trial.variant.scenario, trial.experiment.robot, trial.variant.simulation, trial.variant.geometry,
+               trial.variant.routes, trial.seed),
+        lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
+        monitor_(static_cast<std::uint32_t>(world_.robots().size()), trial.variant.simulation.time_limit_ns),
+        gained_m_(world_.robots().size()),
+        velocities_(world_.people().size()) {
+    result_.tapes.resize(world_.robots().size());
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) start_driver(i, pool);
+    plan(pool);
+    if (velocities_.empty()) return;
+    people_ = &pool.get(trial.experiment.pedestrian_models[0], -1);
+    people_->start(trial.variant.view.world(), instance_seed(trial.seed, "pedestrian_model", 0), budget_ns);
+  }
+
+  RecordedTrial run() {
+    const core::SimulationSettings& settings = trial_.variant.simulation;
+    std::uint32_t ending = monitor_.update(0, world_.robots(), gained_m_);
+    while (ending == 0) {
+      if (world_.t_ns() % settings.control_period_ns == 0) control();
+      walk();
+      world_.step(velocities_);
+      for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
+        const core::RobotState& robot = world_.robots()[i];
+        drivers_[i]->progress.update({robot.pose.x, robot.pose.y}, robot.goal_index);
+        gained_m_[i] = drivers_[i]->progress.gained_m();
+      }
+      ending = monitor_.update(world_.t_ns(), world_.robots(), gained_m_);
+    }
+    const auto& robots = world_.robots();
+    result_.arrived = static_cast<std::uint32_t>(std::count_if(
+        robots.begin(), robots.end(), [](const auto& robot) { return robot.state == DMRP_ROBOT_FINISHED; }));
+    result_.sim_time_s = 1e-9 * static_cast<double>(world_.t_ns());
+    return std::move(result_);
+  }
+
+ private:
+  void start_driver(std::uint32_t robot, host::InstancePool& pool) {
+    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_, trial_.seed));
+    Driver& driver = *drivers_.back();
+    driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
+    driver.table = driver.controller->table<dmrp_local_controller>();
+    driver.view = trial_.variant.view.seen_by(static_cast<std::int32_t>(robot));
+    driver.controller->offer([&driver](const char* id) { return driver.recorder.extension(id); });
+    driver.controller->start(driver.view, instance_seed(trial_.seed, "local_controller", robot), budget_ns);
+  }
+
+  void plan(host::InstancePool& pool) {
+    const host::PluginUse& use = trial_.experiment.global_planners[0];
+    host::Instance& planner = pool.get(use, -1);
+    planner.start(trial_.variant.view.world(), instance_seed(trial_.seed, "global_planner", 0), budget_ns);
+    const host::Plan plan = host::make_plan(planner, use.info, trial_.variant, world_, 1, budget_ns, 0);
+    if (!plan.exists()) throw std::runtime_error("the planner found no plan");
+    for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
+      Driver& driver = *drivers_[i];
+      const dmrp_pose& pose = world_.robots()[i].pose;
+      driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
+      driver.progress.set_path(driver.path, {pose.x, pose.y});
+      const dmrp_path path = path_of(driver.path);
+      driver.table.set_path(driver.controller->self(), &path, 1);
+    }
+  }
+
+  void control() {
+    for (std::uint32_t i = 0; i < drivers_.size(); ++i)
+      if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i]->sensors.tick();
+    for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
+      if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
+      Driver& driver = *drivers_[i];
+      Tape& tape = result_.tapes[i];
+      Frame& frame = tape.emplace_back();
+      if (tape.size() == 1) frame.path = driver.path;
+      observe(i, frame);
+      driver.recorder.write_to(frame);
+      frame.status = driver.table.step(driver.controller->self(), &frame.observation, &frame.command);
+      const bool is_given = frame.status == DMRP_OK || frame.status == DMRP_WARNING;
+      if (!is_given && frame.status != DMRP_NO_SOLUTION)
+        throw std::runtime_error(fmt::format("step() returned {}", frame.status));
+      if (is_given) monitor_.command_given(i, world_.t_ns());
+      world_.set_command(i, is_given ? dmrp_twist{frame.command.v_x, 0.0, frame.command.omega} : dmrp_twist{});
+      if (monitor_.failure(i) == DMRP_FAILURE_CONTROLLER) world_.fail(i);
+    }
+  }
+
+  void observe(std::uint32_t robot, Frame& frame) {
+    const core::RobotState& state = world_.robots()[robot];
+    Driver& driver = *drivers_[robot];
+    frame.agents = driver.sensors.agents();
+    const dmrp_robot& body = *DMRP_AT(dmrp_robot, driver.view.robots, driver.view.robot_stride, robot);
+    dmrp_observation& now = frame.observation;
+    now.struct_size = sizeof(now);
+    now.robot = robot;
+    now.t_ns = world_.t_ns();
+    now.dt_ns = trial_.variant.simulation.control_period_ns;
+    now.pose = state.pose;
+    now.velocity = state.velocity;
+    now.applied = state.command;
+    now.goal = world_.goals(robot)[state.goal_index];
+    now.goal_index = state.goal_index;
+    now.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
+    now.progress_m = driver.progress.progress_m();
+    now.progress_waypoint = driver.progress.waypoint();
+    now.released_waypoint = static_cast<std::uint32_t>(driver.path.size() - 1);
+    now.limits = body.limits;
+    now.footprint = body.footprint;
+    now.agents = frame.agents.data();
+    now.agent_count = static_cast<std::uint32_t>(frame.agents.size());
+    now.agent_stride = sizeof(dmrp_agent);
+    frame.command.struct_size = sizeof(frame.command);
+  }
+
+  void walk() {
+    if (!people_) return;
+    const auto people = world_.people();
+    const auto robots = world_.robot_agents();
+    const dmrp_crowd crowd = {sizeof(crowd),       static_cast<std::uint32_t>(people.size()),
+                              world_.t_ns(),       trial_.variant.simulation.step_ns,
+                              people.data(),       robots.data(),
+                              sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
+                              sizeof(dmrp_agent),  0};
+    people_->table<dmrp_pedestrian_model>().step(people_->self(), &crowd, velocities_.data());
+  }
+
+  const TrialUnderTest& trial_;
+  core::World world_;
+  core::Lidar lidar_;
+  core::EndingMonitor monitor_;
+  std::vector<double> gained_m_;
+  std::vector<dmrp_vec2> velocities_;
+  std::vector<std::unique_ptr<Driver>> drivers_;
+  host::Instance* people_ = nullptr;
+  RecordedTrial result_;
+};
+
+}  // namespace
+
+RecordedTrial record(const TrialUnderTest& trial, host::InstancePool& pool) {
+  return Recording(trial, pool).run();
+}
+
+Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t robot, const Tape& tape,
+              bool listens) {
+  pool.clear();
+  Player player(listens);
+  host::Instance& controller = pool.get(trial.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
+  const auto table = controller.table<dmrp_local_controller>();
+  const dmrp_world view = trial.variant.view.seen_by(static_cast<std::int32_t>(robot));
+  controller.offer([&player](const char* id) { return player.extension(id); });
+  controller.start(view, instance_seed(trial.seed, "local_controller", robot), budget_ns);
+
+  Replay replay;
+  replay.call_ms.reserve(tape.size());
+  replay.allocations.reserve(tape.size());
+  for (const Frame& frame : tape) {
+    player.read_from(frame);
+    if (!frame.path.empty()) {
+      const dmrp_path path = path_of(frame.path);
+      table.set_path(controller.self(), &path, 1);
+    }
+    dmrp_observation observation = frame.observation;
+    observation.agents = frame.agents.data();
+    dmrp_command command{};
+    command.struct_size = sizeof(command);
+    const std::uint64_t blocks = allocations();
+    const double start_ms = thread_ms();
+    const std::int32_t status = table.step(controller.self(), &observation, &command);
+    replay.call_ms.push_back(thread_ms() - start_ms);
+    replay.allocations.push_back(allocations() - blocks);
+    if (status != frame.status || std::memcmp(&command, &frame.command, sizeof(command)) != 0)
+      throw std::runtime_error(fmt::format("robot {} answered otherwise than before at {} s", robot,
+                                           1e-9 * static_cast<double>(frame.observation.t_ns)));
+    if (const double iterations = player.take_iterations(); iterations >= 0.0) replay.iterations.push_back(iterations);
+  }
+  pool.clear();  // before what it was offered goes
+  return replay;
+}
+
+}  // namespace dmrp::bench

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// bench_controllers_trial.hpp: drives a trial in closed loop and keeps what every controller was told; tells it to fresh
+// instances, call by call.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bench_controllers_tape.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/trial/instance_pool.hpp"
+#include "host/trial/variant_world.hpp"
+
+namespace dmrp::bench {
+
+// A trial of the experiment's only combination.
+struct TrialUnderTest {
+  const host::Experiment& experiment;
+  const host::VariantWorld& variant;
+  std::uint64_t seed = 0;
+};
+
+struct RecordedTrial {
+  std::vector<Tape> tapes;  // by robot
+  std::uint32_t arrived = 0;
+  double sim_time_s = 0.0;
+};
+
+// Sensors look as the host's do, people walk, robots run into each other. Throws std::runtime_error without a plan.
+RecordedTrial record(const TrialUnderTest& trial, host::InstancePool& pool);
+
+// Of the calls of one tape.
+struct Replay {
+  std::vector<double> call_ms;  // processor time
+  std::vector<std::uint64_t> allocations;
+  std::vector<double> iterations;  // of the calls that told of them; only if `listens`
+};
+
+// A fresh instance for one robot. Throws std::runtime_error where it answers otherwise than the recorded one did.
+Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t robot, const Tape& tape,
+              bool listens);
+
+}  // namespace dmrp::bench
