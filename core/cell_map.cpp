@@ -125,6 +125,10 @@ void append_corners(const std::array<dmrp_vec2, 4>& corners, PlacedBoxes& out) {
 
 }  // namespace
 
+std::size_t count_boxes(const CellMap& map) {
+  return blocks_of(map).size();
+}
+
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin) {
   std::vector<Shape> shapes;
   for (const Block& block : blocks_of(map)) {

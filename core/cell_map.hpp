@@ -2,6 +2,7 @@
 // cell_map.hpp: a world that is drawn in square cells, free or blocked: as shapes, and as a grid for points.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <vector>
@@ -25,6 +26,9 @@ struct CellMap {
     return free[static_cast<std::size_t>(row) * width + column] != 0;
   }
 };
+
+// How many boxes boxes_of() makes.
+std::size_t count_boxes(const CellMap& map);
 
 // The blocked cells as few boxes that do not overlap; the lower left cell's corner is at `origin`.
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin);

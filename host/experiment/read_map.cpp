@@ -34,6 +34,13 @@ std::string shown_beside(const std::string& shown_path, const std::string& name)
   return (fs::path(shown_path).parent_path() / name).lexically_normal().string();
 }
 
+// Noise has more boxes than anybody's walls; they would fill the memory. `at`: what names the map.
+void check_roughness(const TomlValue& at, const core::CellMap& cells) {
+  constexpr std::size_t most_boxes = 250'000;
+  if (const std::size_t boxes = core::count_boxes(cells); boxes > most_boxes)
+    at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, most_boxes));
+}
+
 // `at`: what the size hangs on.
 void check_extent(const TomlValue& at, double width_m, double height_m) {
   if (width_m > longest_side_m || height_m > longest_side_m)
@@ -45,6 +52,7 @@ TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const fs::p
   table.allow_only({"file", "cell_m"}, " for a MovingAI map");
   TaskMap map;
   map.cells = read_movingai_map(file, shown);
+  check_roughness(name, map.cells);
   const auto cell = table.find("cell_m");
   if (cell) {
     cell->positive();
@@ -66,6 +74,7 @@ void read_map_server(const TomlTable& root, const TomlTable& table, const TomlVa
   if (const auto asked = table.find("unknown"); asked && asked->choice({"occupied", "free"}) == "free")
     unknown = UnknownCells::free;
   const RosMap map = read_ros_map(file, shown, unknown);
+  check_roughness(name, map.cells);
   out.files.push_back(map.image);
   core::PlacedBoxes placed = core::place_boxes(map.cells, map.resolution_m, map.origin);
   check_extent(name, placed.world.upper.x - placed.world.lower.x, placed.world.upper.y - placed.world.lower.y);

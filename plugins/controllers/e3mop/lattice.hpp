@@ -34,7 +34,7 @@ int nearest_direction(double theta);
 
 enum class MotionKind : std::uint8_t { short_forward, long_forward, arc, turn };
 
-// Travel times in units of 0.1 ms, so that sums and comparisons are exact.
+// Costs, which are times, in units of 0.1 ms, so that sums and comparisons are exact.
 using Ticks = std::int32_t;
 inline constexpr double ticks_per_s = 1e4;
 
@@ -47,7 +47,7 @@ struct MotionSample {
 };
 
 // A motion primitive: from a heading at (0, 0) to another one at (dx, dy), in cells: straight, then an arc, then
-// straight; or a turn in place. `duration` is its travel time at the limits.
+// straight; or a turn in place. `cost` is its travel time at the limits, weighted by its kind.
 struct Motion {
   MotionKind kind;
   std::int32_t dx;
@@ -55,7 +55,7 @@ struct Motion {
   std::int32_t to_heading;
   double length_m;
   double radius_m;  // of the arc; infinite where there is none
-  Ticks duration;
+  Ticks cost;
   std::uint32_t first_sample;
   std::uint32_t sample_count;
   // Bit k: dropped where the way to the goal leaves the cell in direction k. |(alpha - theta) - (beta - theta)| > pi/4
@@ -90,6 +90,7 @@ class MotionSet {
   void add_turn(int heading, int to_heading);
   void add_arc(int heading, int to_heading, double radius_min_m, double radius_max_m);
   void add(int heading, Motion motion, double before_m, double after_m);
+  double cost_s(const Motion& motion, double turn, double straight_m) const;
 
   double resolution_m_ = 0.1;
   double v_max_ = 0.0;

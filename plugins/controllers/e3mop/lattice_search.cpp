@@ -9,15 +9,12 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// Half the greatest angle between neighbouring directions.
-const double cos_half_gap = std::cos(0.5 * std::atan2(1.0, 2.0));
-
 constexpr std::size_t open_reserve = 16384;
 
 }  // namespace
 
-Ticks time_to_go(std::int32_t distance, double resolution_m, double v_max) {
-  return static_cast<Ticks>(distance * (ticks_per_s * cos_half_gap / GoalDistances::unit * resolution_m / v_max));
+Ticks cost_to_go(std::int32_t distance, double resolution_m, double v_max) {
+  return static_cast<Ticks>(distance * (ticks_per_s / GoalDistances::unit * resolution_m / v_max));
 }
 
 void LatticeSearch::begin(const LatticeFrame& frame) {
@@ -45,7 +42,7 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
                          SearchResult& result) {
   result.found = false;
   result.expanded = 0;
-  result.duration = 0;
+  result.cost = 0;
   result.poses.clear();
   begin(space.frame);
   const std::int32_t center = space.frame.center_cell();
@@ -60,7 +57,7 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
         std::abs(toolkit::difference(start.theta, directions()[static_cast<std::size_t>(heading)].theta));
     if (turn > std::atan2(1.0, 2.0)) continue;
     const auto cost = static_cast<Ticks>(std::ceil(turn / settings.omega_max * ticks_per_s));
-    offer(center * direction_count + heading, cost, time_to_go(distance, space.frame.resolution_m, settings.v_max), -1,
+    offer(center * direction_count + heading, cost, cost_to_go(distance, space.frame.resolution_m, settings.v_max), -1,
           -1);
   }
 
@@ -75,7 +72,7 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
     if (node.expanded || node.cost + best.to_go < best.total) continue;
     if (space.goal.distance(best.node / direction_count) == 0) {
       result.found = true;
-      result.duration = node.cost;
+      result.cost = node.cost;
       trace(best.node, space, result);
       return;
     }
@@ -100,13 +97,13 @@ void LatticeSearch::expand(std::int32_t node, const SearchSpace& space, const Se
     if (!space.frame.inside(column + motion.dx, row + motion.dy)) continue;
     const std::int32_t to_cell = space.frame.cell_at(column + motion.dx, row + motion.dy);
     const std::int32_t to = to_cell * direction_count + motion.to_heading;
-    Ticks to_cost = cost + motion.duration;
+    Ticks to_cost = cost + motion.cost;
     if (is_start && motion.kind == MotionKind::turn) to_cost += static_cast<Ticks>(settings.first_turn_s * ticks_per_s);
     const Node& known = nodes_[static_cast<std::size_t>(to)];
     if (known.search == search_ && known.cost <= to_cost) continue;
     const std::int32_t distance = space.goal.distance(to_cell);
     if (distance == GoalDistances::infinite || !is_clear(from, motion, space)) continue;
-    offer(to, to_cost, time_to_go(distance, space.frame.resolution_m, settings.v_max), node,
+    offer(to, to_cost, cost_to_go(distance, space.frame.resolution_m, settings.v_max), node,
           static_cast<std::int16_t>(space.motions.index_of(motion)));
   }
 }

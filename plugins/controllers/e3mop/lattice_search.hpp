@@ -33,16 +33,15 @@ struct SearchSettings {
 
 struct SearchResult {
   bool found = false;
-  Ticks duration = 0;         // travel time
+  Ticks cost = 0;
   std::int32_t expanded = 0;  // states
   // The way; where none was found, the way to the state that came nearest to the goal by the heuristic. Places at most
   // 0.05 m apart, headings along the lattice's directions and the arcs between them. Turns in place repeat the place.
   std::vector<dmrp_pose> poses;
 };
 
-// A lower bound of the travel time from a cell at this distance of the heuristic's grid. That grid is 16-connected, so
-// its ways are up to 1 / cos(13.3 degrees) longer than straight ones.
-Ticks time_to_go(std::int32_t distance, double resolution_m, double v_max);
+// A lower bound of the cost from a cell at this distance of the heuristic's grid to the goal.
+Ticks cost_to_go(std::int32_t distance, double resolution_m, double v_max);
 
 // Keeps its buffers: no allocation once it has seen its largest frame and longest path.
 class LatticeSearch {
@@ -59,7 +58,7 @@ class LatticeSearch {
     bool expanded;
   };
   struct Open {
-    Ticks total;  // cost and time to go
+    Ticks total;  // cost and cost to go
     Ticks to_go;
     std::int32_t node;  // cell * direction_count + heading
   };

@@ -17,6 +17,9 @@ constexpr std::size_t turned_intervals = 3;
 // Of driving forward, where the limits forbid driving backward: it is not to be bought.
 constexpr double forbidding_weight = 1000.0;
 
+// Places looked at between two poses.
+constexpr int most_pieces = 20;
+
 constexpr std::size_t first_of(std::size_t pose) {
   return 4 * pose;
 }
@@ -62,7 +65,33 @@ double BandProblem::try_step(const std::vector<double>& step) {
 }
 
 double BandProblem::cost(const CostScales& scales) {
-  return evaluate<false>({}, scales);
+  return evaluate<false>({}, scales) + scales.obstacles * cost_of_jumps();
+}
+
+double BandProblem::cost_of_jumps() const {
+  const double reach_m = scene_->footprint->inscribed_radius_m;
+  double cost = 0.0;
+  double time_s = 0.0;
+  for (std::size_t i = 0; i < band_->dt.size(); time_s += band_->dt[i], ++i) {
+    const Vec2 from = band_->position(i);
+    const Vec2 to = band_->position(i + 1);
+    const double squared_m = toolkit::squared_distance(from, to);
+    if (squared_m <= 4.0 * reach_m * reach_m) continue;
+    const int pieces = std::min(most_pieces, static_cast<int>(std::sqrt(squared_m) / reach_m));
+    for (int k = 1; k < pieces; ++k) {
+      const double share = static_cast<double>(k) / pieces;
+      const Vec2 at = toolkit::lerp(from, to, share);
+      for (const Obstacle& obstacle : *scene_->obstacles) {
+        const double ahead_s = time_s + share * band_->dt[i];
+        if (least_distance(*scene_->footprint, at, obstacle, ahead_s) > tuning_->min_obstacle_dist) continue;
+        const double distance_m =
+            separation(*scene_->footprint, {at.x, at.y, band_->theta[i]}, obstacle, ahead_s).distance_m;
+        const double error = above(distance_m, tuning_->min_obstacle_dist, 0.0).error;
+        cost += tuning_->weight_obstacle * error * error;
+      }
+    }
+  }
+  return cost;
 }
 
 template <bool with_derivatives>

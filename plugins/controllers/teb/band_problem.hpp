@@ -48,7 +48,8 @@ class BandProblem {
   void keep() { kept_ = *band_; }
   void restore() { *band_ = kept_; }
 
-  // The sum of weighted squares.
+  // The sum of weighted squares. Where two poses lie farther apart than the footprint reaches, the obstacles' part also
+  // counts places between them: no band is cheap for having jumped over something.
   double cost(const CostScales& scales = {});
 
  private:
@@ -60,6 +61,7 @@ class BandProblem {
   void add_accelerations(WeightedSquares<with_derivatives>& squares) const;
   template <bool with_derivatives>
   void add_obstacles(WeightedSquares<with_derivatives>& squares) const;
+  double cost_of_jumps() const;
   template <bool with_derivatives>
   void add_via_points(WeightedSquares<with_derivatives>& squares) const;
   template <bool with_derivatives>

@@ -14,6 +14,10 @@ namespace {
 // The buffers' first sizes: poses of a band.
 constexpr std::size_t usual_poses = 128;
 
+// Legs of the roadmap tell classes apart: bands round the corners behind them, so that they need less than the whole
+// room for the robot.
+constexpr double leg_share = 0.5;
+
 // The direction in which a band begins: to its first pose that far on.
 Vec2 beginning(const TimedElasticBand& band, double length_m) {
   const Vec2 start = band.position(0);
@@ -35,7 +39,7 @@ void ClassPlanner::start(const BandTuning& band, const ClassTuning& classes, con
   candidates_.resize(classes.max_number_classes);
   for (Candidate& candidate : candidates_) candidate.band.reserve(usual_poses);
   laid_out_.band.reserve(usual_poses);
-  way_.reserve(classes.roadmap_graph_no_samples);
+  marks_.reserve(512);
   has_switched_ = false;
   clear();
 }
@@ -48,7 +52,7 @@ void ClassPlanner::clear() {
 void ClassPlanner::plan(const Task& task) {
   if (count_ > 0 && goal_has_jumped(task.goal)) clear();
   last_goal_ = task.goal;
-  obstacles_ = task.scene.obstacles;
+  set_marks(*task.scene.obstacles, toolkit::position(task.goal) - toolkit::position(task.start), marks_);
   for (std::size_t i = 0; i < count_; ++i)
     move_ends(candidates_[i].band, task.start, task.goal, band_tuning_.min_samples);
   if (class_tuning_.enable_homotopy_class_planning) {
@@ -75,7 +79,7 @@ void ClassPlanner::renew() {
   best_ = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     Candidate& candidate = candidates_[i];
-    candidate.signature = band_signature(candidate.band, *obstacles_);
+    candidate.signature = band_signature(candidate.band, marks_);
     candidate.is_initial_plan = false;
     candidate.is_usable = find(candidate.signature) == &candidate;
   }
@@ -104,8 +108,9 @@ void ClassPlanner::explore(const Task& task) {
   query.start = toolkit::position(task.start);
   query.goal = toolkit::position(task.goal);
   query.v_max = task.scene.limits->v_max;
-  query.clearance_m = task.scene.footprint->inscribed_radius_m + band_tuning_.min_obstacle_dist;
+  query.clearance_m = leg_share * task.scene.footprint->inscribed_radius_m + band_tuning_.min_obstacle_dist;
   query.obstacles = task.scene.obstacles;
+  query.marks = &marks_;
   roadmap_.search(query, class_tuning_, random_);
   for (std::size_t i = 0; i < roadmap_.size() && count_ < candidates_.size(); ++i) {
     roadmap_.way(i, way_);
@@ -116,7 +121,7 @@ void ClassPlanner::explore(const Task& task) {
 
 void ClassPlanner::lay_out_way(const Task& task, const std::vector<Vec2>& points) {
   lay_out(laid_out_.band, task.start, task.goal, points, *task.scene.limits, band_tuning_, task.scene.preferred_turn);
-  laid_out_.signature = band_signature(laid_out_.band, *obstacles_);
+  laid_out_.signature = band_signature(laid_out_.band, marks_);
   laid_out_.is_usable = true;
   laid_out_.is_initial_plan = false;
   laid_out_.was_best = false;
@@ -190,8 +195,7 @@ void ClassPlanner::drop_detours() {
   for (std::size_t i = 0; i < count_; ++i) {
     if (i == best_) continue;
     const Vec2 begin = toolkit::normalized(beginning(candidates_[i].band, reach_m));
-    const bool is_backward =
-        toolkit::dot(ahead, begin) < std::cos(class_tuning_.detours_orientation_tolerance);
+    const bool is_backward = toolkit::dot(ahead, begin) < std::cos(class_tuning_.detours_orientation_tolerance);
     candidates_[i].is_usable = !is_backward && candidates_[i].band.duration_s() <= longest_s;
   }
   remove_unusable();

@@ -83,7 +83,7 @@ class ClassPlanner {
   Candidate laid_out_;  // a new band, before it is known to be of a class of its own
   std::vector<Vec2> way_;
   const std::vector<Vec2> no_via_points_;
-  const std::vector<Obstacle>* obstacles_ = nullptr;  // of the cycle
+  std::vector<Mark> marks_;  // of the cycle's obstacles
   Pose last_goal_ = {0.0, 0.0, 0.0};
   std::int64_t switched_ns_ = 0;  // when another way was last chosen
   bool has_switched_ = false;

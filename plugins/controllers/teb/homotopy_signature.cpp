@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homotopy_signature.hpp"
 
+#include <algorithm>
+
 namespace dmrp::controllers::teb {
 
 namespace {
@@ -8,11 +10,27 @@ namespace {
 // Of everything that stands. Along no axis: walls often are, and ways along them.
 constexpr Vec2 standing_ray = {0.6, 0.8};
 
-Signature times(int crossings, std::size_t obstacle) {
-  return static_cast<Signature>(static_cast<std::int64_t>(crossings)) * signature_weight(obstacle);
+// The marks of a disc stand so far to its sides, in radii: bands that graze it are pushed out to that side.
+constexpr double disc_share = 0.5;
+
+Signature times(int crossings, std::size_t mark) {
+  return static_cast<Signature>(static_cast<std::int64_t>(crossings)) * signature_weight(mark);
 }
 
 }  // namespace
+
+void set_marks(const std::vector<Obstacle>& obstacles, Vec2 along, std::vector<Mark>& marks) {
+  marks.clear();
+  for (std::uint32_t k = 0; k < obstacles.size(); ++k) {
+    const Obstacle& obstacle = obstacles[k];
+    const auto is_right_of = [along](Vec2 a, Vec2 b) { return toolkit::cross(along, a) < toolkit::cross(along, b); };
+    const Vec2* const end = obstacle.vertices + obstacle.vertex_count;
+    const auto [right, left] = std::minmax_element(obstacle.vertices, end, is_right_of);
+    const Vec2 aside = disc_share * obstacle.radius_m * toolkit::perpendicular(toolkit::normalized(along));
+    marks.push_back({*left + aside, obstacle.velocity, k});
+    if (left != right || obstacle.radius_m > 0.0) marks.push_back({*right - aside, obstacle.velocity, k});
+  }
+}
 
 Signature step_signature(Vec2 from, Vec2 to, const std::vector<Vec2>& places) {
   Signature signature = 0;
@@ -23,18 +41,18 @@ Signature step_signature(Vec2 from, Vec2 to, const std::vector<Vec2>& places) {
   return signature;
 }
 
-Signature band_signature(const TimedElasticBand& band, const std::vector<Obstacle>& obstacles) {
+Signature band_signature(const TimedElasticBand& band, const std::vector<Mark>& marks) {
   Signature signature = 0;
-  for (std::size_t k = 0; k < obstacles.size(); ++k) {
-    const Obstacle& obstacle = obstacles[k];
-    const bool moves = obstacle.velocity != Vec2{0.0, 0.0};
-    const Vec2 ray = moves ? obstacle.velocity : standing_ray;
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const Mark& mark = marks[k];
+    const bool moves = mark.velocity != Vec2{0.0, 0.0};
+    const Vec2 ray = moves ? mark.velocity : standing_ray;
     int crossings = 0;
     double time_s = 0.0;
-    Vec2 from = band.position(0) - obstacle.center;
+    Vec2 from = band.position(0) - mark.at;
     for (std::size_t i = 1; i < band.size(); ++i) {
       time_s += band.dt[i - 1];
-      const Vec2 to = band.position(i) - obstacle.center - time_s * obstacle.velocity;
+      const Vec2 to = band.position(i) - mark.at - time_s * mark.velocity;
       crossings += ray_crossing(from, to, ray);
       from = to;
     }

@@ -8,18 +8,37 @@
 
 namespace dmrp::controllers::teb {
 
+namespace {
+
+// As many obstacles on the straight way get points beside them, so far beyond the clearance.
+constexpr std::size_t key_obstacles = 8;
+constexpr double key_point_offset_m = 0.1;
+
+// To an obstacle where it stands, from its vertices: 0 inside.
+double distance_to(const Obstacle& obstacle, const Segment& leg) {
+  if (obstacle.vertex_count == 1) return toolkit::distance(leg, obstacle.vertices[0]);
+  if (obstacle.vertex_count == 2) return toolkit::distance(leg, Segment{obstacle.vertices[0], obstacle.vertices[1]});
+  return toolkit::distance(toolkit::PolygonView(obstacle.vertices, obstacle.vertex_count), leg);
+}
+
+}  // namespace
+
 void Roadmap::reserve(const ClassTuning& tuning) {
-  const std::size_t vertices = tuning.roadmap_graph_no_samples + 2;
+  const std::size_t vertices = tuning.roadmap_graph_no_samples + 2 * key_obstacles + 2;
   ways_each_ = static_cast<std::uint32_t>(tuning.max_number_classes + 1);
   vertices_.reserve(vertices);
   table_.resize(vertices * ways_each_);
   ways_.reserve(ways_each_);
-  places_.reserve(256);
+  centers_.reserve(256);
+  marks_.reserve(512);
+  needed_m_.reserve(256);
 }
 
 void Roadmap::search(const RoadmapQuery& query, const ClassTuning& tuning, toolkit::Stream& random) {
   ways_.clear();
-  if (toolkit::distance(query.start, query.goal) < 1e-3) return;
+  distance_m_ = toolkit::distance(query.start, query.goal);
+  if (distance_m_ < 1e-3) return;
+  along_ = (query.goal - query.start) / distance_m_;
   place_obstacles(query);
   draw(query, tuning, random);
   const auto goal = static_cast<std::uint32_t>(vertices_.size() - 1);
@@ -45,37 +64,73 @@ void Roadmap::way(std::size_t i, std::vector<Vec2>& points) const {
 
 // What moves is met where it comes nearest to a robot that drives straight to the goal.
 void Roadmap::place_obstacles(const RoadmapQuery& query) {
-  places_.clear();
-  const Vec2 way = query.goal - query.start;
-  const double duration_s = toolkit::norm(way) / query.v_max;
-  const Vec2 velocity = way / duration_s;
+  centers_.clear();
+  needed_m_.clear();
+  const double duration_s = distance_m_ / query.v_max;
   for (const Obstacle& obstacle : *query.obstacles) {
-    const Vec2 relative = obstacle.velocity - velocity;
+    const Vec2 relative = obstacle.velocity - query.v_max * along_;
     const double squared = toolkit::squared_norm(relative);
     double met_s = 0.0;
     if (obstacle.velocity != Vec2{0.0, 0.0} && squared > 0.0)
       met_s = std::clamp(-toolkit::dot(obstacle.center - query.start, relative) / squared, 0.0, duration_s);
-    places_.push_back(obstacle.center + met_s * obstacle.velocity);
+    centers_.push_back(obstacle.center + met_s * obstacle.velocity);
+    double needed_m = query.clearance_m;
+    for (const Vec2 end : {query.start, query.goal}) {
+      const double all_m = needed_m + obstacle.radius_m + obstacle.reach_m;
+      if (toolkit::squared_distance(end, centers_.back()) > all_m * all_m) continue;
+      const Vec2 unmoved = end - met_s * obstacle.velocity;
+      needed_m = std::min(needed_m, distance_to(obstacle, {unmoved, unmoved}) - obstacle.radius_m - 1e-6);
+    }
+    needed_m_.push_back(needed_m);
   }
+  marks_.clear();
+  for (const Mark& mark : *query.marks)
+    marks_.push_back(mark.at + centers_[mark.obstacle] - (*query.obstacles)[mark.obstacle].center);
 }
 
-// Start, samples by their progress, goal.
+// Start, points in between by their progress, goal.
 void Roadmap::draw(const RoadmapQuery& query, const ClassTuning& tuning, toolkit::Stream& random) {
-  const double distance_m = toolkit::distance(query.start, query.goal);
-  const Vec2 along = (query.goal - query.start) / distance_m;
-  const double beyond_m = 0.5 * (tuning.roadmap_graph_area_length_scale - 1.0) * distance_m;
+  const double beyond_m = 0.5 * (tuning.roadmap_graph_area_length_scale - 1.0) * distance_m_;
   vertices_.clear();
   vertices_.push_back({query.start, 0.0});
   for (std::size_t i = 0; i < tuning.roadmap_graph_no_samples; ++i) {
-    const double ahead_m = random.uniform(-beyond_m, distance_m + beyond_m);
-    const double aside_m = tuning.roadmap_graph_area_width * (random.uniform() - 0.5);
-    const Vec2 at = query.start + ahead_m * along + aside_m * toolkit::perpendicular(along);
-    if (is_clear(at, at, query)) vertices_.push_back({at, ahead_m});
+    const double ahead_m = random.uniform(-beyond_m, distance_m_ + beyond_m);
+    add_vertex(query, ahead_m, tuning.roadmap_graph_area_width * (random.uniform() - 0.5));
   }
+  add_key_points(query);
   std::sort(vertices_.begin() + 1, vertices_.end(), [](const Vertex& a, const Vertex& b) {
     return a.progress_m < b.progress_m || (a.progress_m == b.progress_m && a.at.x < b.at.x);
   });
-  vertices_.push_back({query.goal, distance_m});
+  vertices_.push_back({query.goal, distance_m_});
+}
+
+void Roadmap::add_key_points(const RoadmapQuery& query) {
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < centers_.size() && found < key_obstacles; ++k) {
+    const Obstacle& obstacle = (*query.obstacles)[k];
+    const Vec2 to_center = centers_[k] - query.start;
+    const double aside_m = toolkit::cross(along_, to_center);
+    const double ahead_m = toolkit::dot(along_, to_center);
+    const double beside_m = query.clearance_m + obstacle.radius_m;
+    if (std::abs(aside_m) > beside_m + obstacle.reach_m || ahead_m < 0.0 || ahead_m > distance_m_) continue;
+    // how far it reaches to the left and to the right of its centre
+    double left_m = 0.0;
+    double right_m = 0.0;
+    for (std::uint32_t i = 0; i < obstacle.vertex_count; ++i) {
+      const double reach_m = toolkit::cross(along_, obstacle.vertices[i] - obstacle.center);
+      left_m = std::max(left_m, reach_m);
+      right_m = std::max(right_m, -reach_m);
+    }
+    if (aside_m - right_m > beside_m || aside_m + left_m < -beside_m) continue;
+    ++found;
+    add_vertex(query, ahead_m, aside_m + left_m + beside_m + key_point_offset_m);
+    add_vertex(query, ahead_m, aside_m - right_m - beside_m - key_point_offset_m);
+  }
+}
+
+void Roadmap::add_vertex(const RoadmapQuery& query, double ahead_m, double aside_m) {
+  const Vec2 at = query.start + ahead_m * along_ + aside_m * toolkit::perpendicular(along_);
+  if (is_clear(at, at, query)) vertices_.push_back({at, ahead_m});
 }
 
 // Continues every way to `from` by the leg to `to`.
@@ -83,7 +138,7 @@ void Roadmap::connect(std::uint32_t from, std::uint32_t to, const RoadmapQuery& 
   const Vec2 a = vertices_[from].at;
   const Vec2 b = vertices_[to].at;
   if (!is_clear(a, b, query)) return;
-  const Signature step = step_signature(a, b, places_);
+  const Signature step = step_signature(a, b, marks_);
   const double length_m = toolkit::distance(a, b);
   for (std::uint32_t i = 0; i < vertices_[from].ways; ++i) {
     const std::uint32_t previous = from * ways_each_ + i;
@@ -116,17 +171,13 @@ void Roadmap::keep(std::uint32_t vertex, const Way& way) {
 
 bool Roadmap::is_clear(Vec2 from, Vec2 to, const RoadmapQuery& query) const {
   const Segment leg = {from, to};
-  for (std::size_t k = 0; k < places_.size(); ++k) {
+  for (std::size_t k = 0; k < centers_.size(); ++k) {
     const Obstacle& obstacle = (*query.obstacles)[k];
-    const double needed_m = query.clearance_m + obstacle.radius_m;
+    const double needed_m = needed_m_[k] + obstacle.radius_m;
     const double all_m = needed_m + obstacle.reach_m;
-    const double to_center_squared = toolkit::squared_distance(leg, places_[k]);
-    if (to_center_squared > all_m * all_m) continue;
-    if (obstacle.vertex_count == 1) return false;
-    const double distance_m = obstacle.vertex_count == 2
-                                  ? toolkit::distance(leg, Segment{obstacle.vertices[0], obstacle.vertices[1]})
-                                  : toolkit::distance(toolkit::PolygonView(obstacle.vertices, obstacle.vertex_count), leg);
-    if (distance_m < needed_m) return false;
+    if (toolkit::squared_distance(leg, centers_[k]) > all_m * all_m) continue;
+    const Vec2 moved = centers_[k] - obstacle.center;
+    if (distance_to(obstacle, {from - moved, to - moved}) < needed_m) return false;
   }
   return true;
 }

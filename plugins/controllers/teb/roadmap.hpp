@@ -4,7 +4,8 @@
 // As teb_local_planner's probabilistic roadmap: points drawn from the area between start and goal, joined where the leg
 // leads toward the goal and is clear. Upstream searches it depth first; here the points are passed in the order of
 // their progress, and each keeps the shortest way of every class to it: the same classes, by their shortest ways, in
-// bounded time.
+// bounded time. Beside what is drawn, there are points left and right of what stands on the straight way, as in
+// upstream's simpler exploration: gaps a little wider than the robot are hit by chance too seldom.
 #ifndef DMRP_CONTROLLERS_TEB_ROADMAP_HPP
 #define DMRP_CONTROLLERS_TEB_ROADMAP_HPP
 
@@ -21,8 +22,9 @@ struct RoadmapQuery {
   Vec2 start = {0.0, 0.0};
   Vec2 goal = {0.0, 0.0};
   double v_max = 1.0;                                // m/s, for where what moves is met
-  double clearance_m = 0.0;                          // that legs keep from obstacles, from centre line to outline
+  double clearance_m = 0.0;                          // that legs keep from obstacles' outlines
   const std::vector<Obstacle>* obstacles = nullptr;  // some may move
+  const std::vector<Mark>* marks = nullptr;          // theirs
 };
 
 class Roadmap {
@@ -43,8 +45,8 @@ class Roadmap {
 
   struct Vertex {
     Vec2 at;
-    double progress_m;        // along the line from start to goal
-    std::uint32_t ways = 0;   // kept at this vertex, from vertex index * ways_each_ on
+    double progress_m;       // along the line from start to goal
+    std::uint32_t ways = 0;  // kept at this vertex, from vertex index * ways_each_ on
   };
   struct Way {
     Signature signature = 0;
@@ -55,12 +57,18 @@ class Roadmap {
 
   void place_obstacles(const RoadmapQuery& query);
   void draw(const RoadmapQuery& query, const ClassTuning& tuning, toolkit::Stream& random);
+  void add_key_points(const RoadmapQuery& query);
+  void add_vertex(const RoadmapQuery& query, double ahead_m, double aside_m);
   void connect(std::uint32_t from, std::uint32_t to, const RoadmapQuery& query);
   void keep(std::uint32_t vertex, const Way& way);
   bool is_clear(Vec2 from, Vec2 to, const RoadmapQuery& query) const;
 
   std::uint32_t ways_each_ = 0;
-  std::vector<Vec2> places_;  // of the obstacles' centres, where they are met
+  double distance_m_ = 0.0;       // from start to goal ...
+  Vec2 along_ = {1.0, 0.0};       // ... and the direction
+  std::vector<Vec2> centers_;     // of the obstacles, where they are met
+  std::vector<Vec2> marks_;       // likewise
+  std::vector<double> needed_m_;  // that legs keep from the outlines; less where the start or the goal is nearer
   std::vector<Vertex> vertices_;
   std::vector<Way> table_;
   std::vector<std::uint32_t> ways_;  // at the goal

@@ -23,6 +23,9 @@ constexpr double standing_rad_s = 0.05;
 // As near as this to where the way ends before somebody, the robot waits.
 constexpr double wait_within_m = 0.1;
 
+// How far before them the way ends.
+constexpr double stand_back_m = 0.3;
+
 // Turning in place while no band is feasible: toward the path so far ahead, from the first angle to the second.
 constexpr double face_ahead_m = 0.8;
 constexpr double turn_begin_rad = 0.5;
@@ -112,17 +115,16 @@ void Teb::watch_for_oscillation(const Observation& now) {
 
 Status Teb::drive(const Observation& now, const CostmapView& map, Command& command) {
   FootprintCheck footprint(map, now.footprint, padding_m, now.pose);
-  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
-  path_.retreat(footprint);
+  const bool is_cut = look_along_path(now, map, footprint);
   obstacles_.gather(now, clusters_->clusters(clusters_));
   // as near as it gets to somebody who stands where the robot has to stop
   const Vec2 goal = toolkit::position(path_.goal());
-  if (!path_.ends_at_stop() && toolkit::distance(toolkit::position(now.pose), goal) < wait_within_m) {
+  if (is_cut && toolkit::distance(toolkit::position(now.pose), goal) < wait_within_m) {
     planner_.clear();
     return wait(now, footprint, command);
   }
 
-  planner_.plan(task(now));
+  planner_.plan(task(now, is_cut));
   while (planner_.best() && !is_feasible(*planner_.best(), now, footprint)) planner_.drop_best();
   if (planner_.best()) {
     command = teb::first_command(*planner_.best(), static_cast<std::size_t>(*control_look_ahead_poses), now);
@@ -139,7 +141,18 @@ Status Teb::drive(const Observation& now, const CostmapView& map, Command& comma
   return wait(now, footprint, command);
 }
 
-teb::Task Teb::task(const Observation& now) {
+// True where somebody stands where the way would end: it ends before them then, with room to turn and go round.
+bool Teb::look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
+  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
+  const std::size_t whole = path_.points().size();
+  path_.retreat(footprint);
+  const std::size_t free = path_.points().size();
+  if (free == whole) return false;
+  path_.look(tracker_, now, map, std::max(0.0, PathAhead::spacing_m * static_cast<double>(free - 1) - stand_back_m));
+  return true;
+}
+
+teb::Task Teb::task(const Observation& now, bool is_cut) {
   via_points_.clear();
   const std::vector<Vec2>& points = path_.points();
   if (global_plan_viapoint_sep > 0.0) {
@@ -155,8 +168,9 @@ teb::Task Teb::task(const Observation& now) {
   if (path_.has_heading() && points.size() > 1)
     task.goal.theta = toolkit::bearing(points[points.size() - 2], points.back());
   task.path = &points;
-  task.scene = {&now.limits,  &now.footprint,       &obstacles_.all(), &via_points_,
-                now.velocity, path_.ends_at_stop(), preferred_turn_};
+  task.scene = {&now.limits,    &now.footprint, &obstacles_.all(),
+                &via_points_,   now.velocity,   is_cut || path_.ends_at_stop(),
+                preferred_turn_};
   return task;
 }
 

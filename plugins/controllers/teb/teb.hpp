@@ -30,7 +30,8 @@ class Teb final : public teb::ParameterTable {
   double look_ahead_m(std::int64_t t_ns) const;
   void watch_for_oscillation(const Observation& now);
   Status drive(const Observation& now, const CostmapView& map, Command& command);
-  teb::Task task(const Observation& now);
+  bool look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  teb::Task task(const Observation& now, bool is_cut);
   Status wait(const Observation& now, FootprintCheck& footprint, Command& command);
   bool is_feasible(const teb::TimedElasticBand& band, const Observation& now, FootprintCheck& footprint) const;
   bool is_free(const Pose& pose, double ahead_s, const Observation& now, FootprintCheck& footprint) const;

@@ -289,6 +289,12 @@ TEST_CASE("mistakes in a scenario of a map of map_server") {
         "attic/scenario.toml:5:1: a map of map_server has an 'origin' of its own");
   CHECK(mistake("[[robot]]\nstart = [-0.75, 2.25]\ngoal = [-0.25, 2.25, 1.57]", "[robots]\nscen = \"attic.scen\"") ==
         "attic/scenario.toml:10:8: 'scen' needs a [map] of MovingAI that its tasks are for");
+  std::string board = "P5 1000 502 255\n";
+  for (int row = 0; row < 502; ++row)
+    for (int column = 0; column < 1000; ++column) board += (row + column) % 2 == 0 ? '\0' : '\xfe';
+  write_file("attic/attic.pgm", board);
+  CHECK(mistake("[-0.75", "[-0.70") ==
+        "attic/scenario.toml:7:8: the map is too rough: its blocked cells make 251000 boxes, at most 250000");
 }
 
 TEST_CASE("mistakes in a map's YAML file") {
