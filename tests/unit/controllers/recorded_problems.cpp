@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "recorded_problems.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
