@@ -126,8 +126,9 @@ class DistanceTransform {
     for (std::size_t k = 0; k < count; ++k) {
       for (std::int64_t column = begins_[k]; column < begins_[k + 1]; ++column) {
         const std::int64_t squared = square(column - apexes_[k]) + heights_[k];
-        distances[column] =
-            squared < static_cast<std::int64_t>(tabled_m_.size()) ? tabled_m_[squared] : metres(squared);
+        distances[column] = squared < static_cast<std::int64_t>(tabled_m_.size())
+                                ? tabled_m_[static_cast<std::size_t>(squared)]
+                                : metres(squared);
       }
     }
   }
