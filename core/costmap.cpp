@@ -14,6 +14,12 @@ namespace {
 // Hits are marked this far behind the surface: else a wall along the lattice would flicker between two rows of cells.
 constexpr double behind_surface_m = 1e-4;
 
+// Lines end this far inside the window, in cells, so that rounding leads none out of it.
+constexpr double hair = 1e-9;
+
+// Of a cell's position along a line: fine enough for that on the longest one, with room for the largest window.
+constexpr int fraction_bits = 44;
+
 // Rows of the stamp are a multiple of this, for the compiler's vectors.
 constexpr std::int64_t vector_bytes = 16;
 
@@ -36,19 +42,40 @@ void raise(std::uint8_t* costs, const std::uint8_t* others) {
   std::memcpy(costs, mine.data(), vector_bytes);
 }
 
-// Where a line from inside the square [0, side]^2 leaves it.
-dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double side) {
-  const auto fraction = [side](double start, double end) {
-    if (end < 0.0) return start / (start - end);
-    return end > side ? (side - start) / (end - start) : 1.0;
+// How many drop-outs in a row are too many to be believed.
+std::uint8_t credible_dropouts(double share) {
+  std::uint8_t count = 1;
+  for (double chance = share; chance > 1e-6 && count < 255; chance *= share) ++count;
+  return count;
+}
+
+// The first cell from `cell` on that is not 0; `end` if there is none.
+const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* end) {
+  std::uint64_t cells = 0;
+  while (end - cell >= std::ptrdiff_t{sizeof(cells)}) {
+    std::memcpy(&cells, cell, sizeof(cells));
+    if (cells != 0) break;
+    cell += sizeof(cells);
+  }
+  while (cell < end && *cell == 0) ++cell;
+  return cell;
+}
+
+// Where a line from inside the square [least, most]^2 leaves it.
+dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most) {
+  const auto fraction = [least, most](double start, double end) {
+    if (end < least) return (start - least) / (start - end);
+    return end > most ? (most - start) / (end - start) : 1.0;
   };
   return toolkit::lerp(from, to, std::min(fraction(from.x, to.x), fraction(from.y, to.y)));
 }
 
 }  // namespace
 
-LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m)
-    : settings_(settings), side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))) {
+LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m, double dropout_share)
+    : settings_(settings),
+      side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))),
+      full_trust_(credible_dropouts(dropout_share)) {
   const auto cells = static_cast<std::size_t>(side_ * side_);
   lethal_.resize(cells);
   rolled_.resize(cells);
@@ -96,7 +123,14 @@ void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
   // in cells from the window's lower left corner
   const dmrp_vec2 corner = {static_cast<double>(column_), static_cast<double>(row_)};
   const dmrp_vec2 origin = toolkit::position(sensor) / settings_.resolution_m - corner;
+  if (full_trust_ > 1) {
+    // before anything is cleared: what stands in the way of the hidden must be there
+    for (std::uint32_t beam = 0; beam < scan.count; ++beam)
+      if (std::isinf(scan.ranges[beam]))
+        doubt_along(origin, origin + settings_.raytrace_range_m * cells_per_metre_[beam]);
+  }
   for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
+    if (full_trust_ > 1 && std::isinf(scan.ranges[beam])) continue;
     const double range_m = std::min(static_cast<double>(scan.ranges[beam]), settings_.raytrace_range_m);
     clear_along(origin, origin + range_m * cells_per_metre_[beam]);
   }
@@ -151,8 +185,7 @@ void LocalCostmap::roll_to(dmrp_vec2 center) {
 
 // One cell for every column (or row, where it is steeper) that the line crosses.
 void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
-  // a hair inside, so that the end has a cell
-  to = clip_to_square(from, to, static_cast<double>(side_) - 1e-9);
+  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
   const dmrp_vec2 way = to - from;
   const bool by_columns = std::abs(way.x) >= std::abs(way.y);
   const double start = by_columns ? from.x : from.y;
@@ -169,17 +202,39 @@ void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
   const auto clear_at = [&](std::int64_t major, double at) {
     cells[major * stride + static_cast<std::int64_t>(aside + slope * (at - start)) * cross_stride] = 0;
   };
+  // from middle to middle in whole numbers; the ends apart
+  const double unit = static_cast<double>(std::int64_t{1} << fraction_bits);
+  const auto step = static_cast<std::int64_t>(slope * unit);
+  auto minor = static_cast<std::int64_t>((aside + slope * (static_cast<double>(first) + 1.5 - start)) * unit);
   clear_at(first, low);
-  for (std::int64_t major = first; major <= last; ++major)
-    clear_at(major, std::clamp(static_cast<double>(major) + 0.5, low, high));
+  clear_at(first, std::clamp(static_cast<double>(first) + 0.5, low, high));
+  for (std::int64_t major = first + 1; major < last; ++major, minor += step)
+    cells[major * stride + (minor >> fraction_bits) * cross_stride] = 0;
+  clear_at(last, std::clamp(static_cast<double>(last) + 0.5, low, high));
   clear_at(last, high);
+}
+
+// The nearest lethal cell on the way loses a little trust; what is behind it may be hidden.
+void LocalCostmap::doubt_along(dmrp_vec2 from, dmrp_vec2 to) {
+  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
+  const dmrp_vec2 way = to - from;
+  const double steps = std::floor(std::max(std::abs(way.x), std::abs(way.y)));
+  const dmrp_vec2 stride = way / std::max(std::max(std::abs(way.x), std::abs(way.y)), 1.0);
+  for (double i = 0.0; i <= steps; ++i) {
+    const dmrp_vec2 at = from + i * stride;
+    std::uint8_t& cell =
+        lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(at.y) * side_ + static_cast<std::int64_t>(at.x))];
+    if (cell == 0) continue;
+    --cell;
+    return;
+  }
 }
 
 void LocalCostmap::mark(dmrp_vec2 point) {
   const double side = static_cast<double>(side_);
   if (!(point.x >= 0.0 && point.x < side && point.y >= 0.0 && point.y < side)) return;
   lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(point.y) * side_ + static_cast<std::int64_t>(point.x))] =
-      1;
+      full_trust_;
 }
 
 // Costs fall with distance, so the largest of all lethal cells' costs is that of the nearest: exact.
@@ -190,9 +245,7 @@ void LocalCostmap::inflate() {
   const std::int64_t stamp_rows = 2 * stamp_reach_ + 1;
   const std::uint8_t* const begin = lethal_.data();
   const std::uint8_t* const end = begin + lethal_.size();
-  for (const std::uint8_t* cell = begin; cell < end; ++cell) {
-    cell = static_cast<const std::uint8_t*>(std::memchr(cell, 1, static_cast<std::size_t>(end - cell)));
-    if (cell == nullptr) break;
+  for (const std::uint8_t* cell = next_lethal(begin, end); cell < end; cell = next_lethal(cell + 1, end)) {
     // the canvas begins stamp_reach_ cells before the window on either axis
     std::uint8_t* target = canvas_.data() + (cell - begin) / side_ * canvas_stride + (cell - begin) % side_;
     const std::uint8_t* source = stamp_.data();
