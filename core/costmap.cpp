@@ -36,6 +36,25 @@ void raise(std::uint8_t* costs, const std::uint8_t* others) {
   std::memcpy(costs, mine.data(), vector_bytes);
 }
 
+// How many drop-outs in a row are too many to be believed.
+std::uint8_t credible_dropouts(double share) {
+  std::uint8_t count = 1;
+  for (double chance = share; chance > 1e-6 && count < 255; chance *= share) ++count;
+  return count;
+}
+
+// The first cell from `cell` on that is not 0; `end` if there is none.
+const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* end) {
+  std::uint64_t cells = 0;
+  while (end - cell >= std::ptrdiff_t{sizeof(cells)}) {
+    std::memcpy(&cells, cell, sizeof(cells));
+    if (cells != 0) break;
+    cell += sizeof(cells);
+  }
+  while (cell < end && *cell == 0) ++cell;
+  return cell;
+}
+
 // Where a line from inside the square [0, side]^2 leaves it.
 dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double side) {
   const auto fraction = [side](double start, double end) {
@@ -47,8 +66,10 @@ dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double side) {
 
 }  // namespace
 
-LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m)
-    : settings_(settings), side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))) {
+LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m, double dropout_share)
+    : settings_(settings),
+      side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))),
+      full_trust_(credible_dropouts(dropout_share)) {
   const auto cells = static_cast<std::size_t>(side_ * side_);
   lethal_.resize(cells);
   rolled_.resize(cells);
@@ -96,7 +117,14 @@ void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
   // in cells from the window's lower left corner
   const dmrp_vec2 corner = {static_cast<double>(column_), static_cast<double>(row_)};
   const dmrp_vec2 origin = toolkit::position(sensor) / settings_.resolution_m - corner;
+  if (full_trust_ > 1) {
+    // before anything is cleared: what stands in the way of the hidden must be there
+    for (std::uint32_t beam = 0; beam < scan.count; ++beam)
+      if (std::isinf(scan.ranges[beam]))
+        doubt_along(origin, origin + settings_.raytrace_range_m * cells_per_metre_[beam]);
+  }
   for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
+    if (full_trust_ > 1 && std::isinf(scan.ranges[beam])) continue;
     const double range_m = std::min(static_cast<double>(scan.ranges[beam]), settings_.raytrace_range_m);
     clear_along(origin, origin + range_m * cells_per_metre_[beam]);
   }
@@ -175,11 +203,28 @@ void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
   clear_at(last, high);
 }
 
+// The nearest lethal cell on the way loses a little trust; what is behind it may be hidden.
+void LocalCostmap::doubt_along(dmrp_vec2 from, dmrp_vec2 to) {
+  const double side = static_cast<double>(side_) - 1e-9;
+  to = clip_to_square(from, to, side);
+  const dmrp_vec2 way = to - from;
+  const double steps = std::floor(std::max(std::abs(way.x), std::abs(way.y)));
+  const dmrp_vec2 stride = way / std::max(std::max(std::abs(way.x), std::abs(way.y)), 1.0);
+  for (double i = 0.0; i <= steps; ++i) {
+    const dmrp_vec2 at = from + i * stride;
+    std::uint8_t& cell =
+        lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(at.y) * side_ + static_cast<std::int64_t>(at.x))];
+    if (cell == 0) continue;
+    --cell;
+    return;
+  }
+}
+
 void LocalCostmap::mark(dmrp_vec2 point) {
   const double side = static_cast<double>(side_);
   if (!(point.x >= 0.0 && point.x < side && point.y >= 0.0 && point.y < side)) return;
   lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(point.y) * side_ + static_cast<std::int64_t>(point.x))] =
-      1;
+      full_trust_;
 }
 
 // Costs fall with distance, so the largest of all lethal cells' costs is that of the nearest: exact.
@@ -190,9 +235,7 @@ void LocalCostmap::inflate() {
   const std::int64_t stamp_rows = 2 * stamp_reach_ + 1;
   const std::uint8_t* const begin = lethal_.data();
   const std::uint8_t* const end = begin + lethal_.size();
-  for (const std::uint8_t* cell = begin; cell < end; ++cell) {
-    cell = static_cast<const std::uint8_t*>(std::memchr(cell, 1, static_cast<std::size_t>(end - cell)));
-    if (cell == nullptr) break;
+  for (const std::uint8_t* cell = next_lethal(begin, end); cell < end; cell = next_lethal(cell + 1, end)) {
     // the canvas begins stamp_reach_ cells before the window on either axis
     std::uint8_t* target = canvas_.data() + (cell - begin) / side_ * canvas_stride + (cell - begin) % side_;
     const std::uint8_t* source = stamp_.data();

@@ -17,9 +17,15 @@ namespace dmrp::core {
 // Semantics of ROS costmap_2d: a scan first clears the cells along its beams, then marks the cells of its hits; what it
 // does not see stays as it was while the window rolls on. Cells lie on the world's lattice (multiples of the resolution
 // from the world's zero), so that rolling moves whole cells.
+//
+// A beam without return clears up to the raytrace range, as with costmap_2d's inf_is_valid: else who walks on before
+// an open hall would leave a trail. Of a lidar that drops beams out it says less: only the nearest lethal cell on its way
+// is in doubt, and is cleared by as many such beams, with no hit in between, as drop out in a row in less than one of a
+// million cases.
 class LocalCostmap {
  public:
-  LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m);
+  // `dropout_share` is that of the lidar.
+  LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m, double dropout_share = 0.0);
 
   // Its structs point into it.
   LocalCostmap(const LocalCostmap&) = delete;
@@ -42,6 +48,7 @@ class LocalCostmap {
   void roll_to(dmrp_vec2 center);
   void aim_beams(const dmrp_pose& sensor, const dmrp_scan& scan);
   void clear_along(dmrp_vec2 from, dmrp_vec2 to);
+  void doubt_along(dmrp_vec2 from, dmrp_vec2 to);
   void mark(dmrp_vec2 point);
   void inflate();
 
@@ -50,7 +57,8 @@ class LocalCostmap {
   std::int64_t column_ = 0;  // lattice position of the lower left cell
   std::int64_t row_ = 0;
   bool is_placed_ = false;
-  std::vector<std::uint8_t> lethal_;
+  std::uint8_t full_trust_;           // beams without return that it takes to clear a cell that was just hit
+  std::vector<std::uint8_t> lethal_;  // as many as it still takes; 0: free
   std::vector<std::uint8_t> rolled_;
 
   // Of the beams: in the sensor's frame, for scans of this make; and of this scan, in cells a metre.

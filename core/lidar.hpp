@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lidar.hpp: a planar range scan without noise.
+// lidar.hpp: a planar range scan; sensor_noise.hpp makes it less than exact.
 #pragma once
 
 #include <dmrp/ext/lidar.h>

@@ -17,6 +17,8 @@ struct LidarSettings {
   double field_of_view_rad = 2.0 * std::numbers::pi;  // centred on the robot's heading
   double range_min_m = 0.0;                           // from the sensor; nearer hits read as this
   double range_max_m = 10.0;
+  double noise_sd_m = 0.0;     // of ranges
+  double dropout_share = 0.0;  // of beams that read as if they hit nothing
 };
 
 struct CostmapSettings {
@@ -63,6 +65,7 @@ struct SimulationSettings {
   double planning_margin_m = 0.10;  // a cell is free when the clearance at its centre is radius + this
   Tracking tracking = Tracking::visible;
   double tracking_range_m = 10.0;
+  double tracking_velocity_noise_sd = 0.0;  // m/s, of either component
   GoalSettings goal;
   Dispatch dispatch = Dispatch::full_path;
   Execution execution = Execution::free;

@@ -43,18 +43,19 @@ void write_simulation(std::string& out, const Experiment& experiment) {
   const core::SimulationSettings& s = experiment.simulation;
   static constexpr const char* const tracking[] = {"none", "visible", "all"};
   out += "\n[simulation]\n";
-  out += fmt::format("step_s               = {}\n", seconds(s.step_ns));
-  out += fmt::format("control_period_s     = {}\n", seconds(s.control_period_ns));
-  if (experiment.time_limit_set) out += fmt::format("time_limit_s         = {}\n", seconds(s.time_limit_ns));
-  out += fmt::format("grid_resolution_m    = {}\n", toml_text(s.grid_resolution_m));
-  out += fmt::format("step_duration_s      = {}\n", seconds(s.step_duration_ns));
-  out += fmt::format("planning_margin_m    = {}\n", toml_text(s.planning_margin_m));
-  out += fmt::format("tracking             = \"{}\"\n", tracking[static_cast<int>(s.tracking)]);
-  out += fmt::format("tracking_range_m     = {}\n", toml_text(s.tracking_range_m));
-  out += fmt::format("goal_tolerance_m     = {}\n", toml_text(s.goal.tolerance_m));
-  out += fmt::format("goal_tolerance_rad   = {}\n", toml_text(s.goal.tolerance_rad));
-  out += fmt::format("goal_tolerance_speed = {}\n", toml_text(s.goal.tolerance_speed));
-  out += fmt::format("goal_settle_s        = {}\n", toml_text(s.goal.settle_s));
+  out += fmt::format("step_s                     = {}\n", seconds(s.step_ns));
+  out += fmt::format("control_period_s           = {}\n", seconds(s.control_period_ns));
+  if (experiment.time_limit_set) out += fmt::format("time_limit_s               = {}\n", seconds(s.time_limit_ns));
+  out += fmt::format("grid_resolution_m          = {}\n", toml_text(s.grid_resolution_m));
+  out += fmt::format("step_duration_s            = {}\n", seconds(s.step_duration_ns));
+  out += fmt::format("planning_margin_m          = {}\n", toml_text(s.planning_margin_m));
+  out += fmt::format("tracking                   = \"{}\"\n", tracking[static_cast<int>(s.tracking)]);
+  out += fmt::format("tracking_range_m           = {}\n", toml_text(s.tracking_range_m));
+  out += fmt::format("tracking_velocity_noise_sd = {}\n", toml_text(s.tracking_velocity_noise_sd));
+  out += fmt::format("goal_tolerance_m           = {}\n", toml_text(s.goal.tolerance_m));
+  out += fmt::format("goal_tolerance_rad         = {}\n", toml_text(s.goal.tolerance_rad));
+  out += fmt::format("goal_tolerance_speed       = {}\n", toml_text(s.goal.tolerance_speed));
+  out += fmt::format("goal_settle_s              = {}\n", toml_text(s.goal.settle_s));
 }
 
 void write_robot(std::string& out, const core::RobotSettings& r) {
@@ -63,9 +64,11 @@ void write_robot(std::string& out, const core::RobotSettings& r) {
   out += fmt::format("v_min     = {}\nv_max     = {}\nomega_max = {}\na_max     = {}\nalpha_max = {}\n",
                      toml_text(r.v_min), toml_text(r.v_max), toml_text(r.omega_max), toml_text(r.a_max),
                      toml_text(r.alpha_max));
-  out += fmt::format("lidar     = {{ beams = {}, field_of_view_rad = {}, range_min_m = {}, range_max_m = {} }}\n",
-                     r.lidar.beams, toml_text(r.lidar.field_of_view_rad), toml_text(r.lidar.range_min_m),
-                     toml_text(r.lidar.range_max_m));
+  out += fmt::format(
+      "lidar     = {{ beams = {}, field_of_view_rad = {}, range_min_m = {}, range_max_m = {}, noise_sd_m = {}, "
+      "dropout_share = {} }}\n",
+      r.lidar.beams, toml_text(r.lidar.field_of_view_rad), toml_text(r.lidar.range_min_m),
+      toml_text(r.lidar.range_max_m), toml_text(r.lidar.noise_sd_m), toml_text(r.lidar.dropout_share));
   const core::CostmapSettings& c = r.costmap;
   out += fmt::format(
       "costmap   = {{ resolution_m = {}, window_m = {}, obstacle_range_m = {}, raytrace_range_m = {}, "
@@ -93,7 +96,8 @@ std::string effective_toml(const Experiment& experiment) {
   write_simulation(out, experiment);
   write_robot(out, experiment.robot);
   static constexpr const char* const traces[] = {"all", "failed", "none"};
-  out += fmt::format("\n[record]\ntraces = \"{}\"\n", traces[static_cast<int>(experiment.traces)]);
+  out += fmt::format("\n[record]\ntraces      = \"{}\"\nannotations = {}\n",
+                     traces[static_cast<int>(experiment.traces)], experiment.annotations);
   const RunLimits& l = experiment.limits;
   out += fmt::format(
       "\n[limits]\nplanner_time_s    = {}\nstep_time_s       = {}\ntrial_wall_time_s = {}\nmemory_mb         = {}\n",

@@ -64,6 +64,7 @@ struct Experiment {
   core::SimulationSettings simulation;
   core::RobotSettings robot;
   RecordTraces traces = RecordTraces::all;
+  bool annotations = false;  // traces keep what plugins say through dmrp.annotate/1
   RunLimits limits;
   std::vector<std::string> warnings;  // one line each
 };

@@ -15,7 +15,7 @@
 #include "host/experiment/read_settings.hpp"
 #include "host/experiment/toml_document.hpp"
 #include "host/input_error.hpp"
-#include "host/trial/robot_sensors.hpp"
+#include "host/trial/offered_extensions.hpp"
 
 namespace dmrp::host {
 
@@ -257,8 +257,7 @@ class Reader {
   }
 
   static void check_extensions(const TomlValue& use, const PluginInfo& info) {
-    static const std::vector<std::string> nothing;
-    const auto& offered = info.kind == DMRP_KIND_LOCAL_CONTROLLER ? offered_extensions() : nothing;
+    const std::vector<std::string> offered = offered_extensions(info.kind);
     for (const std::string& id : info.needs)
       if (std::find(offered.begin(), offered.end(), id) == offered.end())
         use.fail(fmt::format("{} needs the extension {}, which this host does not offer to a {} (offered: {})", info.id,

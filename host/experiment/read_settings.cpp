@@ -13,6 +13,7 @@ namespace {
 constexpr double longest_s = 1e6;
 constexpr double shortest_s = 1e-3;
 constexpr double farthest_m = 1e4;
+constexpr double most_dropouts = 0.9;          // with more a costmap could not tell them from free space
 constexpr double most_costmap_cells = 2000.0;  // along a side
 
 using Read = std::function<void(const TomlValue&)>;
@@ -78,6 +79,7 @@ void read_simulation(const TomlTable& root, Experiment& experiment) {
                {"planning_margin_m", number(to.planning_margin_m, 0.0, 10.0)},
                {"tracking", choice(to.tracking, {"none", "visible", "all"})},
                {"tracking_range_m", positive(to.tracking_range_m, farthest_m)},
+               {"tracking_velocity_noise_sd", number(to.tracking_velocity_noise_sd, 0.0, 10.0)},
                {"goal_tolerance_m", positive(to.goal.tolerance_m, farthest_m)},
                {"goal_tolerance_rad", positive(to.goal.tolerance_rad, std::numbers::pi)},
                {"goal_tolerance_speed", positive(to.goal.tolerance_speed, 100.0)},
@@ -95,7 +97,9 @@ void read_lidar(const TomlTable& robot, core::LidarSettings& to) {
   table->read({{"beams", [&](const TomlValue& v) { to.beams = static_cast<std::uint32_t>(v.integer(1, 100'000)); }},
                {"field_of_view_rad", number(to.field_of_view_rad, 0.01, 2.0 * std::numbers::pi)},
                {"range_min_m", number(to.range_min_m, 0.0, farthest_m)},
-               {"range_max_m", positive(to.range_max_m, farthest_m)}});
+               {"range_max_m", positive(to.range_max_m, farthest_m)},
+               {"noise_sd_m", number(to.noise_sd_m, 0.0, 10.0)},
+               {"dropout_share", number(to.dropout_share, 0.0, most_dropouts)}});
   if (to.range_min_m >= to.range_max_m)
     table->fail(fmt::format("'lidar' needs range_min_m < range_max_m, not {} and {}", to.range_min_m, to.range_max_m));
 }
@@ -132,7 +136,8 @@ void read_robot(const TomlTable& root, core::RobotSettings& to) {
 
 void read_record(const TomlTable& root, Experiment& experiment) {
   if (const auto table = root.find_table("record"))
-    table->read({{"traces", choice(experiment.traces, {"all", "failed", "none"})}});
+    table->read({{"traces", choice(experiment.traces, {"all", "failed", "none"})},
+                 {"annotations", [&](const TomlValue& value) { experiment.annotations = value.boolean(); }}});
 }
 
 void read_limits(const TomlTable& root, RunLimits& to) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <dmrp/toolkit/random.hpp>
 
 #include "core/robot_task.hpp"
@@ -22,39 +23,49 @@ std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32
 }  // namespace
 
 Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination,
-           const VariantWorld& variant, const core::World& world, std::uint64_t seed)
+           const VariantWorld& variant, const core::World& world, std::uint64_t seed, core::TraceEncoder& trace)
     : experiment_(experiment),
       variant_(variant),
       world_(world),
       planner_use_(experiment.global_planners[combination.global_planner]),
       planner_(&pool.get(planner_use_, -1)),
-      lidar_(experiment.robot.lidar, variant.geometry) {
+      lidar_(experiment.robot.lidar, variant.geometry),
+      annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
   const std::int64_t step_budget_ns = nanoseconds(experiment.limits.step_time_s);
   const dmrp_world& view = variant.view.world();
+  offer(*planner_, {DMRP_KIND_GLOBAL_PLANNER, 0}, nullptr);
   planner_->start(view, instance_seed(seed, "global_planner", 0), nanoseconds(experiment.limits.planner_time_s));
 
   const PluginUse& controller_use = experiment.local_controllers[combination.local_controller];
   drivers_.reserve(world.robots().size());  // controllers keep the address of their view
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
     Instance& controller = pool.get(controller_use, static_cast<std::int32_t>(i));
-    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world, i, lidar_),
+    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world, i, lidar_, seed),
                         variant.view.seen_by(static_cast<std::int32_t>(i)), controller.table<dmrp_local_controller>()});
     Driver& driver = drivers_.back();
-    // the instance outlives the trial
-    controller.offer([sensors = std::weak_ptr(driver.sensors)](const char* id) -> const void* {
-      const auto here = sensors.lock();
-      return here ? here->extension(id) : nullptr;
-    });
+    offer(controller, {DMRP_KIND_LOCAL_CONTROLLER, i}, driver.sensors);
     controller.start(driver.view, instance_seed(seed, "local_controller", i), step_budget_ns);
   }
 
   if (combination.pedestrian_model >= 0) {
     pedestrian_model_ =
         &pool.get(experiment.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
+    offer(*pedestrian_model_, {DMRP_KIND_PEDESTRIAN_MODEL, 0}, nullptr);
     pedestrian_model_->start(view, instance_seed(seed, "pedestrian_model", 0), step_budget_ns);
     pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
   }
   velocities_.resize(world.people().size());
+}
+
+// The instance outlives the trial.
+void Cast::offer(Instance& instance, core::TraceSource source, const std::shared_ptr<RobotSensors>& sensors) {
+  annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, source));
+  instance.offer([annotations = std::weak_ptr(annotations_.back()),
+                  sensors = std::weak_ptr(sensors)](const char* id) -> const void* {
+    if (const auto here = annotations.lock(); here && std::strcmp(id, DMRP_EXT_ANNOTATE) == 0) return here->extension();
+    const auto here = sensors.lock();
+    return here ? here->extension(id) : nullptr;
+  });
 }
 
 void Cast::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result) {

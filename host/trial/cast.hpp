@@ -14,6 +14,7 @@
 #include "core/lidar.hpp"
 #include "core/progress.hpp"
 #include "core/world.hpp"
+#include "host/trial/annotations.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
@@ -23,9 +24,10 @@ namespace dmrp::host {
 
 class Cast {
  public:
-  // Takes the combination's instances from the pool and starts them for this trial. Throws PluginFault.
+  // Takes the combination's instances from the pool and starts them for this trial; what they say goes to `trace`.
+  // Throws PluginFault.
   Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination, const VariantWorld& variant,
-       const core::World& world, std::uint64_t seed);
+       const core::World& world, std::uint64_t seed, core::TraceEncoder& trace);
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
@@ -50,6 +52,8 @@ class Cast {
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 
  private:
+  // Gives an instance the annotations besides the robot's sensors, if any.
+  void offer(Instance& instance, core::TraceSource source, const std::shared_ptr<RobotSensors>& sensors);
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
 
   const Experiment& experiment_;
@@ -65,6 +69,8 @@ class Cast {
     dmrp_local_controller table;
   };
   core::Lidar lidar_;
+  core::TraceEncoder* annotated_trace_;  // nullptr where no annotations are kept
+  std::vector<std::shared_ptr<Annotations>> annotations_;
   std::vector<Driver> drivers_;
   dmrp_pedestrian_model pedestrian_table_{};
   std::vector<dmrp_vec2> velocities_;

@@ -2,11 +2,12 @@
 #include "host/trial/robot_sensors.hpp"
 
 #include "core/sensing.hpp"
+#include "core/sensor_noise.hpp"
 
 namespace dmrp::host {
 
-RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar)
-    : world_(world), robot_(robot), lidar_(lidar), ranges_(lidar.beams()) {
+RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+    : world_(world), robot_(robot), lidar_(lidar), seed_(seed), ranges_(lidar.beams()) {
   lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {
                         return &static_cast<RobotSensors*>(self->context)->scan();
                       }};
@@ -29,7 +30,8 @@ const void* RobotSensors::extension(const std::string& id) {
   if (id == DMRP_EXT_DISTANCE_FIELD) of_costmap = &field_extension_;
   if (id == DMRP_EXT_OBSTACLE_CLUSTERS) of_costmap = &clusters_extension_;
   if (of_costmap && !costmap_) {
-    costmap_ = std::make_unique<core::LocalCostmap>(world_.robot_settings().costmap, world_.robot_settings().radius_m);
+    const core::RobotSettings& robot = world_.robot_settings();
+    costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m, robot.lidar.dropout_share);
     costmap_->update(world_.robots()[robot_].pose, scan());
   }
   return of_costmap;
@@ -45,6 +47,7 @@ void RobotSensors::tick() {
 const dmrp_scan& RobotSensors::scan() {
   if (!scan_is_fresh_) {
     core::scan_from(world_, robot_, lidar_, ranges_);
+    core::disturb_scan(world_.robot_settings().lidar, {seed_, robot_, world_.t_ns()}, ranges_);
     scan_ = lidar_.describe(world_.t_ns(), ranges_);
     scan_is_fresh_ = true;
   }
@@ -52,8 +55,11 @@ const dmrp_scan& RobotSensors::scan() {
 }
 
 const std::vector<dmrp_agent>& RobotSensors::agents() {
-  if (!agents_are_fresh_) core::visible_agents(world_, robot_, agents_);
-  agents_are_fresh_ = true;
+  if (!agents_are_fresh_) {
+    core::visible_agents(world_, robot_, agents_);
+    core::disturb_agents(world_.settings().tracking_velocity_noise_sd, {seed_, robot_, world_.t_ns()}, agents_);
+    agents_are_fresh_ = true;
+  }
   return agents_;
 }
 

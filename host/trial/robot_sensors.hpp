@@ -18,20 +18,13 @@
 
 namespace dmrp::host {
 
-// The ids of the extensions that this host offers to local controllers.
-inline const std::vector<std::string>& offered_extensions() {
-  static const std::vector<std::string> ids = {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD,
-                                               DMRP_EXT_OBSTACLE_CLUSTERS};
-  return ids;
-}
-
 // One robot's sensors in one trial. Nothing is computed that nobody asked for: scans when they are read, the costmap
 // on every scan from the moment it is subscribed to (it has a history), its distance field and the obstacles' clusters
 // when they are read.
 class RobotSensors {
  public:
-  // `world` and `lidar` outlive it; the lidar serves all robots.
-  RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar);
+  // `world` and `lidar` outlive it; the lidar serves all robots. `seed` is the trial's.
+  RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed);
   RobotSensors(const RobotSensors&) = delete;
   RobotSensors& operator=(const RobotSensors&) = delete;
 
@@ -52,6 +45,7 @@ class RobotSensors {
   const core::World& world_;
   std::uint32_t robot_;
   core::Lidar& lidar_;
+  std::uint64_t seed_;
   std::vector<float> ranges_;
   dmrp_scan scan_{};
   bool scan_is_fresh_ = false;

@@ -18,7 +18,7 @@ class Run {
       : settings_(trial.variant.simulation),
         world_(trial.variant.scenario, trial.experiment.robot, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
-        cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed),
+        cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
         paths_(world_.robots().size()),

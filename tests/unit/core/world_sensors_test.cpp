@@ -9,6 +9,7 @@
 #include "core/costmap.hpp"
 #include "core/lidar.hpp"
 #include "core/sensing.hpp"
+#include "core/sensor_noise.hpp"
 #include "core/world.hpp"
 #include "sample_scenarios.hpp"
 
@@ -152,6 +153,89 @@ TEST_CASE("robots scan and see others as the tracking allows") {
   CHECK(agents.empty());
 }
 
+TEST_CASE("ranges get normal noise within the lidar's range, and beams drop out") {
+  LidarSettings settings;
+  settings.beams = 20000;
+  settings.range_min_m = 0.5;
+  settings.noise_sd_m = 0.1;
+  const std::vector<float> exact(settings.beams, 4.0f);
+  std::vector<float> ranges = exact;
+  disturb_scan(settings, {3, 1, 700}, ranges);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float range : ranges) {
+    const double error = static_cast<double>(range) - 4.0;
+    sum += error;
+    squares += error * error;
+  }
+  CHECK(std::abs(sum / settings.beams) < 0.003);
+  CHECK(std::sqrt(squares / settings.beams) == Approx(0.1).margin(0.003));
+
+  // drop-outs change no other beam
+  const std::vector<float> noisy = ranges;
+  settings.dropout_share = 0.25;
+  ranges = exact;
+  disturb_scan(settings, {3, 1, 700}, ranges);
+  int dropped = 0;
+  int changed = 0;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (std::isinf(ranges[i])) {
+      ++dropped;
+    } else if (ranges[i] != noisy[i]) {
+      ++changed;
+    }
+  }
+  CHECK(dropped == Approx(5000).margin(250));
+  CHECK(changed == 0);
+
+  // another time, another robot: other noise
+  settings.dropout_share = 0.0;
+  for (const Reading& other : {Reading{3, 1, 701}, Reading{3, 2, 700}, Reading{4, 1, 700}}) {
+    ranges = exact;
+    disturb_scan(settings, other, ranges);
+    CHECK(ranges != noisy);
+  }
+
+  // hits stay hits, misses misses
+  ranges = {0.5f, 10.0f, nothing};
+  settings.noise_sd_m = 5.0;
+  disturb_scan(settings, {3, 1, 700}, ranges);
+  for (int i : {0, 1}) CHECK((ranges[i] >= 0.5f && ranges[i] <= 10.0f));
+  CHECK(ranges[2] == nothing);
+
+  ranges = exact;
+  disturb_scan(LidarSettings{}, {3, 1, 700}, ranges);
+  CHECK(ranges == exact);
+}
+
+TEST_CASE("an agent's velocity noise is its own, whoever else is seen") {
+  const auto agent = [](std::uint64_t id, std::uint32_t kind) {
+    dmrp_agent made{};
+    made.id = id;
+    made.kind = kind;
+    made.velocity = {1.0, -0.5};
+    return made;
+  };
+  std::vector<dmrp_agent> few = {agent(2, DMRP_AGENT_PERSON)};
+  std::vector<dmrp_agent> many = {agent(2, DMRP_AGENT_ROBOT), agent(1, DMRP_AGENT_PERSON), agent(2, DMRP_AGENT_PERSON)};
+  disturb_agents(0.1, {1, 0, 50}, few);
+  disturb_agents(0.1, {1, 0, 50}, many);
+  CHECK(few[0].velocity == many[2].velocity);
+  CHECK(few[0].velocity != dmrp_vec2{1.0, -0.5});
+  CHECK(many[0].velocity != many[2].velocity);
+  CHECK(many[1].velocity != many[2].velocity);
+
+  double squares = 0.0;
+  for (std::int64_t t = 0; t < 5000; ++t) {
+    std::vector<dmrp_agent> one = {agent(1, DMRP_AGENT_PERSON)};
+    disturb_agents(0.1, {1, 0, t}, one);
+    squares += toolkit::squared_distance(one[0].velocity, {1.0, -0.5});
+  }
+  CHECK(std::sqrt(squares / 10000.0) == Approx(0.1).margin(0.004));
+  disturb_agents(0.0, {1, 0, 50}, few);
+  CHECK(few[0].velocity == many[2].velocity);
+}
+
 namespace {
 
 // A costmap, driven by a lidar in a world.
@@ -162,15 +246,24 @@ struct Mapping {
   LocalCostmap map;
   std::vector<float> ranges;
 
-  explicit Mapping(const Scenario& world)
+  explicit Mapping(const Scenario& world, const LidarSettings& lidar_settings = {})
       : scenario(world),
-        lidar(std::make_unique<Lidar>(settings.lidar, geometry_of(world))),
-        map(settings.costmap, settings.radius_m),
-        ranges(lidar->beams()) {}
+        lidar(std::make_unique<Lidar>(lidar_settings, geometry_of(world))),
+        map(settings.costmap, settings.radius_m, lidar_settings.dropout_share),
+        ranges(lidar->beams()) {
+    settings.lidar = lidar_settings;
+  }
 
   void look_from(const dmrp_pose& sensor, const std::vector<Disc>& bodies = {}) {
     lidar->scan(sensor, bodies, ranges);
     map.update(sensor, lidar->describe(5, ranges));
+  }
+
+  // With noise, as at this time.
+  void look_dimly(const dmrp_pose& sensor, std::int64_t t_ns, const std::vector<Disc>& bodies = {}) {
+    lidar->scan(sensor, bodies, ranges);
+    disturb_scan(settings.lidar, {9, 0, t_ns}, ranges);
+    map.update(sensor, lidar->describe(t_ns, ranges));
   }
 
   // The cost of the cell at a point; -1 outside the window.
@@ -214,6 +307,59 @@ TEST_CASE("somebody who walks on leaves no trail, and what is out of sight is re
   mapping.look_from({10, 10, 0}, {{{11.0, 10}, 0.35}});
   CHECK(mapping.cost_at({10.68, 10.0}) == DMRP_COST_LETHAL);
   CHECK(mapping.cost_at({11.72, 10.0}) == DMRP_COST_LETHAL);
+}
+
+TEST_CASE("a lidar that looks ahead clears and marks what is ahead, the rest is remembered") {
+  LidarSettings forward;
+  forward.beams = 181;
+  forward.field_of_view_rad = pi;
+  Mapping mapping(empty_scenario(20, 20), forward);
+  mapping.look_from({10, 10, pi}, {{{8.5, 10}, 0.3}});
+  CHECK(mapping.cost_at({8.78, 10.0}) == DMRP_COST_LETHAL);
+  mapping.look_from({10, 10, 0}, {{{11.5, 10}, 0.3}});  // turned away: the one behind is gone, unseen
+  CHECK(mapping.cost_at({11.22, 10.0}) == DMRP_COST_LETHAL);
+  CHECK(mapping.cost_at({8.78, 10.0}) == DMRP_COST_LETHAL);
+  mapping.look_from({10, 10, pi}, {{{11.5, 10}, 0.3}});
+  CHECK(mapping.cost_at({8.78, 10.0}) == DMRP_COST_FREE);
+  CHECK(mapping.cost_at({11.22, 10.0}) == DMRP_COST_LETHAL);
+}
+
+TEST_CASE("beams without return clear, so that nobody leaves a trail before an open hall") {
+  Mapping mapping(empty_scenario(60, 60));
+  mapping.look_from({30, 30, 0}, {{{31.5, 30}, 0.3}});
+  CHECK(mapping.cost_at({31.22, 30.0}) == DMRP_COST_LETHAL);
+  mapping.look_from({30, 30, 0});
+  REQUIRE(std::isinf(mapping.ranges[180]));
+  CHECK(mapping.cost_at({31.22, 30.0}) == DMRP_COST_FREE);
+}
+
+TEST_CASE("drop-outs erase no obstacle, seen or hidden, and trails still vanish") {
+  LidarSettings patchy;
+  patchy.dropout_share = 0.2;
+  Scenario scenario = empty_scenario(60, 60);
+  scenario.shapes = {box("wall", {31.5, 20}, {31.7, 40})};
+  Mapping mapping(scenario, patchy);
+  mapping.look_dimly({30, 30, 0}, 0);
+  for (int i = 1; i < 20; ++i) mapping.look_dimly({30, 30, 0}, i);
+  const dmrp_costmap costs = mapping.map.costmap();
+  const std::vector<std::uint8_t> before(costs.costs, costs.costs + std::size_t{costs.width} * costs.height);
+  int lost = 0;
+  for (int i = 20; i < 520; ++i) {
+    mapping.look_dimly({30, 30, 0}, i);
+    for (std::size_t cell = 0; cell < before.size(); ++cell)
+      if (before[cell] == DMRP_COST_LETHAL && costs.costs[cell] != DMRP_COST_LETHAL) ++lost;
+  }
+  CHECK(lost == 0);
+
+  // somebody hides the one behind for long: only drop-outs pass
+  for (int i = 520; i < 525; ++i) mapping.look_dimly({30, 30, 0}, i, {{{28.0, 30}, 0.3}});
+  CHECK(mapping.cost_at({28.28, 30.0}) == DMRP_COST_LETHAL);
+  for (int i = 525; i < 1025; ++i) mapping.look_dimly({30, 30, 0}, i, {{{29.0, 30}, 0.35}});
+  CHECK(mapping.cost_at({28.28, 30.0}) == DMRP_COST_LETHAL);
+  // both are gone; nothing is there to be hit behind them
+  for (int i = 1025; i < 1075; ++i) mapping.look_dimly({30, 30, 0}, i);
+  CHECK(mapping.cost_at({29.32, 30.0}) == DMRP_COST_FREE);
+  CHECK(mapping.cost_at({28.28, 30.0}) == DMRP_COST_FREE);
 }
 
 TEST_CASE("the window rolls on the world's lattice and keeps what it holds") {

@@ -98,7 +98,8 @@ TEST_CASE("mistakes in an experiment file") {
        "experiment.toml:11:7: test.model is a pedestrian_model, not a global_planner"},
       {"\"test.controller\"", "\"test.psychic\"",
        "experiment.toml:15:7: test.psychic needs the extension org.example.telepathy/1, which this host does not "
-       "offer to a local_controller (offered: dmrp.lidar/1, dmrp.local_costmap/1, dmrp.distance_field/1)"},
+       "offer to a local_controller (offered: dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, "
+       "dmrp.distance_field/1, dmrp.obstacle_clusters/1)"},
       {"[[local_controller]]", "[[global_planner]]\nuse = \"test.planner\"\n[[local_controller]]",
        "experiment.toml:15:7: two of [[global_planner]] are called 'Planner': give one another 'label'"},
       {"[[local_controller]]",
@@ -193,6 +194,11 @@ TEST_CASE("mistakes in an experiment's settings") {
       {"[robot]\nv_max = -1", "20:9: 'v_max' must be positive, not -1"},
       {"[robot]\nlidar = { beams = 0 }", "20:19: 'beams' must be at least 1, not 0"},
       {"[robot]\nlidar = { range_min_m = 12 }", "20:9: 'lidar' needs range_min_m < range_max_m, not 12 and 10"},
+      {"[robot]\nlidar = { noise_sd_m = -1 }", "20:24: 'noise_sd_m' must be at least 0, not -1"},
+      {"[robot]\nlidar = { dropout_share = 1 }", "20:27: 'dropout_share' must be at most 0.9, not 1"},
+      {"[simulation]\ntracking_velocity_noise_sd = -0.1",
+       "20:30: 'tracking_velocity_noise_sd' must be at least 0, not -0.1"},
+      {"[record]\nannotations = 1", "20:15: 'annotations' must be true or false, not an integer"},
       {"[robot]\ncostmap = { window_m = 50, resolution_m = 0.01 }",
        "20:11: 'costmap' can have at most 2000 cells along a side: a window of 50 m at 0.01 m has 5000"},
       {"[record]\ntraces = \"some\"",

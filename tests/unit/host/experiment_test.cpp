@@ -48,6 +48,7 @@ step_duration_s = 1.7
 planning_margin_m = 0.05
 tracking = "all"
 tracking_range_m = 7.7
+tracking_velocity_noise_sd = 0.15
 goal_tolerance_m = 0.3
 goal_tolerance_rad = 0.4
 goal_tolerance_speed = 0.5
@@ -63,11 +64,12 @@ v_max = 1.1
 omega_max = 2
 a_max = 3
 alpha_max = 4
-lidar = { beams = 90, field_of_view_rad = 3.1, range_min_m = 0.1, range_max_m = 9 }
+lidar = { beams = 90, field_of_view_rad = 3.1, range_min_m = 0.1, range_max_m = 9, noise_sd_m = 0.02, dropout_share = 0.05 }
 costmap = { resolution_m = 0.1, window_m = 5, obstacle_range_m = 3, raytrace_range_m = 3.5, inflation_radius_m = 0.6, cost_scaling = 6 }
 
 [record]
 traces = "failed"
+annotations = true
 
 [limits]
 planner_time_s = 1.5
@@ -172,6 +174,7 @@ TEST_CASE("all settings arrive") {
   CHECK(e.simulation.planning_margin_m == 0.05);
   CHECK(e.simulation.tracking == dmrp::core::Tracking::all);
   CHECK(e.simulation.tracking_range_m == 7.7);
+  CHECK(e.simulation.tracking_velocity_noise_sd == 0.15);
   CHECK(e.simulation.goal.tolerance_m == 0.3);
   CHECK(e.simulation.goal.tolerance_rad == 0.4);
   CHECK(e.simulation.goal.tolerance_speed == 0.5);
@@ -186,6 +189,8 @@ TEST_CASE("all settings arrive") {
   CHECK(e.robot.lidar.field_of_view_rad == 3.1);
   CHECK(e.robot.lidar.range_min_m == 0.1);
   CHECK(e.robot.lidar.range_max_m == 9.0);
+  CHECK(e.robot.lidar.noise_sd_m == 0.02);
+  CHECK(e.robot.lidar.dropout_share == 0.05);
   CHECK(e.robot.costmap.resolution_m == 0.1);
   CHECK(e.robot.costmap.window_m == 5.0);
   CHECK(e.robot.costmap.obstacle_range_m == 3.0);
@@ -193,6 +198,7 @@ TEST_CASE("all settings arrive") {
   CHECK(e.robot.costmap.inflation_radius_m == 0.6);
   CHECK(e.robot.costmap.cost_scaling == 6.0);
   CHECK(e.traces == RecordTraces::failed);
+  CHECK(e.annotations);
   CHECK(e.limits.planner_time_s == 1.5);
   CHECK(e.limits.step_time_s == 0.25);
   CHECK(e.limits.trial_wall_time_s == 100.0);

@@ -3,6 +3,7 @@
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
+#include <dmrp/ext/obstacle_clusters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,9 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     expect(problem.revision == 1 && problem.in_force.empty(), "the first plan");
+    const auto* annotate = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+    expect(annotate && !extension<void>(DMRP_EXT_LIDAR), "planners may annotate, and have no sensors");
+    annotate->note(annotate, "straight");
     if (*does == "fatal") return set_error("the library is lost"), dmrp::Status::fatal;
     if (*does == "nothing") return dmrp::Status::no_solution;
     if (*does == "timeout") return dmrp::Status::timeout;
@@ -62,11 +66,12 @@ class CarefulController final : public dmrp::LocalController {
   dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
     expect(world->self >= 0 && world->self < static_cast<std::int32_t>(world->robot_count), "world.self");
     expect(seed != 0, "a seed");
-    expect(extension<dmrp_annotate>(DMRP_EXT_ANNOTATE) == nullptr, "annotate is not offered");
+    annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
     expect(extension<void>("draft/unknown") == nullptr, "unknown extensions are NULL");
     lidar_ = extension<dmrp_lidar>(DMRP_EXT_LIDAR);
     costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-    expect(lidar_ && costmap_, "extensions are offered");
+    clusters_ = extension<dmrp_obstacle_clusters>(DMRP_EXT_OBSTACLE_CLUSTERS);
+    expect(annotate_ && lidar_ && costmap_ && clusters_, "extensions are offered");
     path_.clear();
     last_t_ns_ = -1;
     progress_m_ = 0.0;
@@ -94,6 +99,9 @@ class CarefulController final : public dmrp::LocalController {
     const dmrp_scan& scan = *lidar_->scan(lidar_);
     expect(scan.t_ns == now.t_ns && scan.count > 0, "a scan of now");
     expect(costmap_->costmap(costmap_)->t_ns == now.t_ns, "a costmap of now");
+    const dmrp_obstacle_cluster_list* clusters = clusters_->clusters(clusters_);
+    expect(clusters->t_ns == now.t_ns && clusters == clusters_->clusters(clusters_), "clusters of now");
+    if (annotate_->wanted(annotate_)) annotate(now);
 
     if (*does == "nothing") return dmrp::Status::no_solution;
     command.v_x = std::min(0.6, path_.back().x - now.pose.x);
@@ -102,8 +110,26 @@ class CarefulController final : public dmrp::LocalController {
   }
 
  private:
+  // What makes sense, and what does not.
+  void annotate(const dmrp::Observation& now) const {
+    const dmrp_pose nowhere = {any_heading, 0.0, 0.0};
+    const dmrp_pose poses[] = {now.pose, {now.pose.x + 1.0, now.pose.y, 0.0}, nowhere};
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, poses, 3, 100'000'000);
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, &nowhere, 1, 100'000'000);
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, nullptr, 7, 100'000'000);
+    annotate_->trajectory(annotate_, 77, poses, 2, 100'000'000);
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, poses, 2, -1);
+    annotate_->note(annotate_, nullptr);
+    if (now.t_ns > 0) return;
+    const std::vector<dmrp_pose> many(1500, now.pose);
+    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, many.data(), 1500, 0);
+    annotate_->note(annotate_, (std::string(999, 'n') + "\u00e9 and so on").c_str());
+  }
+
+  const dmrp_annotate* annotate_ = nullptr;
   const dmrp_lidar* lidar_ = nullptr;
   const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_obstacle_clusters* clusters_ = nullptr;
   std::vector<dmrp::Waypoint> path_;
   std::int64_t last_t_ns_ = -1;
   double progress_m_ = 0.0;

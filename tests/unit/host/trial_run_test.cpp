@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A trial and its measures with plugins that check what they are given (trial_plugins.cpp), in this process.
+#include <dmrp/ext/annotate.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -124,6 +126,49 @@ TEST_CASE("a trial keeps its word to every plugin, and the next one does not rem
   const auto second = motion(*stage.reader);
   REQUIRE(first.size() == second.size());
   CHECK(std::memcmp(first.data(), second.data(), first.size() * sizeof(first[0])) == 0);
+}
+
+TEST_CASE("what plugins say goes to the trace where it is wanted, and changes nothing else") {
+  Stage silent;
+  silent.run();
+  CHECK(silent.reader->trajectories().empty());
+  CHECK(silent.reader->notes().empty());
+
+  Stage open;
+  open.experiment.annotations = true;
+  open.run();
+  const auto& trajectories = open.reader->trajectories();
+  const auto& notes = open.reader->notes();
+  REQUIRE(trajectories.size() > 20);
+  CHECK(trajectories[0].source.plugin_kind == DMRP_KIND_LOCAL_CONTROLLER);
+  CHECK(trajectories[0].source.robot == 0);
+  CHECK(trajectories[0].t_ns == 0);
+  CHECK(trajectories[0].role == DMRP_ANNOTATE_PREDICTED);
+  CHECK(trajectories[0].step_ns == 100'000'000);
+  REQUIRE(trajectories[0].poses.size() == 2);  // the third is not finite
+  CHECK(trajectories[0].poses[1].x == 2.5);
+  CHECK(trajectories[1].role == DMRP_ANNOTATE_CANDIDATE);
+  CHECK(trajectories[1].poses.size() == 1000);
+  CHECK(trajectories[2].source.robot == 1);
+  CHECK(trajectories[4].t_ns == 100'000'000);
+  for (std::size_t i = 4; i < trajectories.size(); ++i) CHECK(trajectories[i].poses.size() == 2);
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[0].source.plugin_kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(notes[0].text == "straight");
+  CHECK(notes[1].text == std::string(999, 'n'));  // no half of a character
+
+  const auto one = motion(*silent.reader);
+  const auto other = motion(*open.reader);
+  REQUIRE(one.size() == other.size());
+  CHECK(std::memcmp(one.data(), other.data(), one.size() * sizeof(one[0])) == 0);
+  const MetricResult before = silent.measured();
+  const MetricResult after = open.measured();
+  REQUIRE(before.values.size() == after.values.size());
+  for (std::size_t i = 0; i < before.values.size(); ++i) CHECK(before.values[i].value == after.values[i].value);
+
+  open.experiment.traces = RecordTraces::none;
+  open.run();
+  CHECK(open.reader->trajectories().empty());
 }
 
 TEST_CASE("no plan is a result: nothing moves, everything is measured") {

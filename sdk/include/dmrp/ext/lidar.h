@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-// ext/lidar.h: the robot's planar range scan. An extension of the host for local controllers.
+// ext/lidar.h: the robot's planar range scan, with the noise that the experiment sets. An extension of the host for local
+// controllers.
 #ifndef DMRP_EXT_LIDAR_H
 #define DMRP_EXT_LIDAR_H
 
@@ -16,7 +17,7 @@ typedef struct dmrp_scan {
   double angle_increment;  // rad
   double range_min;        // m
   double range_max;        // m
-  const float* ranges;     // m; INFINITY where nothing was hit within range_max
+  const float* ranges;     // m; INFINITY where nothing was hit within range_max, or the beam dropped out
 } dmrp_scan;
 
 typedef struct dmrp_lidar dmrp_lidar;
