@@ -2,7 +2,7 @@
 // action_dependencies.hpp: in which order robots pass the cells that they share, as a graph over their moves.
 //
 // Hoenig, Kiesel, Tinka, Durham, Ayanian: Persistent and robust execution of MAPF schedules in warehouses, IEEE RA-L 4
-// (2019): the action dependency graph. As used by SMART (Yan et al. 2025).
+// (2019): the action dependency graph.
 #pragma once
 
 #include <dmrp/grid.h>
@@ -15,58 +15,67 @@
 
 namespace dmrp::core {
 
-// Stages of a robot are the cells of its plan in order, a wait being part of its cell. The graph's nodes are the moves
-// to the next stage (Hoenig et al. also have a node a wait, which nobody can depend on). Type 1: a robot takes its
-// stages in order. Type 2: it may move to a cell when the robot that has the cell before it in the plan has reached its
-// next stage; likewise to a diagonal's end when the two cells beside it are clear, and to a cell beside a diagonal when
-// that is done.
+// The stages of a robot are the cells of its plan in order, a wait being part of its cell. The graph's nodes are the
+// moves to the next stage. Type 1: a robot takes its stages in order. Type 2: it may move to a cell when the robot that
+// has the cell before it in the plan has come to its own next stage. A diagonal move has the two cells beside it, too,
+// until it is done. A robot that is not in its first cell has the cell where it is until it gets there.
 //
-// Nobody waits in a circle. Let the plan be free of vertex, swap and passing conflicts, and say that a move happens at
-// the time at which the plan has it done. A type 1 dependency leads to a later move. So does a type 2 dependency, or to
-// a move at the same time: who has the cell next is there at the earliest when the one before has just left it. A
-// circle could then only be one of moves at one time, each into the cell that the next robot leaves: a rotation of
-// three or more robots, for two would be a swap. Those moves are made to depend on each other's beginning: each robot
-// has to stand in the cell that it leaves, which is an earlier move. All dependencies then lead forward in time.
+// Nobody waits in a circle. Let the plan be free of vertex, swap and passing conflicts, and give a move the time at
+// which the plan has it done. A type 1 dependency leads to a later move. So does a type 2 dependency, or to a move at
+// the same time: who has the cell next gets there at the earliest when the one before has just left it. A circle could
+// then only be one of moves at one time, each into the cell that the next robot leaves: a rotation of three or more
+// robots, since two would be a swap. Such moves are released together: none depends on the others any more, but each
+// on what any of them depends on besides, and on all robots standing in the cells that they leave, to which they moved
+// earlier. All dependencies then lead forward in time.
 class ActionDependencies {
  public:
-  // Forgets what was before. Plans of step-wise planners, a path (at least one waypoint) a robot, each waypoint on a
-  // cell and one step from its neighbours; `positions`: where the robots are, which may be another cell than their
-  // first one.
+  // Forgets the plan before. A valid plan of a step-wise planner: a path (at least one waypoint) a robot. `positions`:
+  // where the robots are.
   void set_plan(const dmrp_grid& grid, std::span<const std::vector<dmrp_waypoint>> paths,
                 std::span<const dmrp_vec2> positions);
 
-  // The robot has come to this stage. Of stages it has come to, the last one counts.
+  // The robot has come to this stage, and so to those before.
   void reached(std::size_t robot, std::uint32_t stage);
 
-  // The last stage to which the robot may go by now: at least the next dependency's stage less one.
+  // The last stage to which the robot may go.
   std::uint32_t released(std::size_t robot);
 
-  std::uint32_t stage_count(std::size_t robot) const {
-    return static_cast<std::uint32_t>(robots_[robot].stages.size());
-  }
-
  private:
-  struct Dependency {
-    std::uint32_t robot;
-    std::uint32_t stage;  // that it must have come to
+  struct Need {
+    std::size_t robot;
+    std::int64_t stage;  // that it must have come to
   };
   struct Stage {
     std::uint32_t cell;
     std::int64_t arrival_ns;
-    std::vector<Dependency> needs;  // before the robot may move here
+    std::vector<Need> needs;  // before the robot may move here
   };
   struct Robot {
     std::vector<Stage> stages;
-    std::int64_t reached = -1;  // a stage; -1: on the way to the first
+    std::int64_t reached = -1;  // -1: on the way to the first stage
     std::uint32_t released = 0;
   };
-  struct Claim;
+  struct Move {
+    std::size_t robot;
+    std::size_t stage;
+  };
 
-  void find_stages(const dmrp_grid& grid, std::span<const std::vector<dmrp_waypoint>> paths);
+  // That a robot has a cell: from its move to a stage until it has come to another.
+  struct Claim {
+    std::uint32_t cell;
+    std::int64_t arrival_ns;
+    std::size_t robot;
+    std::size_t from;
+    std::size_t until;
+    bool visits;  // the cell is a stage; else the robot only passes
+  };
+
   std::vector<Claim> find_claims(const dmrp_grid& grid, std::span<const dmrp_vec2> positions) const;
   void depend(const Claim& claim, const Claim& before);
+  const Need* simultaneous_need(Move move) const;
+  std::vector<Move> rotation_through(Move move) const;
+  void release_together(const std::vector<Move>& rotation);
   void loosen_rotations();
-  const Dependency* simultaneous(std::uint32_t robot, std::uint32_t stage) const;
 
   std::vector<Robot> robots_;
 };

@@ -8,8 +8,7 @@ namespace dmrp::core {
 ReplanMonitor::ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count)
     : settings_(settings), robots_(robot_count) {}
 
-bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots,
-                        std::span<const PathProgress> progress) {
+bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress) {
   bool any_off_course = false;
   bool any_active = false;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
