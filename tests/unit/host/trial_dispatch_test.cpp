@@ -299,8 +299,7 @@ std::size_t out_of_order(core::TraceReader& trace, std::size_t& pairs) {
 
 }  // namespace
 
-TEST_CASE("execution in order: robots that dawdle pass every shared cell as planned, and none waits for ever",
-          "[slow]") {
+TEST_CASE("execution in order: robots that dawdle pass shared cells as planned, and none waits for ever") {
   const auto dispatch = GENERATE(core::Dispatch::full_path, core::Dispatch::waypoint);
   const std::uint64_t seeds = dispatch == core::Dispatch::full_path ? 100 : 10;
   std::size_t pairs = 0;
