@@ -39,8 +39,8 @@ dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
 
 // One robot while its trial is recorded.
 struct Driver {
-  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar)
-      : sensors(world, robot, lidar), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
+  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+      : sensors(world, robot, lidar, seed), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
 
   host::RobotSensors sensors;
   Recorder recorder;
@@ -92,7 +92,7 @@ class Recording {
 
  private:
   void start_driver(std::uint32_t robot, host::InstancePool& pool) {
-    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_));
+    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_, trial_.seed));
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();

@@ -102,9 +102,10 @@ Status E3mop::step(const Observation& now, Command& command) {
     return Status::ok;
   }
 
-  // the direction in which the path leaves
-  const std::size_t lead_steps = static_cast<std::size_t>(std::ceil(lead_m / point_spacing));
-  const Vec2 lead = raw_points_[std::min(raw_points_.size(), kept_ + lead_steps) - 1];
+  // what leads aside or back is turned to in place; the path in hand is given up for that
+  const bool free_to_turn = kept_ == 1 && now.velocity.v_x < slow_m_s;
+  bool shaped = free_to_turn && shape_path(now, foreseen);
+  const Vec2 lead = shaped ? lead_of_path() : raw_points_[std::min(raw_points_.size(), kept_ + lead_steps()) - 1];
   const double aside = toolkit::difference(from.theta, toolkit::bearing(from, lead));
   if (std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad)) {
     turning_ = true;
@@ -113,13 +114,23 @@ Status E3mop::step(const Observation& now, Command& command) {
     return Status::ok;
   }
   turning_ = false;
-  if (!shape_path(now, foreseen)) {
+  if (!shaped && !shape_path(now, foreseen)) {
     path_.clear();
     return Status::ok;
   }
   command = safe(now, follow(path_, now), seen);
   annotate();
   return Status::ok;
+}
+
+std::size_t E3mop::lead_steps() const {
+  return static_cast<std::size_t>(std::ceil(lead_m / point_spacing));
+}
+
+Vec2 E3mop::lead_of_path() const {
+  const auto beyond =
+      std::find_if(path_.begin(), path_.end(), [](const PathPoint& point) { return point.arc_m >= lead_m; });
+  return beyond == path_.end() ? path_.back().at : beyond->at;
 }
 
 // The part of the last path that the robot is about to drive goes into raw_points_; returns where it ends, which is the

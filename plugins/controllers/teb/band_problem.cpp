@@ -30,6 +30,8 @@ void BandProblem::reserve(std::size_t poses) {
   kept_.reserve(poses);
   poses_.reserve(poses);
   motions_.reserve(poses);
+  links_.reserve(8 * poses);
+  via_links_.reserve(poses);
 }
 
 void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning, double obstacle_factor) {
@@ -179,8 +181,9 @@ void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) cons
         separation(*scene_->footprint, {at.x, at.y, at.theta}, (*scene_->obstacles)[link.obstacle], link.ahead_s);
     const std::array<double, 3> by = {apart.gradient.x, apart.gradient.y, apart.gradient_theta};
     const double weight = link.is_dynamic ? tuning.weight_dynamic_obstacle : tuning.weight_obstacle;
-    squares.add(first_of(link.pose), above(apart.distance_m, tuning.min_obstacle_dist, tuning.penalty_epsilon), by,
-                obstacle_factor_ * weight);
+    const double exponent = link.is_dynamic ? 1.0 : tuning.obstacle_cost_exponent;
+    const Penalty close = above(apart.distance_m, tuning.min_obstacle_dist, tuning.penalty_epsilon);
+    squares.add(first_of(link.pose), raised(close, exponent, tuning.min_obstacle_dist), by, obstacle_factor_ * weight);
     const double inflation_m = link.is_dynamic ? tuning.dynamic_obstacle_inflation_dist : tuning.inflation_dist;
     if (inflation_m <= tuning.min_obstacle_dist) continue;
     squares.add(first_of(link.pose), above(apart.distance_m, inflation_m, 0.0), by,

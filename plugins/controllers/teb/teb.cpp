@@ -6,6 +6,7 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
+#include <string>
 
 #include "band_command.hpp"
 
@@ -63,6 +64,7 @@ Status Teb::start(const World& world, std::uint64_t seed) {
   at_goal_.reset();
   obstacles_.clear();
   const double periods = oscillation_filter_duration / seconds(world->control_period_ns);
+  via_points_.reserve(64);
   oscillation_.reset(static_cast<std::size_t>(std::max(2.0, std::round(periods))));
   planner_.start(band_tuning(), class_tuning(), {force_reinit_new_goal_dist, force_reinit_new_goal_angular}, seed);
   preferred_turn_ = teb::Turn::any;
@@ -258,6 +260,9 @@ void Teb::annotate(const teb::TimedElasticBand& best) const {
   for (std::size_t i = 0; i < planner_.size(); ++i)
     if (&planner_.band(i) != &best) tell(planner_.band(i), DMRP_ANNOTATE_CANDIDATE);
   tell(best, DMRP_ANNOTATE_PREDICTED);
+  annotate_->note(
+      annotate_,
+      ("iterations " + std::to_string(planner_.iterations()) + ", bands " + std::to_string(planner_.size())).c_str());
 }
 
 }  // namespace dmrp::controllers
