@@ -22,6 +22,8 @@ class BandedMatrix {
   static constexpr std::size_t bandwidth = Bandwidth;
   static constexpr std::size_t stride = Bandwidth + 1;
 
+  void reserve(std::size_t size) { entries_.reserve(size * stride); }
+
   // All zero.
   void resize(std::size_t size) {
     size_ = size;
@@ -62,6 +64,11 @@ class BandedMatrix {
 template <std::size_t Bandwidth>
 class BandedLdlt {
  public:
+  void reserve(std::size_t size) {
+    factor_.reserve(size);
+    inverse_pivots_.reserve(size);
+  }
+
   // Factors A + shift I. False where a pivot is no finite number or too small to divide by; the factors are then of no
   // use.
   bool factor(const BandedMatrix<Bandwidth>& a, double shift = 0.0) {

@@ -33,6 +33,10 @@ constexpr double standing_m_s = 0.05;
 // So near to where the way is cut off, the robot waits.
 constexpr double wait_within_m = 0.1;
 
+// Steps shorter than both are waiting.
+constexpr double idle_m = 0.01;
+constexpr double idle_rad = 0.02;
+
 // Room for this many obstacles before anything grows.
 constexpr std::size_t usual_obstacles = 256;
 
@@ -77,6 +81,7 @@ Status Mpc::start(const World&, std::uint64_t) {
   guess_.reserve(usual_obstacles);
   way_.reserve(usual_obstacles);
   trajectory_.reserve(states);
+  waiting_.reserve(states);
   return Status::ok;
 }
 
@@ -109,6 +114,7 @@ Status Mpc::step(const Observation& now, Command& command) {
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
+  if (is_standing) skip_waiting(now, footprint);
   const double period_s = seconds(now.dt_ns);
   const mpc::Control& control = trajectory_.controls[0];
   command.v_x =
@@ -250,6 +256,25 @@ bool Mpc::is_feasible(const Observation& now, FootprintCheck& footprint) const {
     if (!is_free(now, trajectory_.states[k], static_cast<double>(k) * trajectory_.dt_s, least_m, footprint))
       return false;
   return true;
+}
+
+// A trajectory may begin by standing: the time step is one for all, and a shorter one can be worse before it is better.
+// Every period anew, that is standing for ever. What follows the wait is as good from now on, unless somebody has to be
+// let past.
+void Mpc::skip_waiting(const Observation& now, FootprintCheck& footprint) {
+  const mpc::State& start = trajectory_.states.front();
+  std::size_t waits = 0;
+  while (waits + 2 < trajectory_.size()) {
+    const mpc::State& next = trajectory_.states[waits + 1];
+    if (std::hypot(next.x - start.x, next.y - start.y) > idle_m || std::abs(next.theta - start.theta) > idle_rad) break;
+    ++waits;
+  }
+  if (waits == 0) return;
+  waiting_ = trajectory_;
+  trajectory_.states.erase(trajectory_.states.begin(), trajectory_.states.begin() + static_cast<std::ptrdiff_t>(waits));
+  trajectory_.controls.erase(trajectory_.controls.begin(),
+                             trajectory_.controls.begin() + static_cast<std::ptrdiff_t>(waits));
+  if (!is_feasible(now, footprint)) std::swap(trajectory_, waiting_);
 }
 
 // Against obstacles where they will be, and on the costmap, but for where the agents are that it shows as of now.

@@ -88,6 +88,7 @@ class Mpc final : public LocalController {
   void optimise(double barrier_start);
   std::size_t adapted_size() const;
   bool is_feasible(const Observation& now, FootprintCheck& footprint) const;
+  void skip_waiting(const Observation& now, FootprintCheck& footprint);
   bool is_free(const Observation& now, const mpc::State& state, double ahead_s, double least_m,
                FootprintCheck& footprint) const;
   void annotate() const;
@@ -109,6 +110,7 @@ class Mpc final : public LocalController {
   mpc::Problem problem_;
   mpc::SolverReport report_;
   mpc::Trajectory trajectory_;
+  mpc::Trajectory waiting_;  // a copy to go back to
   bool has_trajectory_ = false;
 };
 

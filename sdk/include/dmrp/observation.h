@@ -27,7 +27,9 @@ typedef struct dmrp_observation {
   dmrp_pose pose;
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
-  dmrp_goal goal;       // the current one. (Frozen inside this struct: it cannot grow here.)
+  // The current goal; under dispatch = "waypoint" the waypoint on the way there that was handed over, with the goal's
+  // tolerances. (Frozen inside this struct: it cannot grow here.)
+  dmrp_goal goal;
   uint32_t goal_index;
   uint32_t goal_count;
   double progress_m;           // arc length along the path of the point that the robot has reached; never falls

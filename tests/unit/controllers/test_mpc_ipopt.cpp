@@ -3,7 +3,7 @@
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 
-// after IPOPT's
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
