@@ -28,8 +28,8 @@ constexpr double lead_m = 0.25;
 // So near to where the way is cut off, the robot waits.
 constexpr double wait_within_m = 0.2;
 
-// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to do
-// does not change with every cycle.
+// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to
+// do does not change with every cycle.
 constexpr double kept_s = 0.3;
 constexpr double kept_m = 0.2;
 
