@@ -141,7 +141,7 @@ void E3mop::warm_up(const Observation& now) {
                           point_spacing * Vec2{static_cast<double>(i), i % 2 ? 0.7 : 0.0});
   kept_ = 1;
   shape_path(now, anywhere);
-  path_.reserve(2 * path_.capacity());
+  path_.reserve(2 * path_.size());
   path_.clear();
   intended_.reserve(64);
 }
