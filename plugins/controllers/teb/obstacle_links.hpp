@@ -24,9 +24,9 @@ struct ViaPointLink {
   std::uint32_t point = 0;
 };
 
-// Of all poses but the ends. Standing obstacles, upstream's rule: all that are nearer to the pose than min_obstacle_dist
-// times the force inclusion factor, and the nearest on the left and on the right within min_obstacle_dist times the
-// cutoff factor. Moving ones: every pose for which they could count. Ordered by pose.
+// Of all poses but the ends. Standing obstacles, upstream's rule: all that are nearer to the pose than
+// min_obstacle_dist times the force inclusion factor, and the nearest on the left and on the right within
+// min_obstacle_dist times the cutoff factor. Moving ones: every pose for which they could count. Ordered by pose.
 class ObstacleLinker {
  public:
   void link(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
