@@ -85,8 +85,8 @@ class ClassPlanner {
   std::size_t best_ = 0;
   Candidate laid_out_;  // a new band, before it is known to be of a class of its own
   std::vector<Vec2> way_;
-  const std::vector<Vec2> no_via_points_;
-  std::vector<Mark> marks_;  // of the cycle's obstacles
+  std::vector<Vec2> no_via_points_;  // stays empty
+  std::vector<Mark> marks_;          // of the cycle's obstacles
   Pose last_goal_ = {0.0, 0.0, 0.0};
   std::int64_t switched_ns_ = 0;  // when another way was last chosen
   bool has_switched_ = false;
