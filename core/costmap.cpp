@@ -14,6 +14,12 @@ namespace {
 // Hits are marked this far behind the surface: else a wall along the lattice would flicker between two rows of cells.
 constexpr double behind_surface_m = 1e-4;
 
+// Lines end this far inside the window, in cells, so that rounding leads none out of it.
+constexpr double hair = 1e-9;
+
+// Of a cell's position along a line: fine enough for that on the longest one, with room for the largest window.
+constexpr int fraction_bits = 44;
+
 // Rows of the stamp are a multiple of this, for the compiler's vectors.
 constexpr std::int64_t vector_bytes = 16;
 
@@ -55,11 +61,11 @@ const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* en
   return cell;
 }
 
-// Where a line from inside the square [0, side]^2 leaves it.
-dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double side) {
-  const auto fraction = [side](double start, double end) {
-    if (end < 0.0) return start / (start - end);
-    return end > side ? (side - start) / (end - start) : 1.0;
+// Where a line from inside the square [least, most]^2 leaves it.
+dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most) {
+  const auto fraction = [least, most](double start, double end) {
+    if (end < least) return (start - least) / (start - end);
+    return end > most ? (most - start) / (end - start) : 1.0;
   };
   return toolkit::lerp(from, to, std::min(fraction(from.x, to.x), fraction(from.y, to.y)));
 }
@@ -179,8 +185,7 @@ void LocalCostmap::roll_to(dmrp_vec2 center) {
 
 // One cell for every column (or row, where it is steeper) that the line crosses.
 void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
-  // a hair inside, so that the end has a cell
-  to = clip_to_square(from, to, static_cast<double>(side_) - 1e-9);
+  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
   const dmrp_vec2 way = to - from;
   const bool by_columns = std::abs(way.x) >= std::abs(way.y);
   const double start = by_columns ? from.x : from.y;
@@ -197,16 +202,21 @@ void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
   const auto clear_at = [&](std::int64_t major, double at) {
     cells[major * stride + static_cast<std::int64_t>(aside + slope * (at - start)) * cross_stride] = 0;
   };
+  // from middle to middle in whole numbers; the ends apart
+  const double unit = static_cast<double>(std::int64_t{1} << fraction_bits);
+  const auto step = static_cast<std::int64_t>(slope * unit);
+  auto minor = static_cast<std::int64_t>((aside + slope * (static_cast<double>(first) + 1.5 - start)) * unit);
   clear_at(first, low);
-  for (std::int64_t major = first; major <= last; ++major)
-    clear_at(major, std::clamp(static_cast<double>(major) + 0.5, low, high));
+  clear_at(first, std::clamp(static_cast<double>(first) + 0.5, low, high));
+  for (std::int64_t major = first + 1; major < last; ++major, minor += step)
+    cells[major * stride + (minor >> fraction_bits) * cross_stride] = 0;
+  clear_at(last, std::clamp(static_cast<double>(last) + 0.5, low, high));
   clear_at(last, high);
 }
 
 // The nearest lethal cell on the way loses a little trust; what is behind it may be hidden.
 void LocalCostmap::doubt_along(dmrp_vec2 from, dmrp_vec2 to) {
-  const double side = static_cast<double>(side_) - 1e-9;
-  to = clip_to_square(from, to, side);
+  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
   const dmrp_vec2 way = to - from;
   const double steps = std::floor(std::max(std::abs(way.x), std::abs(way.y)));
   const dmrp_vec2 stride = way / std::max(std::max(std::abs(way.x), std::abs(way.y)), 1.0);

@@ -16,12 +16,13 @@ namespace dmrp::core {
 
 // Semantics of ROS costmap_2d: a scan first clears the cells along its beams, then marks the cells of its hits; what it
 // does not see stays as it was while the window rolls on. Cells lie on the world's lattice (multiples of the resolution
-// from the world's zero), so that rolling moves whole cells.
+// from the world's zero), so that rolling moves whole cells. Nothing is cleared for being under the robot (costmap_2d's
+// footprint clearing): whoever touches the robot stays on the map.
 //
 // A beam without return clears up to the raytrace range, as with costmap_2d's inf_is_valid: else who walks on before
-// an open hall would leave a trail. Of a lidar that drops beams out it says less: only the nearest lethal cell on its way
-// is in doubt, and is cleared by as many such beams, with no hit in between, as drop out in a row in less than one of a
-// million cases.
+// an open hall would leave a trail. Of a lidar that drops beams out it says less: only the nearest lethal cell on its
+// way is in doubt, and is cleared by as many such beams, with no hit in between, as drop out in a row in less than one
+// of a million cases.
 class LocalCostmap {
  public:
   // `dropout_share` is that of the lidar.

@@ -9,6 +9,8 @@
 namespace dmrp::core {
 
 enum class Tracking { none, visible, all };  // which agents controllers are told of; visible: in range, line of sight
+enum class Dispatch { full_path, waypoint };  // what controllers are handed: the whole path, or a waypoint at a time
+enum class Execution { free, ordered };       // ordered: robots pass shared cells in the plan's order
 
 struct LidarSettings {
   std::uint32_t beams = 360;
@@ -46,6 +48,14 @@ struct GoalSettings {
   double settle_s = 0.5;
 };
 
+// When the planner is asked again; 0: not for that reason.
+struct ReplanSettings {
+  std::int64_t period_ns = 0;                    // since it was last asked
+  double stray_m = 0.0;                          // an active robot is farther than this from its place on its path
+  std::int64_t stall_ns = 0;                     // one gained less than stall_progress_m in this time
+  std::int64_t min_interval_ns = 2'000'000'000;  // for straying and stalling: since the planner was last asked
+};
+
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
@@ -57,6 +67,9 @@ struct SimulationSettings {
   double tracking_range_m = 10.0;
   double tracking_velocity_noise_sd = 0.0;  // m/s, of either component
   GoalSettings goal;
+  Dispatch dispatch = Dispatch::full_path;
+  Execution execution = Execution::free;
+  ReplanSettings replan;
 };
 
 }  // namespace dmrp::core

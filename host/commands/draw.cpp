@@ -75,7 +75,7 @@ Plan plan_once(const Experiment& experiment) {
   Instance& planner = pool.get(use, -1);
   const std::int64_t budget_ns = nanoseconds(experiment.limits.planner_time_s);
   planner.start(variant.view.world(), experiment.seed, budget_ns);
-  Plan plan = make_plan(planner, use.info, variant, world, 1, budget_ns, 0);
+  Plan plan = make_plan(planner, use.info, variant, world, nullptr, budget_ns, 0);
   if (!plan.exists()) throw std::runtime_error(use.info.id + " found no plan");
 
   double total_m = 0.0;

@@ -42,6 +42,8 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
 void write_simulation(std::string& out, const Experiment& experiment) {
   const core::SimulationSettings& s = experiment.simulation;
   static constexpr const char* const tracking[] = {"none", "visible", "all"};
+  static constexpr const char* const dispatch[] = {"full_path", "waypoint"};
+  static constexpr const char* const execution[] = {"free", "ordered"};
   out += "\n[simulation]\n";
   out += fmt::format("step_s                     = {}\n", seconds(s.step_ns));
   out += fmt::format("control_period_s           = {}\n", seconds(s.control_period_ns));
@@ -56,6 +58,12 @@ void write_simulation(std::string& out, const Experiment& experiment) {
   out += fmt::format("goal_tolerance_rad         = {}\n", toml_text(s.goal.tolerance_rad));
   out += fmt::format("goal_tolerance_speed       = {}\n", toml_text(s.goal.tolerance_speed));
   out += fmt::format("goal_settle_s              = {}\n", toml_text(s.goal.settle_s));
+  out += fmt::format("dispatch                   = \"{}\"\n", dispatch[static_cast<int>(s.dispatch)]);
+  out += fmt::format("execution                  = \"{}\"\n", execution[static_cast<int>(s.execution)]);
+  out += fmt::format("replan_period_s            = {}\n", seconds(s.replan.period_ns));
+  out += fmt::format("replan_stray_m             = {}\n", toml_text(s.replan.stray_m));
+  out += fmt::format("replan_stall_s             = {}\n", seconds(s.replan.stall_ns));
+  out += fmt::format("replan_min_interval_s      = {}\n", seconds(s.replan.min_interval_ns));
 }
 
 void write_robot(std::string& out, const core::RobotSettings& r) {

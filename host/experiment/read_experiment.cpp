@@ -45,6 +45,7 @@ class Reader {
                            [this, &root, kind = kind, uses = uses](const TomlValue&) { read_uses(root, kind, *uses); });
     root.read(readers);
     check_complete(root);
+    check_order(root);
     if (experiment_.metrics.empty()) use_every_metric(root);
     for (const ScenarioFile& file : files_) check_world(file, experiment_);
     return std::move(experiment_);
@@ -290,6 +291,20 @@ class Reader {
         scenario_uses_[i].fail(fmt::format("scenario '{}' has {} {}: the experiment needs a [[pedestrian_model]]",
                                            experiment_.scenarios[i].scenario.name, count,
                                            count == 1 ? "person" : "people"));
+  }
+
+  // The order in which robots pass cells comes from plans that keep them apart, cell by cell.
+  void check_order(const TomlTable& root) const {
+    if (experiment_.simulation.execution != core::Execution::ordered) return;
+    const TomlValue execution = root.find_table("simulation")->need("execution");
+    for (const PluginUse& planner : experiment_.global_planners) {
+      if ((planner.info.planner_flags & DMRP_PLANNER_UNCOORDINATED) != 0)
+        execution.fail(fmt::format("'execution' = 'ordered' needs plans without conflicts, which {} does not make",
+                                   planner.info.id));
+      if (planner.info.connectivity == DMRP_CONNECTIVITY_ANY)
+        execution.fail(
+            fmt::format("'execution' = 'ordered' needs plans from cell to cell, which {} does not make", planner.info.id));
+    }
   }
 
   const PluginSource& source_;

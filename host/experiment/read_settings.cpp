@@ -43,18 +43,9 @@ Read choice(Enum& to, const std::vector<std::string>& choices) {
   };
 }
 
-// A setting of the design of which only the first choice, the default, is built.
-Read first_only(const std::vector<std::string>& choices) {
-  return [choices](const TomlValue& value) {
-    if (const std::string chosen = value.choice(choices); chosen != choices.front())
-      value.fail(
-          fmt::format("'{}' can only be '{}' so far: '{}' is not built yet", value.key(), choices.front(), chosen));
-  };
-}
-
-void no_replanning(const TomlValue& value) {
-  if (value.number(0.0, longest_s) != 0.0)
-    value.fail(fmt::format("'{}' can only be 0 so far: replanning is not built yet", value.key()));
+// 0: never.
+Read seconds_or_never(std::int64_t& to_ns) {
+  return [&to_ns](const TomlValue& value) { to_ns = std::llround(value.number(0.0, longest_s) * 1e9); };
 }
 
 void check_control_period(const TomlTable& table, const core::SimulationSettings& simulation) {
@@ -65,6 +56,15 @@ void check_control_period(const TomlTable& table, const core::SimulationSettings
       .fail(fmt::format("'control_period_s' must be a multiple of 'step_s': {} s is none of {} s",
                         static_cast<double>(simulation.control_period_ns) / 1e9,
                         static_cast<double>(simulation.step_ns) / 1e9));
+}
+
+// Robots turn to a new plan at control ticks.
+void check_replanning(const TomlTable& table, const core::SimulationSettings& simulation) {
+  for (const auto& [key, ns] : {std::pair("replan_period_s", simulation.replan.period_ns),
+                                std::pair("replan_stall_s", simulation.replan.stall_ns)})
+    if (ns > 0 && ns < simulation.control_period_ns)
+      table.need(key).fail(fmt::format("'{}' must be 0 (never) or at least 'control_period_s', {} s", key,
+                                       static_cast<double>(simulation.control_period_ns) / 1e9));
 }
 
 void read_simulation(const TomlTable& root, Experiment& experiment) {
@@ -84,11 +84,15 @@ void read_simulation(const TomlTable& root, Experiment& experiment) {
                {"goal_tolerance_rad", positive(to.goal.tolerance_rad, std::numbers::pi)},
                {"goal_tolerance_speed", positive(to.goal.tolerance_speed, 100.0)},
                {"goal_settle_s", number(to.goal.settle_s, 0.0, longest_s)},
-               {"dispatch", first_only({"full_path", "waypoint"})},
-               {"execution", first_only({"free", "ordered"})},
-               {"replan_period_s", no_replanning}});
+               {"dispatch", choice(to.dispatch, {"full_path", "waypoint"})},
+               {"execution", choice(to.execution, {"free", "ordered"})},
+               {"replan_period_s", seconds_or_never(to.replan.period_ns)},
+               {"replan_stray_m", number(to.replan.stray_m, 0.0, farthest_m)},
+               {"replan_stall_s", seconds_or_never(to.replan.stall_ns)},
+               {"replan_min_interval_s", seconds_or_never(to.replan.min_interval_ns)}});
   experiment.time_limit_set = table->find("time_limit_s").has_value();
   check_control_period(*table, to);
+  check_replanning(*table, to);
 }
 
 void read_lidar(const TomlTable& robot, core::LidarSettings& to) {

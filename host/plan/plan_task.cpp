@@ -64,7 +64,7 @@ std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   task->geometry = variant.geometry;
   const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, variant.routes,
                           experiment.seed);
-  if (!stage_problem(variant, world, 1, nanoseconds(experiment.limits.planner_time_s), task->problem))
+  if (!stage_problem(variant, world, nullptr, nanoseconds(experiment.limits.planner_time_s), task->problem))
     throw std::logic_error("robots of a scenario that was checked do not stand on cells of their own");
   return task;
 }

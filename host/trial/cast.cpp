@@ -72,18 +72,18 @@ void Cast::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::R
   calls_.push_back({kind, robot, result.status, 0, result.duration_ns});
 }
 
-Plan Cast::plan(std::uint64_t revision, std::int64_t step) {
-  Plan plan = make_plan(*planner_, planner_use_.info, variant_, world_, revision,
+Plan Cast::plan(const InForce* in_force, std::int64_t step) {
+  Plan plan = make_plan(*planner_, planner_use_.info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
-  note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
+  if (plan.asked) note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
   return plan;
 }
 
-void Cast::set_path(std::uint32_t robot, const std::vector<dmrp_waypoint>& waypoints, std::uint64_t revision,
-                    std::int64_t step) {
+void Cast::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step) {
   const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
                           waypoints.data()};
   Driver& driver = drivers_[robot];
+  const std::uint64_t revision = ++driver.paths;
   driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
                           [&] { return driver.table.set_path(driver.controller->self(), &path, revision); });
 }
@@ -93,10 +93,8 @@ void Cast::sense() {
     if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i].sensors->tick();
 }
 
-std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const core::PathProgress& progress,
-                                      std::uint32_t last_waypoint, std::int64_t step) {
+std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
   const core::RobotState& state = world_.robots()[robot];
-  const auto goals = world_.goals(robot);
   const dmrp_robot& body =
       *DMRP_AT(dmrp_robot, variant_.view.world().robots, variant_.view.world().robot_stride, robot);
   const std::vector<dmrp_agent>& agents = drivers_[robot].sensors->agents();
@@ -109,12 +107,12 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const core::PathProgr
   observation.pose = state.pose;
   observation.velocity = state.velocity;
   observation.applied = state.command;
-  observation.goal = goals[state.goal_index];
+  observation.goal = guidance.goal;
   observation.goal_index = state.goal_index;
-  observation.goal_count = static_cast<std::uint32_t>(goals.size());
-  observation.progress_m = progress.progress_m();
-  observation.progress_waypoint = progress.waypoint();
-  observation.released_waypoint = last_waypoint;
+  observation.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
+  observation.progress_m = guidance.progress_m;
+  observation.progress_waypoint = guidance.progress_waypoint;
+  observation.released_waypoint = guidance.released_waypoint;
   observation.limits = body.limits;
   observation.footprint = body.footprint;
   observation.agents = agents.data();

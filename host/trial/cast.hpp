@@ -9,12 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/lidar.hpp"
-#include "core/progress.hpp"
 #include "core/world.hpp"
 #include "host/trial/annotations.hpp"
+#include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
@@ -31,19 +32,17 @@ class Cast {
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  // Plans from where the robots are.
-  Plan plan(std::uint64_t revision, std::int64_t step);
+  // Plans from where the robots are; `in_force`: what holds meanwhile, nullptr for the first plan.
+  Plan plan(const InForce* in_force, std::int64_t step);
 
-  // Hands a robot's controller its path; `revision` is the plan's.
-  void set_path(std::uint32_t robot, const std::vector<dmrp_waypoint>& waypoints, std::uint64_t revision,
-                std::int64_t step);
+  // Hands a robot's controller a path.
+  void set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step);
 
   // A control tick begins: sensors look.
   void sense();
 
   // The next command of a robot; nothing where its controller found none, and the host brakes.
-  std::optional<dmrp_twist> drive(std::uint32_t robot, const core::PathProgress& progress, std::uint32_t last_waypoint,
-                                  std::int64_t step);
+  std::optional<dmrp_twist> drive(std::uint32_t robot, const Guidance& guidance, std::int64_t step);
 
   // Velocities of all people for the next step.
   const std::vector<dmrp_vec2>& walk(std::int64_t step);
@@ -67,6 +66,7 @@ class Cast {
     std::shared_ptr<RobotSensors> sensors;
     dmrp_world view;
     dmrp_local_controller table;
+    std::uint64_t paths = 0;  // handed over so far
   };
   core::Lidar lidar_;
   core::TraceEncoder* annotated_trace_;  // nullptr where no annotations are kept

@@ -46,13 +46,17 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
 
 // False where robots cannot be put on distinct cells.
 bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
-                  StagedProblem& problem) {
+                  const InForce* in_force, StagedProblem& problem) {
   std::vector<toolkit::SnapRequest> requests;
-  for (const core::RobotState& robot : world.robots())
-    requests.push_back({{robot.pose.x, robot.pose.y}, toolkit::no_cell});
-  const auto cells = toolkit::snap_to_cells(
-      grid, requests, snap_reach_cells * variant.planning_grid.resolution_m,
-      [&](dmrp_vec2 from, dmrp_vec2 to) { return variant.geometry->sweep_is_free(from, to, radius_m); });
+  for (std::size_t i = 0; i < world.robots().size(); ++i)
+    requests.push_back(
+        {toolkit::position(world.robots()[i].pose), in_force ? grid.index_of(in_force->next[i]) : toolkit::no_cell});
+  // a robot that touches something may still leave it
+  const auto can_move = [&](dmrp_vec2 from, dmrp_vec2 to) {
+    return variant.geometry->sweep_is_free(from, to, std::min(radius_m, variant.geometry->clearance(from)));
+  };
+  const auto cells =
+      toolkit::snap_to_cells(grid, requests, snap_reach_cells * variant.planning_grid.resolution_m, can_move);
   if (!cells) return false;
   for (std::size_t i = 0; i < problem.robots.size(); ++i) problem.robots[i].start = grid.center((*cells)[i]);
   return true;
@@ -126,36 +130,42 @@ std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
   return fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts);
 }
 
-bool stage_problem(const VariantWorld& variant, const core::World& world, std::uint64_t revision,
+bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem) {
   problem.grid = variant.planning_grid.view();
   const toolkit::GridView grid(problem.grid);
   describe_robots(variant, world, grid, problem);
-  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, problem)) return false;
+  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, in_force, problem)) return false;
 
   dmrp_planning_problem& c = problem.c;
   c.struct_size = sizeof(c);
   c.robot_count = static_cast<std::uint32_t>(problem.robots.size());
   c.robots = problem.robots.data();
   c.robot_stride = sizeof(dmrp_planning_robot);
-  c.revision = revision;
+  c.revision = in_force ? in_force->plan.revision + 1 : 1;
   c.now_ns = world.t_ns();
   c.effective_from_ns = world.t_ns();
   c.step_duration_ns = variant.simulation.step_duration_ns;
   c.time_budget_ns = time_budget_ns;
   c.grid = &problem.grid;
+  if (in_force) {
+    c.in_force = in_force->plan.paths;
+    c.in_force_count = in_force->plan.path_count;
+    c.in_force_stride = in_force->plan.path_stride;
+  }
   return true;
 }
 
 Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
-               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step) {
+               const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step) {
   Plan plan;
-  plan.revision = revision;
+  plan.revision = in_force ? in_force->plan.revision + 1 : 1;
   plan.from_ns = world.t_ns();
   plan.step_duration_ns = variant.simulation.step_duration_ns;
 
   StagedProblem problem;
-  if (!stage_problem(variant, world, revision, time_budget_ns, problem)) return plan;
+  if (!stage_problem(variant, world, in_force, time_budget_ns, problem)) return plan;
+  plan.asked = true;
   PlannerAnswer answer = ask_planner(planner, problem.c, step);
   plan.status = answer.status;
   plan.planning_ns = answer.planning_ns;

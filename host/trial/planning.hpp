@@ -34,6 +34,7 @@ class Plan {
   std::int64_t step_duration_ns = 0;
   std::int64_t planning_ns = 0;
   std::uint32_t conflicts = 0;  // of an uncoordinated planner
+  bool asked = false;           // the planner was: robots could be put on distinct cells
 
   bool exists() const { return !paths.empty(); }
 
@@ -58,8 +59,15 @@ struct StagedProblem {
   dmrp_planning_problem c{};
 };
 
-// The problem for the robots where they are now. False where they cannot be put on distinct cells.
-bool stage_problem(const VariantWorld& variant, const core::World& world, std::uint64_t revision,
+// What holds while a plan is made that is not the first.
+struct InForce {
+  const dmrp_plan& plan;
+  std::span<const dmrp_vec2> next;  // where each robot goes next
+};
+
+// The problem for the robots where they are now, `in_force` being nullptr for the first plan. False where they cannot
+// be put on distinct cells.
+bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem);
 
 // What came out of one call of plan(), not yet checked.
@@ -81,11 +89,11 @@ std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info);
 // No plan (NO_SOLUTION, TIMEOUT, or robots that cannot be put on distinct cells) is a Plan that does not exist().
 // Throws PluginFault, of kind bad_output where the plan breaks the contract.
 Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
-               std::uint64_t revision, std::int64_t time_budget_ns, std::int64_t step);
+               const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step);
 
 // A robot's path (at least one waypoint) as its controller gets it: where a goal lies off its cell's centre, the way
-// there is one leg more, and on a tour the way back to the centre another. Each takes `step_duration_ns`. `goals`: all of
-// the robot's, by index.
+// there is one leg more, and on a tour the way back to the centre another. Each takes `step_duration_ns`. `goals`: all
+// of the robot's, by index.
 std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
                                          std::int64_t step_duration_ns);
 

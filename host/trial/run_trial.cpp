@@ -2,11 +2,14 @@
 #include "host/trial/run_trial.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "core/ending.hpp"
-#include "core/progress.hpp"
+#include "core/replanning.hpp"
 #include "core/world.hpp"
 #include "host/trial/cast.hpp"
+#include "host/trial/dispatcher.hpp"
 
 namespace dmrp::host {
 
@@ -20,26 +23,26 @@ class Run {
                trial.seed),
         cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),
-        monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
-        paths_(world_.robots().size()),
-        progress_(world_.robots().size()),
-        gained_m_(world_.robots().size()) {}
+        dispatcher_(trial.variant, world_),
+        replanning_(settings_.replan, world_.robots().size()),
+        monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns) {}
 
   dmrp_trial_end run() {
-    plan_ = cast_.plan(1, 0);
-    trace_.plan(plan_.view(), plan_.conflicts);
+    plan(nullptr);
     if (!plan_.exists()) return end_without_plan();
-    take_up_plan();
     record({});
 
-    std::uint32_t ending = monitor_.update(0, world_.robots(), gained_m_);
+    std::uint32_t ending = monitor_.update(0, world_.robots(), dispatcher_.gained_m());
     while (ending == 0) {
-      if (control_due()) control();  // sees the state that was recorded last
+      if (control_due()) {  // sees the state that was recorded last
+        if (replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress())) replan();
+        control();
+      }
       const auto contacts = world_.step(cast_.walk(step_));
       ++step_;
-      follow_progress();
+      dispatcher_.follow();
       record(contacts);
-      ending = monitor_.update(world_.t_ns(), world_.robots(), gained_m_);
+      ending = monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m());
     }
     ends_ = monitor_.robot_ends(ending, world_.robots());
     return end(ending);
@@ -55,22 +58,28 @@ class Run {
  private:
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
-  void take_up_plan() {
-    for (std::uint32_t i = 0; i < progress_.size(); ++i) {
-      const core::RobotState& robot = world_.robots()[i];
-      if (robot.state != DMRP_ROBOT_ACTIVE) continue;
-      paths_[i] = path_to_drive(plan_.paths[i], world_.goals(i), plan_.step_duration_ns);
-      progress_[i].set_path(paths_[i], {robot.pose.x, robot.pose.y});
-      cast_.set_path(i, paths_[i], plan_.revision, step_);
-    }
+  // Without a new plan, the one in force stays.
+  void plan(const InForce* in_force) {
+    Plan plan = cast_.plan(in_force, step_);
+    trace_.plan(plan.view(), plan.conflicts);
+    if (!plan.exists()) return;
+    plan_ = std::move(plan);
+    dispatcher_.take_up(plan_);
+  }
+
+  void replan() {
+    const std::vector<dmrp_vec2> next = dispatcher_.next_positions();
+    const InForce in_force = {plan_.view(), next};
+    plan(&in_force);
   }
 
   void control() {
+    dispatcher_.direct();
     cast_.sense();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
       if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-      const auto last_waypoint = static_cast<std::uint32_t>(paths_[i].size() - 1);
-      if (const auto command = cast_.drive(i, progress_[i], last_waypoint, step_)) {
+      if (const auto path = dispatcher_.hand_over(i); !path.empty()) cast_.set_path(i, path, step_);
+      if (const auto command = cast_.drive(i, dispatcher_.guidance(i), step_)) {
         world_.set_command(i, *command);
         monitor_.command_given(i, world_.t_ns());
       } else {
@@ -80,20 +89,12 @@ class Run {
     }
   }
 
-  void follow_progress() {
-    for (std::size_t i = 0; i < progress_.size(); ++i) {
-      const core::RobotState& robot = world_.robots()[i];
-      progress_[i].update({robot.pose.x, robot.pose.y}, robot.goal_index);
-      gained_m_[i] = progress_[i].gained_m();
-    }
-  }
-
   void record(std::span<const dmrp_contact> contacts) {
     robots_.clear();
-    for (std::size_t i = 0; i < progress_.size(); ++i) {
+    for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
-      robots_.push_back(
-          {robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_[i].progress_m()});
+      robots_.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index,
+                         dispatcher_.progress()[i].progress_m()});
     }
     const auto people = world_.people();
     const auto calls = cast_.take_calls();
@@ -140,10 +141,9 @@ class Run {
   core::World world_;
   Cast cast_;
   core::TraceEncoder& trace_;
+  Dispatcher dispatcher_;
+  core::ReplanMonitor replanning_;
   core::EndingMonitor monitor_;
-  PlannedPaths paths_;  // as the controllers have them: progress is counted along these
-  std::vector<core::PathProgress> progress_;
-  std::vector<double> gained_m_;
   Plan plan_;
   std::int64_t step_ = 0;
   std::vector<dmrp_robot_sample> robots_;

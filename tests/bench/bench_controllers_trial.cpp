@@ -39,8 +39,8 @@ dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
 
 // One robot while its trial is recorded.
 struct Driver {
-  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar)
-      : sensors(world, robot, lidar), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
+  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+      : sensors(world, robot, lidar, seed), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
 
   host::RobotSensors sensors;
   Recorder recorder;
@@ -92,7 +92,7 @@ class Recording {
 
  private:
   void start_driver(std::uint32_t robot, host::InstancePool& pool) {
-    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_));
+    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_, trial_.seed));
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();
@@ -105,7 +105,7 @@ class Recording {
     const host::PluginUse& use = trial_.experiment.global_planners[0];
     host::Instance& planner = pool.get(use, -1);
     planner.start(trial_.variant.view.world(), instance_seed(trial_.seed, "global_planner", 0), budget_ns);
-    const host::Plan plan = host::make_plan(planner, use.info, trial_.variant, world_, 1, budget_ns, 0);
+    const host::Plan plan = host::make_plan(planner, use.info, trial_.variant, world_, nullptr, budget_ns, 0);
     if (!plan.exists()) throw std::runtime_error("the planner found no plan");
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
       Driver& driver = *drivers_[i];

@@ -40,6 +40,28 @@ query "$scratch/even" "ATTACH '$scratch/odd/results.sqlite' AS odd; INSERT INTO 
   INSERT INTO value SELECT * FROM odd.value; INSERT INTO event SELECT * FROM odd.event;"
 [[ $(values_of "$scratch/even") == "$expected" ]] || fail "the shards together differ from a run in one go"
 
+# nor does it matter when plans come one after the other, by waypoint and in order
+directed=$scratch/directed.toml
+sed 's/dmrp.planner.individual/dmrp.planner.ecbs8/' "$experiment" >"$directed"
+cat >>"$directed" <<'EOF'
+[simulation]
+dispatch        = "waypoint"
+execution       = "ordered"
+replan_period_s = 3
+replan_stray_m  = 0.8
+replan_stall_s  = 2.5
+EOF
+run_directed() {
+  expect_status 0 "$host" "$directed" --quiet "$@"
+}
+run_directed --jobs 1 --out "$scratch/directed"
+run_directed --jobs 2 --out "$scratch/directed_two"
+query "$scratch/directed_two" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id IN (1, 6);"
+run_directed --resume --jobs 2 --out "$scratch/directed_two"
+[[ $(values_of "$scratch/directed_two") == $(values_of "$scratch/directed") ]] ||
+  fail "with replanning, --jobs 2 and --resume differ from --jobs 1"
+[[ $(values_of "$scratch/directed") != "$expected" ]] || fail "how plans reach robots should show"
+
 # a run with another experiment cannot be gone on with
 sed 's/^seed .*/seed = 8/' "$experiment" >"$scratch/other.toml"
 expect_status 2 "$host" "$scratch/other.toml" --quiet --resume --out "$scratch/two"

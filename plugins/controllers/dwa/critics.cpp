@@ -17,10 +17,10 @@ int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning
   const double share = std::clamp((std::abs(sample.v) - tuning.scaling_speed) / fast, 0.0, 1.0);
   footprint.scale(1.0 + tuning.max_scaling_factor * share);
   const int steps = simulation_steps(sample, tuning);
-  const ArcStepper stepper(sample.v, sample.omega, tuning.sim_time / steps);
+  Rollout rollout(sample, scene, tuning.sim_time, steps);
   int highest = 0;
   for (int i = 0; i < steps; ++i) {
-    stepper.step(at);
+    rollout.step(at);
     const int cost = footprint.cost(at);
     if (cost == in_collision) return in_collision;
     highest = std::max(highest, cost);
@@ -54,7 +54,8 @@ Scene seen_along(const Scene& scene, double heading, const OscillationGuard& osc
           scene.front_length_m,
           scene.follow,
           scene.align,
-          oscillation};
+          oscillation,
+          nullptr};
 }
 
 int simulation_steps(const Sample& sample, const Tuning& tuning) {

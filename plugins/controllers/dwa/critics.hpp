@@ -19,6 +19,14 @@ struct Sample {
   double omega = 0.0;
 };
 
+// The robot's velocity now and its accelerations: where samples lie beyond one control period (use_dwa off), arcs begin
+// with the change to them.
+struct Ramp {
+  Sample now;
+  double a_max = 0.0;      // m/s^2
+  double alpha_max = 0.0;  // rad/s^2
+};
+
 // Named and defaulted as upstream; dwa.hpp documents them.
 struct Tuning {
   double sim_time = 1.7;
@@ -46,6 +54,7 @@ struct Scene {
   bool follow = true;           // whether the path critics count
   bool align = true;            // whether the nose shall be on the path
   const OscillationGuard& oscillation;
+  const Ramp* ramp = nullptr;  // NULL: velocities are constant along arcs
 };
 
 // The same scene with the robot turned to another heading, and another memory of turning back and forth.
@@ -55,6 +64,31 @@ inline constexpr double rejected = -1.0;
 
 // How far from the free cells a robot may be that gets away from something that came too near.
 inline constexpr std::int32_t escape_reach_cells = 8;
+
+// Equal steps along the arc of a sample.
+class Rollout {
+ public:
+  Rollout(const Sample& sample, const Scene& scene, double duration_s, int steps)
+      : ramp_(scene.ramp),
+        sample_(sample),
+        now_(scene.ramp ? scene.ramp->now : sample),
+        dt_s_(duration_s / steps),
+        constant_(sample.v, sample.omega, dt_s_) {}
+
+  void step(ArcState& at) {
+    if (!ramp_) return constant_.step(at);
+    now_.v = toward(now_.v, sample_.v, ramp_->a_max * dt_s_);
+    now_.omega = toward(now_.omega, sample_.omega, ramp_->alpha_max * dt_s_);
+    ArcStepper(now_.v, now_.omega, dt_s_).step(at);
+  }
+
+ private:
+  const Ramp* ramp_;
+  Sample sample_;
+  Sample now_;
+  double dt_s_;
+  ArcStepper constant_;
+};
 
 // The steps in which an arc is checked.
 int simulation_steps(const Sample& sample, const Tuning& tuning);

@@ -2,6 +2,7 @@
 #include "dwa.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -12,6 +13,9 @@
 namespace dmrp::controllers {
 
 namespace {
+
+// Of a straight way across a window of usual size; more costs an allocation.
+constexpr std::size_t most_plan_points = 1024;
 
 // Closer to obstacles than this, beyond what the footprint needs, the goal's fronts count steps by their effort.
 constexpr double easy_m = 0.15;
@@ -56,6 +60,9 @@ Status Dwa::start(const World&, std::uint64_t) {
   annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tuning_ = {sim_time,      sim_granularity, angular_sim_granularity, path_distance_bias, goal_distance_bias,
              occdist_scale, twirling_scale,  forward_point_distance,  scaling_speed,      max_scaling_factor};
+  window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
+  window_.omega.reserve(static_cast<std::size_t>(*vth_samples) + 1);
+  plan_.reserve(most_plan_points);
   tracker_.clear();
   at_goal_.reset();
   oscillation_.reset();
@@ -73,19 +80,28 @@ Status Dwa::step(const Observation& now, Command& command) {
   if (tracker_.empty()) return Status::ok;
   const CostmapView map(*costmap_->costmap(costmap_));
   FootprintCheck footprint(map, now.footprint, footprint_padding, now.pose);
+  turning_ = turning_ && std::abs(toolkit::difference(now.pose.theta, turn_to_)) > turn_end_rad;
   if (at_goal_.reached(tracker_.stop(), now)) {
     command = at_goal_.command(tracker_.stop(), now);
-    return Status::ok;
-  }
-
-  turning_ = turning_ && std::abs(toolkit::difference(now.pose.theta, turn_to_)) > turn_end_rad;
-  if (turning_) {
+    turning_ = false;
+  } else if (turning_) {
     command = turn(now, footprint);
-    return Status::ok;
+  } else {
+    return choose(now, map, footprint, command);
   }
+  annotate_arc(annotate_, now.pose, command.v_x, command.omega, tuning_.sim_time);
+  return Status::ok;
+}
 
+// The dynamic window itself.
+Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command) {
+  // what is kept for the whole time simulated must not overshoot the goal
+  const double stop_m = toolkit::distance(toolkit::position(now.pose), tracker_.stop().position);
+  window_.sample(now, use_dwa ? seconds(now.dt_ns) : *sim_time, use_dwa ? now.limits.v_max : stop_m / sim_time,
+                 static_cast<std::size_t>(*vx_samples), static_cast<std::size_t>(*vth_samples));
   const double needed_m = now.footprint.inscribed_radius_m + footprint_padding;
   terrain_.read(map, map.highest_cost_at(needed_m), map.highest_cost_at(needed_m + easy_m));
+  want_reach(now, map);
   lay_out_plan(map);
   spread_fronts(now, map);
   // as near as it gets to something that stands across the whole way: wait
@@ -93,18 +109,19 @@ Status Dwa::step(const Observation& now, Command& command) {
   if (goal_is_cut_ && to_goal_m < wait_within_m) return Status::ok;
 
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
-  window_.sample(now, static_cast<std::size_t>(*vx_samples), static_cast<std::size_t>(*vth_samples));
+  ramp_ = {{now.velocity.v_x, now.velocity.omega}, now.limits.a_max, now.limits.alpha_max};
   // a path is not replanned about people: round something that stands on it, the goal critics lead alone
   const bool follow =
       std::all_of(plan_.begin(), plan_.end(), [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
   const bool align = to_goal_m > forward_point_distance;
-  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,    terrain_, path_front_, goal_front_,
-                            nose_front_, front_length_m_,  follow, align,    oscillation_};
+  const dwa::Scene scene = {now.pose,    now.limits.v_max, map,    terrain_, path_front_,  goal_front_,
+                            nose_front_, front_length_m_,  follow, align,    oscillation_, use_dwa ? nullptr : &ramp_};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
     return Status::no_solution;
   }
+  annotate(scene, *choice);
   if (choice->v == 0.0 && std::abs(now.velocity.v_x) < standing_m_s) {
     if (at_goal_.settles(tracker_.stop(), now)) {
       command = at_goal_.command(tracker_.stop(), now);
@@ -118,8 +135,65 @@ Status Dwa::step(const Observation& now, Command& command) {
   oscillation_.note(now.pose, choice->v, choice->omega);
   command.v_x = choice->v;
   command.omega = choice->omega;
-  annotate_arc(annotate_, now.pose, choice->v, choice->omega, tuning_.sim_time);
+  if (!use_dwa) {
+    // the first step toward it
+    const double period_s = seconds(now.dt_ns);
+    const double v = toward(now.velocity.v_x, choice->v, now.limits.a_max * period_s);
+    const double omega = toward(now.velocity.omega, choice->omega, now.limits.alpha_max * period_s);
+    command.v_x = std::clamp(v, now.limits.v_min, now.limits.v_max);
+    command.omega = std::clamp(omega, -now.limits.omega_max, now.limits.omega_max);
+  }
   return Status::ok;
+}
+
+// Fronts are asked for where the robot is, where arcs and their noses end, and, for one that stands, all about it.
+void Dwa::want_reach(const Observation& now, const CostmapView& map) {
+  const std::int32_t here = terrain_.index_of(map, now.pose.x, now.pose.y);
+  const std::int32_t margin = terrain_.is_free(here) ? 1 : dwa::escape_reach_cells + 1;
+  const auto want = [&](Vec2 lower, Vec2 upper, double beyond_m) {
+    terrain_.want(map.column_of(lower.x - beyond_m) - margin, map.column_of(upper.x + beyond_m) + margin,
+                  map.row_of(lower.y - beyond_m) - margin, map.row_of(upper.y + beyond_m) + margin);
+  };
+  const Vec2 at = toolkit::position(now.pose);
+  want(at, at, std::abs(now.velocity.v_x) < standing_m_s ? probe_m + forward_point_distance : 0.0);
+
+  const double fastest = std::max(std::abs(window_.v.front()), std::abs(window_.v.back()));
+  if (!use_dwa) return want(at, at, fastest * sim_time + forward_point_distance);
+  Vec2 lower = {1e300, 1e300};
+  Vec2 upper = {-1e300, -1e300};
+  for (const double omega : window_.omega) {
+    // an arc's end goes with its speed
+    ArcState one = arc_state({0.0, 0.0, now.pose.theta});
+    ArcStepper(1.0, omega, sim_time).step(one);
+    for (const double v : {window_.v.front(), window_.v.back()}) {
+      for (const double nose_m : {0.0, *forward_point_distance}) {
+        const Vec2 point = at + v * Vec2{one.x, one.y} + nose_m * Vec2{one.cos_theta, one.sin_theta};
+        lower = {std::min(lower.x, point.x), std::min(lower.y, point.y)};
+        upper = {std::max(upper.x, point.x), std::max(upper.y, point.y)};
+      }
+    }
+  }
+  want(lower, upper, 0.0);
+}
+
+// What was tried, and what was chosen.
+void Dwa::annotate(const dwa::Scene& scene, const dwa::Sample& choice) const {
+  if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  constexpr int steps = 17;
+  std::array<dmrp_pose, steps + 1> poses;
+  const auto leave = [&](const dwa::Sample& sample, std::uint32_t role) {
+    dwa::Rollout rollout(sample, scene, tuning_.sim_time, steps);
+    ArcState at = arc_state(scene.pose);
+    for (dmrp_pose& pose : poses) {
+      pose = {at.x, at.y, std::atan2(at.sin_theta, at.cos_theta)};
+      rollout.step(at);
+    }
+    annotate_->trajectory(annotate_, role, poses.data(), steps + 1,
+                          static_cast<std::int64_t>(tuning_.sim_time / steps * 1e9));
+  };
+  for (const double v : window_.v)
+    for (const double omega : window_.omega) leave({v, omega}, DMRP_ANNOTATE_CANDIDATE);
+  leave(choice, DMRP_ANNOTATE_PREDICTED);
 }
 
 // The path ahead in the window, in steps of half a cell.
@@ -162,8 +236,8 @@ void Dwa::spread_fronts(const Observation& now, const CostmapView& map) {
 // The last point of the plan that the robot can get to; its own place where there is none. Leaves the front spread
 // from it.
 std::int32_t Dwa::choose_goal(std::int32_t home) {
-  const auto spread_from = [this](std::int32_t index) {
-    goal_front_.begin(terrain_);
+  const auto spread_from = [this](std::int32_t index, bool everywhere = false) {
+    goal_front_.begin(terrain_, everywhere);
     if (index < 0) return;
     goal_front_.seed(index);
     goal_front_.spread_by_effort(terrain_);
@@ -178,7 +252,7 @@ std::int32_t Dwa::choose_goal(std::int32_t home) {
   }
   // something stands across the whole way: as near as the path leads to it
   goal_is_cut_ = true;
-  spread_from(home);
+  spread_from(home, true);
   const auto nearest = std::find_if(plan_.rbegin(), plan_.rend(),
                                     [this](const PlanPoint& point) { return goal_front_.reached(point.index); });
   if (nearest == plan_.rend()) return home;

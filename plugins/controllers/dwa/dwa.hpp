@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // dwa.hpp: the dynamic window approach, as ROS's dwa_local_planner does it.
 //
-// Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4 (1997).
+// Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4
+// (1997).
 #ifndef DMRP_CONTROLLERS_DWA_DWA_HPP
 #define DMRP_CONTROLLERS_DWA_DWA_HPP
 
@@ -36,7 +37,7 @@ class Dwa final : public LocalController {
                                          .range(0.0, 100.0)
                                          .doc("weight of the distance to the end of the path in the window");
   Param<double> occdist_scale =
-      param("occdist_scale", 0.001).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
+      param("occdist_scale", 0.01).unit("1").range(0.0, 10.0).doc("weight of the footprint's highest cost");
   Param<double> twirling_scale =
       param("twirling_scale", 0.0).unit("s/rad").range(0.0, 10.0).doc("weight of the turning rate");
   Param<double> forward_point_distance =
@@ -53,9 +54,11 @@ class Dwa final : public LocalController {
                                               .unit("rad")
                                               .range(0.0, 3.2)
                                               .doc("having turned this far, the robot may reverse again");
+  Param<bool> use_dwa =
+      param("use_dwa", true).doc("try what can be reached within a control period; off: within the time simulated");
   Param<double> footprint_padding =
-      param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
-  Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 2.0)
+      param("footprint_padding", 0.01).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
+  Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 100.0)
                                                      .unit("m")
                                                      .range(0.5, 100.0)
                                                      .doc("length of the path that is looked at, inside the window");
@@ -65,6 +68,9 @@ class Dwa final : public LocalController {
   Status step(const Observation& now, Command& command) override;
 
  private:
+  Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
+  void annotate(const dwa::Scene& scene, const dwa::Sample& choice) const;
+  void want_reach(const Observation& now, const CostmapView& map);
   void lay_out_plan(const CostmapView& map);
   void spread_fronts(const Observation& now, const CostmapView& map);
   std::int32_t choose_goal(std::int32_t home);
@@ -83,6 +89,7 @@ class Dwa final : public LocalController {
   StopAndRotate at_goal_;
   dwa::Tuning tuning_;
   dwa::VelocityWindow window_;
+  dwa::Ramp ramp_;
   dwa::OscillationGuard oscillation_;
   dwa::Terrain terrain_;
   dwa::WaveFront path_front_;

@@ -19,16 +19,16 @@ void sample_range(double lowest, double highest, std::size_t count, std::vector<
   }
 }
 
-void VelocityWindow::sample(const Observation& now, std::size_t v_count, std::size_t omega_count) {
-  const double period_s = seconds(now.dt_ns);
+void VelocityWindow::sample(const Observation& now, double reach_s, double v_most, std::size_t v_count,
+                            std::size_t omega_count) {
   const Limits& limits = now.limits;
   // a velocity outside the limits (measured with noise, say) is brought back as fast as the accelerations allow
   const auto window = [](double current, double step, double lower, double upper, std::size_t count,
                          std::vector<double>& values) {
     sample_range(std::clamp(current - step, lower, upper), std::clamp(current + step, lower, upper), count, values);
   };
-  window(now.velocity.v_x, limits.a_max * period_s, limits.v_min, limits.v_max, v_count, v);
-  window(now.velocity.omega, limits.alpha_max * period_s, -limits.omega_max, limits.omega_max, omega_count, omega);
+  window(now.velocity.v_x, limits.a_max * reach_s, limits.v_min, std::min(limits.v_max, v_most), v_count, v);
+  window(now.velocity.omega, limits.alpha_max * reach_s, -limits.omega_max, limits.omega_max, omega_count, omega);
 }
 
 }  // namespace dmrp::controllers::dwa

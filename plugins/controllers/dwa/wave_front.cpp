@@ -24,6 +24,22 @@ void Terrain::read(const CostmapView& map, std::uint8_t highest_free_cost, std::
     marks[stride_ - 1] = blocked;
   }
   std::fill_n(marks_.end() - stride_, stride_, blocked);
+  wanted_count_ = 0;
+}
+
+void Terrain::want(std::int32_t first_column, std::int32_t last_column, std::int32_t first_row, std::int32_t last_row) {
+  const std::int32_t rows = static_cast<std::int32_t>(marks_.size()) / stride_;
+  // marks have a frame of one cell
+  const std::int32_t first = std::max(1, first_column + 1);
+  const std::int32_t last = std::min(stride_ - 2, last_column + 1);
+  for (std::int32_t row = std::max(1, first_row + 1); row <= std::min(rows - 2, last_row + 1); ++row) {
+    std::uint16_t* marks = marks_.data() + row * stride_;
+    for (std::int32_t column = first; column <= last; ++column) {
+      if (marks[column] != unreached) continue;
+      marks[column] = wanted;
+      ++wanted_count_;
+    }
+  }
 }
 
 std::int32_t Terrain::nearest_free(std::int32_t index, std::int32_t reach) const {
@@ -45,15 +61,18 @@ std::int32_t Terrain::nearest_free(std::int32_t index, std::int32_t reach) const
   return nearest;
 }
 
-void WaveFront::begin(const Terrain& terrain) {
+void WaveFront::begin(const Terrain& terrain, bool everywhere) {
   stride_ = terrain.stride();
   distances_ = terrain.marks();
   queue_.resize(distances_.size());
   queued_ = 0;
+  missing_ = everywhere || terrain.wanted_count() == 0 ? -1 : terrain.wanted_count();
 }
 
 void WaveFront::seed(std::int32_t index) {
-  if (cells(index) != Terrain::unreached) return;
+  const std::uint16_t mark = cells(index);
+  if (mark <= Terrain::blocked) return;
+  missing_ -= mark == Terrain::wanted;
   distances_[static_cast<std::size_t>(index)] = 0;
   queue_[queued_++] = index;
 }
@@ -62,40 +81,52 @@ void WaveFront::spread() {
   std::uint16_t* distances = distances_.data();
   std::int32_t* queue = queue_.data();
   std::size_t queued = queued_;
+  std::int32_t missing = missing_;
   const std::int32_t offsets[4] = {1, -1, stride_, -stride_};
-  for (std::size_t next = 0; next < queued; ++next) {
+  for (std::size_t next = 0; next < queued && missing != 0; ++next) {
     const std::int32_t from = queue[next];
     const auto distance = static_cast<std::uint16_t>(distances[from] + 1);
     for (const std::int32_t offset : offsets) {
-      if (distances[from + offset] != Terrain::unreached) continue;
+      const std::uint16_t mark = distances[from + offset];
+      if (mark <= Terrain::blocked) continue;
+      missing -= mark == Terrain::wanted;
       distances[from + offset] = distance;
       queue[queued++] = from + offset;
     }
   }
   queued_ = queued;
+  missing_ = missing;
 }
 
 // The effort belongs to the cell stepped onto, so the first to reach a cell, in order of distance, reaches it best.
 void WaveFront::spread_by_effort(const Terrain& terrain) {
   const std::uint8_t* efforts = terrain.efforts().data();
   std::uint16_t* distances = distances_.data();
+  std::int32_t missing = missing_;
   const std::int32_t offsets[4] = {1, -1, stride_, -stride_};
   constexpr std::uint16_t ring_count = close_effort + 1;
-  for (std::vector<std::int32_t>& ring : rings_) ring.clear();
-  rings_[0].assign(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queued_));
-  for (std::uint16_t distance = 0, idle = 0; idle < ring_count; ++distance) {
-    std::vector<std::int32_t>& ring = rings_[distance % ring_count];
-    idle = ring.empty() ? static_cast<std::uint16_t>(idle + 1) : std::uint16_t{0};
-    for (const std::int32_t from : ring) {
+  std::size_t counts[ring_count] = {};
+  for (std::vector<std::int32_t>& ring : rings_) ring.resize(distances_.size());
+  std::copy_n(queue_.begin(), queued_, rings_[0].begin());
+  counts[0] = queued_;
+  for (std::uint16_t distance = 0, idle = 0; idle < ring_count && missing != 0; ++distance) {
+    const std::uint16_t here = distance % ring_count;
+    const std::int32_t* ring = rings_[here].data();
+    idle = counts[here] == 0 ? static_cast<std::uint16_t>(idle + 1) : std::uint16_t{0};
+    for (std::size_t i = 0; i < counts[here]; ++i) {
       for (const std::int32_t offset : offsets) {
-        const std::int32_t to = from + offset;
-        if (distances[to] != Terrain::unreached) continue;
+        const std::int32_t to = ring[i] + offset;
+        const std::uint16_t mark = distances[to];
+        if (mark <= Terrain::blocked) continue;
+        missing -= mark == Terrain::wanted;
         distances[to] = static_cast<std::uint16_t>(distance + efforts[to]);
-        rings_[distances[to] % ring_count].push_back(to);
+        const std::uint16_t there = distances[to] % ring_count;
+        rings_[there][counts[there]++] = to;
       }
     }
-    ring.clear();
+    counts[here] = 0;
   }
+  missing_ = missing;
 }
 
 }  // namespace dmrp::controllers::dwa

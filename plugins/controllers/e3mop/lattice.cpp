@@ -15,6 +15,9 @@ constexpr double sample_step_m = 0.05;
 // Long steps ahead are about this long.
 constexpr double long_step_m = 0.45;
 
+// Wide arcs have this many times the radius of the tightest that is driven at full speed.
+constexpr double wide = 1.5;
+
 // Arcs are looked for among lattice vectors of so many cells.
 constexpr int arc_reach = 12;
 
@@ -83,7 +86,8 @@ void MotionSet::build(const dmrp_limits& limits, double resolution_m) {
     add_straight(heading, std::max(2, static_cast<int>(std::lround(long_step_m / step_m))), MotionKind::long_forward);
     for (const int side : {1, -1}) {
       const int to = (heading + side + direction_count) % direction_count;
-      add_arc(heading, to, full_speed_radius_m, infinity);
+      add_arc(heading, to, wide * full_speed_radius_m, infinity);
+      add_arc(heading, to, full_speed_radius_m, wide * full_speed_radius_m);
       add_arc(heading, to, radius_min_m, full_speed_radius_m);
       add_turn(heading, to);
     }
@@ -145,8 +149,8 @@ void MotionSet::add_arc(int heading, int to_heading, double radius_min, double r
   add(heading, best, before_m, after_m);
 }
 
-// The travel time, weighted. An arc counts no less than the way of the heuristic's grid along its two tangents, which is
-// up to 2 % longer than the arc: so the heuristic never exceeds the cost.
+// The travel time, weighted. An arc counts no less than the way of the heuristic's grid along its two tangents, which
+// is up to 2 % longer than the arc: so the heuristic never exceeds the cost.
 double MotionSet::cost_s(const Motion& motion, double turn, double straight_m) const {
   switch (motion.kind) {
     case MotionKind::short_forward:

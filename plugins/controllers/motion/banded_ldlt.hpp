@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth, with an optional border.
+// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth, with an optional
+// border.
 //
 // Golub, Van Loan: Matrix Computations (4th edition), sections 4.1.2 and 4.3.5. No pivoting: for positive definite and
-// for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose pivots
-// may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown to their size.
+// for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose
+// pivots may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown to their
+// size.
 #ifndef DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 #define DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 
@@ -21,6 +23,8 @@ class BandedMatrix {
  public:
   static constexpr std::size_t bandwidth = Bandwidth;
   static constexpr std::size_t stride = Bandwidth + 1;
+
+  void reserve(std::size_t size) { entries_.reserve(size * stride); }
 
   // All zero.
   void resize(std::size_t size) {
@@ -62,6 +66,11 @@ class BandedMatrix {
 template <std::size_t Bandwidth>
 class BandedLdlt {
  public:
+  void reserve(std::size_t size) {
+    factor_.reserve(size);
+    inverse_pivots_.reserve(size);
+  }
+
   // Factors A + shift I. False where a pivot is no finite number or too small to divide by; the factors are then of no
   // use.
   bool factor(const BandedMatrix<Bandwidth>& a, double shift = 0.0) {

@@ -41,6 +41,14 @@ struct LevenbergMarquardtResult {
 template <std::size_t Bandwidth>
 class LevenbergMarquardt {
  public:
+  // For problems of so many variables.
+  void reserve(std::size_t size) {
+    hessian_.reserve(size);
+    ldlt_.reserve(size);
+    gradient_.reserve(size);
+    step_.reserve(size);
+  }
+
   template <class Problem>
   LevenbergMarquardtResult minimise(Problem& problem, const LevenbergMarquardtSettings& settings) {
     LevenbergMarquardtResult result;

@@ -14,6 +14,7 @@ constexpr double least_decrease = 1e-3;
 
 void BandOptimizer::reserve(std::size_t poses) {
   problem_.reserve(poses);
+  solver_.reserve(4 * poses);
 }
 
 bool BandOptimizer::optimise(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning) {
@@ -24,7 +25,9 @@ bool BandOptimizer::optimise(TimedElasticBand& band, const Scene& scene, const B
   for (int outer = 0; outer < tuning.no_outer_iterations; ++outer) {
     resize(band, tuning);
     problem_.begin(band, scene, tuning, obstacle_factor);
-    if (!solver_.minimise(problem_, settings).is_finite) return false;
+    const LevenbergMarquardtResult result = solver_.minimise(problem_, settings);
+    iterations_ += result.iterations;
+    if (!result.is_finite) return false;
     obstacle_factor *= tuning.weight_adapt_factor;
   }
   return true;

@@ -16,12 +16,17 @@ class BandOptimizer {
   // False where the optimisation broke down: a cost that is no number. The band is of no use then.
   bool optimise(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning);
 
+  // Of the solver, since the last reset.
+  int iterations() const { return iterations_; }
+  void reset_iterations() { iterations_ = 0; }
+
   // Of a band as it lies.
   double cost(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning, const CostScales& scales);
 
  private:
   BandProblem problem_;
   LevenbergMarquardt<band_width> solver_;
+  int iterations_ = 0;
 };
 
 }  // namespace dmrp::controllers::teb

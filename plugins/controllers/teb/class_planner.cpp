@@ -142,6 +142,7 @@ void ClassPlanner::optimise(const Task& task) {
                              class_tuning_.selection_alternative_time_cost};
   Scene unguided = task.scene;
   unguided.via_points = &no_via_points_;
+  optimizer_.reset_iterations();
   for (std::size_t i = 0; i < count_; ++i) {
     Candidate& candidate = candidates_[i];
     const bool is_guided = class_tuning_.viapoints_all_candidates || candidate.is_initial_plan;

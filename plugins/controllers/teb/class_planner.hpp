@@ -56,6 +56,9 @@ class ClassPlanner {
   // Drops the band chosen and chooses among the others.
   void drop_best();
 
+  // Of the solver, in the last plan().
+  int iterations() const { return optimizer_.iterations(); }
+
   std::size_t size() const { return count_; }
   const TimedElasticBand& band(std::size_t i) const { return candidates_[i].band; }
 

@@ -59,8 +59,9 @@ struct WeightedSquares {
   void add(std::size_t first, Penalty penalty, const std::array<double, size>& by, double weight) {
     if (penalty.error == 0.0) return;
     sum += weight * penalty.error * penalty.error;
-    // the slope is 1 or -1: it shows in J'r only
-    if constexpr (with_derivatives) normal.add(first, by, penalty.slope * penalty.error, weight);
+    // J is the slope times `by`
+    if constexpr (with_derivatives)
+      normal.add(first, by, penalty.error / penalty.slope, weight * penalty.slope * penalty.slope);
   }
 };
 

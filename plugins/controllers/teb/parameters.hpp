@@ -92,6 +92,10 @@ class ParameterTable : public LocalController {
                                           .unit("1")
                                           .range(1.0, 100.0)
                                           .doc("the obstacles' weights grow by this from outer iteration to the next");
+  Param<double> obstacle_cost_exponent = param("obstacle_cost_exponent", 1.0)
+                                             .unit("1")
+                                             .range(0.5, 10.0)
+                                             .doc("power of the penalty on min_obstacle_dist, where obstacles stand");
 
   // homotopy classes
   Param<bool> enable_homotopy_class_planning =
@@ -210,6 +214,7 @@ inline BandTuning ParameterTable::band_tuning() const {
   tuning.weight_viapoint = weight_viapoint;
   tuning.weight_prefer_rotdir = weight_prefer_rotdir;
   tuning.weight_adapt_factor = weight_adapt_factor;
+  tuning.obstacle_cost_exponent = obstacle_cost_exponent;
   return tuning;
 }
 

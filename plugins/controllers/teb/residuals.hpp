@@ -17,7 +17,7 @@ namespace dmrp::controllers::teb {
 inline constexpr std::size_t pair_block = 7;     // pose, dt, pose
 inline constexpr std::size_t triple_block = 11;  // pose, dt, pose, dt, pose
 
-// A linear penalty and its derivative: nothing inside the bounds.
+// A penalty and its derivative, linear outside the bounds, nothing inside them.
 struct Penalty {
   double error = 0.0;
   double slope = 0.0;
@@ -26,6 +26,13 @@ struct Penalty {
 // Of what should stay above low + margin.
 inline Penalty above(double value, double low, double margin) {
   return value < low + margin ? Penalty{low + margin - value, -1.0} : Penalty{};
+}
+
+// The same penalty to a power: scale (error / scale)^exponent.
+inline Penalty raised(Penalty penalty, double exponent, double scale) {
+  if (exponent == 1.0 || !(penalty.error > 0.0) || !(scale > 0.0)) return penalty;
+  const double error = scale * std::pow(penalty.error / scale, exponent);
+  return {error, penalty.slope * exponent * error / penalty.error};
 }
 
 // Of what should stay between low + margin and high - margin. A lower bound of 0 has no margin: standing is no offence.

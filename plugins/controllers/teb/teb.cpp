@@ -6,6 +6,7 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
+#include <string>
 
 #include "band_command.hpp"
 
@@ -33,8 +34,8 @@ constexpr double turn_begin_rad = 0.5;
 // Cells that an agent explains lie so near to its disc.
 constexpr double agent_cells_m = 0.2;
 
-// After so many cycles in a row without a feasible band the horizon shrinks once more.
-constexpr int shrink_again_after = 10;
+// After so many cycles in a row without a feasible band the horizon shrinks less.
+constexpr int shrink_less_after = 10;
 
 }  // namespace
 
@@ -63,6 +64,7 @@ Status Teb::start(const World& world, std::uint64_t seed) {
   at_goal_.reset();
   obstacles_.clear();
   const double periods = oscillation_filter_duration / seconds(world->control_period_ns);
+  via_points_.reserve(64);
   oscillation_.reset(static_cast<std::size_t>(std::max(2.0, std::round(periods))));
   planner_.start(band_tuning(), class_tuning(), {force_reinit_new_goal_dist, force_reinit_new_goal_angular}, seed);
   preferred_turn_ = teb::Turn::any;
@@ -91,14 +93,12 @@ Status Teb::step(const Observation& now, Command& command) {
   return status;
 }
 
-// Half as far for a while after no way was feasible.
+// Half as far for a while after no way was feasible; a little farther again where that does not help either.
 double Teb::look_ahead_m(std::int64_t t_ns) const {
-  double reach_m = max_global_plan_lookahead_dist;
+  const double whole_m = max_global_plan_lookahead_dist;
   const bool is_recent = was_infeasible_ && seconds(t_ns - infeasible_ns_) < shrink_horizon_min_duration;
-  if (!shrink_horizon_backup || !is_recent) return reach_m;
-  reach_m *= 0.5;
-  if (infeasible_in_a_row_ >= shrink_again_after) reach_m *= 0.5;
-  return reach_m;
+  if (!shrink_horizon_backup || !is_recent) return whole_m;
+  return infeasible_in_a_row_ >= shrink_less_after ? 0.75 * whole_m : 0.5 * whole_m;
 }
 
 void Teb::watch_for_oscillation(const Observation& now) {
@@ -258,6 +258,9 @@ void Teb::annotate(const teb::TimedElasticBand& best) const {
   for (std::size_t i = 0; i < planner_.size(); ++i)
     if (&planner_.band(i) != &best) tell(planner_.band(i), DMRP_ANNOTATE_CANDIDATE);
   tell(best, DMRP_ANNOTATE_PREDICTED);
+  annotate_->note(
+      annotate_,
+      ("iterations " + std::to_string(planner_.iterations()) + ", bands " + std::to_string(planner_.size())).c_str());
 }
 
 }  // namespace dmrp::controllers

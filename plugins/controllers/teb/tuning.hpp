@@ -39,6 +39,7 @@ struct BandTuning {
   double weight_viapoint = 1.0;
   double weight_prefer_rotdir = 50.0;
   double weight_adapt_factor = 2.0;
+  double obstacle_cost_exponent = 1.0;
 };
 
 // How bands of several homotopy classes are found and chosen from.

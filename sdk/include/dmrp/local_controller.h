@@ -23,10 +23,12 @@ typedef struct dmrp_local_controller {
   uint32_t struct_size;
   uint32_t reserved;
 
-  // A new path, or the same one continued after a replan. `revision` grows by one with each.
+  // A new path, or the same one continued after a replan. `revision` is 1 for the first path that this controller is
+  // handed after start() and grows by one with each: with full paths it is the plan's.
   // The waypoints live until the call returns: copy what you keep.
   // The path leads to the goals themselves, which may lie off the centres of their cells; observation.progress_* and
-  // released_waypoint count along it. Under dispatch = "waypoint" it is a single waypoint.
+  // released_waypoint count along it. After a replan it begins at the cell that the robot was on the way to.
+  // Under dispatch = "waypoint" it is a single waypoint, to go to as if it were the final goal.
   // Returns DMRP_OK or DMRP_ERROR.
   // [step]
   int32_t (*set_path)(dmrp_instance* self, const dmrp_path* path, uint64_t revision);

@@ -27,7 +27,9 @@ typedef struct dmrp_observation {
   dmrp_pose pose;
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
-  dmrp_goal goal;       // the current one. (Frozen inside this struct: it cannot grow here.)
+  // The current goal; under dispatch = "waypoint" the waypoint on the way there that was handed over, with the goal's
+  // tolerances. (Frozen inside this struct: it cannot grow here.)
+  dmrp_goal goal;
   uint32_t goal_index;
   uint32_t goal_count;
   double progress_m;           // arc length along the path of the point that the robot has reached; never falls
@@ -35,7 +37,7 @@ typedef struct dmrp_observation {
   uint32_t released_waypoint;  // last waypoint that may be passed: the path's last under execution = "free"
   const dmrp_limits* limits;
   const dmrp_footprint* footprint;
-  const dmrp_agent* agents;  // visible others, as `tracking` allows, velocities with its noise; ordered by kind, then id
+  const dmrp_agent* agents;  // visible others, as `tracking` allows, with its noise; ordered by kind, then id
   uint32_t agent_count;
   uint32_t agent_stride;
 } dmrp_observation;

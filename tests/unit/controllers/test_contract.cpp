@@ -98,6 +98,36 @@ TEST_CASE("What is annotated changes nothing") {
   }
 }
 
+TEST_CASE("DWA annotates all that it tries, what it chooses among it") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {2.0, 0.0}});
+  course.annotate = true;
+  Trip trip("dmrp.controller.dwa", course, {{"vx_samples", 4}, {"vth_samples", 6}});
+  trip.control_period();
+  trip.control_period();
+  const auto& said = trip.notes().trajectories;
+  // from rest: v 0 to 0.1 m/s, omega with zero between
+  REQUIRE(said.size() == 2 * (4 * 7 + 1));
+  for (const std::size_t chosen : {said.size() / 2 - 1, said.size() - 1}) {
+    CHECK(said[chosen].role == DMRP_ANNOTATE_PREDICTED);
+    int alike = 0;
+    for (std::size_t i = chosen - 28; i < chosen; ++i) {
+      CHECK(said[i].role == DMRP_ANNOTATE_CANDIDATE);
+      alike += said[i].poses.back().x == said[chosen].poses.back().x &&
+               said[i].poses.back().y == said[chosen].poses.back().y;
+    }
+    CHECK(alike >= 1);
+  }
+}
+
+TEST_CASE("DWA without the dynamic window tries all velocities within the time simulated") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  course.boxes = corridor(2.4, -2.0, 6.0);
+  course.boxes.front().upper.x = 2.8;
+  check_arrives(run("dmrp.controller.dwa", course, {{"use_dwa", false}, {"occdist_scale", 0.001}}), 25.0);
+}
+
 TEST_CASE("The same course gives the same bits: fresh, started again, and interleaved with other instances") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);

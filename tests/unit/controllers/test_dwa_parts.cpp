@@ -100,16 +100,18 @@ TEST_CASE("Samples cover the range, with zero where it lies between") {
 TEST_CASE("The window holds what the accelerations allow, inside the limits") {
   const dmrp_limits limits = {sizeof(limits), 0, 0.0, 0.8, 0.0, 1.0, 0.5, 2.0};
   VelocityWindow window;
-  window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 3, 4);
+  window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 0.1, 0.8, 3, 4);
   CHECK(window.v.front() == Approx(0.35));
   CHECK(window.v.back() == Approx(0.45));
   CHECK(window.omega.front() == Approx(0.7));
   CHECK(window.omega.back() == 1.0);
-  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 3, 4);
+  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, 3, 4);
   CHECK(window.v.front() == 0.0);  // v_min
   CHECK(std::count(window.omega.begin(), window.omega.end(), 0.0) == 1);
-  window.sample(dmrp::Observation(moving(limits, 0.9, -1.5)), 3, 4);  // measured with noise
+  window.sample(dmrp::Observation(moving(limits, 0.9, -1.5)), 0.1, 0.8, 3, 4);  // measured with noise
   CHECK(window.v == std::vector<double>{0.8});
+  window.sample(dmrp::Observation(moving(limits, 0.4, 0.0)), 1.7, 0.6, 3, 4);
+  CHECK(window.v == std::vector<double>{0.0, 0.3, 0.6});
   CHECK(window.omega.front() == -1.0);
 }
 
@@ -168,6 +170,72 @@ TEST_CASE("Fronts give the shortest distances") {
   }
 }
 
+TEST_CASE("Fronts that end early agree with whole ones on what is wanted") {
+  dmrp::toolkit::Stream random(13, "early fronts");
+  int cells_saved = 0;
+  for (int round = 0; round < 30; ++round) {
+    Bench bench;
+    for (int i = 0; i < 30; ++i) bench.fake.mark(random.uniform(0.0, 5.99), random.uniform(0.0, 5.99));
+    bench.read();
+    const std::int32_t seed = bench.index(random.uniform(0.0, 5.99), random.uniform(0.0, 5.99));
+    Terrain narrowed = bench.terrain;
+    std::int32_t column[2], row[2];  // of the rectangle wanted; it may reach over the window's edges
+    for (int i = 0; i < 2; ++i) {
+      column[i] = static_cast<std::int32_t>(random.uniform(-10.0, 100.0)) + 20 * i;
+      row[i] = static_cast<std::int32_t>(random.uniform(-10.0, 100.0)) + 20 * i;
+    }
+    narrowed.want(column[0], column[1], row[0], row[1]);
+    for (const bool by_effort : {false, true}) {
+      WaveFront whole, early, everywhere;
+      whole.begin(bench.terrain), early.begin(narrowed), everywhere.begin(narrowed, true);
+      for (WaveFront* front : {&whole, &early, &everywhere}) {
+        front->seed(seed);
+        by_effort ? front->spread_by_effort(bench.terrain) : front->spread();
+      }
+      int differences = 0;
+      const std::int32_t stride = narrowed.stride();
+      for (std::int32_t i = 0; i < static_cast<std::int32_t>(narrowed.marks().size()); ++i) {
+        const std::int32_t c = i % stride - 1;
+        const std::int32_t r = i / stride - 1;
+        const bool is_wanted = column[0] <= c && c <= column[1] && row[0] <= r && r <= row[1];
+        const auto differs = [&](const WaveFront& front) {
+          return whole.reached(i) != front.reached(i) || (whole.reached(i) && whole.cells(i) != front.cells(i));
+        };
+        differences += differs(everywhere) || (is_wanted && differs(early));
+        cells_saved += whole.reached(i) && !early.reached(i);
+      }
+      REQUIRE(differences == 0);
+    }
+  }
+  CHECK(cells_saved > 10000);
+}
+
+TEST_CASE("An arc that begins with a change of velocity") {
+  Bench bench;
+  bench.read();
+  const CostmapView map(bench.c);
+  const dmrp_pose pose = {1.0, 2.0, 0.0};
+  Scene scene = {pose,        0.8, map,  bench.terrain, bench.path,       bench.goal,
+                 bench.front, 0.3, true, true,          bench.oscillation};
+  ArcState end = arc_state(pose);
+  Rollout constant({0.5, 0.0}, scene, 1.0, 10);
+  for (int i = 0; i < 10; ++i) constant.step(end);
+  CHECK(end.x == Approx(1.5));
+  // from rest at 1 m/s^2 in steps of 0.1 s: 0.1, 0.2, 0.3, 0.4, then 0.5 m/s
+  const Ramp ramp = {{0.0, 0.0}, 1.0, 1.0};
+  scene.ramp = &ramp;
+  end = arc_state(pose);
+  Rollout ramped({0.5, 0.0}, scene, 1.0, 10);
+  for (int i = 0; i < 10; ++i) ramped.step(end);
+  CHECK(end.x == Approx(1.0 + 0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
+  // and a turn: 0.1 + 0.2 + ... + 0.5 rad/s, then 0.5, each for 0.1 s
+  end = arc_state(pose);
+  Rollout turned({0.0, 0.5}, scene, 1.0, 10);
+  for (int i = 0; i < 10; ++i) turned.step(end);
+  CHECK(std::atan2(end.sin_theta, end.cos_theta) == Approx(0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
+  CHECK(end.x == 1.0);
+}
+
 TEST_CASE("The sum of the critics, by hand") {
   Bench bench;
   bench.read();
@@ -184,7 +252,8 @@ TEST_CASE("The sum of the critics, by hand") {
 
   // 1.7 s at 0.5 m/s end at x = 2.875: 23 cells before the goal, the nose 23 before the front; on the path
   CHECK(score({0.5, 0.0}, scene, t, footprint, infinity) == Approx(0.05 * 0.8 * (23 + 23)));
-  // standing and turned away by 1.7 rad of turning: the nose 6 cells off the path to the left, 40 + 6 + 6 from the front
+  // standing and turned away by 1.7 rad of turning: the nose 6 cells off the path to the left, 40 + 6 + 6 from the
+  // front
   const double turn = 1.5707963267948966 / t.sim_time;
   CHECK(score({0.0, turn}, scene, t, footprint, infinity) == Approx(0.05 * (0.8 * (40 + 52) + 0.6 * 6)));
   scene.align = false;
@@ -237,7 +306,8 @@ TEST_CASE("The choice equals an exhaustive search over its own samples") {
                          bench.front, 0.3, true, true,          bench.oscillation};
     FootprintCheck footprint(map, disc, 0.05, pose);
     VelocityWindow window;
-    window.sample(dmrp::Observation(moving(limits, random.uniform(0.0, 0.8), random.uniform(-1.0, 1.0))), 3, 20);
+    window.sample(dmrp::Observation(moving(limits, random.uniform(0.0, 0.8), random.uniform(-1.0, 1.0))), 0.1, 0.8, 3,
+                  20);
 
     double best = infinity;
     std::optional<Sample> expected;

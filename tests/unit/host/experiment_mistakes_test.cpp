@@ -178,14 +178,15 @@ TEST_CASE("mistakes in an experiment's settings") {
        "20:12: 'tracking' must be one of none, visible, all, not 'some' (did you mean 'none'?)"},
       {"[simulation]\ntracking_range_m = 0", "20:20: 'tracking_range_m' must be positive, not 0"},
       {"[simulation]\ngoal_tolerance_m = inf", "20:20: 'goal_tolerance_m' must be finite"},
-      {"[simulation]\ndispatch = \"waypoint\"",
-       "20:12: 'dispatch' can only be 'full_path' so far: 'waypoint' is not built yet"},
-      {"[simulation]\nexecution = \"ordered\"",
-       "20:13: 'execution' can only be 'free' so far: 'ordered' is not built yet"},
+      {"[simulation]\ndispatch = \"waypoints\"",
+       "20:12: 'dispatch' must be one of full_path, waypoint, not 'waypoints' (did you mean 'waypoint'?)"},
       {"[simulation]\nexecution = \"orderd\"",
        "20:13: 'execution' must be one of free, ordered, not 'orderd' (did you mean 'ordered'?)"},
-      {"[simulation]\nreplan_period_s = 2",
-       "20:19: 'replan_period_s' can only be 0 so far: replanning is not built yet"},
+      {"[simulation]\nreplan_period_s = 0.05",
+       "20:19: 'replan_period_s' must be 0 (never) or at least 'control_period_s', 0.1 s"},
+      {"[simulation]\nreplan_stall_s = 0.05",
+       "20:18: 'replan_stall_s' must be 0 (never) or at least 'control_period_s', 0.1 s"},
+      {"[simulation]\nreplan_stray_m = -1", "20:18: 'replan_stray_m' must be at least 0, not -1"},
       {"[[simulation]]", "19:1: 'simulation' must be a table, not an array"},
       {"[robot]\nfootprint = { radius = 0.3 }",
        "20:15: unknown key 'radius' in 'footprint' (did you mean 'radius_m'?)"},
@@ -288,4 +289,30 @@ TEST_CASE("mistakes in a scenario file") {
     CHECK(message_of(experiment_text, with(scenario_text, mistake.from, mistake.to)) ==
           std::string("hall/scenario.toml:") + mistake.message);
   }
+}
+
+TEST_CASE("robots can keep the order only of plans that have one") {
+  const ExperimentFolder folder;
+  const auto message = [](std::uint32_t connectivity, std::uint32_t flags) -> std::string {
+    write_file("experiment.toml", std::string(experiment_text) + "[simulation]\nexecution = \"ordered\"\n");
+    try {
+      dmrp::host::load_experiment("experiment.toml", 0, [&](const std::filesystem::path& file) {
+        dmrp::host::Probe probe = fake_probe(file);
+        probe.plugins.front().connectivity = connectivity;
+        probe.plugins.front().planner_flags = flags;
+        return probe;
+      });
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(message(DMRP_CONNECTIVITY_4, 0).empty());
+  CHECK(message(DMRP_CONNECTIVITY_8, 0).empty());
+  CHECK(message(DMRP_CONNECTIVITY_4, DMRP_PLANNER_UNCOORDINATED) ==
+        "experiment.toml:20:13: 'execution' = 'ordered' needs plans without conflicts, which test.planner does not "
+        "make");
+  CHECK(message(DMRP_CONNECTIVITY_ANY, 0) ==
+        "experiment.toml:20:13: 'execution' = 'ordered' needs plans from cell to cell, which test.planner does not "
+        "make");
 }

@@ -53,9 +53,12 @@ goal_tolerance_m = 0.3
 goal_tolerance_rad = 0.4
 goal_tolerance_speed = 0.5
 goal_settle_s = 0
-dispatch = "full_path"
-execution = "free"
-replan_period_s = 0
+dispatch = "waypoint"
+execution = "ordered"
+replan_period_s = 2.5
+replan_stray_m = 1.5
+replan_stall_s = 6
+replan_min_interval_s = 0.5
 
 [robot]
 footprint = { radius_m = 0.2 }
@@ -179,6 +182,12 @@ TEST_CASE("all settings arrive") {
   CHECK(e.simulation.goal.tolerance_rad == 0.4);
   CHECK(e.simulation.goal.tolerance_speed == 0.5);
   CHECK(e.simulation.goal.settle_s == 0.0);
+  CHECK(e.simulation.dispatch == dmrp::core::Dispatch::waypoint);
+  CHECK(e.simulation.execution == dmrp::core::Execution::ordered);
+  CHECK(e.simulation.replan.period_ns == 2'500'000'000);
+  CHECK(e.simulation.replan.stray_m == 1.5);
+  CHECK(e.simulation.replan.stall_ns == 6'000'000'000);
+  CHECK(e.simulation.replan.min_interval_ns == 500'000'000);
   CHECK(e.robot.radius_m == 0.2);
   CHECK(e.robot.v_min == -0.1);
   CHECK(e.robot.v_max == 1.1);

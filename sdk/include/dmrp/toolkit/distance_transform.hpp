@@ -30,6 +30,7 @@ class DistanceTransform {
                                     double cap_m = std::numeric_limits<double>::infinity()) {
     width_ = width;
     height_ = height;
+    if (resolution_m != resolution_m_ || cap_m != cap_m_) tabled_m_.clear();
     resolution_m_ = resolution_m;
     cap_m_ = cap_m;
     reach_cells_ = static_cast<std::int32_t>(std::min(std::ceil(cap_m / resolution_m), far - 1.0));
@@ -49,65 +50,90 @@ class DistanceTransform {
  private:
   static constexpr std::int32_t far = 40000;  // more than any distance along a column, its square within int32
 
+  static constexpr std::int64_t most_tabled = 1 << 16;
+
   void reserve() {
     distances_m_.resize(width_ * height_);
     column_distances_.resize(width_ * height_);
     apexes_.resize(width_);
     heights_.resize(width_);
-    borders_.resize(width_ + 1);
+    begins_.resize(width_ + 1);
+    const std::size_t squares = width_ * width_ + height_ * height_;
+    while (tabled_m_.size() < std::min<std::size_t>(squares, most_tabled))
+      tabled_m_.push_back(metres(static_cast<std::int64_t>(tabled_m_.size())));
   }
 
-  // Cells to the nearest obstacle of the same column: down, then up.
+  float metres(std::int64_t squared_cells) const {
+    return static_cast<float>(std::min(std::sqrt(static_cast<double>(squared_cells)) * resolution_m_, cap_m_));
+  }
+
+  // Cells to the nearest obstacle of the same column: up, then down.
   template <class IsObstacle>
   void measure_columns(const IsObstacle& is_obstacle) {
-    for (std::size_t index = 0; index < width_ * height_; ++index) {
-      const std::int32_t below = index >= width_ ? column_distances_[index - width_] + 1 : far;
-      column_distances_[index] = is_obstacle(index) ? 0 : std::min(below, far);
+    std::int32_t* distances = column_distances_.data();
+    for (std::size_t column = 0; column < std::min(width_, width_ * height_); ++column)
+      distances[column] = is_obstacle(column) ? 0 : far;
+    for (std::size_t row = 1; row < height_; ++row) {
+      const std::int32_t* const before = distances;
+      distances += width_;
+      for (std::size_t column = 0; column < width_; ++column)
+        distances[column] = std::min(before[column] + 1, far) * !is_obstacle(row * width_ + column);
     }
-    for (std::size_t index = width_ * (height_ - (height_ > 0)); index-- > 0;)
-      column_distances_[index] = std::min(column_distances_[index], column_distances_[index + width_] + 1);
+    for (std::size_t row = height_; row-- > 1;) {
+      const std::int32_t* const before = distances;
+      distances -= width_;
+      for (std::size_t column = 0; column < width_; ++column)
+        distances[column] = std::min(distances[column], before[column] + 1);
+    }
   }
 
-  // The lower envelope of one parabola a column: apexes_ are their columns, borders_[k] is where number k begins.
+  // The lower envelope of one parabola a column: apexes_ are their columns, begins_[k] is the first column where number
+  // k is the lowest.
   std::size_t build_envelope(const std::int32_t* column_distances) {
+    const auto width = static_cast<std::int64_t>(width_);
     std::size_t count = 0;
-    for (std::size_t column = 0; column < width_; ++column) {
-      const std::int64_t distance = column_distances[column];
+    for (std::int64_t apex = 0; apex < width; ++apex) {
+      const std::int64_t distance = column_distances[apex];
       if (distance > reach_cells_) continue;  // beyond the cap, or no obstacle in the column
-      const std::int64_t apex = static_cast<std::int64_t>(column);
       const std::int64_t height = distance * distance;
-      double begin = -std::numeric_limits<double>::infinity();
       while (count > 0) {
-        const std::int64_t other = apexes_[count - 1];
-        begin = static_cast<double>(height + apex * apex - heights_[count - 1] - other * other) /
-                static_cast<double>(2 * (apex - other));
-        if (begin > borders_[count - 1]) break;
+        const std::int64_t at = begins_[count - 1];
+        if (square(at - apex) + height > square(at - apexes_[count - 1]) + heights_[count - 1]) break;
         --count;
-        begin = -std::numeric_limits<double>::infinity();
+      }
+      std::int64_t begin = 0;
+      if (count > 0) {
+        const std::int64_t other = apexes_[count - 1];
+        const std::int64_t dividend = height + square(apex) - heights_[count - 1] - square(other);
+        const std::int64_t divisor = 2 * (apex - other);
+        if (dividend >= divisor * (width - 1)) continue;  // nowhere the lowest
+        // a double holds the quotient well enough: it is a whole number or far from the next one
+        begin = static_cast<std::int64_t>(static_cast<double>(dividend) / static_cast<double>(divisor)) + 1;
       }
       apexes_[count] = apex;
       heights_[count] = height;
-      borders_[count] = begin;
+      begins_[count] = begin;
       ++count;
     }
-    borders_[count] = std::numeric_limits<double>::infinity();
+    begins_[count] = width;
     return count;
   }
 
   void measure_row(std::size_t row) {
     float* distances = distances_m_.data() + row * width_;
-    if (build_envelope(column_distances_.data() + row * width_) == 0) {
-      std::fill(distances, distances + width_, static_cast<float>(cap_m_));
-      return;
-    }
-    std::size_t k = 0;
-    for (std::size_t column = 0; column < width_; ++column) {
-      while (borders_[k + 1] < static_cast<double>(column)) ++k;
-      const std::int64_t aside = static_cast<std::int64_t>(column) - apexes_[k];
-      const double squared = static_cast<double>(aside * aside + heights_[k]);
-      distances[column] = static_cast<float>(std::min(std::sqrt(squared) * resolution_m_, cap_m_));
+    const std::size_t count = build_envelope(column_distances_.data() + row * width_);
+    if (count == 0) std::fill(distances, distances + width_, static_cast<float>(cap_m_));
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::int64_t column = begins_[k]; column < begins_[k + 1]; ++column) {
+        const std::int64_t squared = square(column - apexes_[k]) + heights_[k];
+        distances[column] = squared < static_cast<std::int64_t>(tabled_m_.size())
+                                ? tabled_m_[static_cast<std::size_t>(squared)]
+                                : metres(squared);
+      }
     }
   }
+
+  static std::int64_t square(std::int64_t value) { return value * value; }
 
   std::size_t width_ = 0;
   std::size_t height_ = 0;
@@ -118,7 +144,8 @@ class DistanceTransform {
   std::vector<std::int32_t> column_distances_;
   std::vector<std::int64_t> apexes_;
   std::vector<std::int64_t> heights_;
-  std::vector<double> borders_;
+  std::vector<std::int64_t> begins_;
+  std::vector<float> tabled_m_;  // by squared distances in cells
 };
 
 }  // namespace dmrp::toolkit

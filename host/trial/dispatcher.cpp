@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/dispatcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <utility>
+
+namespace dmrp::host {
+
+Dispatcher::Dispatcher(const VariantWorld& variant, const core::World& world)
+    : variant_(variant),
+      world_(world),
+      courses_(world.robots().size()),
+      progress_(world.robots().size()),
+      gained_m_(world.robots().size()) {}
+
+void Dispatcher::take_up(const Plan& plan) {
+  std::vector<dmrp_vec2> positions;
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) {
+    const core::RobotState& robot = world_.robots()[i];
+    positions.push_back(toolkit::position(robot.pose));
+    Course& course = courses_[i];
+    course = {};
+    if (robot.state != DMRP_ROBOT_ACTIVE) continue;
+    course.path = path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
+    course.released = static_cast<std::uint32_t>(course.path.size() - 1);
+    course.is_new = true;
+    progress_[i].set_path(course.path, positions[i]);
+    if (ordered()) find_stages(course);
+  }
+  if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
+}
+
+// As the graph counts them: the legs to goals off their cells' centres stay in their cells.
+void Dispatcher::find_stages(Course& course) const {
+  const dmrp_grid view = variant_.planning_grid.view();
+  const toolkit::GridView grid(view);
+  course.stages.assign(1, 0);
+  for (std::size_t i = 1; i < course.path.size(); ++i) {
+    const bool moves =
+        grid.cell_of(toolkit::position(course.path[i])) != grid.cell_of(toolkit::position(course.path[i - 1]));
+    course.stages.push_back(course.stages.back() + (moves ? 1 : 0));
+  }
+}
+
+void Dispatcher::follow() {
+  for (std::size_t i = 0; i < progress_.size(); ++i) {
+    const core::RobotState& robot = world_.robots()[i];
+    progress_[i].update(toolkit::position(robot.pose), robot.goal_index);
+    gained_m_[i] = progress_[i].gained_m();
+  }
+}
+
+void Dispatcher::direct() {
+  if (ordered()) release();
+  if (!by_waypoint()) return;
+  for (std::uint32_t i = 0; i < courses_.size(); ++i)
+    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) send_on(i);
+}
+
+void Dispatcher::release() {
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) {
+    const Course& course = courses_[i];
+    if (course.path.empty()) continue;
+    const std::uint32_t passed = progress_[i].waypoint();
+    const std::uint32_t next = std::min<std::uint32_t>(passed + 1, course.released);
+    if (progress_[i].has_begun() || is_near(i, course.path[0])) dependencies_.reached(i, course.stages[passed]);
+    if (progress_[i].has_begun() && is_near(i, course.path[next])) dependencies_.reached(i, course.stages[next]);
+  }
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) {
+    Course& course = courses_[i];
+    if (course.path.empty()) continue;
+    const auto beyond = std::upper_bound(course.stages.begin(), course.stages.end(), dependencies_.released(i));
+    course.released = static_cast<std::uint32_t>(beyond - course.stages.begin()) - 1;
+  }
+}
+
+void Dispatcher::send_on(std::uint32_t robot) {
+  Course& course = courses_[robot];
+  while (course.sent < course.released && !ends_at_goal(robot, course.sent) &&
+         is_near(robot, course.path[course.sent])) {
+    ++course.sent;
+    course.is_new = true;
+  }
+}
+
+bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const {
+  const core::RobotState& state = world_.robots()[robot];
+  return toolkit::distance(toolkit::position(waypoint), toolkit::position(state.pose)) <
+         world_.goals(robot)[state.goal_index].tolerance_m;
+}
+
+// The way to the current goal ends at this waypoint.
+bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const {
+  const auto& path = courses_[robot].path;
+  const std::uint32_t current = world_.robots()[robot].goal_index;
+  return waypoint + 1 == path.size() || path[waypoint + 1].goal_index > current;
+}
+
+std::span<const dmrp_waypoint> Dispatcher::hand_over(std::uint32_t robot) {
+  Course& course = courses_[robot];
+  if (!std::exchange(course.is_new, false)) return {};
+  if (by_waypoint()) return {&course.path[course.sent], 1};
+  return course.path;
+}
+
+Guidance Dispatcher::guidance(std::uint32_t robot) const {
+  const Course& course = courses_[robot];
+  const dmrp_goal& goal = world_.goals(robot)[world_.robots()[robot].goal_index];
+  if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint(), course.released};
+  Guidance guidance = {goal, 0.0, 0, 0};
+  if (!ends_at_goal(robot, course.sent)) {
+    const dmrp_waypoint& waypoint = course.path[course.sent];
+    guidance.goal.pose = {waypoint.x, waypoint.y, waypoint.theta};
+  }
+  return guidance;
+}
+
+std::vector<dmrp_vec2> Dispatcher::next_positions() const {
+  std::vector<dmrp_vec2> positions;
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    const auto& path = courses_[i].path;
+    const std::size_t next = progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0;
+    positions.push_back(path.empty() ? toolkit::position(world_.robots()[i].pose)
+                                     : toolkit::position(path[std::min(next, path.size() - 1)]));
+  }
+  return positions;
+}
+
+}  // namespace dmrp::host
