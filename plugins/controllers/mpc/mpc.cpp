@@ -100,7 +100,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   }
   const CostmapView map(*costmap_->costmap(costmap_));
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
-  pose_problem(now);
+  pose_problem(now, map);
   const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
   if (!choose_goal(now, map, footprint)) {
     // as near as it gets to something that stands across the whole way: wait
@@ -125,9 +125,12 @@ Status Mpc::step(const Observation& now, Command& command) {
   return Status::ok;
 }
 
-void Mpc::pose_problem(const Observation& now) {
+void Mpc::pose_problem(const Observation& now, const CostmapView& map) {
   obstacles_.gather(now, clusters_->clusters(clusters_));
   seen_ = obstacles_.all();
+  // what a lethal cell stands for may lie beyond its centre, and a cluster within some tolerance of that
+  for (Obstacle& obstacle : seen_)
+    if (!obstacle.is_agent) obstacle.radius_m += map.resolution_m();
   if (!enable_dynamic_obstacles)
     for (Obstacle& obstacle : seen_) obstacle.velocity = {0.0, 0.0};
   const Limits& limits = now.limits;

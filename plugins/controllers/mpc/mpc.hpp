@@ -78,7 +78,7 @@ class Mpc final : public LocalController {
   Status step(const Observation& now, Command& command) override;
 
  private:
-  void pose_problem(const Observation& now);
+  void pose_problem(const Observation& now, const CostmapView& map);
   bool choose_goal(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool plan(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool continue_last(const Observation& now);
