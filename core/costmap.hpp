@@ -20,9 +20,9 @@ namespace dmrp::core {
 // footprint clearing): whoever touches the robot stays on the map.
 //
 // A beam without return clears up to the raytrace range, as with costmap_2d's inf_is_valid: else who walks on before
-// an open hall would leave a trail. Of a lidar that drops beams out it says less: only the nearest lethal cell on its way
-// is in doubt, and is cleared by as many such beams, with no hit in between, as drop out in a row in less than one of a
-// million cases.
+// an open hall would leave a trail. Of a lidar that drops beams out it says less: only the nearest lethal cell on its
+// way is in doubt, and is cleared by as many such beams, with no hit in between, as drop out in a row in less than one
+// of a million cases.
 class LocalCostmap {
  public:
   // `dropout_share` is that of the lidar.

@@ -298,8 +298,8 @@ bool ObstacleClusters::row_is_filled(std::int64_t row) const {
   return true;
 }
 
-// From each vertex that stays to the farthest one with all between at most flat_cells off: the cells are then no farther
-// from the polygon, which is a part of the hull.
+// From each vertex that stays to the farthest one with all between at most flat_cells off: the cells are then no
+// farther from the polygon, which is a part of the hull.
 void ObstacleClusters::drop_flat_vertices() {
   set_aside_.assign(hull_.begin(), hull_.end());
   set_aside_.push_back(hull_.front());

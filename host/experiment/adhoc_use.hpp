@@ -13,8 +13,8 @@ namespace dmrp::host {
 // Throws InputError.
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
 
-// `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words are
-// strings. Throws InputError.
+// `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words
+// are strings. Throws InputError.
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
                  const std::vector<std::string>& settings);
 

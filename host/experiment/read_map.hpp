@@ -17,8 +17,8 @@ struct TaskMap {
   double cell_m = 1.0;
 };
 
-// Reads [map] into the scenario: its world and its shapes. `file`, `shown_path`: of scenario.toml. None where there is no
-// [map], or one of map_server, which has no tasks.
+// Reads [map] into the scenario: its world and its shapes. `file`, `shown_path`: of scenario.toml. None where there is
+// no [map], or one of map_server, which has no tasks.
 std::optional<TaskMap> read_map(const TomlTable& root, const std::filesystem::path& file, const std::string& shown_path,
                                 ScenarioFile& out);
 

@@ -92,8 +92,8 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step);
 
 // A robot's path (at least one waypoint) as its controller gets it: where a goal lies off its cell's centre, the way
-// there is one leg more, and on a tour the way back to the centre another. Each takes `step_duration_ns`. `goals`: all of
-// the robot's, by index.
+// there is one leg more, and on a tour the way back to the centre another. Each takes `step_duration_ns`. `goals`: all
+// of the robot's, by index.
 std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
                                          std::int64_t step_duration_ns);
 

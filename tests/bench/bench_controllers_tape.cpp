@@ -71,6 +71,7 @@ const dmrp_obstacle_cluster_list* Recorder::clusters() {
 }
 
 Player::Player(bool listens) : listens_(listens) {
+  cluster_array_.reserve(1024);  // its allocations would count as the controller's
   annotate_.struct_size = sizeof(annotate_);
   annotate_.context = this;
   annotate_.wanted = [](const dmrp_annotate*) -> std::int32_t { return 1; };

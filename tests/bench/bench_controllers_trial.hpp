@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bench_controllers_trial.hpp: drives a trial in closed loop and keeps what every controller was told; tells it to fresh
-// instances, call by call.
+// bench_controllers_trial.hpp: drives a trial in closed loop and keeps what every controller was told; tells it to
+// fresh instances, call by call.
 #pragma once
 
 #include <cstdint>

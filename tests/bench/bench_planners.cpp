@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much the planners solve, and how fast: instances of the MovingAI benchmark and the shipped scenarios, each
-// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to standard
-// error, and a list of {"name", "value", "unit"} to standard output.
+// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to
+// standard error, and a list of {"name", "value", "unit"} to standard output.
 //
 // median: of planning_ms over all instances, where one that was not solved counts as the time limit; mean: over the
 // solved ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.

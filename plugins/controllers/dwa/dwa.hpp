@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // dwa.hpp: the dynamic window approach, as ROS's dwa_local_planner does it.
 //
-// Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4 (1997).
+// Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4
+// (1997).
 #ifndef DMRP_CONTROLLERS_DWA_DWA_HPP
 #define DMRP_CONTROLLERS_DWA_DWA_HPP
 

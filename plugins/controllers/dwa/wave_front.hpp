@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// wave_front.hpp: distances over the free cells of the costmap's window, by breadth-first search from seeds. A front may
-// end early, as soon as it has reached all that anybody will ask for.
+// wave_front.hpp: distances over the free cells of the costmap's window, by breadth-first search from seeds. A front
+// may end early, as soon as it has reached all that anybody will ask for.
 #ifndef DMRP_CONTROLLERS_DWA_WAVE_FRONT_HPP
 #define DMRP_CONTROLLERS_DWA_WAVE_FRONT_HPP
 

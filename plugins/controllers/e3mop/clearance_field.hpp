@@ -22,7 +22,8 @@ class ClearanceField {
  public:
   void read(const dmrp_field& field);
 
-  // Adds a disc that moves from one point to the other, with its inside: distances become those to its outline, 0 inside.
+  // Adds a disc that moves from one point to the other, with its inside: distances become those to its outline, 0
+  // inside.
   void add_swept_disc(dmrp_vec2 from, dmrp_vec2 to, double radius_m);
 
   bool contains(dmrp_vec2 point) const {

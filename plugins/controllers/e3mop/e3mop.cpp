@@ -28,8 +28,8 @@ constexpr double lead_m = 0.25;
 // So near to where the way is cut off, the robot waits.
 constexpr double wait_within_m = 0.2;
 
-// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to do
-// does not change with every cycle.
+// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to
+// do does not change with every cycle.
 constexpr double kept_s = 0.3;
 constexpr double kept_m = 0.2;
 
@@ -41,6 +41,9 @@ constexpr double lost_rad = 0.6;
 constexpr double slow_m_s = 0.1;
 
 constexpr double sample_step_m = 0.05;
+
+// A smoothed path that collides no farther ahead than this and what braking takes is no use.
+constexpr double least_way_m = 0.3;
 
 }  // namespace
 
@@ -87,7 +90,9 @@ Status E3mop::step(const Observation& now, Command& command) {
   }
   if (limits_.v_max != now.limits.v_max || limits_.omega_max != now.limits.omega_max) {
     limits_ = now.limits;
-    plan_.prepare(limits_, lattice_resolution);
+    read_field(now);
+    plan_.prepare(limits_, lattice_resolution, foreseen_);
+    warm_up(now);
   }
   read_field(now);
   const CostmapView map(*costmap_->costmap(costmap_));
@@ -110,7 +115,7 @@ Status E3mop::step(const Observation& now, Command& command) {
   if (std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad)) {
     turning_ = true;
     path_.clear();
-    command.omega = turning_rate(toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), now);
+    command = turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
     return Status::ok;
   }
   turning_ = false;
@@ -121,6 +126,24 @@ Status E3mop::step(const Observation& now, Command& command) {
   command = safe(now, follow(path_, now), seen);
   annotate();
   return Status::ok;
+}
+
+// Lets all buffers grow to what the longest path can need: later cycles allocate nothing.
+void E3mop::warm_up(const Observation& now) {
+  const FreeSpace anywhere(foreseen_, now.footprint, footprint_padding, now.pose);
+  const double longest_m = smoothing_length + std::max(kept_m, kept_s * now.limits.v_max) + 3.0 * point_spacing;
+  const auto count = static_cast<std::size_t>(longest_m / point_spacing) + 2;
+  global_path_.reserve(static_cast<std::size_t>(max_global_plan_lookahead_dist / PathAhead::spacing_m) + 3);
+  // wavering, so that it takes steps and samples
+  raw_points_.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    raw_points_.push_back(toolkit::position(now.pose) +
+                          point_spacing * Vec2{static_cast<double>(i), i % 2 ? 0.7 : 0.0});
+  kept_ = 1;
+  shape_path(now, anywhere);
+  path_.reserve(2 * path_.capacity());
+  path_.clear();
+  intended_.reserve(64);
 }
 
 std::size_t E3mop::lead_steps() const {
@@ -245,19 +268,20 @@ bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
     fixed = 2;
   }
   smoother_.smooth(points_, fixed, foreseen_, settings);
-  if (fit(now, free_space, start_theta)) return true;
+  const double needed_m = now.velocity.v_x * now.velocity.v_x / (2.0 * now.limits.a_max) + least_way_m;
+  if (fit(now, free_space, start_theta, needed_m)) return true;
   points_ = raw_points_;
-  return fit(now, free_space, start_theta);
+  return fit(now, free_space, start_theta, 0.0);
 }
 
-// The spline and its speeds. False where it collides at once; where it collides later, it ends before.
-bool E3mop::fit(const Observation& now, const FreeSpace& free_space, std::optional<double> start_theta) {
+// The spline and its speeds; ends where it would collide. False where that is nearer than `needed_m`.
+bool E3mop::fit(const Observation& now, const FreeSpace& free_space, std::optional<double> start_theta,
+                double needed_m) {
   spline_.fit(points_, start_theta, sample_step_m, path_);
-  const double braking_m = now.velocity.v_x * now.velocity.v_x / (2.0 * now.limits.a_max) + 0.3;
   for (std::size_t i = 1; i < path_.size(); ++i) {
     const PathPoint& point = path_[i];
     if (free_space.is_free(arc_state({point.at.x, point.at.y, point.theta}))) continue;
-    if (point.arc_m < braking_m) return false;
+    if (point.arc_m < needed_m) return false;
     path_.resize(i);
     break;
   }
@@ -266,8 +290,19 @@ bool E3mop::fit(const Observation& now, const FreeSpace& free_space, std::option
   return true;
 }
 
+// Brakes and turns in place, as long as the outline has the room for it.
+Command E3mop::turn(const Observation& now, double angle, const FreeSpace& free_space) {
+  Command command = braking(now);
+  const double omega = turning_rate(angle, now);
+  const double turned = omega * (seconds(now.dt_ns) + 0.5 * std::abs(omega) / now.limits.alpha_max);
+  for (const double share : {0.5, 1.0})
+    if (!free_space.is_free(arc_state({now.pose.x, now.pose.y, now.pose.theta + share * turned}))) return command;
+  command.omega = omega;
+  return command;
+}
+
 // The command, slower where its arc would run into something before the robot could stop.
-Command E3mop::safe(const Observation& now, Command command, const FreeSpace& free_space) const {
+Command E3mop::safe(const Observation& now, Command command, const FreeSpace& free_space) {
   const double period_s = seconds(now.dt_ns);
   const double braking_s = command.v_x / now.limits.a_max + period_s;
   const int steps = 1 + static_cast<int>(command.v_x * braking_s / sample_step_m);

@@ -65,6 +65,7 @@ class E3mop final : public LocalController {
 
  private:
   void read_field(const Observation& now);
+  void warm_up(const Observation& now);
   Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
   bool plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
   void lay_out_global_path();
@@ -72,8 +73,10 @@ class E3mop final : public LocalController {
   std::size_t lead_steps() const;
   Vec2 lead_of_path() const;
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
-  bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta);
-  Command safe(const Observation& now, Command command, const e3mop::FreeSpace& free_space) const;
+  bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta,
+           double needed_m);
+  static Command turn(const Observation& now, double angle, const e3mop::FreeSpace& free_space);
+  static Command safe(const Observation& now, Command command, const e3mop::FreeSpace& free_space);
   void annotate();
 
   const dmrp_local_costmap* costmap_ = nullptr;

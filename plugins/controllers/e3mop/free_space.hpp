@@ -10,8 +10,8 @@
 
 namespace dmrp::controllers::e3mop {
 
-// A disc stands where the distance is its radius and the padding. A polygon stands where that holds for the circle about
-// it, never where the one inside it fails, and in between where its outline meets no lethal cell.
+// A disc stands where the distance is its radius and the padding. A polygon stands where that holds for the circle
+// about it, never where the one inside it fails, and in between where its outline meets no lethal cell.
 //
 // A robot that stands too near to something already may move about its place as long as it comes no nearer.
 class FreeSpace {

@@ -12,16 +12,19 @@ constexpr std::size_t bucket_reserve = 2048;
 
 }  // namespace
 
+void GoalDistances::reserve(const LatticeFrame& frame) {
+  labels_.reserve(static_cast<std::size_t>(frame.cell_count()));
+  way_out_.reserve(static_cast<std::size_t>(frame.cell_count()));
+  for (std::vector<std::int32_t>& bucket : buckets_) bucket.reserve(bucket_reserve);
+  settling_.reserve(bucket_reserve);
+}
+
 void GoalDistances::begin(const LatticeFrame& frame, const std::vector<std::uint8_t>& free) {
   free_ = &free;
   const auto cells = static_cast<std::size_t>(frame.cell_count());
   labels_.assign(cells, infinite);
   way_out_.assign(cells, -1);
-  for (std::vector<std::int32_t>& bucket : buckets_) {
-    bucket.clear();
-    bucket.reserve(bucket_reserve);
-  }
-  settling_.reserve(bucket_reserve);
+  for (std::vector<std::int32_t>& bucket : buckets_) bucket.clear();
   queued_ = 0;
   settled_below_ = 0;
   for (std::size_t k = 0; k < direction_count; ++k) {

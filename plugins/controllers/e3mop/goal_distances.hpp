@@ -23,6 +23,9 @@ class GoalDistances {
   // Lengths are in thousandths of a cell.
   static constexpr std::int32_t unit = 1000;
 
+  // Makes room for frames up to this one.
+  void reserve(const LatticeFrame& frame);
+
   // `free` holds a flag a cell of the frame, the border's 0; it must live as long as it is asked.
   void begin(const LatticeFrame& frame, const std::vector<std::uint8_t>& free);
 

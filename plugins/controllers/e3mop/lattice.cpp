@@ -149,8 +149,8 @@ void MotionSet::add_arc(int heading, int to_heading, double radius_min, double r
   add(heading, best, before_m, after_m);
 }
 
-// The travel time, weighted. An arc counts no less than the way of the heuristic's grid along its two tangents, which is
-// up to 2 % longer than the arc: so the heuristic never exceeds the cost.
+// The travel time, weighted. An arc counts no less than the way of the heuristic's grid along its two tangents, which
+// is up to 2 % longer than the arc: so the heuristic never exceeds the cost.
 double MotionSet::cost_s(const Motion& motion, double turn, double straight_m) const {
   switch (motion.kind) {
     case MotionKind::short_forward:

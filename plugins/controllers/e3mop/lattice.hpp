@@ -59,15 +59,16 @@ struct Motion {
   std::uint32_t first_sample;
   std::uint32_t sample_count;
   // Bit k: dropped where the way to the goal leaves the cell in direction k. |(alpha - theta) - (beta - theta)| > pi/4
-  // with alpha that direction, beta the one of (dx, dy), theta the heading; never set for the shortest step ahead and for
-  // turns, which keep the search complete.
+  // with alpha that direction, beta the one of (dx, dy), theta the heading; never set for the shortest step ahead and
+  // for turns, which keep the search complete.
   std::uint16_t dropped_for;
 };
 
 // All motions of a robot. Forward only: what turns in place needs no reverse.
 class MotionSet {
  public:
-  // Full-speed arcs have a radius of v_max / omega_max at least; tighter ones are driven as fast as omega_max lets them.
+  // Full-speed arcs have a radius of v_max / omega_max at least; tighter ones are driven as fast as omega_max lets
+  // them.
   void build(const dmrp_limits& limits, double resolution_m);
 
   struct Range {

@@ -9,12 +9,22 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
+// Of open states and of places on a path: more than any window was seen to need.
 constexpr std::size_t open_reserve = 16384;
+constexpr std::size_t path_reserve = 1024;
 
 }  // namespace
 
 Ticks cost_to_go(std::int32_t distance, double resolution_m, double v_max) {
   return static_cast<Ticks>(distance * (ticks_per_s / GoalDistances::unit * resolution_m / v_max));
+}
+
+void LatticeSearch::reserve(const LatticeFrame& frame, SearchResult& result) {
+  const std::size_t count = static_cast<std::size_t>(frame.cell_count()) * direction_count;
+  if (nodes_.size() < count) nodes_.resize(count, Node{0, 0, -1, -1, false});
+  open_.reserve(open_reserve);
+  way_.reserve(path_reserve);
+  result.poses.reserve(path_reserve);
 }
 
 void LatticeSearch::begin(const LatticeFrame& frame) {
@@ -25,7 +35,6 @@ void LatticeSearch::begin(const LatticeFrame& frame) {
     search_ = 1;
   }
   open_.clear();
-  open_.reserve(open_reserve);
 }
 
 void LatticeSearch::offer(std::int32_t node, Ticks cost, Ticks to_go, std::int32_t parent, std::int16_t motion) {

@@ -46,6 +46,9 @@ Ticks cost_to_go(std::int32_t distance, double resolution_m, double v_max);
 // Keeps its buffers: no allocation once it has seen its largest frame and longest path.
 class LatticeSearch {
  public:
+  // Makes room for frames up to this one and for the paths in them.
+  void reserve(const LatticeFrame& frame, SearchResult& result);
+
   // From the pose, whose place must be the frame's centre.
   void find(const dmrp_pose& start, const SearchSpace& space, const SearchSettings& settings, SearchResult& result);
 

@@ -6,8 +6,15 @@
 
 namespace dmrp::controllers::e3mop {
 
-void LocalPlan::prepare(const dmrp_limits& limits, double resolution_m) {
+void LocalPlan::prepare(const dmrp_limits& limits, double resolution_m, const ClearanceField& field) {
   motions_.build(limits, resolution_m);
+  frame_.resolution_m = resolution_m;
+  const Vec2 size = field.upper() - field.lower();
+  frame_.half_cells = static_cast<std::int32_t>(0.5 * std::max(size.x, size.y) / resolution_m) + 1;
+  open_cells_.reserve(static_cast<std::size_t>(frame_.cell_count()));
+  to_goal_.reserve(frame_);
+  from_robot_.reserve(frame_);
+  search_.reserve(frame_, found_);
 }
 
 void LocalPlan::look(const Pose& robot, const ClearanceField& field, const FreeSpace& free_space,

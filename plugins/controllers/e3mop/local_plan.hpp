@@ -12,8 +12,8 @@ namespace dmrp::controllers::e3mop {
 // The window's lattice, its heuristic and its search, cycle after cycle.
 class LocalPlan {
  public:
-  // Once the robot's limits are known, and when they change.
-  void prepare(const dmrp_limits& limits, double resolution_m);
+  // Once the robot's limits are known, and when they change; makes room for windows like this field's.
+  void prepare(const dmrp_limits& limits, double resolution_m, const ClearanceField& field);
 
   // Lays the lattice about the robot. `field` and `free_space` are used until the next call.
   void look(const Pose& robot, const ClearanceField& field, const FreeSpace& free_space, double inscribed_radius_m);

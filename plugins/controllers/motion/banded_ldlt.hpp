@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth, with an optional border.
+// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth, with an optional
+// border.
 //
 // Golub, Van Loan: Matrix Computations (4th edition), sections 4.1.2 and 4.3.5. No pivoting: for positive definite and
-// for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose pivots
-// may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown to their size.
+// for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose
+// pivots may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown to their
+// size.
 #ifndef DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 #define DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 

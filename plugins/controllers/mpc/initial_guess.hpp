@@ -14,12 +14,12 @@ class InitialGuess {
  public:
   void reserve(std::size_t points);
 
-  // From the problem's start along the points (the first is the robot's place on the path) to its goal, each leg as fast
-  // as the limits of speed allow; turns on the spot where the way does not begin or end in the robot's heading.
+  // From the problem's start along the points (the first is the robot's place on the path) to its goal, each leg as
+  // fast as the limits of speed allow; turns on the spot where the way does not begin or end in the robot's heading.
   void along(const Problem& problem, const std::vector<dmrp_vec2>& points, std::size_t states, Trajectory& out);
 
-  // What is left of a trajectory `elapsed_s` later, from the problem's start to its goal: the old end is tied to the new
-  // one by a straight leg.
+  // What is left of a trajectory `elapsed_s` later, from the problem's start to its goal: the old end is tied to the
+  // new one by a straight leg.
   void shifted(const Problem& problem, double elapsed_s, Trajectory& trajectory);
 
   // The same trajectory on another number of states.

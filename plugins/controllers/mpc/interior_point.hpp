@@ -3,8 +3,8 @@
 //
 // Wächter, Biegler: On the implementation of an interior-point filter line-search algorithm for large-scale nonlinear
 // programming, Mathematical Programming 106 (2006): the barrier and its reduction (equations 7, 8), the rule of the
-// fraction to the boundary (8), inertia correction (3.1), the filter line search (2.3), without second-order corrections
-// and restoration: elastic constraints take their place. Newton steps come from the Riccati recursion.
+// fraction to the boundary (8), inertia correction (3.1), the filter line search (2.3), without second-order
+// corrections and restoration: elastic constraints take their place. Newton steps come from the Riccati recursion.
 //
 // Deterministic: bounded by iterations, never by time. Allocates nothing within what reserve() allowed for.
 #ifndef DMRP_CONTROLLERS_MPC_INTERIOR_POINT_HPP

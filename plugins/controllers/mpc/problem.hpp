@@ -46,8 +46,8 @@ struct Constraint {
   bool is_elastic = false;
 };
 
-// s(k) + dt f(s(k), u(k)) - s(k + 1), the angle wrapped, and its derivatives by the entries named. (By x, y and theta of
-// stage k it is 1; by those of stage k + 1, -1.)
+// s(k) + dt f(s(k), u(k)) - s(k + 1), the angle wrapped, and its derivatives by the entries named. (By x, y and theta
+// of stage k it is 1; by those of stage k + 1, -1.)
 struct Transition {
   std::array<double, 3> defect = {};
   double x_by_theta = 0.0, x_by_dt = 0.0, x_by_v = 0.0;

@@ -39,7 +39,7 @@ void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const BandTu
   scene_ = &scene;
   tuning_ = &tuning;
   obstacle_factor_ = obstacle_factor;
-  link_obstacles(band, *scene.footprint, *scene.obstacles, tuning, links_);
+  linker_.link(band, *scene.footprint, *scene.obstacles, tuning, links_);
   link_via_points(band, *scene.via_points, via_links_);
 }
 
@@ -180,14 +180,36 @@ void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) cons
     const Separation apart =
         separation(*scene_->footprint, {at.x, at.y, at.theta}, (*scene_->obstacles)[link.obstacle], link.ahead_s);
     const std::array<double, 3> by = {apart.gradient.x, apart.gradient.y, apart.gradient_theta};
-    const double weight = link.is_dynamic ? tuning.weight_dynamic_obstacle : tuning.weight_obstacle;
-    const double exponent = link.is_dynamic ? 1.0 : tuning.obstacle_cost_exponent;
-    const Penalty close = above(apart.distance_m, tuning.min_obstacle_dist, tuning.penalty_epsilon);
-    squares.add(first_of(link.pose), raised(close, exponent, tuning.min_obstacle_dist), by, obstacle_factor_ * weight);
+    add_closeness(squares, link, apart.distance_m, by);
     const double inflation_m = link.is_dynamic ? tuning.dynamic_obstacle_inflation_dist : tuning.inflation_dist;
     if (inflation_m <= tuning.min_obstacle_dist) continue;
     squares.add(first_of(link.pose), above(apart.distance_m, inflation_m, 0.0), by,
                 link.is_dynamic ? tuning.weight_dynamic_obstacle_inflation : tuning.weight_inflation);
+  }
+}
+
+// What is nearer than min_obstacle_dist; than a little less about a robot that is already nearer itself.
+template <bool with_derivatives>
+void BandProblem::add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
+                                std::array<double, 3> by) const {
+  const BandTuning& tuning = *tuning_;
+  double wanted_m = tuning.min_obstacle_dist + tuning.penalty_epsilon;
+  if (link.start_m < wanted_m) {
+    const Vec2 from_start = band_->position(link.pose) - band_->position(0);
+    const double from_start_m = toolkit::norm(from_start);
+    const double leaving_m = link.start_m + leaving_slope * from_start_m;
+    if (leaving_m < wanted_m && from_start_m > 0.0) {
+      wanted_m = leaving_m;
+      by[0] -= leaving_slope * from_start.x / from_start_m;
+      by[1] -= leaving_slope * from_start.y / from_start_m;
+    }
+  }
+  const Penalty close = above(distance_m, wanted_m, 0.0);
+  if (link.is_dynamic) {
+    squares.add(first_of(link.pose), close, by, obstacle_factor_ * tuning.weight_dynamic_obstacle);
+  } else {
+    squares.add(first_of(link.pose), raised(close, tuning.obstacle_cost_exponent, tuning.min_obstacle_dist), by,
+                obstacle_factor_ * tuning.weight_obstacle);
   }
 }
 

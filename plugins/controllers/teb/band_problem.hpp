@@ -6,6 +6,7 @@
 #ifndef DMRP_CONTROLLERS_TEB_BAND_PROBLEM_HPP
 #define DMRP_CONTROLLERS_TEB_BAND_PROBLEM_HPP
 
+#include <array>
 #include <vector>
 
 #include "normal_equations.hpp"
@@ -61,6 +62,9 @@ class BandProblem {
   void add_accelerations(WeightedSquares<with_derivatives>& squares) const;
   template <bool with_derivatives>
   void add_obstacles(WeightedSquares<with_derivatives>& squares) const;
+  template <bool with_derivatives>
+  void add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
+                     std::array<double, 3> by) const;
   double cost_of_jumps() const;
   template <bool with_derivatives>
   void add_via_points(WeightedSquares<with_derivatives>& squares) const;
@@ -74,6 +78,7 @@ class BandProblem {
   double obstacle_factor_ = 1.0;
   std::vector<DirectedPose> poses_;
   std::vector<Motion> motions_;
+  ObstacleLinker linker_;
   std::vector<ObstacleLink> links_;
   std::vector<ViaPointLink> via_links_;
 };

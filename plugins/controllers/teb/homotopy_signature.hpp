@@ -3,11 +3,11 @@
 //
 // Every obstacle has a mark at its left end and one at its right end, as seen from start to goal, and from each mark a
 // ray goes out. How often a way crosses the ray from right to left, less how often from left to right, differs between
-// two ways with the same ends by how often the loop of both winds round the mark. These numbers, one a mark, are what the
-// H-signature by residues (Bhattacharya, Likhachev, Kumar: Topological constraints in search-based robot path planning,
-// Autonomous Robots 33 (2012)) comes to in the plane; but they neither overflow nor round, and equality needs no
-// threshold. Two marks an obstacle tell a way through it from those round it, which one representative point as upstream
-// does not. The numbers are summed up as one of 64 bits, each times a random weight of its mark's.
+// two ways with the same ends by how often the loop of both winds round the mark. These numbers, one a mark, are what
+// the H-signature by residues (Bhattacharya, Likhachev, Kumar: Topological constraints in search-based robot path
+// planning, Autonomous Robots 33 (2012)) comes to in the plane; but they neither overflow nor round, and equality needs
+// no threshold. Two marks an obstacle tell a way through it from those round it, which one representative point as
+// upstream does not. The numbers are summed up as one of 64 bits, each times a random weight of its mark's.
 //
 // What moves at constant velocity is looked at in its own frame, its rays straight ahead of it: the numbers say whether
 // the way passes in front of it, as the H-signature in space and time does.

@@ -12,6 +12,8 @@ namespace {
 // A pose may move by so much before obstacles are linked anew.
 constexpr double slack_m = 0.5;
 
+constexpr double no_concern_m = 1e9;
+
 // The nearest obstacle on one side of a pose.
 struct Nearest {
   double distance_m = std::numeric_limits<double>::infinity();
@@ -30,9 +32,15 @@ bool is_dynamic(const Obstacle& obstacle, const BandTuning& tuning) {
 
 }  // namespace
 
-void link_obstacles(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
-                    const BandTuning& tuning, std::vector<ObstacleLink>& links) {
+void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footprint,
+                          const std::vector<Obstacle>& obstacles, const BandTuning& tuning,
+                          std::vector<ObstacleLink>& links) {
   links.clear();
+  start_m_.assign(obstacles.size(), no_concern_m);
+  const double wanted_m = tuning.min_obstacle_dist + tuning.penalty_epsilon;
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
+    if (!is_farther(band.position(0), obstacles[k], 0.0, footprint.radius_m + wanted_m))
+      start_m_[k] = separation(footprint, band.pose(0), obstacles[k], 0.0).distance_m;
   const double forced_m = tuning.min_obstacle_dist * tuning.obstacle_association_force_inclusion_factor;
   const double cutoff_m = tuning.min_obstacle_dist * tuning.obstacle_association_cutoff_factor;
   const double dynamic_m = std::max(tuning.min_obstacle_dist, tuning.dynamic_obstacle_inflation_dist) + slack_m;
@@ -47,21 +55,22 @@ void link_obstacles(const TimedElasticBand& band, const Footprint& footprint, co
     for (std::uint32_t k = 0; k < obstacles.size(); ++k) {
       const Obstacle& obstacle = obstacles[k];
       if (is_dynamic(obstacle, tuning)) {
-        if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m)) links.push_back({i, k, ahead_s, true});
+        if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m))
+          links.push_back({i, k, ahead_s, true, no_concern_m});
         continue;
       }
       if (is_farther(at, obstacle, 0.0, footprint.radius_m + cutoff_m)) continue;
       const Separation apart = separation(footprint, pose, obstacle, 0.0);
       if (apart.distance_m < forced_m) {
-        links.push_back({i, k, 0.0, false});
+        links.push_back({i, k, 0.0, false, start_m_[k]});
       } else if (apart.distance_m < cutoff_m) {
         // away from the obstacle to the right: it lies on the left
         Nearest& side = toolkit::cross(heading, apart.gradient) < 0.0 ? left : right;
         if (apart.distance_m < side.distance_m) side = {apart.distance_m, k};
       }
     }
-    if (left.found()) links.push_back({i, left.obstacle, 0.0, false});
-    if (right.found()) links.push_back({i, right.obstacle, 0.0, false});
+    if (left.found()) links.push_back({i, left.obstacle, 0.0, false, start_m_[left.obstacle]});
+    if (right.found()) links.push_back({i, right.obstacle, 0.0, false, start_m_[right.obstacle]});
   }
 }
 

@@ -34,8 +34,8 @@ constexpr double turn_begin_rad = 0.5;
 // Cells that an agent explains lie so near to its disc.
 constexpr double agent_cells_m = 0.2;
 
-// After so many cycles in a row without a feasible band the horizon shrinks once more.
-constexpr int shrink_again_after = 10;
+// After so many cycles in a row without a feasible band the horizon shrinks less.
+constexpr int shrink_less_after = 10;
 
 }  // namespace
 
@@ -93,14 +93,12 @@ Status Teb::step(const Observation& now, Command& command) {
   return status;
 }
 
-// Half as far for a while after no way was feasible.
+// Half as far for a while after no way was feasible; a little farther again where that does not help either.
 double Teb::look_ahead_m(std::int64_t t_ns) const {
-  double reach_m = max_global_plan_lookahead_dist;
+  const double whole_m = max_global_plan_lookahead_dist;
   const bool is_recent = was_infeasible_ && seconds(t_ns - infeasible_ns_) < shrink_horizon_min_duration;
-  if (!shrink_horizon_backup || !is_recent) return reach_m;
-  reach_m *= 0.5;
-  if (infeasible_in_a_row_ >= shrink_again_after) reach_m *= 0.5;
-  return reach_m;
+  if (!shrink_horizon_backup || !is_recent) return whole_m;
+  return infeasible_in_a_row_ >= shrink_less_after ? 0.75 * whole_m : 0.5 * whole_m;
 }
 
 void Teb::watch_for_oscillation(const Observation& now) {

@@ -90,8 +90,8 @@ Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
   return drive + from_others(slot, person) + from_group(slot, people, desired) + from_walls(person);
 }
 
-// How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world allows
-// at most a little of.
+// How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
+// allows at most a little of.
 double SocialForce::keeping_off(double gap_m) const {
   const double gaps = gap_m / obstacle_sigma;
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));

@@ -2,10 +2,10 @@
 // focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost, with few conflicts.
 //
 // Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; the least f
-// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with the least
-// sum of f and a charge for each conflict is expanded, then the one of fewest turns, then the latest. Of the states at
-// one place and time all are kept that differ in cost and conflicts with neither worse. Times from which nothing
-// changes are one.
+// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with the
+// least sum of f and a charge for each conflict is expanded, then the one of fewest turns, then the latest. Of the
+// states at one place and time all are kept that differ in cost and conflicts with neither worse. Times from which
+// nothing changes are one.
 #pragma once
 
 #include <cstdint>

@@ -8,9 +8,10 @@
 // for b, both were in the corridor at one time, in opposite directions. So one agent has to stay away from its exit
 // until then.
 //
-// Likewise where the last goal of b, say, is inside (corridor-target symmetry). If a comes through, b cannot be in front
-// of it from when a goes in: b came to rest behind it, not before t_a + 1 + (steps from y to the goal), or else came
-// from x, either round or first through and out of a's way. And a, if b is to stay in front of it, has to go round.
+// Likewise where the last goal of b, say, is inside (corridor-target symmetry). If a comes through, b cannot be in
+// front of it from when a goes in: b came to rest behind it, not before t_a + 1 + (steps from y to the goal), or else
+// came from x, either round or first through and out of a's way. And a, if b is to stay in front of it, has to go
+// round.
 //
 // Any part of a corridor is one too. So an agent that waits inside, as it must not be at its exit yet, is met on the
 // part of the corridor that it does go through.

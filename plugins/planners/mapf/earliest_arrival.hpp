@@ -29,8 +29,8 @@ class EarliestArrival {
   };
 
   // A time before which the agent cannot be there: the earliest but for what is asked of it after it has been there;
-  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out or `stop` says so. The graph must
-  // be symmetric.
+  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out or `stop` says so. The graph
+  // must be symmetric.
   std::optional<std::int32_t> search(const Query& query);
 
  private:

@@ -57,7 +57,8 @@ inline bool may_end(const LowLevelRequest& request, std::int32_t leg, Location l
 }
 
 // The order within FOCAL: fewest conflicts first, then least f; or both together, a conflict counting as so many steps.
-// Then nearest to the end, then fewest turns. What does not fit its part of the number ranks with the largest that does.
+// Then nearest to the end, then fewest turns. What does not fit its part of the number ranks with the largest that
+// does.
 inline std::uint64_t focal_order(std::int32_t conflicts, std::int32_t conflict_steps, std::int32_t f_above_least,
                                  std::int32_t rest, std::int32_t turns) {
   const auto part = [](std::int64_t value, int bits, int shift) {

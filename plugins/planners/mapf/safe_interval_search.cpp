@@ -202,8 +202,8 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
   }
   const Agent& agent = request_->agent;
   const std::int32_t finish_from = constraints.finish_from();
-  // Where all goals left of a tour are here, who comes before it may end has to go away again: the step in which it ends
-  // must not be a wait.
+  // Where all goals left of a tour are here, who comes before it may end has to go away again: the step in which it
+  // ends must not be a wait.
   const auto is_here = [&](Location goal) { return goal == location; };
   if (leg < agent.last_leg() && std::all_of(agent.goals.begin() + leg, agent.goals.end(), is_here)) {
     if (t < finish_from) return {t, t + 1, true, interval.conflicts};

@@ -37,7 +37,7 @@ typedef struct dmrp_observation {
   uint32_t released_waypoint;  // last waypoint that may be passed: the path's last under execution = "free"
   const dmrp_limits* limits;
   const dmrp_footprint* footprint;
-  const dmrp_agent* agents;  // visible others, as `tracking` allows, velocities with its noise; ordered by kind, then id
+  const dmrp_agent* agents;  // visible others, as `tracking` allows, with its noise; ordered by kind, then id
   uint32_t agent_count;
   uint32_t agent_stride;
 } dmrp_observation;

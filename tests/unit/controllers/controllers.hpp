@@ -25,15 +25,11 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 }
 
 inline std::vector<Controller> all_controllers() {
-  const std::vector<Controller> known = {{"dmrp.controller.pure_pursuit", false},
-                                         {"dmrp.controller.dwa"},
-                                         {"dmrp.controller.teb"},
-                                         {"dmrp.controller.mpc"},
-                                         {"dmrp.controller.e3mop"}};
-  std::vector<Controller> there;
-  for (const Controller& controller : known)
-    if (PluginLibrary::load("libdmrp_controllers.so").find(controller.id)) there.push_back(controller);
-  return there;
+  return {{"dmrp.controller.pure_pursuit", false},
+          {"dmrp.controller.dwa"},
+          {"dmrp.controller.teb"},
+          {"dmrp.controller.mpc"},
+          {"dmrp.controller.e3mop"}};
 }
 
 inline std::vector<Controller> evading_controllers() {

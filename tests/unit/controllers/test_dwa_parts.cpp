@@ -252,7 +252,8 @@ TEST_CASE("The sum of the critics, by hand") {
 
   // 1.7 s at 0.5 m/s end at x = 2.875: 23 cells before the goal, the nose 23 before the front; on the path
   CHECK(score({0.5, 0.0}, scene, t, footprint, infinity) == Approx(0.05 * 0.8 * (23 + 23)));
-  // standing and turned away by 1.7 rad of turning: the nose 6 cells off the path to the left, 40 + 6 + 6 from the front
+  // standing and turned away by 1.7 rad of turning: the nose 6 cells off the path to the left, 40 + 6 + 6 from the
+  // front
   const double turn = 1.5707963267948966 / t.sim_time;
   CHECK(score({0.0, turn}, scene, t, footprint, infinity) == Approx(0.05 * (0.8 * (40 + 52) + 0.6 * 6)));
   scene.align = false;

@@ -33,7 +33,8 @@ TimedElasticBand ragged_band(toolkit::Stream& random, int poses) {
 
 // Obstacles of every shape, one of them moving.
 struct Surroundings {
-  std::vector<Vec2> vertices = {{1.0, 0.7}, {1.5, -0.6}, {2.5, -0.5}, {3.0, 0.5}, {3.5, 0.5}, {3.3, 0.9}, {2.0, 0.6}};
+  std::vector<Vec2> vertices = {{1.0, 0.7}, {1.5, -0.6}, {2.5, -0.5}, {3.0, 0.5},
+                                {3.5, 0.5}, {3.3, 0.9},  {2.0, 0.6},  {0.1, 0.5}};
   std::vector<Obstacle> obstacles;
   Surroundings() {
     const auto add = [this](std::size_t first, std::uint32_t count, double radius_m, Vec2 velocity) {
@@ -50,6 +51,7 @@ struct Surroundings {
     add(1, 2, 0.0, {0.0, 0.0});
     add(3, 3, 0.0, {0.0, 0.0});
     add(6, 1, 0.3, {-0.4, -0.1});
+    add(7, 1, 0.0, {0.0, 0.0});  // the start is too near to it
   }
 };
 
@@ -257,7 +259,8 @@ TEST_CASE("TEB: poses are linked to all obstacles close by and to the nearest on
   obstacles[5].velocity = {0.0, 5.0};  // with the robot when that is at the pose
   BandTuning tuning;                   // forced within 0.75 m, cut off at 2.5 m
   std::vector<ObstacleLink> links;
-  link_obstacles(band, disc(0.2), obstacles, tuning, links);
+  ObstacleLinker linker;
+  linker.link(band, disc(0.2), obstacles, tuning, links);
   REQUIRE(links.size() == 5);
   CHECK(links[0].obstacle == 0);  // 0.7 m
   CHECK(links[1].obstacle == 3);  // 0.4 m
@@ -267,7 +270,7 @@ TEST_CASE("TEB: poses are linked to all obstacles close by and to the nearest on
   CHECK(links[3].obstacle == 1);  // left, 0.9 m
   CHECK(links[4].obstacle == 2);  // right, 0.8 m
   tuning.include_dynamic_obstacles = false;
-  link_obstacles(band, disc(0.2), obstacles, tuning, links);
+  linker.link(band, disc(0.2), obstacles, tuning, links);
   for (const ObstacleLink& link : links) CHECK_FALSE(link.is_dynamic);
 }
 

@@ -136,7 +136,8 @@ inline std::vector<host::PluginInfo> fake_plugins() {
   return {planner, controller, blind, model, metric, other};
 }
 
-// libfake.so has the plugins above; libtwin.so one of them too; libbad.so does not load, libsick.so not start; others have none.
+// libfake.so has the plugins above; libtwin.so one of them too; libbad.so does not load, libsick.so not start; others
+// have none.
 inline host::Probe fake_probe(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   if (name == "libbad.so") throw std::runtime_error("not a dmrp v1 plugin");

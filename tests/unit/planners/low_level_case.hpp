@@ -116,8 +116,8 @@ class LowLevelCase {
     });
   }
 
-  // The conflicts of a step that ends at time t, on `leg` before. A stay is told apart where the end may begin, and where
-  // a step of it is one to the same goal again.
+  // The conflicts of a step that ends at time t, on `leg` before. A stay is told apart where the end may begin, and
+  // where a step of it is one to the same goal again.
   int conflicts_of_step(Counting counting, Location from, Location to, int leg, int t) const {
     const int last = agent().last_leg();
     const bool is_end = to == agent().last_goal() && leg == last;

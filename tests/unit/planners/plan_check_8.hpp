@@ -48,8 +48,8 @@ inline bool steps_conflict(CellXY a0, CellXY a1, CellXY b0, CellXY b1) {
   const CellXY middle_a{a0.x + a1.x, a0.y + a1.y};
   const CellXY middle_b{b0.x + b1.x, b0.y + b1.y};
   if (middle_a == middle_b) return true;  // changing places, straight or diagonally, and crossing diagonals
-  // The middle of a diagonal is the corner of four cells: nobody else may begin or end on any of them but the diagonal's
-  // own end, which it has just left or not reached yet.
+  // The middle of a diagonal is the corner of four cells: nobody else may begin or end on any of them but the
+  // diagonal's own end, which it has just left or not reached yet.
   const auto is_beside = [](CellXY from, CellXY to, CellXY other) {
     return from.x != to.x && from.y != to.y && !(other == from) && !(other == to) &&
            std::abs(2 * other.x - (from.x + to.x)) == 1 && std::abs(2 * other.y - (from.y + to.y)) == 1;

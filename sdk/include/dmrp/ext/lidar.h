@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-// ext/lidar.h: the robot's planar range scan, with the noise that the experiment sets. An extension of the host for local
-// controllers.
+// ext/lidar.h: the robot's planar range scan, with the noise that the experiment sets. An extension of the host for
+// local controllers.
 #ifndef DMRP_EXT_LIDAR_H
 #define DMRP_EXT_LIDAR_H
 

@@ -15,8 +15,8 @@ typedef struct dmrp_obstacle_cluster {
   const dmrp_vec2* vertices;  // world frame; centres of lethal cells
 } dmrp_obstacle_cluster;
 
-// Every lethal cell's centre lies within tolerance_m of a cluster, and no point of a cluster is farther than tolerance_m
-// from the centre of a lethal cell: a room's corner is two segments, never a triangle across it.
+// Every lethal cell's centre lies within tolerance_m of a cluster, and no point of a cluster is farther than
+// tolerance_m from the centre of a lethal cell: a room's corner is two segments, never a triangle across it.
 // Cells that an agent of the observation accounts for are left out: agents are known with their velocity.
 typedef struct dmrp_obstacle_cluster_list {
   uint32_t struct_size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// polygon.hpp: convex polygons, metres. Vertices counter-clockwise, the border belongs to the polygon; what is no convex
-// counter-clockwise polygon (is_convex_ccw) gives meaningless answers from everything but signed_area().
+// polygon.hpp: convex polygons, metres. Vertices counter-clockwise, the border belongs to the polygon; what is no
+// convex counter-clockwise polygon (is_convex_ccw) gives meaningless answers from everything but signed_area().
 #ifndef DMRP_TOOLKIT_POLYGON_HPP
 #define DMRP_TOOLKIT_POLYGON_HPP
 

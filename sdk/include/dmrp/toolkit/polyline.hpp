@@ -75,9 +75,9 @@ dmrp_vec2 point_at(const Path& path, const std::vector<double>& arcs, double arc
   return place_at(path, arcs, arc_m).point;
 }
 
-// The nearest place whose arc length is in [from_m, to_m] (both clamped to the path); the first of several equally near.
-// The window keeps a path that crosses or doubles itself from drawing the place to another lap. Progress that never
-// falls is
+// The nearest place whose arc length is in [from_m, to_m] (both clamped to the path); the first of several equally
+// near. The window keeps a path that crosses or doubles itself from drawing the place to another lap. Progress that
+// never falls is
 //
 //   progress_m = project(path, arcs, robot, progress_m, progress_m + window_m).arc_m;
 //
@@ -111,8 +111,8 @@ PathPlace project(const Path& path, const std::vector<double>& arcs, dmrp_vec2 p
 }
 
 // The point that lies `look_ahead_m` >= 0 further along the path than the place nearest to `from` (a pose or a point);
-// the path's end where less is left. Of several places equally near it takes the first. On an empty path: `from` itself.
-// Needs no table and does not allocate; looks at the whole path.
+// the path's end where less is left. Of several places equally near it takes the first. On an empty path: `from`
+// itself. Needs no table and does not allocate; looks at the whole path.
 template <class Path, class From>
 dmrp_vec2 point_ahead(const Path& path, const From& from, double look_ahead_m) {
   if (path.size() == 0) return position(from);
