@@ -134,6 +134,24 @@ TEST_CASE("waypoints are handed over one at a time, waits dropped, without a sto
   CHECK(progress_m == Approx(3.3).margin(0.2));
 }
 
+TEST_CASE("on a tour a robot arrives at each goal before it is sent on") {
+  Stage stage(lanes({4.8}));
+  stage.experiment.scenarios[0].scenario.robots[0].goals.push_back({2.5, 1.5, any_heading});
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.cbs")};
+  stage.experiment.simulation.dispatch = core::Dispatch::waypoint;
+  stage.experiment.simulation.execution = GENERATE(core::Execution::free, core::Execution::ordered);
+  Stage::set(stage.experiment.local_controllers[0], "by_waypoint");
+  CHECK(stage.run());
+  // out to the goal beside its cell's centre, back to the centre and on
+  CHECK(stage.notes() == std::vector<std::string>{"1 to 2.500000", "1 to 3.500000", "1 to 4.500000", "1 to 4.800000",
+                                                  "1 to 4.500000", "1 to 3.500000", "1 to 2.500000"});
+  const auto& sent = stage.reader->notes();
+  REQUIRE(sent.size() == 7);
+  while (const dmrp_sample* sample = stage.reader->next_sample())
+    if (sample->t_ns < sent[4].t_ns - second_ns / 10) CHECK(robot_of(*sample, 0).goal_index == 0);
+}
+
 TEST_CASE("every new plan is handed over with the next revision, and robots get where they go") {
   Stage stage(lanes({9.5, 2.5}));
   stage.experiment.simulation.replan.period_ns = 2 * second_ns;
