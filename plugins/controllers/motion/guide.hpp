@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // guide.hpp: the shortest way over the free cells of the costmap, for starting the optimiser on the right side of what
 // stands in the way, and for knowing that there is no way.
-#ifndef DMRP_CONTROLLERS_MPC_GUIDE_HPP
-#define DMRP_CONTROLLERS_MPC_GUIDE_HPP
+#ifndef DMRP_CONTROLLERS_MOTION_GUIDE_HPP
+#define DMRP_CONTROLLERS_MOTION_GUIDE_HPP
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "../motion/costmap_view.hpp"
+#include "costmap_view.hpp"
 
-namespace dmrp::controllers::mpc {
+namespace dmrp::controllers {
 
 // Dijkstra's algorithm over the window's cells and their eight neighbours, with whole costs in buckets. Keeps its
 // buffers.
@@ -39,6 +39,6 @@ class Guide {
   std::array<std::vector<std::int32_t>, bucket_count> buckets_;
 };
 
-}  // namespace dmrp::controllers::mpc
+}  // namespace dmrp::controllers
 
 #endif
