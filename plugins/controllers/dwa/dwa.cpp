@@ -36,6 +36,10 @@ constexpr double wait_within_m = 0.15;
 
 // Below this the robot counts as standing.
 constexpr double standing_m_s = 0.05;
+constexpr double standing_rad_s = 0.05;
+
+// Standing for so long is a stall.
+constexpr std::int64_t stall_ns = 2'000'000'000;
 
 }  // namespace
 
@@ -66,6 +70,7 @@ Status Dwa::start(const World&, std::uint64_t) {
   tracker_.clear();
   at_goal_.reset();
   oscillation_.reset();
+  standing_ns_ = 0;
   turning_ = false;
   return Status::ok;
 }
@@ -109,6 +114,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   if (goal_is_cut_ && to_goal_m < wait_within_m) return Status::ok;
 
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
+  if (has_stalled(now)) oscillation_.reset();
   ramp_ = {{now.velocity.v_x, now.velocity.omega}, now.limits.a_max, now.limits.alpha_max};
   // a path is not replanned about people: round something that stands on it, the goal critics lead alone
   const bool follow =
@@ -144,6 +150,16 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
     command.omega = std::clamp(omega, -now.limits.omega_max, now.limits.omega_max);
   }
   return Status::ok;
+}
+
+// Whether the robot has stood for a while. A direction that was forbidden because it was reversed may then be the only
+// way on; upstream, move_base's recovery from oscillation clears such flags.
+bool Dwa::has_stalled(const Observation& now) {
+  const bool stands = std::abs(now.velocity.v_x) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
+  standing_ns_ = stands ? standing_ns_ + now.dt_ns : 0;
+  if (standing_ns_ < stall_ns) return false;
+  standing_ns_ = 0;
+  return true;
 }
 
 // Fronts are asked for where the robot is, where arcs and their noses end, and, for one that stands, all about it.
@@ -210,12 +226,28 @@ void Dwa::lay_out_plan(const CostmapView& map) {
   }
 }
 
+// The nose comes to the path's end before the robot does: the path goes on there by its length, where that is free. Else
+// the alignment critic would hold a robot back before its goal.
+void Dwa::seed_beyond_end(const CostmapView& map) {
+  if (tracker_.remaining_m() > max_global_plan_lookahead_dist) return;
+  const Vec2 end = tracker_.point_at(tracker_.end_m());
+  const Vec2 onward = toolkit::from_angle(tracker_.heading_at(tracker_.end_m(), 0.0));
+  const double step_m = 0.5 * map.resolution_m();
+  for (double beyond_m = step_m; beyond_m <= forward_point_distance; beyond_m += step_m) {
+    const Vec2 at = end + beyond_m * onward;
+    const std::int32_t index = terrain_.index_of(map, at.x, at.y);
+    if (!terrain_.is_free(index)) return;
+    path_front_.seed(index);
+  }
+}
+
 void Dwa::spread_fronts(const Observation& now, const CostmapView& map) {
   const std::int32_t here = terrain_.index_of(map, now.pose.x, now.pose.y);
   const std::int32_t home = terrain_.nearest_free(here, dwa::escape_reach_cells);
 
   path_front_.begin(terrain_);
   for (const PlanPoint& point : plan_) path_front_.seed(point.index);
+  seed_beyond_end(map);
   path_front_.spread();
   // cut off from all of the path: stay about here
   if (home >= 0 && !path_front_.reached(home)) {

@@ -72,6 +72,8 @@ class Dwa final : public LocalController {
   void annotate(const dwa::Scene& scene, const dwa::Sample& choice) const;
   void want_reach(const Observation& now, const CostmapView& map);
   void lay_out_plan(const CostmapView& map);
+  bool has_stalled(const Observation& now);
+  void seed_beyond_end(const CostmapView& map);
   void spread_fronts(const Observation& now, const CostmapView& map);
   std::int32_t choose_goal(std::int32_t home);
   std::int32_t point_in_front(const CostmapView& map, const Pose& from);
@@ -99,8 +101,9 @@ class Dwa final : public LocalController {
   Vec2 goal_ = {0.0, 0.0};       // the point of the plan that the robot goes for now
   bool goal_is_cut_ = false;     // something stands across the whole way to the path's end in the window
   double front_length_m_ = 0.0;  // from there to the seed of nose_front_
-  bool turning_ = false;         // in place ...
-  double turn_to_ = 0.0;         // ... to this heading
+  std::int64_t standing_ns_ = 0;
+  bool turning_ = false;  // in place ...
+  double turn_to_ = 0.0;  // ... to this heading
 };
 
 }  // namespace dmrp::controllers

@@ -215,3 +215,15 @@ TEST_CASE("A single waypoint, as waypoint dispatch sends it") {
   course.path = {{3.0, 2.0}};
   check_arrives(run(controller, course), 12.0);
 }
+
+TEST_CASE("DWA gets home with the weights of the paper and of its released code") {
+  // a path that weighs more than the goal: the nose, beyond the path's end, must not hold the robot back before it
+  const double goal_distance_bias = GENERATE(0.8, 1.0);
+  const double y = GENERATE(0.0, 0.013, 0.025);  // where in a cell the path runs
+  CAPTURE(goal_distance_bias, y);
+  Course course;
+  course.path = metre_path({{0.0, y}, {4.0, y}, {4.0, y + 3.0}, {5.0, y + 3.0}});
+  check_arrives(
+      run("dmrp.controller.dwa", course, {{"path_distance_bias", 5.0}, {"goal_distance_bias", goal_distance_bias}}),
+      30.0);
+}
