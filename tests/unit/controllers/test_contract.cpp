@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the contract asks of the library and of an instance.
+#include <malloc.h>
+
 #include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/angle.hpp>
@@ -156,6 +158,23 @@ TEST_CASE("The same course gives the same bits: fresh, started again, and interl
   }
   CHECK(same_bits(once, one.result()));
   CHECK(same_bits(once, three.result()));
+}
+
+TEST_CASE("Memory does not grow from trial to trial") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Trip trip(controller.id, eventful(), controller.tuned);
+  const auto bytes_after = [&trip](int trials) {
+    for (int i = 0; i < trials; ++i) {
+      trip.start();
+      for (int k = 0; k < 10; ++k) trip.control_period();
+    }
+    trip.start();
+    const struct mallinfo2 heap = mallinfo2();
+    return static_cast<double>(heap.uordblks + heap.hblkhd);
+  };
+  const double few = bytes_after(3);
+  CHECK(bytes_after(12) < few + 65536.0);
 }
 
 TEST_CASE("A robot that is already too near to something gets away from it") {
