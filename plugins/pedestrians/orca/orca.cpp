@@ -45,7 +45,7 @@ Status Orca::start(const World& world, std::uint64_t seed) {
   grid_.start(world->lower, world->upper, neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
   leanings_.clear();
-  neighbors_.reserve(static_cast<std::size_t>(max_neighbors) + 1);
+  neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
 
@@ -61,17 +61,22 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
     walls_.append_half_planes(person.position, person.velocity, person.radius_m, max_speed, time_horizon_obst, planes_);
     const std::size_t wall_planes = planes_.size();
 
-    find_neighbors(slot, crowd.people);
-    for (const Neighbor& neighbor : neighbors_) {
-      const Body& other = *neighbor.body;
-      const Encounter met = {other.position - person.position, person.velocity - other.velocity,
-                             person.radius_m + other.radius_m};
-      const double horizon_s = std::max(other.weight * time_horizon, step_s);
-      planes_.push_back(give_way(escape(met, horizon_s, step_s), person.velocity, even_share * other.weight));
+    const std::size_t neighbor_count = find_neighbors(slot, crowd.people);
+    for (std::size_t i = 0; i < neighbor_count; ++i) {
+      const HalfPlane plane = permitted_beside(*neighbors_[i].body, person, step_s);
+      // most planes hold every velocity within the cap
+      if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
     velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(slot, person, step_s));
   }
   return Status::ok;
+}
+
+HalfPlane Orca::permitted_beside(const Body& other, const Person& person, double step_s) const {
+  const Encounter met = {other.position - person.position, person.velocity - other.velocity,
+                         person.radius_m + other.radius_m};
+  const double horizon_s = std::max(other.weight * time_horizon, step_s);
+  return give_way(escape(met, horizon_s, step_s), person.velocity, even_share * other.weight);
 }
 
 void Orca::gather(const Crowd& crowd) {
@@ -88,28 +93,30 @@ void Orca::gather(const Crowd& crowd) {
     leanings_.push_back({~crowd.people[slot].id, 0.0});
 }
 
-void Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
+std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
   const auto most = static_cast<std::size_t>(max_neighbors);
-  const auto id = [&](const Body& body) {
-    return body.slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body.slot].id;
+  const auto id = [&](const Body* body) {
+    return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
   };
   const auto comes_before = [&](const Neighbor& a, const Neighbor& b) {
-    if (a.squared_distance != b.squared_distance) return a.squared_distance < b.squared_distance;
-    return id(*a.body) < id(*b.body);
+    return a.squared_distance < b.squared_distance ||
+           (a.squared_distance == b.squared_distance && id(a.body) < id(b.body));
   };
 
-  neighbors_.clear();
+  std::size_t count = 0;
   grid_.for_each_near(people[slot].position, [&](const Body& other, double squared_distance) {
     if (other.slot == slot || !(squared_distance > 0.0)) return;
     const Neighbor found = {squared_distance, &other};
-    if (neighbors_.size() == most) {
-      if (!comes_before(found, neighbors_.back())) return;
-      neighbors_.pop_back();
+    if (count < most) {
+      ++count;
+    } else if (!comes_before(found, neighbors_[most - 1])) {
+      return;
     }
-    neighbors_.push_back(found);
-    for (std::size_t i = neighbors_.size() - 1; i > 0 && comes_before(neighbors_[i], neighbors_[i - 1]); --i)
-      std::swap(neighbors_[i], neighbors_[i - 1]);
+    std::size_t place = count - 1;
+    for (; place > 0 && comes_before(found, neighbors_[place - 1]); --place) neighbors_[place] = neighbors_[place - 1];
+    neighbors_[place] = found;
   });
+  return count;
 }
 
 Vec2 Orca::preferred_velocity(std::uint32_t slot, const Person& person, double step_s) {

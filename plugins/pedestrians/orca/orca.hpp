@@ -47,7 +47,8 @@ class Orca final : public PedestrianModel {
   };
 
   void gather(const Crowd& crowd);
-  void find_neighbors(std::uint32_t slot, const Span<Person>& people);
+  std::size_t find_neighbors(std::uint32_t slot, const Span<Person>& people);  // how many there are
+  HalfPlane permitted_beside(const Body& other, const Person& person, double step_s) const;
   Vec2 preferred_velocity(std::uint32_t slot, const Person& person, double step_s);
 
   std::uint64_t seed_ = 0;

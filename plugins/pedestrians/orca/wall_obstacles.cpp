@@ -17,14 +17,6 @@ dmrp_vec2 tangent(dmrp_vec2 center, double radius_m, double side) {
   return (center * leg_m + toolkit::perpendicular(center) * (side * radius_m)) / squared_distance;
 }
 
-// Whether a wall lies wholly, scaled by 1 / horizon, where a half-plane permits nothing.
-bool is_covered(const std::vector<HalfPlane>& planes, std::size_t first, dmrp_vec2 left, dmrp_vec2 right,
-                double radius) {
-  for (std::size_t i = first; i < planes.size(); ++i)
-    if (violation(planes[i], left) >= radius && violation(planes[i], right) >= radius) return true;
-  return false;
-}
-
 }  // namespace
 
 void WallObstacles::start(Span<dmrp_segment> segments, dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
@@ -70,13 +62,8 @@ void WallObstacles::link_outline(std::size_t begin, std::size_t end) {
 void WallObstacles::append_half_planes(dmrp_vec2 position, dmrp_vec2 velocity, double radius_m, double max_speed,
                                        double horizon_s, std::vector<HalfPlane>& planes) {
   find_near(position, radius_m + max_speed * horizon_s);
-  const std::size_t first = planes.size();
   for (const Near& near : near_) {
     const Wall& wall = walls_[near.wall];
-    if (is_covered(planes, first, (wall.from - position) / horizon_s, (wall.to - position) / horizon_s,
-                   radius_m / horizon_s))
-      continue;
-
     HalfPlane plane;
     bool is_owned = false;
     dmrp_vec2 nearest;
