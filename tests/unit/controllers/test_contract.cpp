@@ -206,15 +206,3 @@ TEST_CASE("A standing robot with an obstacle all around says so calmly") {
   CHECK(drive.static_clearance_m > 0.0);
   CHECK(drive.turned_rad < 0.5);
 }
-
-TEST_CASE("Starting over many times costs no memory") {
-  // what doubles with each trial is gone after forty
-  const Controller controller = GENERATE(from_range(all_controllers()));
-  CAPTURE(controller);
-  Trip trip(controller.id, eventful(), controller.tuned);
-  for (int trial = 0; trial < 40; ++trial) {
-    trip.start();
-    for (int period = 0; period < 3; ++period) trip.control_period();
-  }
-  CHECK(trip.result().breaches == std::vector<std::string>{});
-}
