@@ -42,6 +42,9 @@ constexpr double slow_m_s = 0.1;
 
 constexpr double sample_step_m = 0.05;
 
+// So near to the goal the path is straight.
+constexpr double last_leg_m = 0.5;
+
 // A smoothed path that collides no farther ahead than this and what braking takes is no use.
 constexpr double least_way_m = 0.3;
 
@@ -252,6 +255,7 @@ void E3mop::lay_points() {
 }
 
 bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
+  if (lay_last_leg() && fit(now, free_space, {}, 2.0 * last_leg_m)) return true;
   points_ = raw_points_;
   SmoothingSettings settings;
   settings.weight_smoothness = weight_smoothness;
@@ -272,6 +276,17 @@ bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
   if (fit(now, free_space, start_theta, needed_m)) return true;
   points_ = raw_points_;
   return fit(now, free_space, start_theta, 0.0);
+}
+
+// The last bit of the way straight to the goal: too short for smoothing, which would bend it off what stands beside.
+bool E3mop::lay_last_leg() {
+  const Vec2 from = raw_points_[kept_ - 1];
+  const double left_m = toolkit::distance(from, plan_.goal());
+  if (!plan_.found().found || !plan_.is_path_end() || left_m > last_leg_m || left_m < 1e-3) return false;
+  points_.assign(raw_points_.begin(), raw_points_.begin() + static_cast<std::ptrdiff_t>(kept_));
+  const auto steps = std::max(1, static_cast<int>(left_m / point_spacing));
+  for (int i = 1; i <= steps; ++i) points_.push_back(toolkit::lerp(from, plan_.goal(), static_cast<double>(i) / steps));
+  return true;
 }
 
 // The spline and its speeds; ends where it would collide. False where that is nearer than `needed_m`.
