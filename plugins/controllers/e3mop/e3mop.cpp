@@ -100,12 +100,20 @@ Status E3mop::step(const Observation& now, Command& command) {
   read_field(now);
   const CostmapView map(*costmap_->costmap(costmap_));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
-  const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+  FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
   const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   lay_out_global_path();
   const Pose from = keep_path(now, foreseen);
-  if (!plan(now, from, foreseen)) {
+  bool planned = plan(now, from, foreseen);
+  if (!(planned && plan_.found().found) && foresees_) {
+    // between people who step to and fro, what they may do leaves no way: where they are now counts
+    foreseen_ = field_;
+    foreseen = FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+    raw_points_.resize(kept_);
+    planned = plan(now, from, foreseen);
+  }
+  if (!planned) {
     path_.clear();
     return Status::ok;
   }
@@ -209,10 +217,12 @@ void E3mop::read_field(const Observation& now) {
   const dmrp_field& field = *distance_field_->field(distance_field_);
   field_.read(field);
   foreseen_.read(field);
+  foresees_ = false;
   for (const Agent& agent : now.agents) {
     if (agent.state != DMRP_ROBOT_ACTIVE && agent.kind == DMRP_AGENT_ROBOT) continue;
     const Vec2 from = toolkit::position(agent.pose);
     foreseen_.add_swept_disc(from, from + prediction_time * agent.velocity, agent.radius_m);
+    foresees_ = true;
   }
 }
 

@@ -88,6 +88,7 @@ class E3mop final : public LocalController {
   StopAndRotate at_goal_;
   e3mop::ClearanceField field_;     // what the sensors see now
   e3mop::ClearanceField foreseen_;  // with the ways of visible agents
+  bool foresees_ = false;           // there are any
   e3mop::LocalPlan plan_;
   e3mop::PathSmoother smoother_;
   e3mop::SplinePath spline_;
