@@ -13,10 +13,10 @@
 
 #include <dmrp/plugin.hpp>
 
+#include "../motion/guide.hpp"
 #include "../motion/path_ahead.hpp"
 #include "../motion/stop_and_rotate.hpp"
 #include "association.hpp"
-#include "guide.hpp"
 #include "initial_guess.hpp"
 #include "interior_point.hpp"
 
@@ -102,13 +102,14 @@ class Mpc final : public LocalController {
   ObstacleSet obstacles_;
   std::vector<Obstacle> seen_;  // of obstacles_, as this controller takes them
   mpc::Association association_;
-  mpc::Guide guide_;
+  Guide guide_;
   bool guide_spread_ = false;  // this period
   std::vector<Vec2> way_;      // to start from
   mpc::InitialGuess guess_;
   mpc::InteriorPoint solver_;
   mpc::Problem problem_;
   mpc::SolverReport report_;
+  int iterations_now_ = 0;  // of all solutions of this period
   mpc::Trajectory trajectory_;
   mpc::Trajectory waiting_;  // a copy to go back to
   bool has_trajectory_ = false;

@@ -70,6 +70,7 @@ Status Teb::start(const World& world, std::uint64_t seed) {
   preferred_turn_ = teb::Turn::any;
   infeasible_in_a_row_ = 0;
   was_infeasible_ = false;
+  is_closed_ = false;
   return Status::ok;
 }
 
@@ -93,11 +94,14 @@ Status Teb::step(const Observation& now, Command& command) {
   return status;
 }
 
+bool Teb::was_infeasible_lately(std::int64_t t_ns) const {
+  return was_infeasible_ && seconds(t_ns - infeasible_ns_) < shrink_horizon_min_duration;
+}
+
 // Half as far for a while after no way was feasible; a little farther again where that does not help either.
 double Teb::look_ahead_m(std::int64_t t_ns) const {
   const double whole_m = max_global_plan_lookahead_dist;
-  const bool is_recent = was_infeasible_ && seconds(t_ns - infeasible_ns_) < shrink_horizon_min_duration;
-  if (!shrink_horizon_backup || !is_recent) return whole_m;
+  if (!shrink_horizon_backup || !was_infeasible_lately(t_ns)) return whole_m;
   return infeasible_in_a_row_ >= shrink_less_after ? 0.75 * whole_m : 0.5 * whole_m;
 }
 
@@ -146,10 +150,28 @@ bool Teb::look_along_path(const Observation& now, const CostmapView& map, Footpr
   path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
   const std::size_t whole = path_.points().size();
   path_.retreat(footprint);
-  const std::size_t free = path_.points().size();
+  const std::size_t free = std::min(path_.points().size(), reachable_points(now, map, footprint));
   if (free == whole) return false;
   path_.look(tracker_, now, map, std::max(0.0, PathAhead::spacing_m * static_cast<double>(free - 1) - stand_back_m));
   return true;
+}
+
+// How many points of the path ahead, from the robot on, end where there is a way to. Looked at once no band was feasible,
+// and for as long as the way is closed: else a robot before a wall across its way would turn to and fro for ever.
+std::size_t Teb::reachable_points(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
+  const std::vector<Vec2>& points = path_.points();
+  if (!is_closed_ && !was_infeasible_lately(now.t_ns)) return points.size();
+  is_closed_ = false;
+  const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
+    return footprint.cost(arc_state({point.x, point.y, path_.goal().theta})) != in_collision;
+  });
+  if (is_free) return points.size();
+  const double needed_m = now.footprint.inscribed_radius_m + padding_m;
+  guide_.spread(map, toolkit::position(now.pose), needed_m, needed_m);
+  std::size_t count = points.size();
+  while (count > 1 && !guide_.reaches(map, points[count - 1])) --count;
+  is_closed_ = count < points.size();
+  return count;
 }
 
 teb::Task Teb::task(const Observation& now, bool is_cut) {

@@ -9,6 +9,7 @@
 
 #include <dmrp/plugin.hpp>
 
+#include "../motion/guide.hpp"
 #include "../motion/oscillation_detector.hpp"
 #include "../motion/path_ahead.hpp"
 #include "../motion/path_tracker.hpp"
@@ -27,10 +28,12 @@ class Teb final : public teb::ParameterTable {
   Status step(const Observation& now, Command& command) override;
 
  private:
+  bool was_infeasible_lately(std::int64_t t_ns) const;
   double look_ahead_m(std::int64_t t_ns) const;
   void watch_for_oscillation(const Observation& now);
   Status drive(const Observation& now, const CostmapView& map, Command& command);
   bool look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  std::size_t reachable_points(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   teb::Task task(const Observation& now, bool is_cut);
   Status wait(const Observation& now, FootprintCheck& footprint, Command& command);
   bool is_feasible(const teb::TimedElasticBand& band, const Observation& now, FootprintCheck& footprint) const;
@@ -44,6 +47,7 @@ class Teb final : public teb::ParameterTable {
   const dmrp_annotate* annotate_ = nullptr;
   PathTracker tracker_;
   PathAhead path_;
+  Guide guide_;
   StopAndRotate at_goal_;
   ObstacleSet obstacles_;
   OscillationDetector oscillation_;
@@ -54,6 +58,7 @@ class Teb final : public teb::ParameterTable {
   std::int64_t infeasible_ns_ = 0;  // when no feasible band was last found
   int infeasible_in_a_row_ = 0;
   bool was_infeasible_ = false;  // at infeasible_ns_, in this trial
+  bool is_closed_ = false;       // something stands across the whole way
 };
 
 }  // namespace dmrp::controllers

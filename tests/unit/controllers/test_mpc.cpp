@@ -8,8 +8,8 @@
 #include <dmrp/toolkit/random.hpp>
 
 #include "fake_costmap.hpp"
+#include "plugins/controllers/motion/guide.hpp"
 #include "plugins/controllers/mpc/association.hpp"
-#include "plugins/controllers/mpc/guide.hpp"
 #include "plugins/controllers/mpc/initial_guess.hpp"
 #include "plugins/controllers/mpc/interior_point.hpp"
 

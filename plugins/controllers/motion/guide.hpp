@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: MIT
 // guide.hpp: the shortest way over the free cells of the costmap, for starting the optimiser on the right side of what
 // stands in the way, and for knowing that there is no way.
-#ifndef DMRP_CONTROLLERS_MPC_GUIDE_HPP
-#define DMRP_CONTROLLERS_MPC_GUIDE_HPP
+#ifndef DMRP_CONTROLLERS_MOTION_GUIDE_HPP
+#define DMRP_CONTROLLERS_MOTION_GUIDE_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "../motion/costmap_view.hpp"
+#include "costmap_view.hpp"
 
-namespace dmrp::controllers::mpc {
+namespace dmrp::controllers {
 
 // Dijkstra's algorithm over the window's cells and their eight neighbours, with whole costs in buckets. Keeps its
 // buffers.
 class Guide {
  public:
+  void reserve(std::size_t cells_a_bucket) {
+    for (std::vector<std::int32_t>& bucket : buckets_) bucket.reserve(cells_a_bucket);
+  }
+
   // From the robot to wherever it could stand with `needed_m` of clearance about its centre; a metre with less than
   // `easy_m` counts double. Very near the robot, where it may stand too close already, no more than not being on an
   // obstacle is asked.
@@ -39,6 +44,6 @@ class Guide {
   std::array<std::vector<std::int32_t>, bucket_count> buckets_;
 };
 
-}  // namespace dmrp::controllers::mpc
+}  // namespace dmrp::controllers
 
 #endif

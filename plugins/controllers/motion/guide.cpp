@@ -5,7 +5,7 @@
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
-namespace dmrp::controllers::mpc {
+namespace dmrp::controllers {
 
 namespace {
 
@@ -114,4 +114,4 @@ void Guide::way_to(const CostmapView& map, dmrp_vec2 point, std::vector<dmrp_vec
       points[i] = 0.25 * points[i - 1] + 0.5 * points[i] + 0.25 * points[i + 1];
 }
 
-}  // namespace dmrp::controllers::mpc
+}  // namespace dmrp::controllers

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "orca/orca.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+
+#include "orca/velocity_obstacle.hpp"
+
+namespace dmrp::pedestrians {
+
+namespace {
+
+// Nobody walks faster than this times the desired speed.
+constexpr double speed_cap_factor = 1.3;
+
+// Walls are minded in time by who walks up to this fast and is this broad.
+constexpr double fastest_m_s = 5.0;
+constexpr double broadest_radius_m = 0.5;
+
+// Two who avoid each other take half each.
+constexpr double even_share = 0.5;
+
+// Preferred velocities are turned by up to this much, rad: nothing that one could see, and yet no two people meet in
+// perfect symmetry, in which neither would give way.
+constexpr double widest_turn = 1e-3;
+
+}  // namespace
+
+Descriptor Orca::describe() {
+  return Descriptor("dmrp.pedestrian.orca", "ORCA", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("people take the velocity nearest to their wish that is free of collisions if all do their share")
+      .source(
+          "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), "
+          "doi:10.1007/978-3-642-19457-3_1");
+}
+
+Status Orca::start(const World& world, std::uint64_t seed) {
+  seed_ = seed;
+  ways_.start(world.walking_grid());
+  grid_.start(world->lower, world->upper, neighbor_distance);
+  walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
+  leanings_.clear();
+  neighbors_.resize(static_cast<std::size_t>(max_neighbors));
+  return Status::ok;
+}
+
+Status Orca::step(const Crowd& crowd, Vec2* velocities) {
+  gather(crowd);
+  grid_.build(bodies_);
+
+  const double step_s = seconds(crowd.dt_ns);
+  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+    const Person& person = crowd.people[slot];
+    const double max_speed = speed_cap_factor * person.desired_speed;
+    planes_.clear();
+    walls_.append_half_planes(person.position, person.velocity, person.radius_m, max_speed, time_horizon_obst, planes_);
+    const std::size_t wall_planes = planes_.size();
+
+    const std::size_t neighbor_count = find_neighbors(slot, crowd.people);
+    for (std::size_t i = 0; i < neighbor_count; ++i) {
+      const HalfPlane plane = permitted_beside(*neighbors_[i].body, person, step_s);
+      // most planes hold every velocity within the cap
+      if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
+    }
+    velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(slot, person, step_s));
+  }
+  return Status::ok;
+}
+
+HalfPlane Orca::permitted_beside(const Body& other, const Person& person, double step_s) const {
+  const Encounter met = {other.position - person.position, person.velocity - other.velocity,
+                         person.radius_m + other.radius_m};
+  const double horizon_s = std::max(other.weight * time_horizon, step_s);
+  return give_way(escape(met, horizon_s, step_s), person.velocity, even_share * other.weight);
+}
+
+void Orca::gather(const Crowd& crowd) {
+  bodies_.clear();
+  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+    const Person& person = crowd.people[slot];
+    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
+  }
+  if (robot_awareness > 0.0)
+    for (const Agent& robot : crowd.robots)
+      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
+
+  for (std::size_t slot = leanings_.size(); slot < crowd.people.size(); ++slot)
+    leanings_.push_back({~crowd.people[slot].id, 0.0});
+}
+
+std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
+  const auto most = static_cast<std::size_t>(max_neighbors);
+  const auto id = [&](const Body* body) {
+    return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
+  };
+  const auto comes_before = [&](const Neighbor& a, const Neighbor& b) {
+    return a.squared_distance < b.squared_distance ||
+           (a.squared_distance == b.squared_distance && id(a.body) < id(b.body));
+  };
+
+  std::size_t count = 0;
+  grid_.for_each_near(people[slot].position, [&](const Body& other, double squared_distance) {
+    if (other.slot == slot || !(squared_distance > 0.0)) return;
+    const Neighbor found = {squared_distance, &other};
+    if (count < most) {
+      ++count;
+    } else if (!comes_before(found, neighbors_[most - 1])) {
+      return;
+    }
+    std::size_t place = count - 1;
+    for (; place > 0 && comes_before(found, neighbors_[place - 1]); --place) neighbors_[place] = neighbors_[place - 1];
+    neighbors_[place] = found;
+  });
+  return count;
+}
+
+Vec2 Orca::preferred_velocity(std::uint32_t slot, const Person& person, double step_s) {
+  Leaning& leaning = leanings_[slot];
+  if (leaning.person_id != person.id)
+    leaning = {person.id, toolkit::Stream(seed_, "pedestrian.leaning", person.id).uniform(-widest_turn, widest_turn)};
+
+  const Vec2 direction = ways_.direction(slot, person);
+  const double to_target_m = toolkit::distance(person.position, person.target);
+  const double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
+  return speed * (direction + leaning.turn * toolkit::perpendicular(direction));
+}
+
+}  // namespace dmrp::pedestrians

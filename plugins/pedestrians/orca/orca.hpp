@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Optimal reciprocal collision avoidance: people take the velocity nearest to the one they wish for that keeps them
+// clear of each other, of robots and of walls for a while, as long as all do their share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "crowd/neighbor_grid.hpp"
+#include "crowd/way_finding.hpp"
+#include "orca/half_plane.hpp"
+#include "orca/linear_program.hpp"
+#include "orca/wall_obstacles.hpp"
+
+namespace dmrp::pedestrians {
+
+class Orca final : public PedestrianModel {
+ public:
+  static Descriptor describe();
+
+  Param<double> neighbor_distance =
+      param("neighbor_distance", 5.0).unit("m").range(0.5, 50.0).doc("others further away are not minded");
+  Param<std::int64_t> max_neighbors =
+      param("max_neighbors", std::int64_t{10}).range(1, 100).doc("so many others are minded, the nearest");
+  Param<double> time_horizon =
+      param("time_horizon", 3.0).unit("s").range(0.1, 20.0).doc("people keep clear of others for this time");
+  Param<double> time_horizon_obst =
+      param("time_horizon_obst", 0.15).unit("s").range(0.05, 20.0).doc("people keep clear of walls for this time");
+  Param<double> robot_awareness =
+      param("robot_awareness", 1.0).range(0.0, 1.0).doc("how much people mind robots: 1 like people, 0 not at all");
+
+  Status start(const World& world, std::uint64_t seed) override;
+  Status step(const Crowd& crowd, Vec2* velocities) override;
+
+ private:
+  struct Neighbor {
+    double squared_distance;
+    const Body* body;
+  };
+
+  // Which way somebody leans where both sides are as good.
+  struct Leaning {
+    std::uint64_t person_id;
+    double turn;  // of the preferred velocity, rad
+  };
+
+  void gather(const Crowd& crowd);
+  std::size_t find_neighbors(std::uint32_t slot, const Span<Person>& people);  // how many there are
+  HalfPlane permitted_beside(const Body& other, const Person& person, double step_s) const;
+  Vec2 preferred_velocity(std::uint32_t slot, const Person& person, double step_s);
+
+  std::uint64_t seed_ = 0;
+  WayFinder ways_;
+  NeighborGrid grid_;
+  WallObstacles walls_;
+  VelocityProgram program_;
+  std::vector<Body> bodies_;
+  std::vector<Neighbor> neighbors_;  // nearest first; by id where distances are equal
+  std::vector<HalfPlane> planes_;
+  std::vector<Leaning> leanings_;  // by slot
+};
+
+}  // namespace dmrp::pedestrians
