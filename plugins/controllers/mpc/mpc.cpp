@@ -68,6 +68,10 @@ Status Mpc::start(const World&, std::uint64_t) {
     set_error("min_grid_size is greater than max_grid_size");
     return Status::error;
   }
+  if (min_dt > max_dt) {
+    set_error("min_dt is greater than max_dt");
+    return Status::error;
+  }
   annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tracker_.clear();
   at_goal_.reset();
