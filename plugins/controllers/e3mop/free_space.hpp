@@ -23,28 +23,25 @@ class FreeSpace {
     const double radius_m = outline_ ? footprint.inscribed_radius_m : footprint.radius_m;
     surely_m_ = static_cast<float>(footprint.radius_m + padding_m);
     needed_m_ = static_cast<float>(radius_m + padding_m);
-    doubt_m_ = static_cast<float>(0.71 * field.resolution_m());
     const double start_clearance_m = field.at(start_).distance_m;
-    escapes_ = start_clearance_m < needed_m_ + doubt_m_;
-    // along a wall the distance wavers; below that nothing is given way, or each cycle would give way a little more
-    tolerated_m_ = std::min(start_clearance_m, needed_m_ - 0.2 * padding_m);
+    escapes_ = start_clearance_m < needed_m_ + 0.7 * field.resolution_m();
+    // not period after period: a robot that would then touch comes no nearer at all
+    const double nearest_m = radius_m + 0.85 * field.resolution_m();
+    tolerated_m_ = std::max(std::min<double>(start_clearance_m, needed_m_) - waver_m,
+                            std::min(start_clearance_m, nearest_m) - least_waver_m);
   }
 
   // How far a place must be from every obstacle, whatever the heading.
   double needed_m() const { return needed_m_; }
 
   bool is_free(const ArcState& at) const {
-    // the cell's own distance tells most places apart
-    float clearance_m = field_->of_cell(at.x, at.y);
-    if (clearance_m >= surely_m_ + doubt_m_) return true;
-    if (clearance_m < needed_m_ - doubt_m_ && !escapes_) return false;
-    clearance_m = static_cast<float>(field_->at({at.x, at.y}).distance_m);
+    const float clearance_m = field_->of_cell(at.x, at.y);
     if (clearance_m >= surely_m_) return true;
     if (clearance_m < needed_m_) return tolerated(at);
     return !outline_ || outline_->cost(at) != in_collision;
   }
 
-  // Whether a robot that stands too near to something may be at this place, which is too near too.
+  // Whether a robot that stands too near to something may be at this place, whose cell is too near too.
   bool tolerated(const ArcState& at) const {
     if (!escapes_) return false;
     const double dx = at.x - start_.x;
@@ -55,13 +52,15 @@ class FreeSpace {
  private:
   // How far an escape may lead through places that are too near.
   static constexpr double escape_reach_m = 0.6;
+  // Along a wall the distance wavers by so much.
+  static constexpr double waver_m = 0.01;
+  static constexpr double least_waver_m = 1e-4;
 
   const ClearanceField* field_;
   const FootprintCheck* outline_;
   Vec2 start_;
   bool escapes_ = false;  // the robot's own place is too near to something, or nearly so
   double tolerated_m_ = 0.0;
-  float doubt_m_;  // how far the distance at a point may be off that of its cell
   float surely_m_;
   float needed_m_;
 };
