@@ -8,7 +8,7 @@
 
 namespace dmrp::core {
 
-enum class Tracking { none, visible, all };  // which agents controllers are told of; visible: in range, line of sight
+enum class Tracking { none, visible, all };   // which agents controllers are told of; visible: in range, line of sight
 enum class Dispatch { full_path, waypoint };  // what controllers are handed: the whole path, or a waypoint at a time
 enum class Execution { free, ordered };       // ordered: robots pass shared cells in the plan's order
 

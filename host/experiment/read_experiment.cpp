@@ -302,8 +302,8 @@ class Reader {
         execution.fail(fmt::format("'execution' = 'ordered' needs plans without conflicts, which {} does not make",
                                    planner.info.id));
       if (planner.info.connectivity == DMRP_CONNECTIVITY_ANY)
-        execution.fail(
-            fmt::format("'execution' = 'ordered' needs plans from cell to cell, which {} does not make", planner.info.id));
+        execution.fail(fmt::format("'execution' = 'ordered' needs plans from cell to cell, which {} does not make",
+                                   planner.info.id));
     }
   }
 

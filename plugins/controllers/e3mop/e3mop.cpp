@@ -42,6 +42,9 @@ constexpr double slow_m_s = 0.1;
 
 constexpr double sample_step_m = 0.05;
 
+// So near to the goal the path is straight.
+constexpr double last_leg_m = 0.5;
+
 // A smoothed path that collides no farther ahead than this and what braking takes is no use.
 constexpr double least_way_m = 0.3;
 
@@ -97,12 +100,20 @@ Status E3mop::step(const Observation& now, Command& command) {
   read_field(now);
   const CostmapView map(*costmap_->costmap(costmap_));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
-  const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+  FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
   const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   lay_out_global_path();
   const Pose from = keep_path(now, foreseen);
-  if (!plan(now, from, foreseen)) {
+  bool planned = plan(now, from, foreseen);
+  if (!(planned && plan_.found().found) && foresees_) {
+    // between people who step to and fro, what they may do leaves no way: where they are now counts
+    foreseen_ = field_;
+    foreseen = FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+    raw_points_.resize(kept_);
+    planned = plan(now, from, foreseen);
+  }
+  if (!planned) {
     path_.clear();
     return Status::ok;
   }
@@ -206,10 +217,12 @@ void E3mop::read_field(const Observation& now) {
   const dmrp_field& field = *distance_field_->field(distance_field_);
   field_.read(field);
   foreseen_.read(field);
+  foresees_ = false;
   for (const Agent& agent : now.agents) {
     if (agent.state != DMRP_ROBOT_ACTIVE && agent.kind == DMRP_AGENT_ROBOT) continue;
     const Vec2 from = toolkit::position(agent.pose);
     foreseen_.add_swept_disc(from, from + prediction_time * agent.velocity, agent.radius_m);
+    foresees_ = true;
   }
 }
 
@@ -252,6 +265,7 @@ void E3mop::lay_points() {
 }
 
 bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
+  if (lay_last_leg() && fit(now, free_space, {}, 2.0 * last_leg_m)) return true;
   points_ = raw_points_;
   SmoothingSettings settings;
   settings.weight_smoothness = weight_smoothness;
@@ -272,6 +286,17 @@ bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
   if (fit(now, free_space, start_theta, needed_m)) return true;
   points_ = raw_points_;
   return fit(now, free_space, start_theta, 0.0);
+}
+
+// The last bit of the way straight to the goal: too short for smoothing, which would bend it off what stands beside.
+bool E3mop::lay_last_leg() {
+  const Vec2 from = raw_points_[kept_ - 1];
+  const double left_m = toolkit::distance(from, plan_.goal());
+  if (!plan_.found().found || !plan_.is_path_end() || left_m > last_leg_m || left_m < 1e-3) return false;
+  points_.assign(raw_points_.begin(), raw_points_.begin() + static_cast<std::ptrdiff_t>(kept_));
+  const auto steps = std::max(1, static_cast<int>(left_m / point_spacing));
+  for (int i = 1; i <= steps; ++i) points_.push_back(toolkit::lerp(from, plan_.goal(), static_cast<double>(i) / steps));
+  return true;
 }
 
 // The spline and its speeds; ends where it would collide. False where that is nearer than `needed_m`.

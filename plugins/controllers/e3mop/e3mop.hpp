@@ -72,6 +72,7 @@ class E3mop final : public LocalController {
   void lay_points();
   std::size_t lead_steps() const;
   Vec2 lead_of_path() const;
+  bool lay_last_leg();
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
   bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta,
            double needed_m);
@@ -87,6 +88,7 @@ class E3mop final : public LocalController {
   StopAndRotate at_goal_;
   e3mop::ClearanceField field_;     // what the sensors see now
   e3mop::ClearanceField foreseen_;  // with the ways of visible agents
+  bool foresees_ = false;           // there are any
   e3mop::LocalPlan plan_;
   e3mop::PathSmoother smoother_;
   e3mop::SplinePath spline_;

@@ -25,7 +25,10 @@ class FreeSpace {
     needed_m_ = static_cast<float>(radius_m + padding_m);
     const double start_clearance_m = field.at(start_).distance_m;
     escapes_ = start_clearance_m < needed_m_ + 0.7 * field.resolution_m();
-    tolerated_m_ = std::min<double>(start_clearance_m, needed_m_) - waver_m;
+    // not period after period: a robot that would then touch comes no nearer at all
+    const double nearest_m = radius_m + 0.85 * field.resolution_m();
+    tolerated_m_ = std::max(std::min<double>(start_clearance_m, needed_m_) - waver_m,
+                            std::min(start_clearance_m, nearest_m) - least_waver_m);
   }
 
   // How far a place must be from every obstacle, whatever the heading.
@@ -51,6 +54,7 @@ class FreeSpace {
   static constexpr double escape_reach_m = 0.6;
   // Along a wall the distance wavers by so much.
   static constexpr double waver_m = 0.01;
+  static constexpr double least_waver_m = 1e-4;
 
   const ClearanceField* field_;
   const FootprintCheck* outline_;

@@ -27,7 +27,7 @@ struct SearchSettings {
   double v_max = 1.0;                // m/s, of the robot
   double omega_max = 1.0;            // rad/s
   bool pruning = true;               // drop motions that lead away from the heuristic's way
-  std::int32_t max_expanded = 6000;  // states
+  std::int32_t max_expanded = 3000;  // states
   double first_turn_s = 0.0;  // what turning in place costs at the start beyond its own time: a moving robot stops
 };
 

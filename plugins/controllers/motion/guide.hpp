@@ -5,6 +5,7 @@
 #define DMRP_CONTROLLERS_MOTION_GUIDE_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace dmrp::controllers {
 // buffers.
 class Guide {
  public:
+  void reserve(std::size_t cells_a_bucket) {
+    for (std::vector<std::int32_t>& bucket : buckets_) bucket.reserve(cells_a_bucket);
+  }
+
   // From the robot to wherever it could stand with `needed_m` of clearance about its centre; a metre with less than
   // `easy_m` counts double. Very near the robot, where it may stand too close already, no more than not being on an
   // obstacle is asked.

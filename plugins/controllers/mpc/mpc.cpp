@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -39,6 +40,7 @@ constexpr double idle_rad = 0.02;
 
 // Room for this many obstacles before anything grows.
 constexpr std::size_t usual_obstacles = 256;
+constexpr std::size_t usual_bucket = 512;
 
 }  // namespace
 
@@ -66,6 +68,10 @@ Status Mpc::start(const World&, std::uint64_t) {
     set_error("min_grid_size is greater than max_grid_size");
     return Status::error;
   }
+  if (min_dt > max_dt) {
+    set_error("min_dt is greater than max_dt");
+    return Status::error;
+  }
   annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tracker_.clear();
   at_goal_.reset();
@@ -74,6 +80,7 @@ Status Mpc::start(const World&, std::uint64_t) {
   constexpr std::size_t bounds_a_state = 10;
   solver_.reserve(states, states * (bounds_a_state + mpc::most_obstacles_a_state + 2));
   association_.reserve(usual_obstacles);
+  guide_.reserve(usual_bucket);
   problem_ = {};
   problem_.obstacles.resize(states);
   for (auto& list : problem_.obstacles) list.reserve(mpc::most_obstacles_a_state + 2);
@@ -147,6 +154,7 @@ void Mpc::pose_problem(const Observation& now, const CostmapView& map) {
   problem_.min_obstacle_dist_m = min_obstacle_dist;
   problem_.footprint = &now.footprint;
   guide_spread_ = false;
+  iterations_now_ = 0;
 }
 
 // The end of the path ahead; where something stands on the path, the last point that there is a way to. False where
@@ -234,6 +242,7 @@ void Mpc::optimise(double barrier_start) {
     const bool differs = association_.associate(trajectory_, seen_, rule, problem_);
     if (i > 0 && !is_resized && !differs) break;
     report_ = solver_.solve(problem_, settings, trajectory_);
+    iterations_now_ += report_.iterations;
     settings.barrier_start = barrier_again;
   }
 }
@@ -306,6 +315,9 @@ void Mpc::annotate() const {
   }
   annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, poses.data(), static_cast<std::uint32_t>(count),
                         static_cast<std::int64_t>(trajectory_.dt_s * 1e9));
+  std::array<char, 32> note;
+  std::snprintf(note.data(), note.size(), "iterations %d", iterations_now_);
+  annotate_->note(annotate_, note.data());
 }
 
 }  // namespace dmrp::controllers

@@ -109,6 +109,7 @@ class Mpc final : public LocalController {
   mpc::InteriorPoint solver_;
   mpc::Problem problem_;
   mpc::SolverReport report_;
+  int iterations_now_ = 0;  // of all solutions of this period
   mpc::Trajectory trajectory_;
   mpc::Trajectory waiting_;  // a copy to go back to
   bool has_trajectory_ = false;

@@ -2,8 +2,6 @@
 // The MPC's interior point method against IPOPT: the same programs, the same warm starts.
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
-
-
 #include <catch2/catch.hpp>
 #include <cmath>
 

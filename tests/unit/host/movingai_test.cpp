@@ -148,7 +148,8 @@ TEST_CASE("mistakes in a scenario of a map") {
   const ExperimentFolder folder;
   write_yard();
   CHECK(mistake("\"yard.map\"", "\"yrd.map\"") == "yard/scenario.toml:7:8: no file 'yrd.map' beside the scenario file");
-  CHECK(mistake("\"yard.map\"", "\"yard.scen\"") == "yard/scenario.toml:7:8: 'file' must be a .map or .yaml or .yml file");
+  CHECK(mistake("\"yard.map\"", "\"yard.scen\"") ==
+        "yard/scenario.toml:7:8: 'file' must be a .map or .yaml or .yml file");
   CHECK(mistake("file =", "fil =") == "yard/scenario.toml:7:1: unknown key 'fil' in [map] (did you mean 'file'?)");
   CHECK(mistake("cell_m = 2.0", "cell_m = 0.0") == "yard/scenario.toml:8:10: 'cell_m' must be positive, not 0");
   CHECK(mistake("cell_m = 2.0", "cell_m = 3000.0") ==
