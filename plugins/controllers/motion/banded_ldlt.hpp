@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth, with an optional
-// border.
+// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth.
 //
 // Golub, Van Loan: Matrix Computations (4th edition), sections 4.1.2 and 4.3.5. No pivoting: for positive definite and
 // for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose
-// pivots may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown to their
-// size.
+// pivots may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown.
 #ifndef DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 #define DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
 
@@ -124,48 +122,6 @@ class BandedLdlt {
 
   BandedMatrix<Bandwidth> factor_;  // L below the diagonal
   std::vector<double> inverse_pivots_;
-  std::size_t negative_pivots_ = 0;
-};
-
-// A banded matrix with one more row and column that may be full:
-//
-//   | A   b |  | x |     | f |
-//   | b'  c |  | y |  =  | g |
-//
-// solved by the Schur complement c - b' A^-1 b, which is the last pivot of the whole: it counts in negative_pivots().
-template <std::size_t Bandwidth>
-class BorderedLdlt {
- public:
-  // `border` has a.size() numbers. False as in BandedLdlt::factor(); A itself must be regular.
-  bool factor(const BandedMatrix<Bandwidth>& a, const std::vector<double>& border, double corner) {
-    if (!band_.factor(a)) return false;
-    border_ = border;
-    solved_border_ = border;
-    band_.solve(solved_border_);
-    double complement = corner;
-    for (std::size_t i = 0; i < border_.size(); ++i) complement -= border_[i] * solved_border_[i];
-    if (!(std::abs(complement) > 1e-300) || !std::isfinite(complement)) return false;
-    inverse_complement_ = 1.0 / complement;
-    negative_pivots_ = band_.negative_pivots() + (complement < 0.0 ? 1 : 0);
-    return true;
-  }
-
-  std::size_t negative_pivots() const { return negative_pivots_; }
-
-  // Replaces the right-hand side by the solution.
-  void solve(std::vector<double>& x, double& y) const {
-    band_.solve(x);
-    double rest = y;
-    for (std::size_t i = 0; i < border_.size(); ++i) rest -= border_[i] * x[i];
-    y = rest * inverse_complement_;
-    for (std::size_t i = 0; i < border_.size(); ++i) x[i] -= y * solved_border_[i];
-  }
-
- private:
-  BandedLdlt<Bandwidth> band_;
-  std::vector<double> border_;
-  std::vector<double> solved_border_;  // A^-1 b
-  double inverse_complement_ = 0.0;
   std::size_t negative_pivots_ = 0;
 };
 

@@ -83,32 +83,6 @@ TEST_CASE("A banded system is solved as a dense one") {
   CHECK(largest_difference(product, dense(a) * eigen(x)) < 1e-12);
 }
 
-TEST_CASE("A bordered system is solved as a dense one") {
-  const std::size_t size = GENERATE(1, 6, 40);
-  const double corner = GENERATE(-3.0, 0.0, 5.0);
-  CAPTURE(size, corner);
-  Random random{dmrp::toolkit::Stream(size, "border")};
-  const BandedMatrix<bandwidth> a = random_matrix(size, random, true);
-  const std::vector<double> border = random_vector(size, random);
-  std::vector<double> x = random_vector(size, random);
-  double y = random();
-
-  const auto n = static_cast<Eigen::Index>(size);
-  Eigen::MatrixXd full(n + 1, n + 1);
-  full << dense(a), eigen(border), eigen(border).transpose(), corner;
-  Eigen::VectorXd right(n + 1);
-  right << eigen(x), y;
-  const Eigen::VectorXd expected = full.fullPivLu().solve(right);
-
-  BorderedLdlt<bandwidth> ldlt;
-  REQUIRE(ldlt.factor(a, border, corner));
-  ldlt.solve(x, y);
-  CHECK(largest_difference(x, expected.head(n)) < 1e-11);
-  CHECK(y == Approx(expected(n)).margin(1e-11));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigenvalues(full);
-  CHECK(static_cast<Eigen::Index>(ldlt.negative_pivots()) == (eigenvalues.eigenvalues().array() < 0.0).count());
-}
-
 TEST_CASE("A singular matrix and one that is no number are refused") {
   BandedMatrix<bandwidth> a;
   a.resize(3);
