@@ -7,6 +7,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "crowd/wall_push.hpp"
+#include "social_force/headway.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -90,9 +91,12 @@ void SocialForce::gather(const Crowd& crowd) {
 
 Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
   const Person& person = people[slot];
-  const Vec2 desired = person.desired_speed * ways_.direction(slot, person);
+  const Vec2 way = ways_.direction(slot, person);
+  double speed = person.desired_speed;
+  const Vec2 others = from_others(slot, person, way, speed);
+  const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + from_others(slot, person) + from_group(slot, people, desired) + from_walls(person);
+  return drive + others + from_group(slot, people, desired) + from_walls(person);
 }
 
 // How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
@@ -102,7 +106,8 @@ double SocialForce::keeping_off(double gap_m) const {
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
 }
 
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
+// Lowers `speed` to what those ahead permit.
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) const {
   Vec2 sum = {0.0, 0.0};
   neighbors_.for_each_near(person.position, neighbor_reach_m, [&](const Body& other, double squared_distance) {
     if (other.slot == slot || !(squared_distance > 0.0)) return;
@@ -114,6 +119,8 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
                  interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
     force -= apart * (keeping_off(gap_m) / distance_m);
     sum += other.weight * force;
+    const double ahead_m = headway(way, apart, person.radius_m + other.radius_m, other.velocity);
+    speed = std::min(speed, ahead_m / (other.weight * time_gap));
   });
   return sum;
 }
