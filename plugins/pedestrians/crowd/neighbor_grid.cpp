@@ -5,10 +5,9 @@
 
 namespace dmrp::pedestrians {
 
-void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
+void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m) {
   lower_ = lower;
-  squared_reach_ = reach_m * reach_m;
-  cells_per_m_ = cells_in_reach / reach_m;
+  cells_per_m_ = 1.0 / cell_m;
   const auto count = [&](double extent_m) {
     return std::max(static_cast<std::int32_t>(std::ceil(extent_m * cells_per_m_)), 1);
   };

@@ -26,38 +26,34 @@ inline constexpr std::uint32_t no_slot = 0xFFFFFFFFu;
 // sees does not depend on people far away. Bodies outside the world count to the cells at its border.
 class NeighborGrid {
  public:
-  // Bodies up to `reach_m` apart are found.
-  void start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m);
+  // Cells of this size; the result is the same for any, the best is a fraction of what is looked through.
+  void start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m);
 
   // Sorts the bodies in by counting. Allocates only where there are more bodies than ever before.
   void build(const std::vector<Body>& bodies);
 
-  // Calls visit(body, squared_distance) for every body within reach of the point, in an order that only the bodies
+  // Calls visit(body, squared_distance) for every body within `reach_m` of the point, in an order that only the bodies
   // near it decide. A body at the point itself is visited too.
   template <class Visit>
-  void for_each_near(dmrp_vec2 point, Visit&& visit) const {
-    const std::int32_t column = column_of(point.x);
-    const std::int32_t row = row_of(point.y);
-    const std::int32_t first_column = std::max(column - cells_in_reach, 0);
-    const std::int32_t last_column = std::min(column + cells_in_reach, columns_ - 1);
-    const std::int32_t last_row = std::min(row + cells_in_reach, rows_ - 1);
-    for (std::int32_t r = std::max(row - cells_in_reach, 0); r <= last_row; ++r) {
+  void for_each_near(dmrp_vec2 point, double reach_m, Visit&& visit) const {
+    const std::int32_t first_column = column_of(point.x - reach_m);
+    const std::int32_t last_column = column_of(point.x + reach_m);
+    const std::int32_t last_row = row_of(point.y + reach_m);
+    const double squared_reach = reach_m * reach_m;
+    for (std::int32_t row = row_of(point.y - reach_m); row <= last_row; ++row) {
       // the cells of a row follow each other, so its bodies are one run
-      const std::uint32_t end = begins_[cell(last_column, r) + 1];
-      for (std::uint32_t i = begins_[cell(first_column, r)]; i < end; ++i) {
+      const std::uint32_t end = begins_[cell(last_column, row) + 1];
+      for (std::uint32_t i = begins_[cell(first_column, row)]; i < end; ++i) {
         const Body& body = sorted_[i];
         const double dx = body.position.x - point.x;
         const double dy = body.position.y - point.y;
         const double squared_distance = dx * dx + dy * dy;
-        if (squared_distance <= squared_reach_) visit(body, squared_distance);
+        if (squared_distance <= squared_reach) visit(body, squared_distance);
       }
     }
   }
 
  private:
-  // Cells of half the reach: a 5 x 5 block covers less ground than 3 x 3 cells of the whole.
-  static constexpr std::int32_t cells_in_reach = 2;
-
   std::size_t cell(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
@@ -69,7 +65,6 @@ class NeighborGrid {
 
   dmrp_vec2 lower_ = {0.0, 0.0};
   double cells_per_m_ = 1.0;
-  double squared_reach_ = 0.0;
   std::int32_t columns_ = 1;
   std::int32_t rows_ = 1;
   std::vector<std::uint32_t> begins_;  // of every cell in sorted_, and the end

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
@@ -20,12 +19,11 @@ constexpr double speed_cap_factor = 1.3;
 constexpr double fastest_m_s = 5.0;
 constexpr double broadest_radius_m = 0.5;
 
+// Of the grid's cells; the share of the reach that makes the search shortest.
+constexpr double cell_per_reach = 0.4;
+
 // Two who avoid each other take half each.
 constexpr double even_share = 0.5;
-
-// Preferred velocities are turned by up to this much, rad: nothing that one could see, and yet no two people meet in
-// perfect symmetry, in which neither would give way.
-constexpr double widest_turn = 1e-3;
 
 }  // namespace
 
@@ -40,11 +38,10 @@ Descriptor Orca::describe() {
 }
 
 Status Orca::start(const World& world, std::uint64_t seed) {
-  seed_ = seed;
+  leanings_.start(seed);
   ways_.start(world.walking_grid());
-  grid_.start(world->lower, world->upper, neighbor_distance);
+  grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
-  leanings_.clear();
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
@@ -88,9 +85,6 @@ void Orca::gather(const Crowd& crowd) {
   if (robot_awareness > 0.0)
     for (const Agent& robot : crowd.robots)
       bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
-
-  for (std::size_t slot = leanings_.size(); slot < crowd.people.size(); ++slot)
-    leanings_.push_back({~crowd.people[slot].id, 0.0});
 }
 
 std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
@@ -104,7 +98,7 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
   };
 
   std::size_t count = 0;
-  grid_.for_each_near(people[slot].position, [&](const Body& other, double squared_distance) {
+  grid_.for_each_near(people[slot].position, neighbor_distance, [&](const Body& other, double squared_distance) {
     if (other.slot == slot || !(squared_distance > 0.0)) return;
     const Neighbor found = {squared_distance, &other};
     if (count < most) {
@@ -120,14 +114,9 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
 }
 
 Vec2 Orca::preferred_velocity(std::uint32_t slot, const Person& person, double step_s) {
-  Leaning& leaning = leanings_[slot];
-  if (leaning.person_id != person.id)
-    leaning = {person.id, toolkit::Stream(seed_, "pedestrian.leaning", person.id).uniform(-widest_turn, widest_turn)};
-
-  const Vec2 direction = ways_.direction(slot, person);
   const double to_target_m = toolkit::distance(person.position, person.target);
   const double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
-  return speed * (direction + leaning.turn * toolkit::perpendicular(direction));
+  return speed * leanings_.lean(slot, person, ways_.direction(slot, person));
 }
 
 }  // namespace dmrp::pedestrians
