@@ -61,7 +61,9 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : neighbors_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     Vec2 velocity = person.velocity + dt * acceleration(slot, crowd.people);
     if (motion_noise > 0.0) {
@@ -102,10 +104,11 @@ double SocialForce::keeping_off(double gap_m) const {
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
 }
 
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) {
   Vec2 sum = {0.0, 0.0};
-  neighbors_.for_each_near(person.position, neighbor_reach_m, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
+  for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
+    const Body& other = *body;
+    if (other.slot == slot || !(squared_distance > 0.0)) continue;
     const double distance_m = std::sqrt(squared_distance);
     const Vec2 apart = other.position - person.position;
     const double gap_m = distance_m - person.radius_m - other.radius_m;
@@ -114,7 +117,7 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
                  interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
     force -= apart * (keeping_off(gap_m) / distance_m);
     sum += other.weight * force;
-  });
+  }
   return sum;
 }
 
