@@ -98,11 +98,12 @@ TEST_CASE("two robots head-on that stand still are in deadlock") {
 }
 
 TEST_CASE("a deadlock is a circle: of three robots, with one that waits outside of it") {
-  // 0 east of its way stands 1, which goes north where 2 stands, which goes back to 0; 3 waits behind 0
-  SyntheticTrial trial = standing({{0, 0}, {0.7, 0}, {0.7, 0.7}, {-0.7, 0}},
-                                  {{1, 0}, {0, 1}, {-0.7071067811865476, -0.7071067811865476}, {1, 0}});
-  fill(trial, 0.0, 10.0, [](double) -> std::vector<dmrp_robot_sample> {
-    return {at(0, 0), at(0.7, 0), at(0.7, 0.7), at(-0.7, 0)};
+  // 0, 1 and 2 at the corners of a triangle with sides of 0.8 m, each heading for the next; 3 heads for 0 from behind
+  const double half = 0.5, height = std::sqrt(0.75);
+  SyntheticTrial trial = standing({{0, 0}, {0.8, 0}, {0.8 * half, 0.8 * height}, {-0.8, 0}},
+                                  {{1, 0}, {-half, height}, {-half, -height}, {1, 0}});
+  fill(trial, 0.0, 10.0, [&](double) -> std::vector<dmrp_robot_sample> {
+    return {at(0, 0), at(0.8, 0), at(0.8 * half, 0.8 * height), at(-0.8, 0)};
   });
   trial.end(10.0, {never, never, never, never});
   const Measurement m = measure("dmrp.metric.deadlock", trial);
