@@ -137,9 +137,11 @@ int run_main(int argc, char** argv) {
 
   std::vector<std::string> libraries;
   bool json = false;
+  bool markdown = false;
   CLI::App* plugins = app.add_subcommand("plugins", "what plugin libraries hold, with parameters");
   plugins->add_option("libraries", libraries, "libraries (default: all of the plugin path)")->type_name("LIB.so");
-  plugins->add_flag("--json", json, "as JSON");
+  CLI::Option* as_json = plugins->add_flag("--json", json, "as JSON");
+  plugins->add_flag("--markdown", markdown, "as a reference page")->excludes(as_json);
 
   DrawOptions draw;
   CLI::App* drawing = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
@@ -168,7 +170,10 @@ int run_main(int argc, char** argv) {
   }
 
   if (validate->parsed()) return validate_command(validated);
-  if (plugins->parsed()) return plugins_command(libraries, json);
+  if (plugins->parsed())
+    return plugins_command(libraries, json       ? PluginsFormat::json
+                                      : markdown ? PluginsFormat::markdown
+                                                 : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
   if (report->parsed()) return report_command(reported);

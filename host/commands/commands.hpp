@@ -37,7 +37,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 int validate_command(const std::filesystem::path& experiment);
 
 // All libraries of the plugin path if none is named.
-int plugins_command(const std::vector<std::string>& libraries, bool json);
+enum class PluginsFormat { text, json, markdown };
+int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
 
 struct DrawOptions {
   std::string scenario;
