@@ -54,7 +54,9 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
   neighbors_.build(bodies_);
 
   const double step_s = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : neighbors_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     look_around(slot, person);
     const Vec2 along = direction(slot, person);
@@ -79,12 +81,12 @@ void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person) {
   near_.clear();
   const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
-  neighbors_.for_each_near(person.position, reach_m, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
-    const double sum_of_radii_m = person.radius_m + other.radius_m;
-    near_.push_back(
-        {other.position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m, other.weight});
-  });
+  for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
+    if (other->slot == slot || !(squared_distance > 0.0)) continue;
+    const double sum_of_radii_m = person.radius_m + other->radius_m;
+    near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
+                     other->weight});
+  }
   walls_.nearest_points(person.position, wall_points_);
 }
 

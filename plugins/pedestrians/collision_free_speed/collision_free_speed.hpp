@@ -19,7 +19,7 @@ class CollisionFreeSpeed final : public PedestrianModel {
   static Descriptor describe();
 
   Param<double> time_gap =
-      param("time_gap", 1.0).unit("s").range(0.1, 10.0).doc("people take this long to cover the gap before them");
+      param("time_gap", 0.5).unit("s").range(0.1, 10.0).doc("people take this long to cover the gap before them");
   Param<double> neighbor_strength = param("strength_neighbor_repulsion", 8.0)
                                         .range(0.0, 100.0)
                                         .doc("how hard people turn away from whom they touch, against their wish of 1");

@@ -51,7 +51,9 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
   grid_.build(bodies_);
 
   const double step_s = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : grid_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     const double max_speed = speed_cap_factor * person.desired_speed;
     planes_.clear();
@@ -92,24 +94,23 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
   const auto id = [&](const Body* body) {
     return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
   };
-  const auto comes_before = [&](const Neighbor& a, const Neighbor& b) {
+  const auto comes_before = [&](const NearBody& a, const NearBody& b) {
     return a.squared_distance < b.squared_distance ||
            (a.squared_distance == b.squared_distance && id(a.body) < id(b.body));
   };
 
   std::size_t count = 0;
-  grid_.for_each_near(people[slot].position, neighbor_distance, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
-    const Neighbor found = {squared_distance, &other};
+  for (const NearBody& found : grid_.near(people[slot].position, neighbor_distance)) {
+    if (found.body->slot == slot || !(found.squared_distance > 0.0)) continue;
     if (count < most) {
       ++count;
     } else if (!comes_before(found, neighbors_[most - 1])) {
-      return;
+      continue;
     }
     std::size_t place = count - 1;
     for (; place > 0 && comes_before(found, neighbors_[place - 1]); --place) neighbors_[place] = neighbors_[place - 1];
     neighbors_[place] = found;
-  });
+  }
   return count;
 }
 

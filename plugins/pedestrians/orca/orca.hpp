@@ -36,11 +36,6 @@ class Orca final : public PedestrianModel {
   Status step(const Crowd& crowd, Vec2* velocities) override;
 
  private:
-  struct Neighbor {
-    double squared_distance;
-    const Body* body;
-  };
-
   void gather(const Crowd& crowd);
   std::size_t find_neighbors(std::uint32_t slot, const Span<Person>& people);  // how many there are
   HalfPlane permitted_beside(const Body& other, const Person& person, double step_s) const;
@@ -52,7 +47,7 @@ class Orca final : public PedestrianModel {
   WallObstacles walls_;
   VelocityProgram program_;
   std::vector<Body> bodies_;
-  std::vector<Neighbor> neighbors_;  // nearest first; by id where distances are equal
+  std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
   std::vector<HalfPlane> planes_;
 };
 

@@ -62,7 +62,9 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : neighbors_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     Vec2 velocity = person.velocity + dt * acceleration(slot, crowd.people);
     if (motion_noise > 0.0) {
@@ -107,21 +109,24 @@ double SocialForce::keeping_off(double gap_m) const {
 }
 
 // Lowers `speed` to what those ahead permit.
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) const {
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) {
   Vec2 sum = {0.0, 0.0};
-  neighbors_.for_each_near(person.position, neighbor_reach_m, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
+  for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
+    const Body& other = *body;
+    if (other.slot == slot || !(squared_distance > 0.0)) continue;
     const double distance_m = std::sqrt(squared_distance);
     const Vec2 apart = other.position - person.position;
-    const double gap_m = distance_m - person.radius_m - other.radius_m;
+    const Vec2 toward = apart / distance_m;
+    const double reach_m = person.radius_m + other.radius_m;
+    const double gap_m = distance_m - reach_m;
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
-    Vec2 force = social_weight *
-                 interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
-    force -= apart * (keeping_off(gap_m) / distance_m);
-    sum += other.weight * force;
-    const double ahead_m = headway(way, apart, person.radius_m + other.radius_m, other.velocity);
-    speed = std::min(speed, ahead_m / (other.weight * time_gap));
-  });
+    const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
+    sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
+
+    const double following_s = other.weight * time_gap;
+    if (gap_m < speed * following_s)
+      speed = std::min(speed, headway(way, apart, reach_m, other.velocity) / following_s);
+  }
   return sum;
 }
 
