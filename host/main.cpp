@@ -134,6 +134,10 @@ int run_main(int argc, char** argv) {
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
+  std::filesystem::path reported;
+  CLI::App* report = app.add_subcommand("report", "write report.html: what a run found, in one file to open anywhere");
+  report->add_option("run", reported, "the run directory")->required()->type_name("RUN_DIR");
+
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
   try {
@@ -146,6 +150,7 @@ int run_main(int argc, char** argv) {
   if (plugins->parsed()) return plugins_command(libraries, json);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
+  if (report->parsed()) return report_command(reported);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }

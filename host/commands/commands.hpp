@@ -63,4 +63,7 @@ struct PlanOptions {
 };
 int plan_command(const PlanOptions& options);
 
+// Writes report.html into the run directory.
+int report_command(const std::filesystem::path& run_directory);
+
 }  // namespace dmrp::host

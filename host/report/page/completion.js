@@ -1,0 +1,1 @@
+window.dmrp = window.dmrp || {}; dmrp.completion = {mount: () => false, show() {}};

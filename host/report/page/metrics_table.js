@@ -1,0 +1,1 @@
+window.dmrp = window.dmrp || {}; dmrp.metrics_table = {mount: () => false, show() {}};

@@ -1,0 +1,1 @@
+window.dmrp = window.dmrp || {}; dmrp.pedestrian_delay = {mount: () => false, show() {}};
