@@ -51,7 +51,7 @@ class SocialForce final : public PedestrianModel {
   void gather(const Crowd& crowd);
   Vec2 acceleration(std::uint32_t slot, const Span<Person>& people);
   double keeping_off(double gap_m) const;
-  Vec2 from_others(std::uint32_t slot, const Person& person) const;
+  Vec2 from_others(std::uint32_t slot, const Person& person);
   Vec2 from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const;
   Vec2 from_walls(const Person& person);
 
