@@ -62,13 +62,13 @@ TEST_CASE("who walks behind somebody slow keeps the time gap") {
   const WalkingWorld world({60.0, 0.8}, {});
   Walk walk(world, social_force);
   walk.people = {person(1, {2.0, 0.4}, {55.0, 0.4}, 1.5), person(2, {5.0, 0.4}, {55.0, 0.4}, 0.6)};
-  walk_for(walk, 20.0);
-  const double speed = walk.people[1].velocity.x;
-  CHECK(speed >= 0.6);
-  CHECK(speed <= 1.3 * 0.6 + 1e-9);  // pushed from behind, up to the cap
-  CHECK(walk.people[0].velocity.x == Approx(speed).margin(0.02));
+  walk_for(walk, 30.0);
+  // the slow one is urged on a little by who is behind
+  const double speed = walk.people[0].velocity.x;
+  CHECK(speed == Approx(walk.people[1].velocity.x).margin(0.01));
+  CHECK(speed <= 1.3 * 0.6);
   const double gap_m = distance(walk.people[0].position, walk.people[1].position) - 0.6;
-  CHECK(gap_m >= 0.5 * speed);
+  CHECK(gap_m >= 0.5 * speed);  // s * m/s
   CHECK(gap_m <= 1.0);
 }
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// distributions.js: every trial of every combination as a point, so that nothing hides behind a mean.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+  const ROW = 24;          // px, a combination
+  const SPREAD = 7;        // px, points up and down from their row's middle
+  const UNDEFINED = 40;    // px, the column of trials without a value
+  const TOP = 26;
+  const BOTTOM = 46;
+
+  // {rows: [{label, trials: [row of data.trials], median}], has_undefined}
+  function model(data, variant, metric) {
+    const values = data.values[metric];
+    const of = new Map(variant.combinations.map((combination) => [combination, []]));
+    data.trials.combination.forEach((combination, i) => {
+      if (of.has(combination) && data.trials.outcome[i] !== 'skipped') of.get(combination).push(i);
+    });
+    const rows = variant.combinations.map((combination) => {
+      const trials = of.get(combination);
+      const defined = trials.map((i) => values[i]).filter(dmrp.ranking.is_defined);
+      return {label: dmrp.labels.combination(data, combination), trials, median: defined.length > 1 ? d3.median(defined) : null};
+    });
+    return {rows, has_undefined: rows.some((row) => row.trials.some((i) => !dmrp.ranking.is_defined(values[i])))};
+  }
+
+  function draw_rows(svg, rows, left, right) {
+    rows.forEach((row, r) => {
+      const y = TOP + (r + 0.5) * ROW;
+      svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end').text(row.label);
+      svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
+    });
+  }
+
+  function draw_undefined_column(svg, right, bottom, trials_without) {
+    if (!trials_without) return;
+    svg.append('text').attr('class', 'soft').attr('x', right + UNDEFINED / 2 + 4).attr('y', 14).attr('text-anchor', 'middle')
+      .style('font-size', '11px').text('undefined');
+    svg.append('g').attr('class', 'grid').append('line').attr('x1', right + 10).attr('x2', right + 10).attr('y1', TOP - 6).attr('y2', bottom);
+  }
+
+  function draw_panel(data, shown, domain, metric, holder, width, detail) {
+    dmrp.elements.fill(holder);
+    const values = data.values[metric];
+    const left = Math.min(dmrp.plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.45);
+    const right = width - 8 - (shown.has_undefined ? UNDEFINED + 14 : 4);
+    const bottom = TOP + shown.rows.length * ROW;
+    const x = dmrp.plots.linear(domain, [left, right]);
+    const title = dmrp.labels.metric_with_unit(data, metric);
+    const svg = dmrp.plots.frame(holder, width, bottom + BOTTOM, `${title} of every trial, by combination`);
+    draw_rows(svg, shown.rows, left, right);
+    draw_undefined_column(svg, right, bottom, shown.has_undefined);
+    dmrp.plots.axis_bottom(svg, x, bottom, title);
+    const points = [];
+    shown.rows.forEach((row, r) => {
+      const middle = TOP + (r + 0.5) * ROW;
+      if (row.median !== null) {
+        svg.append('line').attr('class', 'median').attr('x1', x(row.median)).attr('x2', x(row.median))
+          .attr('y1', middle - ROW / 2 + 2).attr('y2', middle + ROW / 2 - 2);
+      }
+      for (const trial of row.trials) {
+        const jitter = dmrp.trial_points.jitter(data.trials.id[trial]);
+        const defined = dmrp.ranking.is_defined(values[trial]);
+        const at = defined ? x(values[trial]) : right + 10 + UNDEFINED / 2 + jitter * (UNDEFINED / 2 - 8);
+        const y = middle + (row.trials.length > 1 ? jitter * SPREAD : 0);
+        points.push({x: at, y: middle, row: trial, node: dmrp.trial_points.draw_mark(svg, data, trial, at, y)});
+      }
+    });
+    dmrp.trial_points.choosable(svg, data, points, [metric], detail);
+  }
+
+  function default_metric(data, measured) {
+    const wanted = (data.layouts.report.distributions || {}).metric;
+    return measured.some((metric) => metric.name === wanted) ? wanted : measured[0].name;
+  }
+
+  function mount(body, data) {
+    const measured = dmrp.labels.measured_metrics(data);
+    if (measured.length === 0) return 'no metric has a value in any trial';
+    const variants = dmrp.labels.variants(data).filter((variant) => variant.combinations.length > 0);
+    const chosen = {metric: default_metric(data, measured), variant: 'all'};
+    const holder = element('div');
+    const detail = dmrp.trial_points.detail_line();
+    const show = () => {
+      dmrp.elements.fill(holder);
+      dmrp.elements.fill(detail);
+      const seen = variants.filter((variant) => chosen.variant === 'all' || variant.key === chosen.variant);
+      const panels = dmrp.plots.panels(holder, seen.map((variant) => (variants.length > 1 ? variant.label : null)), 340, 3);
+      const domain = data.values[chosen.metric];
+      seen.forEach((variant, i) => {
+        const shown = model(data, variant, chosen.metric);
+        dmrp.plots.responsive(panels[i].querySelector('.plot'),
+          (plot, width) => draw_panel(data, shown, domain, chosen.metric, plot, width, detail));
+      });
+    };
+    dmrp.elements.fill(body, dmrp.controls.row(
+      dmrp.controls.metric_select(data, 'Metric', measured, chosen.metric, (name) => { chosen.metric = name; show(); }),
+      dmrp.controls.variant_select(variants, 'all', (key) => { chosen.variant = key; show(); })),
+    dmrp.trial_points.mark_legend(data), holder, detail);
+    show();
+    return null;
+  }
+
+  dmrp.distributions = {mount, model};
+})(window.dmrp);

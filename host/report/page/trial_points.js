@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// trial_points.js: points that stand for trials: chosen by pointer or by keys, each leads to its trial's replay.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+
+  // A number in [-1, 1) that depends on the trial alone, so that a plot looks the same each time.
+  function jitter(id) {
+    let hash = Math.imul(id + 1, 0x9e3779b1);
+    hash = Math.imul(hash ^ (hash >>> 15), 0x85ebca6b);
+    hash = Math.imul(hash ^ (hash >>> 13), 0xc2b2ae35);
+    return ((hash ^ (hash >>> 16)) >>> 0) / 2147483648 - 1;
+  }
+
+  function has_replay(data, id) {
+    return data.replays.some((replay) => replay.trial === id);
+  }
+
+  function value_words(data, row, metric) {
+    const value = data.values[metric][row];
+    const about = dmrp.labels.metric(data, metric);
+    return `${dmrp.labels.metric_title(data, metric)} ` +
+      (dmrp.ranking.is_defined(value) ? dmrp.numbers.with_unit(dmrp.numbers.general(value), about.unit) : 'undefined');
+  }
+
+  const OUTCOMES = {succeeded: 'all robots arrived', failed: 'not all robots arrived', fault: 'ended in a fault', skipped: 'skipped'};
+
+  function tip_of(data, row, metrics) {
+    return [element('strong', {}, dmrp.labels.trial(data, row)), element('br'),
+      metrics.map((metric) => value_words(data, row, metric)).join(', '), element('br'), OUTCOMES[data.trials.outcome[row]]];
+  }
+
+  // The line under a plot that tells of the chosen trial.
+  function detail_of(data, row, metrics) {
+    const id = data.trials.id[row];
+    const words = `${dmrp.labels.trial(data, row)} · repetition ${data.trials.repetition[row]} · seed ${data.trials.seed[row]} · ` +
+      `${metrics.map((metric) => value_words(data, row, metric)).join(', ')} · ${OUTCOMES[data.trials.outcome[row]]}`;
+    return [element('span', {class: 'number'}, words), has_replay(data, id)
+      ? element('button', {type: 'button', class: 'button small', onclick: () => dmrp.open_trial(id)}, 'Open its replay')
+      : element('span', {class: 'none'}, 'no replay in this report')];
+  }
+
+  // The next of `points` ({x, y}) in the direction of an arrow key: along a row to the nearest in x, else to the nearest row.
+  function neighbour(points, current, key) {
+    if (current < 0) return points.length > 0 ? 0 : -1;
+    const sideways = key === 'ArrowLeft' || key === 'ArrowRight';
+    const sign = key === 'ArrowLeft' || key === 'ArrowUp' ? -1 : 1;
+    const from = points[current];
+    let best = current;
+    let best_cost = Infinity;
+    points.forEach((point, i) => {
+      const dx = point.x - from.x;
+      const dy = point.y - from.y;
+      const ahead = sign * (sideways ? dx || (i - current) * 1e-6 : dy);
+      if (i === current || ahead <= 0) return;
+      const cost = sideways ? ahead + 8 * Math.abs(dy) : ahead + 0.5 * Math.abs(dx);
+      if (cost < best_cost) [best, best_cost] = [i, cost];
+    });
+    return best;
+  }
+
+  // Makes the marks of `svg` choosable. points: [{x, y, row, node}] in the plot's coordinates; `metrics` are told of each.
+  function choosable(svg, data, points, metrics, detail) {
+    let current = -1;
+    const point_at = (index) => {
+      if (current >= 0) points[current].node.classList.remove('chosen');
+      current = index;
+      points[current].node.classList.add('chosen');
+      dmrp.plots.show_tip(points[current].node, tip_of(data, points[current].row, metrics));
+    };
+    const choose = (index) => {
+      dmrp.elements.fill(detail, detail_of(data, points[index].row, metrics));
+      const id = data.trials.id[points[index].row];
+      if (has_replay(data, id)) dmrp.open_trial(id);
+    };
+    points.forEach((point, i) => {
+      point.node.classList.add('clickable');
+      point.node.addEventListener('pointerenter', () => point_at(i));
+      point.node.addEventListener('pointerleave', dmrp.plots.hide_tip);
+      point.node.addEventListener('click', () => choose(i));
+    });
+    svg.attr('tabindex', 0).attr('role', 'group')
+      .on('blur', dmrp.plots.hide_tip)
+      .on('keydown', () => {
+        const {key} = d3.event;
+        if (key.startsWith('Arrow') && points.length > 0) {
+          d3.event.preventDefault();
+          point_at(neighbour(points, current, key));
+        } else if (key === 'Enter' && current >= 0) {
+          choose(current);
+        } else if (key === 'Escape') {
+          dmrp.plots.hide_tip();
+        }
+      });
+  }
+
+  function detail_line() {
+    return element('p', {class: 'detail', 'aria-live': 'polite'});
+  }
+
+  // Puts a trial's mark at (x, y): its controller's shape and colour, or a cross if not all robots arrived.
+  function draw_mark(parent, data, row, x, y) {
+    const combination = data.combinations[data.trials.combination[row]];
+    const series = dmrp.labels.series(data, 'local_controller', combination.local_controller);
+    const failed = data.trials.outcome[row] !== 'succeeded';
+    return parent.append('path').attr('transform', `translate(${x.toFixed(1)},${y.toFixed(1)})`)
+      .attr('d', failed ? dmrp.plots.cross() : dmrp.plots.symbol(series.symbol))
+      .attr('class', failed ? 'mark failed' : 'mark')
+      .style('--colour', series.colour).style('fill', failed ? 'none' : series.colour).node();
+  }
+
+  // What the marks mean.
+  function mark_legend(data) {
+    const values = dmrp.labels.values_of(data, 'local_controller');
+    const entries = values.map((value) => {
+      const series = dmrp.labels.series(data, 'local_controller', value);
+      return {label: value, colour: series.colour, path: dmrp.plots.symbol(series.symbol)};
+    });
+    if (data.trials.outcome.some((outcome) => outcome !== 'succeeded' && outcome !== 'skipped'))
+      entries.push({label: 'not all robots arrived', colour: 'var(--ink)', path: dmrp.plots.cross(), failed: true});
+    return entries.length > 1 ? dmrp.plots.legend(entries) : null;
+  }
+
+  dmrp.trial_points = {jitter, neighbour, choosable, detail_line, draw_mark, mark_legend};
+})(window.dmrp);
