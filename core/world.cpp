@@ -46,7 +46,7 @@ std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec
 }
 
 FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
-  if (person_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
+  if (walker_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
   return find_flow_routes(scenario, build_walking_grid(geometry));
 }
 
@@ -79,7 +79,7 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
   proposed_poses_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (const RobotState& state : robots_) bodies_.push_back({toolkit::position(state.pose), robot.radius_m, {}});
-  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
+  place_bodies_of_people();
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   show_agents();
@@ -120,6 +120,11 @@ void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
   }
   for (std::size_t i = 0; i < person_velocities.size(); ++i)
     bodies_[robots_.size() + i].displacement = person_velocities[i] * step_s();
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    SolidBody& body = bodies_[robots_.size() + i];
+    if (const auto there = population_.position_on_track(i, t_ns_ + settings_.step_ns))
+      body.displacement = *there - body.position;
+  }
 }
 
 void World::apply_motion() {
@@ -171,8 +176,15 @@ void World::check_arrival(std::uint32_t robot) {
 
 void World::advance_people() {
   population_.advance(t_ns_, robot_positions_);
+  place_bodies_of_people();
+}
+
+void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
-  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    const dmrp_person& person = population_.people()[i];
+    bodies_.push_back({person.position, person.radius_m, {}, !population_.is_recorded(i)});
+  }
 }
 
 void World::show_agents() {

@@ -53,8 +53,8 @@ class World {
   // What a pedestrian model is told, by slot: parallel to person_agents().
   std::span<const dmrp_person> people() const { return population_.people(); }
 
-  // There are no robots, and nobody is left.
-  bool is_deserted() const { return robots_.empty() && people().empty(); }
+  // There are no robots, nobody is left and nobody will come.
+  bool is_deserted() const { return robots_.empty() && population_.is_over(t_ns_); }
 
   // Sets the command in force, clipped to the velocity limits, until the next one. Must be finite. Ignored for a robot
   // that is not active. Returns what is in force.
@@ -65,7 +65,8 @@ class World {
 
   // One physics step: robots follow their commands within their accelerations, people move at these velocities (parallel
   // to people(), world frame, finite), bodies stop where they would get deeper into each other, robots arrive, people reach
-  // their regions. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
+  // their regions. Recorded people go along their tracks whatever velocities they are given: the track wins over
+  // everybody in the way, who can move no nearer but is not pushed. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
 
   // Of the last step.
@@ -78,6 +79,7 @@ class World {
   void advance_people();
   void show_agents();
   void show_people();
+  void place_bodies_of_people();
   void find_contacts();
   double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
 

@@ -2,6 +2,7 @@
 // adhoc_use.hpp: a scenario and a planner named on the command line, as an experiment of its own.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace dmrp::host {
 // An experiment of one scenario, named or given by its path; `to_plan`: checked against the default robot and grid.
 // Throws InputError.
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
+
+// Its scenario with `robots` drawn for the seed in place of those it lists. Throws InputError.
+void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed);
 
 // `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words
 // are strings. Throws InputError.

@@ -39,6 +39,21 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
   }
 }
 
+// What robots are drawn for one number depends on the others that stand with it.
+void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios) {
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const ScenarioVariant& variant = scenarios[i];
+    std::string robots = std::to_string(robot_count(variant));
+    if (variant.most_drawn > 0) {
+      for (; i + 1 < scenarios.size() && scenarios[i + 1].entry == variant.entry; ++i)
+        robots += fmt::format(", {}", robot_count(scenarios[i + 1]));
+      robots = "[" + robots + "]";
+    }
+    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()), robots);
+    if (variant.all_drawn) out += "tasks  = \"drawn\"\n";
+  }
+}
+
 void write_simulation(std::string& out, const Experiment& experiment) {
   const core::SimulationSettings& s = experiment.simulation;
   static constexpr const char* const tracking[] = {"none", "visible", "all"};
@@ -94,9 +109,7 @@ std::string effective_toml(const Experiment& experiment) {
   std::vector<std::string> libraries;
   for (const LibraryUse& library : experiment.libraries) libraries.push_back(library.file.string());
   out += "plugins = " + toml_text(libraries) + "\n";
-  for (const ScenarioVariant& variant : experiment.scenarios)
-    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()),
-                       variant.scenario.robots.size());
+  write_scenarios(out, experiment.scenarios);
   write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners);
   write_uses(out, DMRP_KIND_LOCAL_CONTROLLER, experiment.local_controllers);
   write_uses(out, DMRP_KIND_PEDESTRIAN_MODEL, experiment.pedestrian_models);
