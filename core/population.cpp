@@ -70,7 +70,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
   std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
   std::vector<dmrp_vec2> taken;
   for (const auto& [region, count] : crowds_by_region(flows_)) {
-    places[region] = places_in(region, count, robots);
+    places[region] = places_in(region, count, robots, taken);
     taken.insert(taken.end(), places[region].begin(), places[region].end());
   }
   std::uint32_t slot = 0;
@@ -182,13 +182,13 @@ void Population::let_leave(std::int64_t t_ns) {
 }
 
 // Places for all who begin in a region, in an order that says nothing.
-std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count,
-                                             std::span<const dmrp_vec2> robots) const {
+std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots,
+                                             std::span<const dmrp_vec2> taken) const {
   const Region& where = regions_[region];
   Stream stream(seed_, "population.from", region);
   const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
   auto places = spread_on_lattice({where.lower, where.upper}, count, apart_m, stream,
-                                  [&](dmrp_vec2 point) { return has_room(point, robots, {}); });
+                                  [&](dmrp_vec2 point) { return has_room(point, robots, taken); });
   if (places.size() < count)
     throw std::runtime_error("no room in region '" + where.name + "' for " + std::to_string(count) + " people, " +
                              std::to_string(places.size()) + " at most");

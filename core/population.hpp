@@ -68,7 +68,8 @@ class Population {
     std::uint32_t leg = 0;
   };
 
-  std::vector<dmrp_vec2> places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots) const;
+  std::vector<dmrp_vec2> places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots,
+                                   std::span<const dmrp_vec2> taken) const;
   Beginning place_along_flow(std::uint32_t slot, std::uint32_t number, const std::vector<Route>& legs,
                              std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const;
   dmrp_person person_at(std::uint32_t slot, dmrp_vec2 position) const;
