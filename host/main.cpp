@@ -100,6 +100,24 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   return command;
 }
 
+CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
+  CLI::App* command = app.add_subcommand("evaluate", "a metric over the stored traces of a run, as CSV");
+  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--metric", options.metric, "the metric (default: all of the run's, and of --plugin's)")
+      ->type_name("ID");
+  command->add_option("--plugin", options.plugins, "another plugin library, searched before the run's")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+  command->add_option("--set", options.settings, "a parameter of the metric (default: as in the run)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--params-file", options.parameter_file, "parameters of the metric: a file, or a shipped set")
+      ->type_name("FILE");
+  command->add_option("--trial", options.trials, "only this trial")->type_name("N")->allow_extra_args(false);
+  command->add_option("--csv", options.csv, "where to (default: standard output)")->type_name("FILE");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
@@ -133,8 +151,15 @@ int run_main(int argc, char** argv) {
   drawing->add_option("--set", draw.settings, "a parameter of the planner")->type_name("KEY=VALUE");
   drawing->add_option("--svg", draw.svg, "where to (default: standard output)")->type_name("FILE");
 
+  EvaluateOptions evaluate;
+  CLI::App* evaluating = add_evaluate(app, evaluate);
+
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
+
+  std::filesystem::path reported;
+  CLI::App* report = app.add_subcommand("report", "write report.html: what a run found, in one file to open anywhere");
+  report->add_option("run", reported, "the run directory")->required()->type_name("RUN_DIR");
 
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
@@ -151,6 +176,8 @@ int run_main(int argc, char** argv) {
                                                  : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
+  if (report->parsed()) return report_command(reported);
+  if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }
