@@ -137,9 +137,11 @@ int run_main(int argc, char** argv) {
 
   std::vector<std::string> libraries;
   bool json = false;
+  bool markdown = false;
   CLI::App* plugins = app.add_subcommand("plugins", "what plugin libraries hold, with parameters");
   plugins->add_option("libraries", libraries, "libraries (default: all of the plugin path)")->type_name("LIB.so");
-  plugins->add_flag("--json", json, "as JSON");
+  CLI::Option* as_json = plugins->add_flag("--json", json, "as JSON");
+  plugins->add_flag("--markdown", markdown, "as a reference page")->excludes(as_json);
 
   DrawOptions draw;
   CLI::App* drawing = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
@@ -155,6 +157,10 @@ int run_main(int argc, char** argv) {
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
+  std::filesystem::path reported;
+  CLI::App* report = app.add_subcommand("report", "write report.html: what a run found, in one file to open anywhere");
+  report->add_option("run", reported, "the run directory")->required()->type_name("RUN_DIR");
+
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
   try {
@@ -164,9 +170,13 @@ int run_main(int argc, char** argv) {
   }
 
   if (validate->parsed()) return validate_command(validated);
-  if (plugins->parsed()) return plugins_command(libraries, json);
+  if (plugins->parsed())
+    return plugins_command(libraries, json       ? PluginsFormat::json
+                                      : markdown ? PluginsFormat::markdown
+                                                 : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
+  if (report->parsed()) return report_command(reported);
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));

@@ -37,7 +37,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 int validate_command(const std::filesystem::path& experiment);
 
 // All libraries of the plugin path if none is named.
-int plugins_command(const std::vector<std::string>& libraries, bool json);
+enum class PluginsFormat { text, json, markdown };
+int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
 
 struct DrawOptions {
   std::string scenario;
@@ -62,6 +63,9 @@ struct PlanOptions {
   bool json = false;
 };
 int plan_command(const PlanOptions& options);
+
+// Writes report.html into the run directory.
+int report_command(const std::filesystem::path& run_directory);
 
 struct EvaluateOptions {
   std::filesystem::path run_directory;

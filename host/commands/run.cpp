@@ -13,6 +13,7 @@
 #include "host/executable.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/input_error.hpp"
+#include "host/report/write_report.hpp"
 #include "host/results/atomic_file.hpp"
 #include "host/results/closing_line.hpp"
 #include "host/results/database.hpp"
@@ -53,9 +54,10 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   std::string out = experiment.name;
   if (experiment.scenarios.size() == 1) {
     const core::Scenario& scenario = experiment.scenarios[0].scenario;
-    out += fmt::format(" · {} · {}", scenario.name, plural(scenario.robots.size(), "robot"));
+    out += fmt::format(" · {} · {}", scenario.name,
+                       scenario.robots.empty() ? "no robots" : plural(scenario.robots.size(), "robot"));
     const auto people = core::person_count(scenario);
-    out += people == 0 ? ", no people" : fmt::format(", {} people", people);
+    out += people == 0 ? ", no people" : fmt::format(", {} {}", people, people == 1 ? "person" : "people");
   } else {
     out += " · " + plural(experiment.scenarios.size(), "scenario");
   }
@@ -72,9 +74,25 @@ std::string fault_note(const TrialRecord& trial) {
   return note + ": " + fault.detail;
 }
 
+ExperimentFacts facts_of(const Experiment& experiment, std::uint64_t trials_planned) {
+  ExperimentFacts facts{experiment.name, experiment.seed, experiment.trials, trials_planned, {}};
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    const core::Scenario& scenario = variant.scenario;
+    const double time_limit_s = experiment.time_limit_set
+                                    ? static_cast<double>(experiment.simulation.time_limit_ns) / 1e9
+                                    : scenario.time_limit_s;
+    facts.scenarios.push_back({scenario.name, scenario.title, scenario.description,
+                               static_cast<std::uint32_t>(scenario.robots.size()), core::person_count(scenario),
+                               time_limit_s});
+  }
+  return facts;
+}
+
 // The manifest: what this run depends on beside the experiment's text.
-Manifest manifest_of(const Experiment& experiment, const std::vector<std::string>& command_line) {
+Manifest manifest_of(const Experiment& experiment, std::uint64_t trials_planned,
+                     const std::vector<std::string>& command_line) {
   Manifest manifest = new_manifest(version, command_line, std::chrono::system_clock::now());
+  manifest.experiment = facts_of(experiment, trials_planned);
   for (const LibraryUse& library : experiment.libraries)
     manifest.files.push_back(hashed_file("plugin library", library.file));
   std::set<fs::path> scenarios;
@@ -143,8 +161,20 @@ class RunFiles {
   RunDirectory directory_;
 };
 
+// Whether there is one: the results are worth keeping without it.
+bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
+  if (database.finished_trials().empty()) return false;
+  try {
+    write_report(directory);
+    return true;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "warning: no report.html: {}\n", error.what());
+    return false;
+  }
+}
+
 void print_results(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory,
-                   const Experiment& experiment) {
+                   const Experiment& experiment, bool reported) {
   const auto metrics = database.metrics();
   const auto trials = database.trials();
   TableStyle style;
@@ -152,7 +182,8 @@ void print_results(const ResultsDatabase& database, const SummaryLayout& layout,
   style.ansi = style.width > 0;
   fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), style),
              closing_line(layout, trials));
-  std::vector<std::string> files = {"results.sqlite", "trials.csv", "summary.csv"};
+  std::vector<std::string> files = {"results.sqlite"};
+  if (reported) files.insert(files.begin(), "report.html");
   if (experiment.traces != RecordTraces::none) files.push_back("traces/");
   fmt::print("  {}\n", files_line(directory, files));
 }
@@ -166,9 +197,9 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
-  const RunFiles files(options, experiment, manifest_of(experiment, command_line));
-  ResultsDatabase database = ResultsDatabase::open(files.database());
   std::vector<std::uint64_t> trials = trials_of_shard(count, options.shard);
+  const RunFiles files(options, experiment, manifest_of(experiment, trials.size(), command_line));
+  ResultsDatabase database = ResultsDatabase::open(files.database());
   const auto finished = database.finished_trials();
   std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
 
@@ -183,7 +214,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
       [&] { progress.refresh(); });
   progress.finish();
   files.write_tables(database, layout);
-  if (!options.quiet) print_results(database, layout, files.directory(), experiment);
+  const bool reported = try_to_report(database, files.directory());
+  if (!options.quiet) print_results(database, layout, files.directory(), experiment, reported);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
                files.directory().string());

@@ -34,12 +34,41 @@ std::string utc_text(std::chrono::system_clock::time_point time) {
   return {text.data(), length};
 }
 
+Json to_json(const ExperimentFacts& experiment) {
+  Json scenarios = Json::array();
+  for (const ScenarioFacts& scenario : experiment.scenarios)
+    scenarios.push_back({{"name", scenario.name},
+                         {"title", scenario.title},
+                         {"description", scenario.description},
+                         {"robots", scenario.robots},
+                         {"people", scenario.people},
+                         {"time_limit_s", scenario.time_limit_s}});
+  return {{"name", experiment.name},
+          {"seed", experiment.seed},
+          {"repetitions", experiment.repetitions},
+          {"trials_planned", experiment.trials_planned},
+          {"scenarios", std::move(scenarios)}};
+}
+
+ExperimentFacts parse_experiment(const Json& json) {
+  ExperimentFacts experiment;
+  json.at("name").get_to(experiment.name);
+  json.at("seed").get_to(experiment.seed);
+  json.at("repetitions").get_to(experiment.repetitions);
+  json.at("trials_planned").get_to(experiment.trials_planned);
+  for (const Json& scenario : json.at("scenarios"))
+    experiment.scenarios.push_back({scenario.at("name"), scenario.at("title"), scenario.at("description"),
+                                    scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")});
+  return experiment;
+}
+
 Manifest parse(const Json& json) {
   Manifest manifest;
   json.at("dmrp_version").get_to(manifest.dmrp_version);
   json.at("abi").get_to(manifest.abi);
   json.at("command_line").get_to(manifest.command_line);
   json.at("started_at").get_to(manifest.started_at);
+  if (json.contains("experiment")) manifest.experiment = parse_experiment(json.at("experiment"));
   const Json& machine = json.at("machine");
   machine.at("libc").get_to(manifest.machine.libc);
   machine.at("cpu_level").get_to(manifest.machine.cpu_level);
@@ -97,6 +126,7 @@ std::string to_json_text(const Manifest& manifest) {
   json["abi"] = manifest.abi;
   json["command_line"] = manifest.command_line;
   json["started_at"] = manifest.started_at;
+  json["experiment"] = to_json(manifest.experiment);
   json["machine"] = {{"libc", manifest.machine.libc},
                      {"cpu_level", manifest.machine.cpu_level},
                      {"cpu_features", manifest.machine.cpu_features},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -18,11 +19,31 @@ struct HashedFile {
   std::string sha256;
 };
 
+// A scenario with a number of robots, as a report names it.
+struct ScenarioFacts {
+  std::string name;
+  std::string title;
+  std::string description;
+  std::uint32_t robots = 0;
+  std::uint32_t people = 0;
+  double time_limit_s = 0.0;
+};
+
+// What the run set out to do, whatever came of it.
+struct ExperimentFacts {
+  std::string name;
+  std::uint64_t seed = 0;
+  std::uint32_t repetitions = 0;
+  std::uint64_t trials_planned = 0;  // of this run's shard
+  std::vector<ScenarioFacts> scenarios;
+};
+
 struct Manifest {
   std::string dmrp_version;
   std::string abi;  // "1.0", "1.0 draft 3"
   std::vector<std::string> command_line;
   std::string started_at;  // UTC, ISO 8601
+  ExperimentFacts experiment;
   Machine machine;
   std::vector<HashedFile> files;
 };

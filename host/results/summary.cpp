@@ -5,65 +5,99 @@
 #include <map>
 
 #include "host/results/csv.hpp"
+#include "host/results/system_values.hpp"
 
 namespace dmrp::host {
 namespace {
 
-CombinationLabels combination_of(const TrialRecord& trial) {
-  return {trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model};
-}
+// What the metrics of one combination are summed up from: its trials, and those of each seed.
+struct Group {
+  std::vector<std::size_t> trials;  // indices
+  std::map<std::uint64_t, std::vector<std::size_t>> of_seed;
+};
 
-MetricSummary summarise_metric(const std::string& metric, bool counts_failures,
-                               const std::vector<const TrialRecord*>& trials) {
+// The intervals of all metrics come from the same draws: those of as many seeds as have a value.
+class Intervals {
+ public:
+  core::Interval of(std::span<const std::vector<double>> clusters) {
+    const auto found = draws_.try_emplace(clusters.size(), clusters.size());
+    return core::cluster_bootstrap_interval(clusters, found.first->second);
+  }
+
+ private:
+  std::map<std::size_t, core::BootstrapDraws> draws_;
+};
+
+MetricSummary summarise_metric(std::size_t metric, bool counts_failures, const Group& group,
+                               std::span<const TrialRecord> trials, const SystemValues& system, Intervals& intervals) {
+  const auto value_of = [&](std::size_t trial) {
+    const std::optional<double>& value = system[trial][metric];
+    return !value && counts_failures && trials[trial].outcome == trial_outcome::fault ? std::optional(0.0) : value;
+  };
   std::vector<double> values;
   std::vector<double> values_of_successful;
-  std::map<std::uint64_t, std::vector<double>> by_seed;
-  for (const TrialRecord* trial : trials) {
-    std::optional<double> value = system_value(*trial, metric);
-    if (!value && counts_failures && trial->outcome == trial_outcome::fault) value = 0.0;
+  for (const std::size_t trial : group.trials) {
+    const std::optional<double> value = value_of(trial);
     if (!value) continue;
     values.push_back(*value);
-    by_seed[trial->seed].push_back(*value);
-    if (counts_failures || trial->outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
+    if (counts_failures || trials[trial].outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
   }
   std::vector<std::vector<double>> clusters;
-  for (auto& [seed, cluster] : by_seed) clusters.push_back(std::move(cluster));
+  for (const auto& [seed, of_seed] : group.of_seed) {
+    std::vector<double> cluster;
+    for (const std::size_t trial : of_seed)
+      if (const std::optional<double> value = value_of(trial)) cluster.push_back(*value);
+    if (!cluster.empty()) clusters.push_back(std::move(cluster));
+  }
 
   MetricSummary summary;
   summary.defined = static_cast<std::uint32_t>(values.size());
   summary.mean = core::mean(values);
   summary.sd = core::sample_sd(values);
   summary.median = core::median(values);
-  summary.interval = core::cluster_bootstrap_interval(clusters);
+  summary.interval = intervals.of(clusters);
   summary.paper = core::paper_mean(values_of_successful);
   return summary;
 }
 
 }  // namespace
 
+CombinationLabels combination_of(const TrialRecord& trial) {
+  return {trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model};
+}
+
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures) {
+  return summarise(metrics, trials, counts_failures, combination_of);
+}
+
+std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
+                                          std::span<const std::string> counts_failures,
+                                          CombinationLabels (*labels_of)(const TrialRecord&)) {
   std::vector<CombinationSummary> summaries;
-  std::vector<std::vector<const TrialRecord*>> trials_of;  // of each summary
-  for (const TrialRecord& trial : trials) {
+  std::vector<Group> groups;  // of each summary
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialRecord& trial = trials[i];
     if (trial.outcome == trial_outcome::skipped) continue;
-    const CombinationLabels combination = combination_of(trial);
-    const auto found = std::find_if(summaries.begin(), summaries.end(), [&](const CombinationSummary& summary) {
-      return summary.combination == combination;
-    });
+    const CombinationLabels labels = labels_of(trial);
+    const auto found = std::find_if(summaries.begin(), summaries.end(),
+                                    [&](const CombinationSummary& summary) { return summary.combination == labels; });
     const auto index = static_cast<std::size_t>(found - summaries.begin());
     if (found == summaries.end()) {
-      summaries.push_back({combination, 0, {}});
-      trials_of.emplace_back();
+      summaries.push_back({labels, 0, {}});
+      groups.emplace_back();
     }
     ++summaries[index].trials;
-    trials_of[index].push_back(&trial);
+    groups[index].trials.push_back(i);
+    groups[index].of_seed[trial.seed].push_back(i);
   }
+  const SystemValues system = system_values(metrics, trials);
+  Intervals intervals;
   for (std::size_t i = 0; i < summaries.size(); ++i)
-    for (const MetricColumn& metric : metrics) {
+    for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
       const bool counts =
-          std::find(counts_failures.begin(), counts_failures.end(), metric.name) != counts_failures.end();
-      summaries[i].metrics.push_back(summarise_metric(metric.name, counts, trials_of[i]));
+          std::find(counts_failures.begin(), counts_failures.end(), metrics[metric].name) != counts_failures.end();
+      summaries[i].metrics.push_back(summarise_metric(metric, counts, groups[i], trials, system, intervals));
     }
   return summaries;
 }

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics.hpp"
+#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
@@ -39,10 +40,17 @@ struct CombinationSummary {
   std::vector<MetricSummary> metrics;  // as in the list of metrics
 };
 
+CombinationLabels combination_of(const TrialRecord& trial);
+
 // In the order in which the combinations first appear. Trials are ordered by id. `counts_failures`: the metrics that are
 // about failing itself (SummaryLayout).
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures);
+
+// The same over coarser groups: trials whose labels are equal belong together.
+std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
+                                          std::span<const std::string> counts_failures,
+                                          CombinationLabels (*labels_of)(const TrialRecord&));
 
 // summary.csv: a line for each combination and metric.
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries);

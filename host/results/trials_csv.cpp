@@ -2,6 +2,7 @@
 #include "host/results/trials_csv.hpp"
 
 #include "host/results/csv.hpp"
+#include "host/results/system_values.hpp"
 
 namespace dmrp::host {
 
@@ -13,12 +14,14 @@ std::string trials_csv(std::span<const MetricColumn> metrics, std::span<const Tr
   for (const MetricColumn& metric : metrics) csv.field(metric.name);
   csv.end_line();
 
-  for (const TrialRecord& trial : trials) {
+  const SystemValues values = system_values(metrics, trials);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialRecord& trial = trials[i];
     csv.field(trial.id).field(trial.scenario).field(trial.robots);
     csv.field(trial.global_planner).field(trial.local_controller).field(trial.pedestrian_model);
     csv.field(trial.repetition).field(trial.seed).field(trial.outcome).field(trial.repeatable ? 1 : 0);
     csv.field(trial.sim_time_s).field(trial.wall_time_s);
-    for (const MetricColumn& metric : metrics) csv.field(system_value(trial, metric.name));
+    for (const std::optional<double>& value : values[i]) csv.field(value);
     csv.end_line();
   }
   return csv.text();

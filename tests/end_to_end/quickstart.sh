@@ -8,7 +8,7 @@ expect_status 0 "$host" "$source_dir/examples/quickstart.toml" --out "$scratch/r
 grep -q "CBS + DWA" "$scratch/stdout" || fail "the table has no row for CBS + DWA"
 grep -q "$scratch/run" "$scratch/stdout" || fail "the run directory is not named"
 
-for file in experiment.toml effective.toml manifest.json trials.csv summary.csv traces/trial_000002.mcap; do
+for file in experiment.toml effective.toml manifest.json trials.csv summary.csv report.html traces/trial_000002.mcap; do
   [[ -s $scratch/run/$file ]] || fail "$file is missing or empty"
 done
 [[ $(query "$scratch/run" "SELECT count(*) FROM trial WHERE outcome IN ('succeeded', 'failed') AND repeatable") == 3 ]] ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/statistics.hpp"
+#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// statistics.hpp: what the summaries of a run are made of. Undefined results (of too few values) are NaN.
+// descriptive.hpp: what the summaries of a run are made of. Undefined results (of too few values) are NaN.
 #pragma once
 
 #include <cstdint>
@@ -8,27 +8,12 @@
 
 namespace dmrp::core {
 
-struct Interval {
-  double low;
-  double high;
-};
-
 double mean(std::span<const double> values);       // of one or more
 double sample_sd(std::span<const double> values);  // with n - 1; of two or more
 double median(std::span<const double> values);     // of one or more; the mean of the middle two of an even number
 
 // The p-quantile of ascending values, linear between them (Hyndman and Fan's type 7).
 double quantile_of_sorted(std::span<const double> ascending, double p);
-
-// A 95 % interval for the mean of all values by the percentile bootstrap over clusters: what belongs together (the
-// robots of a trial, the trials of a seed) is drawn together. Of two clusters or more; empty ones don't count.
-// Deterministic: the draws come from a named stream.
-struct BootstrapSettings {
-  std::uint32_t resamples = 2000;
-  std::uint64_t seed = 1;
-};
-Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters,
-                                    const BootstrapSettings& settings = {});
 
 // The mean as the paper takes it: of the successful trials' values, those farther than two standard deviations (n - 1)
 // from their mean are left out, in one pass, none below n = 5.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "statistics.hpp"
+#include "core/statistics/descriptive.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <numeric>
 
@@ -46,31 +45,6 @@ double quantile_of_sorted(std::span<const double> ascending, double p) {
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, ascending.size() - 1);
   return ascending[below] + (position - static_cast<double>(below)) * (ascending[above] - ascending[below]);
-}
-
-Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapSettings& settings) {
-  struct Total {
-    double sum;
-    double count;
-  };
-  std::vector<Total> totals;
-  for (const std::vector<double>& cluster : clusters)
-    if (!cluster.empty()) totals.push_back({sum(cluster), static_cast<double>(cluster.size())});
-  if (totals.size() < 2) return {undefined, undefined};
-
-  toolkit::Stream random(settings.seed, "statistics.bootstrap");
-  std::vector<double> means(settings.resamples);
-  for (double& resampled_mean : means) {
-    Total drawn{0.0, 0.0};
-    for (std::size_t i = 0; i < totals.size(); ++i) {
-      const Total& total = totals[random.below(totals.size())];
-      drawn.sum += total.sum;
-      drawn.count += total.count;
-    }
-    resampled_mean = drawn.sum / drawn.count;
-  }
-  std::sort(means.begin(), means.end());
-  return {quantile_of_sorted(means, 0.025), quantile_of_sorted(means, 0.975)};
 }
 
 TrimmedMean paper_mean(std::span<const double> values_of_successful_trials) {

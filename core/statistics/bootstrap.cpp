@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "core/statistics/bootstrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace dmrp::core {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+// As quantile_of_sorted (descriptive.hpp), without sorting all.
+double quantile(std::vector<double>& values, double p) {
+  const double position = p * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(values.begin(), middle, values.end());
+  const double above = middle + 1 == values.end() ? *middle : *std::min_element(middle + 1, values.end());
+  return *middle + (position - static_cast<double>(below)) * (above - *middle);
+}
+
+}  // namespace
+
+BootstrapDraws::BootstrapDraws(std::size_t clusters, const BootstrapSettings& settings)
+    : clusters_(clusters), resamples_(settings.resamples), draws_(clusters * settings.resamples) {
+  toolkit::Stream random(settings.seed, "statistics.bootstrap");
+  for (std::uint32_t& draw : draws_) draw = static_cast<std::uint32_t>(random.below(clusters));
+}
+
+Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapDraws& draws) {
+  struct Total {
+    double sum;
+    double count;
+  };
+  std::vector<Total> totals;
+  for (const std::vector<double>& cluster : clusters)
+    totals.push_back({std::accumulate(cluster.begin(), cluster.end(), 0.0), static_cast<double>(cluster.size())});
+  if (totals.size() < 2) return {undefined, undefined};
+
+  std::vector<double> means(draws.resamples());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    Total drawn{0.0, 0.0};
+    for (const std::uint32_t draw : draws.resample(i)) {
+      drawn.sum += totals[draw].sum;
+      drawn.count += totals[draw].count;
+    }
+    means[i] = drawn.sum / drawn.count;
+  }
+  return percentile_interval(std::move(means));
+}
+
+Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapSettings& settings) {
+  std::vector<std::vector<double>> nonempty;
+  for (const std::vector<double>& cluster : clusters)
+    if (!cluster.empty()) nonempty.push_back(cluster);
+  return cluster_bootstrap_interval(nonempty, BootstrapDraws(nonempty.size(), settings));
+}
+
+Interval percentile_interval(std::vector<double> resampled) {
+  const std::size_t drawn = resampled.size();
+  resampled.erase(std::remove_if(resampled.begin(), resampled.end(), [](double value) { return std::isnan(value); }),
+                  resampled.end());
+  if (resampled.empty() || 2 * resampled.size() < drawn) return {undefined, undefined};
+  const double low = quantile(resampled, 0.025);
+  return {low, quantile(resampled, 0.975)};
+}
+
+}  // namespace dmrp::core

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// bootstrap.hpp: intervals by the percentile bootstrap over clusters: what belongs together (the robots of a trial, the
+// trials of a seed) is drawn together. Efron and Tibshirani: An Introduction to the Bootstrap, 1993, sections 8 and 13.
+// Deterministic: the draws come from a named stream. Undefined results are NaN.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dmrp::core {
+
+struct Interval {
+  double low;
+  double high;
+};
+
+struct BootstrapSettings {
+  std::uint32_t resamples = 2000;
+  std::uint64_t seed = 1;
+};
+
+// Which clusters make up each resample: drawn once for a number of clusters, used for any number of intervals.
+class BootstrapDraws {
+ public:
+  explicit BootstrapDraws(std::size_t clusters, const BootstrapSettings& settings = {});
+  std::size_t resamples() const { return resamples_; }
+  std::span<const std::uint32_t> resample(std::size_t i) const {
+    return std::span<const std::uint32_t>(draws_).subspan(i * clusters_, clusters_);
+  }
+
+ private:
+  std::size_t clusters_;
+  std::size_t resamples_;
+  std::vector<std::uint32_t> draws_;  // [resample][draw]
+};
+
+// A 95 % interval for the mean of all values. Of two clusters or more.
+// The first form takes draws for as many clusters as there are, none of them empty; in the second, empty ones don't
+// count.
+Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapDraws& draws);
+Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters,
+                                    const BootstrapSettings& settings = {});
+
+// Between the 2.5 % and 97.5 % quantiles of a statistic's resampled values. NaNs (resamples in which it is undefined)
+// are left out; undefined where fewer than half are left.
+Interval percentile_interval(std::vector<double> resampled);
+
+}  // namespace dmrp::core

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// report_run.hpp: a run directory as a report reads it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/results/manifest.hpp"
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+struct ReportRun {
+  Manifest manifest;
+  std::string manifest_json;  // the whole file
+  std::string effective_toml;
+  std::vector<MetricColumn> metrics;
+  std::vector<TrialRecord> trials;  // by id; an interrupted run lacks some
+};
+
+// Throws InputError where it is no run directory, SqliteError or std::runtime_error where a file is damaged.
+ReportRun read_report_run(const std::filesystem::path& directory);
+
+}  // namespace dmrp::host
