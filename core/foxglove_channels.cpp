@@ -134,8 +134,8 @@ void FoxgloveChannels::put_robots(std::int64_t t_ns) {
   scene_.begin(t_ns);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& robot = robots_[i];
-    const Color color = robot.state == DMRP_ROBOT_FAILED ? given_up
-                                                         : of_series(i, robot.state == DMRP_ROBOT_FINISHED ? 0.4 : 1.0);
+    const Color color =
+        robot.state == DMRP_ROBOT_FAILED ? given_up : of_series(i, robot.state == DMRP_ROBOT_FINISHED ? 0.4 : 1.0);
     entity_.clear();
     entity_.note("name", robot.name);
     entity_.note("state", states[std::min<std::uint32_t>(robot.state, 2)]);

@@ -83,10 +83,10 @@ class FoxgloveChannels {
   std::vector<std::uint16_t> scans_;  // by robot, from the first scan on
   std::vector<Robot> robots_;
   std::vector<std::string> shapes_;
-  std::int64_t t_ns_ = 0;        // of the last sample
-  std::int64_t shown_ns_ = -1;   // of the last sample that is shown
-  std::int64_t told_ns_ = -1;    // of the last trajectory
-  std::uint32_t told_ = 0;       // trajectories at that time
+  std::int64_t t_ns_ = 0;       // of the last sample
+  std::int64_t shown_ns_ = -1;  // of the last sample that is shown
+  std::int64_t told_ns_ = -1;   // of the last trajectory
+  std::uint32_t told_ = 0;      // trajectories at that time
   std::uint32_t contact_count_ = 0;
   std::uint32_t mark_count_ = 0;
 

@@ -13,9 +13,8 @@ constexpr const char* string = R"({"type":"string"})";
 constexpr const char* boolean = R"({"type":"boolean"})";
 constexpr const char* whole = R"({"type":"integer","minimum":0})";
 constexpr const char* bytes = R"({"type":"string","contentEncoding":"base64"})";
-constexpr const char* time =
-    R"({"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},)"
-    R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}},"required":["sec","nsec"]})";
+constexpr const char* time = R"({"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},)"
+                             R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}},"required":["sec","nsec"]})";
 constexpr const char* duration =
     R"({"type":"object","title":"duration","properties":{"sec":{"type":"integer"},)"
     R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}},"required":["sec","nsec"]})";
@@ -77,11 +76,9 @@ std::string sized(const std::string& title) {
   return object(title, {{"pose", pose()}, {"size", vector3()}, {"color", color()}});
 }
 std::string cylinder() {
-  return object("foxglove.CylinderPrimitive", {{"pose", pose()},
-                                               {"size", vector3()},
-                                               {"bottom_scale", number},
-                                               {"top_scale", number},
-                                               {"color", color()}});
+  return object(
+      "foxglove.CylinderPrimitive",
+      {{"pose", pose()}, {"size", vector3()}, {"bottom_scale", number}, {"top_scale", number}, {"color", color()}});
 }
 std::string line() {
   return object("foxglove.LinePrimitive",

@@ -8,8 +8,8 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double steps_a_unit = 10'000.0;   // four decimals
-constexpr double most_steps = 9.0e15;       // beyond, steps are no whole numbers any more
+constexpr double steps_a_unit = 10'000.0;  // four decimals
+constexpr double most_steps = 9.0e15;      // beyond, steps are no whole numbers any more
 
 char hex_digit(unsigned value) {
   return "0123456789abcdef"[value & 15u];

@@ -15,10 +15,10 @@ class JsonText {
     text_.append(json);
     return *this;
   }
-  JsonText& string(std::string_view text);        // quoted and escaped
+  JsonText& string(std::string_view text);  // quoted and escaped
   JsonText& integer(std::int64_t value);
-  JsonText& number(double value);                 // to four decimals; 0 for what JSON has no number for
-  JsonText& comma_unless_first();                 // between elements, where the buffer holds nothing but these
+  JsonText& number(double value);  // to four decimals; 0 for what JSON has no number for
+  JsonText& comma_unless_first();  // between elements, where the buffer holds nothing but these
 
   void clear() { text_.clear(); }
   const std::string& text() const { return text_; }

@@ -20,7 +20,15 @@ namespace dmrp::core {
 
 inline constexpr std::uint32_t trace_format_version = 1;
 
-enum class TraceRecordKind : std::uint8_t { world = 1, plan = 2, sample = 3, trajectory = 4, note = 5, end = 6, scan = 7 };
+enum class TraceRecordKind : std::uint8_t {
+  world = 1,
+  plan = 2,
+  sample = 3,
+  trajectory = 4,
+  note = 5,
+  end = 6,
+  scan = 7
+};
 
 inline constexpr std::size_t trace_record_prefix_bytes = 5;  // length and kind
 

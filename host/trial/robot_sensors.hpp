@@ -35,11 +35,13 @@ class RobotSensors {
   // A control tick begins: what was read before is out of date.
   void tick();
 
+  // What its lidar sees; the same however often it is asked for.
+  const dmrp_scan& scan();
+
   // The others that the robot is told of, as in its observation.
   const std::vector<dmrp_agent>& agents();
 
  private:
-  const dmrp_scan& scan();
   const dmrp_obstacle_cluster_list& clusters();
 
   const core::World& world_;
