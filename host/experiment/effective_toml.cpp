@@ -123,8 +123,8 @@ std::string effective_toml(const Experiment& experiment) {
   write_simulation(out, experiment);
   write_robot(out, experiment.robot);
   static constexpr const char* const traces[] = {"all", "failed", "none"};
-  out += fmt::format("\n[record]\ntraces      = \"{}\"\nannotations = {}\n",
-                     traces[static_cast<int>(experiment.traces)], experiment.annotations);
+  out += fmt::format("\n[record]\ntraces      = \"{}\"\nscans       = {}\nannotations = {}\n",
+                     traces[static_cast<int>(experiment.traces)], experiment.scans, experiment.annotations);
   const RunLimits& l = experiment.limits;
   out += fmt::format(
       "\n[limits]\nplanner_time_s    = {}\nstep_time_s       = {}\ntrial_wall_time_s = {}\nmemory_mb         = {}\n",

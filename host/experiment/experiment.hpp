@@ -72,6 +72,7 @@ struct Experiment {
   core::SimulationSettings simulation;
   core::RobotSettings robot;
   RecordTraces traces = RecordTraces::all;
+  bool scans = false;        // traces keep what the robots' lidars see at every control tick
   bool annotations = false;  // traces keep what plugins say through dmrp.annotate/1
   RunLimits limits;
   std::vector<std::string> warnings;  // one line each

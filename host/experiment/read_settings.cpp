@@ -164,6 +164,7 @@ void read_robot(const TomlTable& root, core::RobotSettings& to) {
 void read_record(const TomlTable& root, Experiment& experiment) {
   if (const auto table = root.find_table("record"))
     table->read({{"traces", choice(experiment.traces, {"all", "failed", "none"})},
+                 {"scans", [&](const TomlValue& value) { experiment.scans = value.boolean(); }},
                  {"annotations", [&](const TomlValue& value) { experiment.annotations = value.boolean(); }}});
 }
 

@@ -39,11 +39,13 @@ class RobotSensors {
   // Where the robot believes it is and how fast; all that it is told of lies about it there.
   const core::Odometry& odometry() const { return odometry_; }
 
+  // What its lidar sees; the same however often it is asked for.
+  const dmrp_scan& scan();
+
   // The others that the robot is told of, as in its observation.
   const std::vector<dmrp_agent>& agents();
 
  private:
-  const dmrp_scan& scan();
   const dmrp_obstacle_cluster_list& clusters();
 
   const core::World& world_;

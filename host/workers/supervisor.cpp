@@ -152,6 +152,7 @@ class Supervisor {
     Job job;
     job.trial = trial.record.id;
     job.skip_metrics = trial.skip_metrics;
+    job.known_events = trial.record.events;
     job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
     if (experiment_.traces != RecordTraces::none)
       job.trace_file =
