@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "host/report/replays.hpp"
 #include "host/report/report_layout.hpp"
 #include "host/report/report_run.hpp"
 #include "host/results/summary_layout.hpp"
@@ -45,12 +46,6 @@ struct ReplayMention {
   std::uint64_t trial = 0;
   std::vector<std::string> why;  // "median", "worst", "failure", "fault", "asked"
   std::string element;
-};
-
-struct ReplaysLeftOut {
-  std::string why;
-  std::uint64_t trials = 0;
-  std::string reason;
 };
 
 struct ReplayIndex {
