@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "host/report/replays.hpp"
 #include "host/report/report_layout.hpp"
 #include "host/report/report_run.hpp"
 #include "host/results/summary_layout.hpp"
@@ -46,12 +47,6 @@ struct ReplayMention {
   std::uint64_t trial = 0;
   std::vector<std::string> why;  // "median", "worst", "failure", "fault", "asked"
   std::string element;
-};
-
-struct ReplaysLeftOut {
-  std::string why;
-  std::uint64_t trials = 0;
-  std::string reason;
 };
 
 struct ReplayIndex {

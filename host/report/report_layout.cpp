@@ -59,6 +59,10 @@ ReportLayout parse(std::string_view text) {
   }
   for (const Json& curve : json.value("curves", Json::array()))
     layout.curves.push_back({curve.at("metric"), curve.at("coordinate"), curve.at("coordinate_unit")});
+  if (json.contains("replays")) {
+    json["replays"].at("rank_by").get_to(layout.replays.rank_by);
+    layout.replays.budget_bytes = json["replays"].at("megabytes").get<std::size_t>() * 1'000'000;
+  }
   return layout;
 }
 
