@@ -5,10 +5,9 @@
 
 namespace dmrp::pedestrians {
 
-void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
+void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m) {
   lower_ = lower;
-  squared_reach_ = reach_m * reach_m;
-  cells_per_m_ = cells_in_reach / reach_m;
+  cells_per_m_ = 1.0 / cell_m;
   const auto count = [&](double extent_m) {
     return std::max(static_cast<std::int32_t>(std::ceil(extent_m * cells_per_m_)), 1);
   };
@@ -16,6 +15,8 @@ void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
   rows_ = count(upper.y - lower.y);
   begins_.assign(cell(0, rows_) + 1, 0);
   sorted_.clear();
+  positions_.clear();
+  found_.clear();
 }
 
 void NeighborGrid::build(const std::vector<Body>& bodies) {
@@ -31,7 +32,13 @@ void NeighborGrid::build(const std::vector<Body>& bodies) {
 
   // put every body where its cell begins, moving that on; afterwards each begin stands at the cell's end
   sorted_.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) sorted_[begins_[cell_of_body_[i]]++] = bodies[i];
+  positions_.resize(bodies.size());
+  found_.resize(bodies.size() + 1);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::uint32_t place = begins_[cell_of_body_[i]]++;
+    sorted_[place] = bodies[i];
+    positions_[place] = bodies[i].position;
+  }
   for (std::size_t c = begins_.size() - 1; c > 0; --c) begins_[c] = begins_[c - 1];
   begins_[0] = 0;
 }

@@ -22,42 +22,55 @@ struct Body {
 
 inline constexpr std::uint32_t no_slot = 0xFFFFFFFFu;
 
+// A body found near a point.
+struct NearBody {
+  double squared_distance;
+  const Body* body;
+};
+
+struct NearBodies {
+  const NearBody* first;
+  const NearBody* last;
+  const NearBody* begin() const { return first; }
+  const NearBody* end() const { return last; }
+};
+
 // The grid is laid over the world, not over the crowd, and bodies of a cell keep their order, so that what one person
 // sees does not depend on people far away. Bodies outside the world count to the cells at its border.
 class NeighborGrid {
  public:
-  // Bodies up to `reach_m` apart are found.
-  void start(dmrp_vec2 lower, dmrp_vec2 upper, double reach_m);
+  // Cells of this size; the result is the same for any, the best is a fraction of what is looked through.
+  void start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m);
 
   // Sorts the bodies in by counting. Allocates only where there are more bodies than ever before.
   void build(const std::vector<Body>& bodies);
 
-  // Calls visit(body, squared_distance) for every body within reach of the point, in an order that only the bodies
-  // near it decide. A body at the point itself is visited too.
-  template <class Visit>
-  void for_each_near(dmrp_vec2 point, Visit&& visit) const {
-    const std::int32_t column = column_of(point.x);
-    const std::int32_t row = row_of(point.y);
-    const std::int32_t first_column = std::max(column - cells_in_reach, 0);
-    const std::int32_t last_column = std::min(column + cells_in_reach, columns_ - 1);
-    const std::int32_t last_row = std::min(row + cells_in_reach, rows_ - 1);
-    for (std::int32_t r = std::max(row - cells_in_reach, 0); r <= last_row; ++r) {
+  // All bodies within `reach_m` of the point, in an order that only the bodies near it decide; a body at the point
+  // itself is one of them. Valid until the next call of near() or build().
+  NearBodies near(dmrp_vec2 point, double reach_m) {
+    const std::int32_t first_column = column_of(point.x - reach_m);
+    const std::int32_t last_column = column_of(point.x + reach_m);
+    const std::int32_t last_row = row_of(point.y + reach_m);
+    const double squared_reach = reach_m * reach_m;
+    NearBody* free = found_.data();
+    for (std::int32_t row = row_of(point.y - reach_m); row <= last_row; ++row) {
       // the cells of a row follow each other, so its bodies are one run
-      const std::uint32_t end = begins_[cell(last_column, r) + 1];
-      for (std::uint32_t i = begins_[cell(first_column, r)]; i < end; ++i) {
-        const Body& body = sorted_[i];
-        const double dx = body.position.x - point.x;
-        const double dy = body.position.y - point.y;
-        const double squared_distance = dx * dx + dy * dy;
-        if (squared_distance <= squared_reach_) visit(body, squared_distance);
+      const std::uint32_t end = begins_[cell(last_column, row) + 1];
+      for (std::uint32_t i = begins_[cell(first_column, row)]; i < end; ++i) {
+        const double dx = positions_[i].x - point.x;
+        const double dy = positions_[i].y - point.y;
+        // always written, but the next one takes its place where it is too far: no jump to predict
+        *free = {dx * dx + dy * dy, &sorted_[i]};
+        free += free->squared_distance <= squared_reach ? 1 : 0;
       }
     }
+    return {found_.data(), free};
   }
 
- private:
-  // Cells of half the reach: a 5 x 5 block covers less ground than 3 x 3 cells of the whole.
-  static constexpr std::int32_t cells_in_reach = 2;
+  // The bodies by cell, row by row: who works through people in this order finds their neighbours in the cache.
+  const std::vector<Body>& by_place() const { return sorted_; }
 
+ private:
   std::size_t cell(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
@@ -69,12 +82,13 @@ class NeighborGrid {
 
   dmrp_vec2 lower_ = {0.0, 0.0};
   double cells_per_m_ = 1.0;
-  double squared_reach_ = 0.0;
   std::int32_t columns_ = 1;
   std::int32_t rows_ = 1;
   std::vector<std::uint32_t> begins_;  // of every cell in sorted_, and the end
   std::vector<std::uint32_t> cell_of_body_;
   std::vector<Body> sorted_;
+  std::vector<dmrp_vec2> positions_;  // of sorted_
+  std::vector<NearBody> found_;       // room for all, and one more
 };
 
 }  // namespace dmrp::pedestrians

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
@@ -20,12 +19,11 @@ constexpr double speed_cap_factor = 1.3;
 constexpr double fastest_m_s = 5.0;
 constexpr double broadest_radius_m = 0.5;
 
+// Of the grid's cells; the share of the reach that makes the search shortest.
+constexpr double cell_per_reach = 0.4;
+
 // Two who avoid each other take half each.
 constexpr double even_share = 0.5;
-
-// Preferred velocities are turned by up to this much, rad: nothing that one could see, and yet no two people meet in
-// perfect symmetry, in which neither would give way.
-constexpr double widest_turn = 1e-3;
 
 }  // namespace
 
@@ -40,11 +38,10 @@ Descriptor Orca::describe() {
 }
 
 Status Orca::start(const World& world, std::uint64_t seed) {
-  seed_ = seed;
+  leanings_.start(seed);
   ways_.start(world.walking_grid());
-  grid_.start(world->lower, world->upper, neighbor_distance);
+  grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
-  leanings_.clear();
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
@@ -54,7 +51,9 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
   grid_.build(bodies_);
 
   const double step_s = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : grid_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     const double max_speed = speed_cap_factor * person.desired_speed;
     planes_.clear();
@@ -88,9 +87,6 @@ void Orca::gather(const Crowd& crowd) {
   if (robot_awareness > 0.0)
     for (const Agent& robot : crowd.robots)
       bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
-
-  for (std::size_t slot = leanings_.size(); slot < crowd.people.size(); ++slot)
-    leanings_.push_back({~crowd.people[slot].id, 0.0});
 }
 
 std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
@@ -98,36 +94,30 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
   const auto id = [&](const Body* body) {
     return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
   };
-  const auto comes_before = [&](const Neighbor& a, const Neighbor& b) {
+  const auto comes_before = [&](const NearBody& a, const NearBody& b) {
     return a.squared_distance < b.squared_distance ||
            (a.squared_distance == b.squared_distance && id(a.body) < id(b.body));
   };
 
   std::size_t count = 0;
-  grid_.for_each_near(people[slot].position, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
-    const Neighbor found = {squared_distance, &other};
+  for (const NearBody& found : grid_.near(people[slot].position, neighbor_distance)) {
+    if (found.body->slot == slot || !(found.squared_distance > 0.0)) continue;
     if (count < most) {
       ++count;
     } else if (!comes_before(found, neighbors_[most - 1])) {
-      return;
+      continue;
     }
     std::size_t place = count - 1;
     for (; place > 0 && comes_before(found, neighbors_[place - 1]); --place) neighbors_[place] = neighbors_[place - 1];
     neighbors_[place] = found;
-  });
+  }
   return count;
 }
 
 Vec2 Orca::preferred_velocity(std::uint32_t slot, const Person& person, double step_s) {
-  Leaning& leaning = leanings_[slot];
-  if (leaning.person_id != person.id)
-    leaning = {person.id, toolkit::Stream(seed_, "pedestrian.leaning", person.id).uniform(-widest_turn, widest_turn)};
-
-  const Vec2 direction = ways_.direction(slot, person);
   const double to_target_m = toolkit::distance(person.position, person.target);
   const double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
-  return speed * (direction + leaning.turn * toolkit::perpendicular(direction));
+  return speed * leanings_.lean(slot, person, ways_.direction(slot, person));
 }
 
 }  // namespace dmrp::pedestrians

@@ -8,6 +8,7 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
+#include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
 #include "crowd/way_finding.hpp"
 #include "orca/half_plane.hpp"
@@ -35,31 +36,19 @@ class Orca final : public PedestrianModel {
   Status step(const Crowd& crowd, Vec2* velocities) override;
 
  private:
-  struct Neighbor {
-    double squared_distance;
-    const Body* body;
-  };
-
-  // Which way somebody leans where both sides are as good.
-  struct Leaning {
-    std::uint64_t person_id;
-    double turn;  // of the preferred velocity, rad
-  };
-
   void gather(const Crowd& crowd);
   std::size_t find_neighbors(std::uint32_t slot, const Span<Person>& people);  // how many there are
   HalfPlane permitted_beside(const Body& other, const Person& person, double step_s) const;
   Vec2 preferred_velocity(std::uint32_t slot, const Person& person, double step_s);
 
-  std::uint64_t seed_ = 0;
   WayFinder ways_;
+  Leanings leanings_;
   NeighborGrid grid_;
   WallObstacles walls_;
   VelocityProgram program_;
   std::vector<Body> bodies_;
-  std::vector<Neighbor> neighbors_;  // nearest first; by id where distances are equal
+  std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
   std::vector<HalfPlane> planes_;
-  std::vector<Leaning> leanings_;  // by slot
 };
 
 }  // namespace dmrp::pedestrians

@@ -6,12 +6,18 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "crowd/wall_push.hpp"
+#include "social_force/headway.hpp"
+
 namespace dmrp::pedestrians {
 
 namespace {
 
 // Others further away than this are not minded, m.
 constexpr double neighbor_reach_m = 5.0;
+
+// The cells of the grid, m.
+constexpr double neighbor_cell_m = 2.0;
 
 // Walls are minded where the nearest point is this near to a person's centre, m.
 constexpr double wall_reach_m = 1.5;
@@ -45,7 +51,7 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
   seed_ = seed;
   ways_.start(world.walking_grid());
   groups_.start();
-  neighbors_.start(world->lower, world->upper, neighbor_reach_m);
+  neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
@@ -56,7 +62,9 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+  for (const Body& body : neighbors_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     Vec2 velocity = person.velocity + dt * acceleration(slot, crowd.people);
     if (motion_noise > 0.0) {
@@ -85,9 +93,12 @@ void SocialForce::gather(const Crowd& crowd) {
 
 Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
   const Person& person = people[slot];
-  const Vec2 desired = person.desired_speed * ways_.direction(slot, person);
+  const Vec2 way = ways_.direction(slot, person);
+  double speed = person.desired_speed;
+  const Vec2 others = from_others(slot, person, way, speed);
+  const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + from_others(slot, person) + from_group(slot, people, desired) + from_walls(person);
+  return drive + others + from_group(slot, people, desired) + from_walls(person);
 }
 
 // How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
@@ -97,19 +108,25 @@ double SocialForce::keeping_off(double gap_m) const {
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
 }
 
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) const {
+// Lowers `speed` to what those ahead permit.
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) {
   Vec2 sum = {0.0, 0.0};
-  neighbors_.for_each_near(person.position, [&](const Body& other, double squared_distance) {
-    if (other.slot == slot || !(squared_distance > 0.0)) return;
+  for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
+    const Body& other = *body;
+    if (other.slot == slot || !(squared_distance > 0.0)) continue;
     const double distance_m = std::sqrt(squared_distance);
     const Vec2 apart = other.position - person.position;
-    const double gap_m = distance_m - person.radius_m - other.radius_m;
+    const Vec2 toward = apart / distance_m;
+    const double reach_m = person.radius_m + other.radius_m;
+    const double gap_m = distance_m - reach_m;
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
-    Vec2 force = social_weight *
-                 interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
-    force -= apart * (keeping_off(gap_m) / distance_m);
-    sum += other.weight * force;
-  });
+    const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
+    sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
+
+    const double following_s = other.weight * time_gap;
+    if (gap_m < speed * following_s)
+      speed = std::min(speed, headway(way, apart, reach_m, other.velocity) / following_s);
+  }
   return sum;
 }
 
@@ -136,20 +153,10 @@ Vec2 SocialForce::from_group(std::uint32_t slot, const Span<Person>& people, Vec
          cohesion_weight * closing_up * toolkit::normalized(to_center) + repulsion_weight * elbow_room;
 }
 
-// Walls push by their distance. Where several lie in much the same direction (pieces of one wall, the two sides of a
-// corner) they share one push between them, so that it makes no difference of how many pieces a wall is made.
 Vec2 SocialForce::from_walls(const Person& person) {
   walls_.nearest_points(person.position, wall_points_);
-  Vec2 sum = {0.0, 0.0};
-  for (const WallPoint& wall : wall_points_) {
-    double sharers = 0.0;
-    for (const WallPoint& other : wall_points_) {
-      const double alike = toolkit::dot(wall.away, other.away);
-      if (alike > 0.0) sharers += alike * std::exp((wall.distance_m - other.distance_m) / obstacle_sigma);
-    }
-    sum += wall.away * (keeping_off(wall.distance_m - person.radius_m) / sharers);
-  }
-  return sum;
+  return push_of_walls(wall_points_, obstacle_sigma,
+                       [&](double distance_m) { return keeping_off(distance_m - person.radius_m); });
 }
 
 }  // namespace dmrp::pedestrians

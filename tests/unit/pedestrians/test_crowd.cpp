@@ -19,7 +19,7 @@ using dmrp::toolkit::Stream;
 TEST_CASE("the neighbour grid finds whom a search through all finds") {
   const double reach_m = GENERATE(0.7, 5.0, 100.0);
   NeighborGrid grid;
-  grid.start({-10.0, 0.0}, {13.0, 17.0}, reach_m);
+  grid.start({-10.0, 0.0}, {13.0, 17.0}, GENERATE(0.5, 2.0, 30.0));
   for (uint64_t round = 0; round < 5; ++round) {
     // some stand outside the world
     Stream chance(1, "bodies", round);
@@ -34,7 +34,7 @@ TEST_CASE("the neighbour grid finds whom a search through all finds") {
       for (const Body& body : bodies)
         if (dmrp::toolkit::squared_distance(body.position, point) <= reach_m * reach_m) expected.push_back(body.slot);
       std::vector<std::uint32_t> found;
-      grid.for_each_near(point, [&](const Body& body, double squared_distance) {
+      grid.for_each_near(point, reach_m, [&](const Body& body, double squared_distance) {
         found.push_back(body.slot);
         REQUIRE(squared_distance == Approx(dmrp::toolkit::squared_distance(body.position, point)));
       });

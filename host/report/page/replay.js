@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// replay.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
+//
+// For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
+// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people. The section carries the id of the
+// trial that is shown as data-trial once it can be played.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+  let player = null;
+
+  function make_player(section, data) {
+    const clock = dmrp.replay_clock.make_clock();
+    const layers = {plans: true, trails: true, people: true};
+    const scene = {replay: null, at: null, picked: null, follow: false, layers, events: [], colours: null, whole_trails: false};
+    let latest = 0;  // number of the last request: an older one that comes late is dropped
+
+    const stage = dmrp.replay_stage.make_stage({pick, redraw});
+    const time_line = dmrp.replay_time_line.make_time_line(data, {jump, go: seek});
+    const curves = dmrp.replay_curves.make_curves({pick, go: seek});
+    const robots = dmrp.replay_lists.make_robot_list({pick});
+    const happened = dmrp.replay_lists.make_event_list({jump});
+    const chooser = dmrp.replay_chooser.make_chooser(data, open);
+    const summary = element('p', {class: 'note replay-summary', 'aria-live': 'polite'});
+
+    function layer_box(name, title) {
+      const box = element('input', {type: 'checkbox', checked: layers[name], 'data-testid': `replay-${name}`,
+        onchange: () => { layers[name] = box.checked; redraw(); }});
+      return element('label', {class: 'control check'}, box, element('span', {}, title));
+    }
+
+    const follow_box = element('input', {type: 'checkbox', 'data-testid': 'replay-follow',
+      onchange: () => { scene.follow = follow_box.checked; if (scene.follow) prepare_following(); redraw(); }});
+    const boxes = element('div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
+      layer_box('people', 'people'), element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow robot')));
+
+    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), boxes);
+    const node = element('div', {class: 'replay-player'},
+      element('div', {class: 'replay-main'}, stage.node, time_line.node, controls),
+      element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node));
+    dmrp.replay_transport.follow_keys(node, clock, {pick, zoom: stage.zoom});
+
+    function redraw() {
+      if (!scene.replay) return;
+      scene.at = dmrp.replay_data.moment(scene.replay, clock.t);
+      stage.draw(scene);
+      time_line.draw(clock.t);
+      curves.draw(scene.at, scene.picked);
+      robots.draw(scene.at, clock.playing);
+      happened.draw(clock.t);
+    }
+
+    function pick(index) {
+      if (index !== null && (!scene.replay || index >= scene.replay.robots.length)) return;
+      scene.picked = index === scene.picked ? null : index;
+      robots.pick(scene.picked);
+      curves.pick(scene.picked);
+      redraw();
+    }
+
+    function prepare_following() {
+      if (scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
+      if (stage.node.dataset.mode === '2d') stage.zoom(2.5);
+    }
+
+    function seek(t) {
+      clock.pause();
+      clock.go(t);
+    }
+
+    // A little before, so that it can be seen coming.
+    function jump(event) {
+      seek(event.from);
+      if (event.robots.length > 0 && scene.picked !== event.robots[0]) pick(event.robots[0]);
+    }
+
+    function show(replay) {
+      scene.replay = replay;
+      scene.picked = null;
+      scene.events = dmrp.replay_events.all_events(replay);
+      scene.at = dmrp.replay_data.moment(replay, 0);
+      scene.colours = dmrp.replay_look.read_colours();
+      robots.show(replay);
+      robots.pick(null);
+      happened.show(scene.events);
+      stage.show(scene);
+      time_line.show(replay, scene.events);
+      curves.show(replay, scene.events);
+      clock.begin(replay.end);
+    }
+
+    async function open(trial) {
+      const entry = data.replays.find((one) => one.trial === trial);
+      if (!entry) return false;
+      const request = ++latest;
+      clock.pause();
+      chooser.show(trial);
+      delete section.dataset.trial;
+      try {
+        const replay = await dmrp.replay_data.load(document.getElementById(entry.element));
+        if (request !== latest) return false;
+        stage.say('');
+        show(replay);
+      } catch (error) {
+        if (request === latest) stage.say(`This replay cannot be unpacked here: ${error.message}`);
+        return false;
+      }
+      summary.textContent = `${dmrp.replay_chooser.summary(data, entry)}: ended after ${scene.replay.end.toFixed(1)} s, ${scene.replay.reason}.`;
+      section.dataset.trial = trial;
+      return true;
+    }
+
+    function relook() {
+      scene.colours = dmrp.replay_look.read_colours();
+      stage.forget();
+      redraw();
+    }
+
+    function resize() {
+      stage.resize();
+      time_line.resize();
+      curves.resize();
+      curves.pick(scene.picked);
+      redraw();
+    }
+
+    // Paper shows where everybody went.
+    function print(begins) {
+      clock.pause();
+      scene.whole_trails = begins;
+      relook();
+    }
+
+    let width = 0;
+    new ResizeObserver(() => {
+      if (node.clientWidth === width) return;
+      width = node.clientWidth;
+      requestAnimationFrame(resize);
+    }).observe(node);
+    window.addEventListener('resize', () => requestAnimationFrame(resize));
+    window.addEventListener('beforeprint', () => print(true));
+    window.addEventListener('afterprint', () => print(false));
+    document.addEventListener('dmrp:theme', relook);
+    clock.on_change(redraw);
+    return {node, chooser: chooser.node, summary, open};
+  }
+
+  function notes(data) {
+    return dmrp.replay_chooser.left_out_words(data).map((words) => element('p', {class: 'note'}, words));
+  }
+
+  function mount(section, data) {
+    const body = section.querySelector('.section-body') || section;
+    if (data.replays.length === 0) {
+      body.append(element('p', {class: 'note'}, 'No trial can be replayed.'), ...notes(data));
+      return;
+    }
+    player = make_player(section, data);
+    body.append(player.chooser, player.summary, player.node, ...notes(data));
+    const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
+    player.open(first.trial);
+  }
+
+  dmrp.replay = {
+    mount,
+    has: (trial) => (dmrp.data.replays || []).some((replay) => replay.trial === trial),
+    open: (trial) => (player ? player.open(trial) : Promise.resolve(false)),
+  };
+})(window.dmrp);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// replay_chooser.js: which trial is replayed: a combination, then one of its trials, each with why it is here.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+
+  const row_of = (data, trial) => data.trials.id.indexOf(trial);
+  const combination_of = (data, trial) => data.trials.combination[row_of(data, trial)];
+
+  function combination_words(data, index) {
+    const combination = data.combinations[index];
+    const names = [combination.scenario];
+    if (dmrp.labels.distinct(data.combinations.map((one) => `${one.scenario}/${one.robots}`)).length >
+        dmrp.labels.distinct(data.combinations.map((one) => one.scenario)).length)
+      names.push(dmrp.numbers.counted(combination.robots, 'robot'));
+    names.push(dmrp.labels.combination(data, index));
+    return names.join(' · ');
+  }
+
+  function trial_words(data, replay) {
+    const row = row_of(data, replay.trial);
+    return `trial ${replay.trial}: ${replay.why.join(', ')}, ${dmrp.numbers.fixed(data.trials.sim_time_s[row], 1)} s`;
+  }
+
+  // One line about a trial.
+  function summary(data, replay) {
+    const row = row_of(data, replay.trial);
+    return [`Trial ${replay.trial}`, combination_words(data, data.trials.combination[row]), `seed ${data.trials.seed[row]}`,
+      data.trials.outcome[row]].join(' · ');
+  }
+
+  function labelled(title, box) {
+    return element('label', {class: 'control'}, element('span', {}, title), box);
+  }
+
+  // `choose` gets the id of a trial.
+  function make_chooser(data, choose) {
+    const with_replays = dmrp.labels.distinct(data.replays.map((replay) => combination_of(data, replay.trial))).sort((a, b) => a - b);
+    const combination_box = element('select', {'data-testid': 'replay-combination'},
+      with_replays.map((index) => element('option', {value: index}, combination_words(data, index))));
+    const trial_box = element('select', {'data-testid': 'replay-trial'});
+
+    function fill_trials(combination) {
+      trial_box.textContent = '';
+      for (const replay of data.replays)
+        if (combination_of(data, replay.trial) === combination)
+          trial_box.append(element('option', {value: replay.trial}, trial_words(data, replay)));
+    }
+
+    combination_box.addEventListener('change', () => {
+      fill_trials(Number(combination_box.value));
+      choose(Number(trial_box.value));
+    });
+    trial_box.addEventListener('change', () => choose(Number(trial_box.value)));
+
+    function show(trial) {
+      combination_box.value = combination_of(data, trial);
+      fill_trials(combination_of(data, trial));
+      trial_box.value = trial;
+    }
+
+    const node = element('div', {class: 'controls'},
+      with_replays.length > 1 ? labelled('Combination', combination_box) : null, labelled('Trial', trial_box));
+    return {node, show};
+  }
+
+  // What is not here, in a sentence each.
+  function left_out_words(data) {
+    const kinds = {median: 'median trial', worst: 'worst trial', failure: 'failed trial', fault: 'trial with a fault', asked: 'trial that was asked for'};
+    return data.replays_left_out.map((one) => {
+      const noun = kinds[one.why] || 'trial';
+      return `${dmrp.numbers.counted(one.trials, noun, noun.replace('trial', 'trials'))} left out: ${one.reason}.`;
+    });
+  }
+
+  dmrp.replay_chooser = {make_chooser, summary, left_out_words};
+})(window.dmrp);

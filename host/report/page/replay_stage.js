@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// replay_stage.js: the picture of a replay: the flat map, or the view in three dimensions, which is made when first asked
+// for; and the small buttons on it.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+
+  function tool(text, label, id, pressed) {
+    return element('button', {type: 'button', class: 'button', 'aria-label': label, title: label, 'data-testid': id, onclick: pressed}, text);
+  }
+
+  // handlers: pick(robot index or null), redraw().
+  function make_stage(handlers) {
+    const flat_canvas = element('canvas', {class: 'replay-canvas', 'data-testid': 'replay-map'});
+    const message = element('p', {class: 'replay-message', role: 'status', hidden: true});
+    const flat_button = tool('2-D', 'flat map', 'replay-2d', () => choose('flat'));
+    const solid_button = tool('3-D', 'view in three dimensions', 'replay-3d', () => choose('solid'));
+    const tip = element('div', {class: 'replay-tip', hidden: true});
+    const node = element('div', {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'}, flat_canvas,
+      element('div', {class: 'replay-tools segmented'}, flat_button, solid_button),
+      element('div', {class: 'replay-tools replay-zoom segmented'},
+        tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)), tool('+', 'larger', 'replay-zoom-in', () => zoom(1.4)),
+        tool('⤢', 'all of it', 'replay-fit', fit)),
+      tip, message);
+    const map = dmrp.replay_map.make_map(flat_canvas);
+    let solid = null;  // replay_3d.js, once it was wanted
+    let mode = 'flat';
+    let scene = null;
+
+    const current = () => (mode === 'solid' ? solid : map);
+
+    function say(text) {
+      message.textContent = text;
+      message.hidden = text === '';
+    }
+
+    function show_mode() {
+      flat_button.setAttribute('aria-pressed', String(mode === 'flat'));
+      solid_button.setAttribute('aria-pressed', String(mode === 'solid'));
+      flat_canvas.hidden = mode !== 'flat';
+      if (solid) solid.canvas.hidden = mode !== 'solid';
+      node.dataset.mode = mode === 'solid' ? '3d' : '2d';
+    }
+
+    function choose(wanted) {
+      say('');
+      if (wanted === 'solid' && !solid) {
+        solid = dmrp.replay_3d.make_view();
+        if (!solid) {
+          say('This browser offers no WebGL, which the view in three dimensions needs. The flat map shows the same.');
+          return;
+        }
+        flat_canvas.after(solid.canvas);
+        dmrp.replay_pointer.follow(solid.canvas, {
+          tap: (x, y) => handlers.pick(scene ? solid.robot_at(scene, x, y) : null),
+          drag: (dx, dy, second_way) => { second_way ? solid.shift(dx, dy) : solid.orbit(dx, dy); handlers.redraw(); },
+          pinch: (factor) => zoom(factor),
+          hover: () => {},
+        });
+      }
+      mode = wanted;
+      show_mode();
+      resize();
+      handlers.redraw();
+    }
+
+    function zoom(factor, x, y) {
+      mode === 'solid' ? solid.zoom_by(factor) : map.view.zoom_by(factor, x, y);
+      flat_canvas.classList.toggle('zoomed', map.view.zoom > 1);
+      handlers.redraw();
+    }
+
+    function fit() {
+      current().fit ? current().fit() : map.view.fit();
+      flat_canvas.classList.remove('zoomed');
+      handlers.redraw();
+    }
+
+    function hover(x, y) {
+      const words = x === null || !scene ? '' : map.words_at(scene, x, y);
+      tip.hidden = words === '';
+      if (words === '') return;
+      tip.textContent = words;
+      tip.style.left = `${Math.min(x + 14, Math.max(0, node.clientWidth - tip.offsetWidth - 4))}px`;
+      tip.style.top = `${y > 60 ? y - 34 : y + 18}px`;
+    }
+
+    dmrp.replay_pointer.follow(flat_canvas, {
+      tap: (x, y) => handlers.pick(scene ? map.robot_at(scene, x, y) : null),
+      drag: (dx, dy) => { map.view.shift_by(dx, dy); handlers.redraw(); },
+      pinch: zoom,
+      hover,
+    });
+
+    // As high as the world asks for, but never so high that the buttons below leave the window.
+    function resize() {
+      if (!scene) return;
+      const [width, height] = [0, 1].map((axis) => scene.replay.upper[axis] - scene.replay.lower[axis]);
+      const most = Math.max(260, window.innerHeight - 250);
+      node.style.height = `${Math.round(Math.min(most, Math.max(220, node.clientWidth * height / width)))}px`;
+      current().resize();
+    }
+
+    function show(shown) {
+      scene = shown;
+      map.view.show_world(scene.replay.lower, scene.replay.upper);
+      flat_canvas.classList.remove('zoomed');
+      node.setAttribute('aria-label', `map of ${dmrp.numbers.counted(scene.replay.robots.length, 'robot')}; space plays, arrows step, digits pick a robot`);
+      resize();
+      if (solid) solid.fit(scene);
+    }
+
+    function draw(drawn) {
+      scene = drawn;
+      current().draw(scene);
+    }
+
+    show_mode();
+    return {node, show, draw, resize, zoom, say, forget: () => map.forget()};
+  }
+
+  dmrp.replay_stage = {make_stage};
+})(window.dmrp);

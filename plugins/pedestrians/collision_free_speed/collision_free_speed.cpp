@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "collision_free_speed/collision_free_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+#include "collision_free_speed/speed_function.hpp"
+#include "crowd/wall_push.hpp"
+
+namespace dmrp::pedestrians {
+
+namespace {
+
+// Influences on the direction smaller than this are left out; the wish has 1.
+constexpr double negligible_influence = 1e-4;
+
+// Bodies and steps up to this broad and long are minded in time, m.
+constexpr double broadest_radius_m = 0.5;
+constexpr double longest_step_m = 0.1;
+
+// The cells of the grid, m.
+constexpr double neighbor_cell_m = 1.0;
+
+// The gap at which an influence has become negligible.
+double fading_gap(double strength, double range_m) {
+  return range_m * std::log(std::max(strength / negligible_influence, 1.0));
+}
+
+}  // namespace
+
+Descriptor CollisionFreeSpeed::describe() {
+  return Descriptor("dmrp.pedestrian.collision_free_speed", "Collision-free speed", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("people turn away from those near them and go as fast as the gap before them permits")
+      .source(
+          "Tordeux, Chraibi, Seyfried: Collision-free speed model for pedestrian dynamics, Traffic and Granular Flow "
+          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29");
+}
+
+Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
+  neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
+  leanings_.start(seed);
+  ways_.start(world.walking_grid());
+  neighbors_.start(world->lower, world->upper, neighbor_cell_m);
+  const double wall_reach_m = broadest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
+  walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
+  return Status::ok;
+}
+
+Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
+  gather(crowd);
+  neighbors_.build(bodies_);
+
+  const double step_s = seconds(crowd.dt_ns);
+  for (const Body& body : neighbors_.by_place()) {
+    if (body.slot == no_slot) continue;
+    const std::uint32_t slot = body.slot;
+    const Person& person = crowd.people[slot];
+    look_around(slot, person);
+    const Vec2 along = direction(slot, person);
+    velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
+  }
+  return Status::ok;
+}
+
+void CollisionFreeSpeed::gather(const Crowd& crowd) {
+  bodies_.clear();
+  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
+    const Person& person = crowd.people[slot];
+    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
+  }
+  if (robot_awareness > 0.0)
+    for (const Agent& robot : crowd.robots)
+      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
+}
+
+// All who are turned away from or who may be in the way, and the walls.
+void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person) {
+  near_.clear();
+  const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
+  const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
+  for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
+    if (other->slot == slot || !(squared_distance > 0.0)) continue;
+    const double sum_of_radii_m = person.radius_m + other->radius_m;
+    near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
+                     other->weight});
+  }
+  walls_.nearest_points(person.position, wall_points_);
+}
+
+// Where to go, turned away from bodies and walls; a unit vector, or zero.
+Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person) {
+  Vec2 sum = leanings_.lean(slot, person, ways_.direction(slot, person));
+  for (const Near& other : near_) {
+    if (other.gap_m > neighbor_reach_m_) continue;
+    const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
+    sum -= other.apart * (influence / (other.gap_m + other.reach_m));
+  }
+  sum += push_of_walls(wall_points_, wall_range, [&](double distance_m) {
+    return repulsion(wall_strength, wall_range, distance_m - person.radius_m);
+  });
+  return toolkit::normalized(sum);
+}
+
+double CollisionFreeSpeed::speed_along(Vec2 direction, const Person& person, double step_s) const {
+  const double to_target_m = toolkit::distance(person.position, person.target);
+  double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
+  for (const Near& other : near_)
+    if (is_in_the_way(direction, other.apart, other.reach_m))
+      speed = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
+  return speed;
+}
+
+// Without the part that would lead into a wall within the step: the repulsion alone fades over a shorter way than a
+// step is long.
+Vec2 CollisionFreeSpeed::kept_off_walls(Vec2 velocity, const Person& person, double step_s) const {
+  const auto excess = [&](const WallPoint& wall, Vec2 v) {
+    const double gap_m = std::max(wall.distance_m - person.radius_m, 0.0);
+    return -toolkit::dot(v, wall.away) - gap_m / step_s;
+  };
+  Vec2 kept = velocity;
+  for (const WallPoint& wall : wall_points_) kept += wall.away * std::max(excess(wall, kept), 0.0);
+  // in a corner, what one wall turns away may lead into another
+  constexpr double rounding_m_s = 1e-9;
+  for (const WallPoint& wall : wall_points_)
+    if (excess(wall, kept) > rounding_m_s) return {0.0, 0.0};
+  return kept;
+}
+
+}  // namespace dmrp::pedestrians
