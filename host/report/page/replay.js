@@ -33,9 +33,9 @@ window.dmrp = window.dmrp || {};
     const follow_box = element('input', {type: 'checkbox', 'data-testid': 'replay-follow',
       onchange: () => { scene.follow = follow_box.checked; if (scene.follow) prepare_following(); redraw(); }});
     const boxes = element('div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
-      layer_box('people', 'people'), element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow robot')));
+      layer_box('people', 'people'), element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow')));
 
-    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), boxes);
+    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), stage.tools, boxes);
     const node = element('div', {class: 'replay-player'},
       element('div', {class: 'replay-main'}, stage.node, time_line.node, controls),
       element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node));

@@ -104,7 +104,7 @@ window.dmrp = window.dmrp || {};
       if (wanted === built_of) return;
       if (set) dispose(set.stage);
       set = build(scene.replay, scene.colours);
-      if (!box || built_of.split(' ')[0] !== String(scene.replay.trial)) fit(scene);
+      if (!box || built_of.split(' ')[0] !== String(scene.replay.trial)) first_look(scene.replay);
       built_of = wanted;
     }
 
@@ -115,10 +115,12 @@ window.dmrp = window.dmrp || {};
       camera.resize(...size);
     }
 
-    function fit(scene) {
-      if (scene) box = [scene.replay.lower, scene.replay.upper];
-      camera.show_box(...box);
+    function first_look(replay) {
+      box = [replay.lower, replay.upper];
+      camera.show_box(...dmrp.replay_data.lively_box(replay));
     }
+
+    const fit = () => camera.show_box(...box);
 
     function draw(scene) {
       rebuild(scene);

@@ -105,6 +105,26 @@ window.dmrp = window.dmrp || {};
     return from_json(JSON.parse(await text_of(element)));
   }
 
+  const MARGIN_M = 3;
+
+  // The part of the world in which robots are about: [lower, upper].
+  function lively_box(replay) {
+    const lower = [Infinity, Infinity];
+    const upper = [-Infinity, -Infinity];
+    const take = (axis, value) => {
+      lower[axis] = Math.min(lower[axis], value);
+      upper[axis] = Math.max(upper[axis], value);
+    };
+    for (const robot of replay.robots) {
+      robot.x.forEach((x) => take(0, x));
+      robot.y.forEach((y) => take(1, y));
+      for (const goal of robot.goals) goal.at.forEach((value, axis) => take(axis, value));
+    }
+    if (replay.robots.length === 0) return [replay.lower, replay.upper];
+    return [lower.map((value, axis) => Math.max(replay.lower[axis], value - MARGIN_M)),
+      upper.map((value, axis) => Math.min(replay.upper[axis], value + MARGIN_M))];
+  }
+
   // The sample at or before a time, and how far it is to the next.
   function moment(replay, t) {
     const times = replay.times;
@@ -159,6 +179,6 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.replay_data = {
-    ACTIVE, FINISHED, FAILED, load, from_json, moment, robot_pose, person_pose, path_in_force, planned_place,
+    ACTIVE, FINISHED, FAILED, load, from_json, lively_box, moment, robot_pose, person_pose, path_in_force, planned_place,
   };
 })(window.dmrp);

@@ -16,7 +16,7 @@ window.dmrp = window.dmrp || {};
   function make_robot_list(handlers) {
     const body = element('tbody');
     const node = element('div', {class: 'replay-robots'}, element('table', {},
-      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'now'),
+      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'State'),
         element('th', {scope: 'col', class: 'number'}, 'm/s'), element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)'))),
       body));
     let rows = [];

@@ -161,7 +161,7 @@ window.dmrp = window.dmrp || {};
     if (Number.isNaN(pose.heading)) return;
     context.beginPath();
     context.moveTo(x + 0.35 * radius * Math.cos(pose.heading), y - 0.35 * radius * Math.sin(pose.heading));
-    context.lineTo(x + 1.5 * radius * Math.cos(pose.heading), y - 1.5 * radius * Math.sin(pose.heading));
+    context.lineTo(x + 1.4 * radius * Math.cos(pose.heading), y - 1.4 * radius * Math.sin(pose.heading));
     context.strokeStyle = colours.person;
     context.lineWidth = 2;
     context.stroke();
@@ -261,27 +261,25 @@ window.dmrp = window.dmrp || {};
   }
 
   function draw_contacts(context, view, scene) {
+    context.strokeStyle = scene.colours.bad;
+    context.lineCap = 'butt';
     for (const contact of scene.replay.contacts) {
       if (contact.from > scene.at.t + 1e-6) break;
       const now = scene.at.t <= Math.max(contact.to, contact.from + CONTACT_SEEN_S);
       const x = view.x(contact.at[0]);
       const y = view.y(contact.at[1]);
-      const arm = now ? 6 : 3.5;
-      context.strokeStyle = scene.colours.bad;
-      context.globalAlpha = now ? 1 : 0.7;
-      context.lineWidth = now ? 2.5 : 1.5;
-      context.lineCap = 'butt';
+      const arm = 3.5;
+      context.lineWidth = 2;
       context.beginPath();
       context.moveTo(x - arm, y - arm);
       context.lineTo(x + arm, y + arm);
       context.moveTo(x - arm, y + arm);
       context.lineTo(x + arm, y - arm);
       context.stroke();
-      if (now) {
-        circle(context, x, y, 14);
-        context.stroke();
-      }
-      context.globalAlpha = 1;
+      if (!now) continue;
+      circle(context, x, y, Math.max(16, 0.9 * view.scale()));
+      context.lineWidth = 3;
+      context.stroke();
     }
   }
 
