@@ -70,8 +70,11 @@ std::uint32_t ContactTracker::fault_of(const dmrp_contact& contact, std::uint64_
 
 const dmrp_agent* ContactTracker::body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b) {
   if (contact.kind == DMRP_CONTACT_ROBOT) return &moment.robots[contact.b];
-  const dmrp_agent& person = moment.people[contact.b];
-  return person.id == b ? &person : nullptr;
+  if (contact.b < moment.people.size() && moment.people[contact.b].id == b) return &moment.people[contact.b];
+  // others have come or gone since
+  const auto person =
+      std::find_if(moment.people.begin(), moment.people.end(), [b](const dmrp_agent& agent) { return agent.id == b; });
+  return person != moment.people.end() ? &*person : nullptr;
 }
 
 ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact, std::uint64_t b,

@@ -12,7 +12,8 @@ EndingMonitor::EndingMonitor(std::uint32_t robot_count, std::int64_t time_limit_
     : time_limit_ns_(time_limit_ns), robots_(robot_count) {}
 
 std::uint32_t EndingMonitor::update(std::int64_t t_ns, std::span<const RobotState> robots,
-                                    std::span<const double> gained_m) {
+                                    std::span<const double> gained_m, bool deserted) {
+  if (robots_.empty()) return deserted ? DMRP_ENDING_DESERTED : t_ns >= time_limit_ns_ ? DMRP_ENDING_TIME_LIMIT : 0;
   bool all_arrived = true;
   bool all_stall = true;
   for (std::size_t i = 0; i < robots_.size(); ++i) {

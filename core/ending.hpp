@@ -32,8 +32,10 @@ class EndingMonitor {
   void command_given(std::uint32_t robot, std::int64_t t_ns) { robots_[robot].last_command_ns = t_ns; }
 
   // The robots at t = 0 and after every step, and what each has gained along its paths (PathProgress::gained_m).
-  // Returns DMRP_ENDING_* once the trial is over, 0 until then.
-  std::uint32_t update(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m);
+  // Returns DMRP_ENDING_* once the trial is over, 0 until then. Without robots it is over when the world is
+  // `deserted` (World::is_deserted()).
+  std::uint32_t update(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
+                       bool deserted = false);
 
   // DMRP_FAILURE_* of a robot as far as known; a robot whose controller failed is to be given up (World::fail).
   std::uint32_t failure(std::uint32_t robot) const { return robots_[robot].failure; }

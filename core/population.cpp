@@ -5,15 +5,17 @@
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
+#include <map>
 #include <stdexcept>
 #include <string>
+
+#include "core/crowd_lattice.hpp"
 
 namespace dmrp::core {
 namespace {
 
 using toolkit::Stream;
 
-constexpr double personal_gap_m = 0.05;    // between two who begin
 constexpr double lane_half_width_m = 1.5;  // how far aside of the route people begin
 constexpr int tries_along_flow = 64;
 constexpr int tries_anywhere = 2000;
@@ -44,6 +46,14 @@ RoutePlace place_on(const std::vector<Route>& legs, double fraction) {
   }
 }
 
+// How many people begin in each region.
+std::map<std::uint32_t, std::size_t> crowds_by_region(const std::vector<Flow>& flows) {
+  std::map<std::uint32_t, std::size_t> crowds;
+  for (const Flow& flow : flows)
+    if (flow.start == FlowStart::from) crowds[flow.regions.front()] += flow.people;
+  return crowds;
+}
+
 }  // namespace
 
 Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry,
@@ -53,80 +63,132 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       regions_(scenario.regions),
       flows_(scenario.flows),
       geometry_(std::move(geometry)),
-      slots_(person_count(scenario)),
-      people_(slots_.size()) {
+      slots_(person_count(scenario)) {
+  std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
+  std::vector<dmrp_vec2> taken;
+  for (const auto& [region, count] : crowds_by_region(flows_)) {
+    places[region] = places_in(region, count, robots);
+    taken.insert(taken.end(), places[region].begin(), places[region].end());
+  }
   std::uint32_t slot = 0;
   for (std::uint32_t flow = 0; flow < flows_.size(); ++flow) {
-    for (std::uint32_t place = 0; place < flows_[flow].people; ++place, ++slot) {
-      slots_[slot].flow = flow;
-      place_along_flow(slot, place, routes.legs[flow], robots);
+    for (std::uint32_t number = 0; number < flows_[flow].people; ++number, ++slot) {
+      Slot& own = slots_[slot];
+      own.flow = flow;
+      Beginning beginning;
+      if (flows_[flow].start == FlowStart::from) {
+        auto& left = places[flows_[flow].regions.front()];
+        beginning.position = left.back();
+        left.pop_back();
+      } else {
+        beginning = place_along_flow(slot, number, routes.legs[flow], robots, taken);
+        taken.push_back(beginning.position);
+      }
+      own.leg = beginning.leg;
+      people_.push_back(person_at(slot, beginning.position));
+      slot_of_.push_back(slot);
     }
   }
 }
 
-void Population::move(std::uint32_t slot, dmrp_vec2 position, dmrp_vec2 velocity) {
-  people_[slot].position = position;
-  people_[slot].velocity = velocity;
+void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity) {
+  people_[place].position = position;
+  people_[place].velocity = velocity;
 }
 
 void Population::advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
-  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
-    Slot& own = slots_[slot];
-    const dmrp_person& person = people_[slot];
-    const bool is_last_leg = own.leg + 2 == flows_[own.flow].regions.size();
-    const bool arrived = toolkit::contains(toolkit::Rectangle{person.area_lower, person.area_upper}, person.position);
-    if (arrived && !is_last_leg) {
+  let_leave();
+  for (std::size_t place = 0; place < people_.size(); ++place) {
+    Slot& own = slots_[slot_of_[place]];
+    const bool arrived = has_arrived(place);
+    if (arrived && !is_on_last_leg(own)) {
       ++own.leg;
-      set_target(slot);
+      set_target(people_[place], slot_of_[place]);
     } else if ((arrived || own.tries > 0) && t_ns >= own.next_try_ns) {
-      try_to_begin_anew(slot, t_ns, robots);
+      try_to_begin_anew(place, t_ns, robots);
     }
   }
 }
 
+bool Population::has_arrived(std::size_t place) const {
+  const dmrp_person& person = people_[place];
+  return toolkit::contains(toolkit::Rectangle{person.area_lower, person.area_upper}, person.position);
+}
+
+bool Population::is_on_last_leg(const Slot& slot) const {
+  return slot.leg + 2 == flows_[slot.flow].regions.size();
+}
+
+// For good.
+void Population::let_leave() {
+  std::size_t kept = 0;
+  for (std::size_t place = 0; place < people_.size(); ++place) {
+    const Slot& own = slots_[slot_of_[place]];
+    if (!flows_[own.flow].respawn && is_on_last_leg(own) && has_arrived(place)) continue;
+    people_[kept] = people_[place];
+    slot_of_[kept] = slot_of_[place];
+    ++kept;
+  }
+  people_.resize(kept);
+  slot_of_.resize(kept);
+}
+
+// Places for all who begin in a region, in an order that says nothing.
+std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count,
+                                             std::span<const dmrp_vec2> robots) const {
+  const Region& where = regions_[region];
+  Stream stream(seed_, "population.from", region);
+  const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
+  auto places = spread_on_lattice({where.lower, where.upper}, count, apart_m, stream,
+                                  [&](dmrp_vec2 point) { return has_room(point, robots, {}); });
+  if (places.size() < count)
+    throw std::runtime_error("no room in region '" + where.name + "' for " + std::to_string(count) + " people, " +
+                             std::to_string(places.size()) + " at most");
+  return places;
+}
+
 // Evenly along the whole route, each somewhere in a stretch of its own and somewhere aside of it.
-void Population::place_along_flow(std::uint32_t slot, std::uint32_t place, const std::vector<Route>& legs,
-                                  std::span<const dmrp_vec2> robots) {
+Population::Beginning Population::place_along_flow(std::uint32_t slot, std::uint32_t number,
+                                                   const std::vector<Route>& legs, std::span<const dmrp_vec2> robots,
+                                                   std::span<const dmrp_vec2> taken) const {
+  const Flow& flow = flows_[slots_[slot].flow];
   Stream stream(seed_, "population.begin", slot);
   for (int tries = 0; tries < tries_along_flow; ++tries) {
-    const double fraction = (place + stream.uniform()) / flows_[slots_[slot].flow].people;
+    const double fraction = (number + stream.uniform()) / flow.people;
     const double aside_m = stream.uniform(-lane_half_width_m, lane_half_width_m);
     const RoutePlace on_route = place_on(legs, fraction);
     const dmrp_vec2 left = toolkit::perpendicular(toolkit::from_angle(on_route.heading));
     const dmrp_vec2 point = on_route.point + aside_m * left;
     // not beyond a wall
-    if (!has_room(slot, slot, point, robots) || !geometry_->line_of_sight(on_route.point, point)) continue;
-    return begin(slot, point, on_route.leg);
+    if (!has_room(point, robots, taken) || !geometry_->line_of_sight(on_route.point, point)) continue;
+    return {point, on_route.leg};
   }
   for (int tries = 0; tries < tries_anywhere; ++tries) {
     const RoutePlace on_route = place_on(legs, stream.uniform());
     const dmrp_vec2 reach = {4.0 * lane_half_width_m, 4.0 * lane_half_width_m};
     const dmrp_vec2 point = draw_in(stream, on_route.point - reach, on_route.point + reach);
-    if (!has_room(slot, slot, point, robots) || !geometry_->line_of_sight(on_route.point, point)) continue;
-    return begin(slot, point, on_route.leg);
+    if (!has_room(point, robots, taken) || !geometry_->line_of_sight(on_route.point, point)) continue;
+    return {point, on_route.leg};
   }
-  throw std::runtime_error("no room along flow '" + flows_[slots_[slot].flow].name + "' for person " +
-                           std::to_string(slot));
+  throw std::runtime_error("no room along flow '" + flow.name + "' for person " + std::to_string(slot));
 }
 
-void Population::begin(std::uint32_t slot, dmrp_vec2 position, std::uint32_t leg) {
-  Slot& own = slots_[slot];
-  own.leg = leg;
-  own.tries = 0;
-  own.next_try_ns = 0;
-  dmrp_person& person = people_[slot];
-  person = {};
+// The person whom a slot has now, at the beginning.
+dmrp_person Population::person_at(std::uint32_t slot, dmrp_vec2 position) const {
+  const Slot& own = slots_[slot];
+  dmrp_person person{};
   person.id = slot + own.predecessors * slots_.size();
   person.position = position;
   person.radius_m = settings_.radius_m;
   Stream speeds(seed_, "population.speed", slot, own.predecessors);
   person.desired_speed =
       speeds.truncated_normal(settings_.speed_mean, settings_.speed_sd, settings_.speed_min, settings_.speed_max);
-  set_target(slot);
+  set_target(person, slot);
+  return person;
 }
 
 // Somewhere free in the region that the leg leads to; in its middle where nothing free was found.
-void Population::set_target(std::uint32_t slot) {
+void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
   const Slot& own = slots_[slot];
   const std::uint32_t index = flows_[own.flow].regions[own.leg + 1];
   const Region& region = regions_[index];
@@ -137,7 +199,6 @@ void Population::set_target(std::uint32_t slot) {
     target = draw_in(stream, region.lower, region.upper);
   if (tries == tries_in_region) target = 0.5 * (region.lower + region.upper);
 
-  dmrp_person& person = people_[slot];
   person.target = target;
   person.target_id = index;
   person.area_lower = region.lower;
@@ -145,28 +206,35 @@ void Population::set_target(std::uint32_t slot) {
 }
 
 // Until there is room in the first region, the old person stays and walks on to its target.
-void Population::try_to_begin_anew(std::uint32_t slot, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+void Population::try_to_begin_anew(std::size_t place, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+  const std::uint32_t slot = slot_of_[place];
   Slot& own = slots_[slot];
   const Region& first = regions_[flows_[own.flow].regions.front()];
+  std::vector<dmrp_vec2> others;
+  for (std::size_t other = 0; other < people_.size(); ++other)
+    if (other != place) others.push_back(people_[other].position);
   Stream stream(seed_, "population.anew", slot, own.predecessors, own.tries);
   for (int tries = 0; tries < tries_in_region; ++tries) {
     const dmrp_vec2 point = draw_in(stream, first.lower, first.upper);
-    if (!has_room(slot, static_cast<std::uint32_t>(people_.size()), point, robots)) continue;
+    if (!has_room(point, robots, others)) continue;
     ++own.predecessors;
-    return begin(slot, point, 0);
+    own.leg = 0;
+    own.tries = 0;
+    own.next_try_ns = 0;
+    people_[place] = person_at(slot, point);
+    return;
   }
   ++own.tries;
   own.next_try_ns = t_ns + retry_period_ns;
 }
 
-// Clear of shapes, robots, and the first `others` people.
-bool Population::has_room(std::uint32_t slot, std::uint32_t others, dmrp_vec2 point,
-                          std::span<const dmrp_vec2> robots) const {
+// Clear of shapes, robots and other people.
+bool Population::has_room(dmrp_vec2 point, std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const {
   for (const dmrp_vec2 robot : robots)
     if (toolkit::distance(robot, point) < spawn_distance_to_robots_m) return false;
   const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
-  for (std::uint32_t other = 0; other < others; ++other)
-    if (other != slot && toolkit::distance(people_[other].position, point) < apart_m) return false;
+  for (const dmrp_vec2 other : taken)
+    if (toolkit::distance(other, point) < apart_m) return false;
   return geometry_->disc_is_free(point, settings_.radius_m);
 }
 

@@ -16,25 +16,29 @@
 namespace dmrp::core {
 
 inline constexpr double spawn_distance_to_robots_m = 1.5;  // between centres
+inline constexpr double personal_gap_m = 0.05;             // between the bodies of two who begin
 
-// A constant number of people, each in a slot. At t = 0 they are spread along their flows; who reaches the last region
-// of its flow leaves, and somebody new begins in the slot, in the flow's first region.
+// People, each in a slot. Who reaches the last region of its flow leaves: either somebody new begins in the slot, in the
+// flow's first region, or the slot stays empty for good.
 //
 // Every draw has a stream of its own, named by the seed, the slot and how many people the slot has seen. So the crowd is
 // the same for all combinations of a seed, but for where people stand in each other's or a robot's way when they begin.
+// (A flow that starts in its first region is put there on a jittered hexagonal lattice, for densities that people drawn
+// one by one do not reach; all flows that start in the same region together.)
 class Population {
  public:
-  // `robots`: where the robots begin. Throws std::runtime_error if there is no room for everybody.
+  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws std::runtime_error if there is no room for
+  // everybody.
   Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes,
              std::uint64_t seed, std::span<const dmrp_vec2> robots);
 
-  // By slot. Ids are the slot, plus the number of slots for everyone who was there before.
+  // All who are there, by slot. Ids are the slot, plus the number of slots for everyone who was there before.
   std::span<const dmrp_person> people() const { return people_; }
 
-  // Where a person came to, and how.
-  void move(std::uint32_t slot, dmrp_vec2 position, dmrp_vec2 velocity);
+  // Where the person at this place of people() came to, and how.
+  void move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity);
 
-  // Next regions for those who reached theirs; new people for those who reached their last.
+  // Next regions for those who reached theirs; who reached its last leaves.
   void advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots);
 
  private:
@@ -46,12 +50,22 @@ class Population {
     std::int64_t next_try_ns = 0;
   };
 
-  void place_along_flow(std::uint32_t slot, std::uint32_t place, const std::vector<Route>& legs,
-                        std::span<const dmrp_vec2> robots);
-  void begin(std::uint32_t slot, dmrp_vec2 position, std::uint32_t leg);
-  void set_target(std::uint32_t slot);
-  void try_to_begin_anew(std::uint32_t slot, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
-  bool has_room(std::uint32_t slot, std::uint32_t others, dmrp_vec2 point, std::span<const dmrp_vec2> robots) const;
+  // Somewhere a person begins, and the leg of its flow that leads on from there.
+  struct Beginning {
+    dmrp_vec2 position{};
+    std::uint32_t leg = 0;
+  };
+
+  std::vector<dmrp_vec2> places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots) const;
+  Beginning place_along_flow(std::uint32_t slot, std::uint32_t number, const std::vector<Route>& legs,
+                             std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const;
+  dmrp_person person_at(std::uint32_t slot, dmrp_vec2 position) const;
+  void set_target(dmrp_person& person, std::uint32_t slot) const;
+  bool has_arrived(std::size_t place) const;
+  bool is_on_last_leg(const Slot& slot) const;
+  void let_leave();
+  void try_to_begin_anew(std::size_t place, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
+  bool has_room(dmrp_vec2 point, std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const;
 
   std::uint64_t seed_;
   PeopleSettings settings_;
@@ -60,6 +74,7 @@ class Population {
   std::shared_ptr<const StaticGeometry> geometry_;
   std::vector<Slot> slots_;
   std::vector<dmrp_person> people_;
+  std::vector<std::uint32_t> slot_of_;  // parallel to people_, ascending
 };
 
 }  // namespace dmrp::core

@@ -36,11 +36,16 @@ struct Region {
   dmrp_vec2 upper{};
 };
 
-// People who walk from one region through others to a last one, and begin again when they get there.
+// Where the people of a flow are at t = 0: spread along the whole way, or all in its first region.
+enum class FlowStart { along, from };
+
+// People who walk from one region through others to a last one, where they leave.
 struct Flow {
   std::string name;
   std::vector<std::uint32_t> regions;  // indices into Scenario::regions: from, via..., to; at least two
-  std::uint32_t people = 0;
+  std::uint32_t people = 0;            // at t = 0
+  FlowStart start = FlowStart::along;
+  bool respawn = true;  // somebody new begins in the first region for everybody who leaves
 };
 
 // Bodies and walking speeds of people: normal, truncated.
@@ -61,6 +66,7 @@ struct Scenario {
   double time_limit_s = 180.0;
   std::vector<Shape> shapes;
   std::vector<RobotTask> robots;
+  std::vector<dmrp_vec2> other_starts;  // of robots that take no part here: at t = 0 people keep clear of them as well
   PeopleSettings people;
   std::vector<Region> regions;
   std::vector<Flow> flows;

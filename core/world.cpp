@@ -39,6 +39,12 @@ std::vector<dmrp_vec2> positions_of(std::span<const RobotState> robots) {
   return positions;
 }
 
+// Where nobody begins at t = 0: so that the crowd is the same however many of a scenario's robots take part.
+std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec2> robots) {
+  robots.insert(robots.end(), scenario.other_starts.begin(), scenario.other_starts.end());
+  return robots;
+}
+
 FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
   if (person_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
   return find_flow_routes(scenario, build_walking_grid(geometry));
@@ -67,19 +73,13 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
       robots_(initial_states(scenario)),
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
-      population_(scenario, geometry_, routes, seed, robot_positions_),
+      population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
       motion_(geometry_),
       tracker_(robot.a_max, robot.v_max) {
   proposed_poses_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (const RobotState& state : robots_) bodies_.push_back({toolkit::position(state.pose), robot.radius_m, {}});
-  for (const dmrp_person& person : population_.people()) {
-    bodies_.push_back({person.position, person.radius_m, {}});
-    dmrp_agent agent{};
-    agent.kind = DMRP_AGENT_PERSON;
-    agent.pose.theta = toolkit::bearing(person.position, person.target);
-    person_agents_.push_back(agent);
-  }
+  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   show_agents();
@@ -118,8 +118,8 @@ void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
     proposed_displacements_[i] = toolkit::position(proposed_poses_[i]) - toolkit::position(robot.pose);
     bodies_[i].displacement = proposed_displacements_[i];
   }
-  for (std::size_t slot = 0; slot < person_velocities.size(); ++slot)
-    bodies_[robots_.size() + slot].displacement = person_velocities[slot] * step_s();
+  for (std::size_t i = 0; i < person_velocities.size(); ++i)
+    bodies_[robots_.size() + i].displacement = person_velocities[i] * step_s();
 }
 
 void World::apply_motion() {
@@ -141,10 +141,10 @@ void World::apply_motion() {
     body.position = robot_positions_[i];
     body.displacement = {};
   }
-  for (std::uint32_t slot = 0; slot < population_.people().size(); ++slot) {
-    SolidBody& body = bodies_[robots_.size() + slot];
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    SolidBody& body = bodies_[robots_.size() + i];
     body.position += body.displacement;
-    population_.move(slot, body.position, body.displacement / step_s());
+    population_.move(i, body.position, body.displacement / step_s());
     body.displacement = {};
   }
 }
@@ -171,9 +171,8 @@ void World::check_arrival(std::uint32_t robot) {
 
 void World::advance_people() {
   population_.advance(t_ns_, robot_positions_);
-  const std::span<const dmrp_person> people = population_.people();
-  for (std::size_t slot = 0; slot < people.size(); ++slot)
-    bodies_[robots_.size() + slot].position = people[slot].position;
+  bodies_.resize(robots_.size());
+  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
 }
 
 void World::show_agents() {
@@ -186,20 +185,31 @@ void World::show_agents() {
                         toolkit::rotate({robot.velocity.v_x, robot.velocity.v_y}, robot.pose.theta),
                         robot_settings_.radius_m};
   }
-  const std::span<const dmrp_person> people = population_.people();
-  for (std::size_t slot = 0; slot < people.size(); ++slot) {
-    const dmrp_person& person = people[slot];
-    dmrp_agent& agent = person_agents_[slot];
-    if (toolkit::norm(person.velocity) > walking_speed) {
-      agent.pose.theta = std::atan2(person.velocity.y, person.velocity.x);
-    } else if (agent.id != person.id) {
-      agent.pose.theta = toolkit::bearing(person.position, person.target);
-    }
+  show_people();
+}
+
+void World::show_people() {
+  person_agents_before_.swap(person_agents_);
+  person_agents_.clear();
+  auto before = person_agents_before_.begin();
+  for (const dmrp_person& person : population_.people()) {
+    // both are by slot: who was there before comes in the same order
+    const auto known = std::find_if(before, person_agents_before_.end(),
+                                    [&](const dmrp_agent& agent) { return agent.id == person.id; });
+    dmrp_agent agent{};
     agent.id = person.id;
-    agent.pose.x = person.position.x;
-    agent.pose.y = person.position.y;
+    agent.kind = DMRP_AGENT_PERSON;
+    agent.pose = {person.position.x, person.position.y, 0.0};
+    if (toolkit::norm(person.velocity) > walking_speed)
+      agent.pose.theta = std::atan2(person.velocity.y, person.velocity.x);
+    else if (known != person_agents_before_.end())
+      agent.pose.theta = known->pose.theta;
+    else
+      agent.pose.theta = toolkit::bearing(person.position, person.target);
+    if (known != person_agents_before_.end()) before = std::next(known);
     agent.velocity = person.velocity;
     agent.radius_m = person.radius_m;
+    person_agents_.push_back(agent);
   }
 }
 

@@ -46,12 +46,15 @@ class World {
   std::span<const RobotState> robots() const { return robots_; }
   std::span<const dmrp_goal> goals(std::uint32_t robot) const { return goals_[robot]; }
 
-  // All robots as others see them, by index; all people likewise, by slot.
+  // All robots as others see them, by index; all people who are there likewise, by slot.
   std::span<const dmrp_agent> robot_agents() const { return robot_agents_; }
   std::span<const dmrp_agent> person_agents() const { return person_agents_; }
 
-  // What a pedestrian model is told, by slot.
+  // What a pedestrian model is told, by slot: parallel to person_agents().
   std::span<const dmrp_person> people() const { return population_.people(); }
+
+  // There are no robots, and nobody is left.
+  bool is_deserted() const { return robots_.empty() && people().empty(); }
 
   // Sets the command in force, clipped to the velocity limits, until the next one. Must be finite. Ignored for a robot
   // that is not active. Returns what is in force.
@@ -60,8 +63,8 @@ class World {
   // Gives a robot up: it brakes and stands where it is.
   void fail(std::uint32_t robot);
 
-  // One physics step: robots follow their commands within their accelerations, people move at these velocities (one a
-  // slot, world frame, finite), bodies stop where they would get deeper into each other, robots arrive, people reach
+  // One physics step: robots follow their commands within their accelerations, people move at these velocities (parallel
+  // to people(), world frame, finite), bodies stop where they would get deeper into each other, robots arrive, people reach
   // their regions. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
 
@@ -74,6 +77,7 @@ class World {
   void check_arrival(std::uint32_t robot);
   void advance_people();
   void show_agents();
+  void show_people();
   void find_contacts();
   double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
 
@@ -94,6 +98,7 @@ class World {
   std::vector<Overlap> overlaps_;
   std::vector<dmrp_agent> robot_agents_;
   std::vector<dmrp_agent> person_agents_;
+  std::vector<dmrp_agent> person_agents_before_;  // the step before
   std::vector<dmrp_contact> contacts_;
 };
 

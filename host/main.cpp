@@ -100,6 +100,24 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   return command;
 }
 
+CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
+  CLI::App* command = app.add_subcommand("evaluate", "a metric over the stored traces of a run, as CSV");
+  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--metric", options.metric, "the metric (default: all of the run's, and of --plugin's)")
+      ->type_name("ID");
+  command->add_option("--plugin", options.plugins, "another plugin library, searched before the run's")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+  command->add_option("--set", options.settings, "a parameter of the metric (default: as in the run)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--params-file", options.parameter_file, "parameters of the metric: a file, or a shipped set")
+      ->type_name("FILE");
+  command->add_option("--trial", options.trials, "only this trial")->type_name("N")->allow_extra_args(false);
+  command->add_option("--csv", options.csv, "where to (default: standard output)")->type_name("FILE");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
@@ -119,9 +137,11 @@ int run_main(int argc, char** argv) {
 
   std::vector<std::string> libraries;
   bool json = false;
+  bool markdown = false;
   CLI::App* plugins = app.add_subcommand("plugins", "what plugin libraries hold, with parameters");
   plugins->add_option("libraries", libraries, "libraries (default: all of the plugin path)")->type_name("LIB.so");
-  plugins->add_flag("--json", json, "as JSON");
+  CLI::Option* as_json = plugins->add_flag("--json", json, "as JSON");
+  plugins->add_flag("--markdown", markdown, "as a reference page")->excludes(as_json);
 
   DrawOptions draw;
   CLI::App* drawing = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
@@ -130,6 +150,9 @@ int run_main(int argc, char** argv) {
   drawing->add_option("--plugin", draw.plugins, "another plugin library")->type_name("LIB.so");
   drawing->add_option("--set", draw.settings, "a parameter of the planner")->type_name("KEY=VALUE");
   drawing->add_option("--svg", draw.svg, "where to (default: standard output)")->type_name("FILE");
+
+  EvaluateOptions evaluate;
+  CLI::App* evaluating = add_evaluate(app, evaluate);
 
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
@@ -147,10 +170,14 @@ int run_main(int argc, char** argv) {
   }
 
   if (validate->parsed()) return validate_command(validated);
-  if (plugins->parsed()) return plugins_command(libraries, json);
+  if (plugins->parsed())
+    return plugins_command(libraries, json       ? PluginsFormat::json
+                                      : markdown ? PluginsFormat::markdown
+                                                 : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
   if (report->parsed()) return report_command(reported);
+  if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }

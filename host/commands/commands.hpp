@@ -37,7 +37,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 int validate_command(const std::filesystem::path& experiment);
 
 // All libraries of the plugin path if none is named.
-int plugins_command(const std::vector<std::string>& libraries, bool json);
+enum class PluginsFormat { text, json, markdown };
+int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
 
 struct DrawOptions {
   std::string scenario;
@@ -65,5 +66,16 @@ int plan_command(const PlanOptions& options);
 
 // Writes report.html into the run directory.
 int report_command(const std::filesystem::path& run_directory);
+
+struct EvaluateOptions {
+  std::filesystem::path run_directory;
+  std::string metric;                 // id; empty: all of the run's and of `plugins`
+  std::vector<std::string> plugins;   // libraries beside the run's, searched before these
+  std::vector<std::string> settings;  // key=value for `metric`
+  std::string parameter_file;         // likewise; empty: none
+  std::vector<std::uint64_t> trials;  // empty: all
+  std::filesystem::path csv;          // empty: standard output
+};
+int evaluate_command(const EvaluateOptions& options);
 
 }  // namespace dmrp::host

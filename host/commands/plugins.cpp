@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "host/commands/commands.hpp"
+#include "host/commands/plugins_markdown.hpp"
 #include "host/experiment/toml_text.hpp"
 #include "host/input_error.hpp"
 #include "host/plugins/library.hpp"
@@ -16,16 +16,6 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string range_of(const ParameterSpec& spec) {
-  if (!spec.choices.empty()) return fmt::format("one of {}", fmt::join(spec.choices, ", "));
-  const bool low = std::isfinite(spec.minimum);
-  const bool high = std::isfinite(spec.maximum);
-  if (low && high) return fmt::format("{} to {}", spec.minimum, spec.maximum);
-  if (low) return fmt::format(">= {}", spec.minimum);
-  if (high) return fmt::format("<= {}", spec.maximum);
-  return "";
-}
 
 void print_plugin(const PluginInfo& info) {
   fmt::print("  {}  {} {}  ({})\n", info.id, info.name, info.version, kind_name(info.kind));
@@ -38,7 +28,7 @@ void print_plugin(const PluginInfo& info) {
   std::size_t key_width = 0;
   for (const ParameterSpec& spec : info.parameters) key_width = std::max(key_width, spec.fallback.key.size());
   for (const ParameterSpec& spec : info.parameters) {
-    const std::string range = range_of(spec);
+    const std::string range = parameter_range(spec);
     fmt::print("      {:<{}}  {} = {}{}{}  {}\n", spec.fallback.key, key_width, parameter_type_name(spec.fallback.type),
                toml_text(spec.fallback), spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit,
                range.empty() ? "" : " [" + range + "]", spec.doc);
@@ -47,7 +37,7 @@ void print_plugin(const PluginInfo& info) {
 
 }  // namespace
 
-int plugins_command(const std::vector<std::string>& named, bool json) {
+int plugins_command(const std::vector<std::string>& named, PluginsFormat format) {
   std::vector<fs::path> files;
   for (const std::string& name : named) {
     files.push_back(find_library(name, fs::current_path()));
@@ -65,14 +55,18 @@ int plugins_command(const std::vector<std::string>& named, bool json) {
     }
     for (const std::string& warning : {probe.warning, probe.init_error})
       if (!warning.empty()) fmt::print(stderr, "warning: {}: {}\n", file.string(), warning);
-    if (json) {
+    if (format == PluginsFormat::json) {
       all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
+      continue;
+    }
+    if (format == PluginsFormat::markdown) {
+      fmt::print("{}", plugins_markdown(file.filename().string(), probe.plugins));
       continue;
     }
     fmt::print("{}\n", file.string());
     for (const PluginInfo& info : probe.plugins) print_plugin(info);
   }
-  if (json) fmt::print("{}\n", all.dump(2));
+  if (format == PluginsFormat::json) fmt::print("{}\n", all.dump(2));
   return exit_status::done;
 }
 

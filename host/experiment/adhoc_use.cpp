@@ -71,22 +71,6 @@ std::string toml_line(const std::string& setting) {
   return setting.substr(0, equals) + " = " + value + "\n";
 }
 
-// A mistake is told with the setting in place of a position in the text that is made of them.
-std::vector<ParameterValue> read_settings(const std::vector<std::string>& settings, const PluginInfo& info) {
-  std::string text = "[params]\n";
-  for (const std::string& setting : settings) text += toml_line(setting);
-  try {
-    const TomlDocument document("--set", text);
-    return read_parameters(document.root(), info, fs::current_path(), {}).front().values;
-  } catch (const InputError& error) {
-    std::size_t line = 0;
-    int read = 0;
-    if (std::sscanf(error.what(), "--set:%zu:%*u: %n", &line, &read) != 1 || line < 2 || line > settings.size() + 1)
-      throw;
-    throw InputError("--set " + settings[line - 2] + ": " + (error.what() + read));
-  }
-}
-
 }  // namespace
 
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
@@ -106,8 +90,39 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
                  const std::vector<std::string>& settings) {
   PluginUse use = find_planner(id, libraries, experiment);
-  use.parameters = read_settings(settings, use.info);
+  std::vector<ParameterValue> defaults;
+  for (const ParameterSpec& spec : use.info.parameters) defaults.push_back(spec.fallback);
+  use.parameters = adhoc_parameters(settings, "", use.info, std::move(defaults));
   experiment.global_planners.push_back(std::move(use));
+}
+
+// A mistake is told with the setting in place of a position in the text that is made of them.
+std::vector<ParameterValue> adhoc_parameters(const std::vector<std::string>& settings,
+                                             const std::string& parameter_file, const PluginInfo& info,
+                                             std::vector<ParameterValue> values) {
+  fs::path file;
+  if (!parameter_file.empty()) {
+    file = parameter_set(parameter_file, fs::current_path());
+    if (file.empty())
+      throw InputError(fmt::format("--params-file {}: there is no such file (shipped: {}){}", parameter_file,
+                                   join_names(shipped_parameter_sets()),
+                                   did_you_mean(parameter_file, shipped_parameter_sets())));
+  }
+  PluginInfo preset = info;
+  for (std::size_t i = 0; i < values.size(); ++i) preset.parameters[i].fallback = std::move(values[i]);
+
+  std::string text = "[params]\n";
+  for (const std::string& setting : settings) text += toml_line(setting);
+  try {
+    const TomlDocument document("--set", text);
+    return read_parameters(document.root(), preset, fs::current_path(), file).front().values;
+  } catch (const InputError& error) {
+    std::size_t line = 0;
+    int read = 0;
+    if (std::sscanf(error.what(), "--set:%zu:%*u: %n", &line, &read) != 1 || line < 2 || line > settings.size() + 1)
+      throw;
+    throw InputError("--set " + settings[line - 2] + ": " + (error.what() + read));
+  }
 }
 
 }  // namespace dmrp::host

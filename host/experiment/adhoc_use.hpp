@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// adhoc_use.hpp: a scenario and a planner named on the command line, as an experiment of its own.
+// adhoc_use.hpp: a scenario and a planner named on the command line, as an experiment of its own; parameters of a plugin
+// that are given there.
 #pragma once
 
 #include <string>
@@ -17,5 +18,11 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
 // are strings. Throws InputError.
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
                  const std::vector<std::string>& settings);
+
+// `values`, complete, with those of a parameter file ("": none; from here, else a shipped one) and over them those of
+// `settings` (as above) in their places. Throws InputError.
+std::vector<ParameterValue> adhoc_parameters(const std::vector<std::string>& settings,
+                                             const std::string& parameter_file, const PluginInfo& info,
+                                             std::vector<ParameterValue> values);
 
 }  // namespace dmrp::host

@@ -8,7 +8,9 @@
 #include <dmrp/toolkit/grid_view.hpp>
 #include <vector>
 
+#include "core/crowd_lattice.hpp"
 #include "core/planning_grid.hpp"
+#include "core/population.hpp"
 #include "core/static_geometry.hpp"
 
 namespace dmrp::host {
@@ -165,6 +167,25 @@ class WorldCheck {
     const dmrp_grid view = walking.view();
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(toolkit::GridView(view), i);
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
+      if (scenario_.flows[i].start == core::FlowStart::from) check_room(i);
+  }
+
+  // For all who begin in the first region of this flow. How many there is room for varies a little with the seed.
+  void check_room(std::size_t index) const {
+    const std::uint32_t first = scenario_.flows[index].regions.front();
+    const core::Region& region = scenario_.regions[first];
+    std::size_t people = 0;
+    for (const core::Flow& flow : scenario_.flows)
+      if (flow.start == core::FlowStart::from && flow.regions.front() == first) people += flow.people;
+    const double radius_m = scenario_.people.radius_m;
+    toolkit::Stream stream(experiment_.seed, "room", first);
+    const auto places =
+        core::spread_on_lattice({region.lower, region.upper}, people, 2.0 * radius_m + core::personal_gap_m, stream,
+                                [&](dmrp_vec2 point) { return geometry_.disc_is_free(point, radius_m); });
+    if (places.size() < people)
+      file_.document->fail(file_.flows[index], fmt::format("no room in region '{}' for {} people, for {} at most",
+                                                           region.name, people, places.size()));
   }
 
   void check_flow(const toolkit::GridView& grid, std::size_t index) const {

@@ -34,7 +34,7 @@ struct PluginUse {
 // A scenario with a number of robots.
 struct ScenarioVariant {
   core::Scenario scenario;     // holds exactly the robots that take part
-  std::string label;           // the scenario's name; "mall/2" where it runs with fewer robots than it lists
+  std::string label;           // the scenario's name; "mall/2" where it runs with another number than it lists
   std::filesystem::path file;  // of scenario.toml
   std::vector<std::filesystem::path> files{};  // that it names: a map, tasks
 };
@@ -56,8 +56,8 @@ struct Experiment {
   std::uint32_t trials = 1;  // repetitions a combination
   std::vector<LibraryUse> libraries;
   std::vector<ScenarioVariant> scenarios;
-  std::vector<PluginUse> global_planners;
-  std::vector<PluginUse> local_controllers;
+  std::vector<PluginUse> global_planners;    // these two: may be empty when no scenario has robots
+  std::vector<PluginUse> local_controllers;  //
   std::vector<PluginUse> pedestrian_models;  // empty when no scenario has people and none is named
   std::vector<PluginUse> metrics;
   bool time_limit_set = false;  // by [simulation]; else every scenario has its own
@@ -72,8 +72,8 @@ struct Experiment {
 // What is tried out against each other: indices into the experiment's lists.
 struct Combination {
   std::uint32_t scenario = 0;
-  std::uint32_t global_planner = 0;
-  std::uint32_t local_controller = 0;
+  std::int32_t global_planner = 0;     // -1: a scenario without robots
+  std::int32_t local_controller = 0;   // likewise
   std::int32_t pedestrian_model = -1;  // -1: a scenario without people
 };
 

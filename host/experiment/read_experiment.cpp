@@ -148,7 +148,10 @@ class Reader {
       for (const RobotCount& count : robot_counts(table, use, scenario.scenario)) {
         ScenarioVariant variant;
         variant.scenario = scenario.scenario;
-        variant.scenario.robots.resize(count.robots);
+        auto& robots = variant.scenario.robots;
+        for (std::size_t i = count.robots; i < robots.size(); ++i)
+          variant.scenario.other_starts.push_back({robots[i].start.x, robots[i].start.y});
+        robots.resize(count.robots);
         variant.label = variant.scenario.name;
         if (count.robots != listed) variant.label += fmt::format("/{}", count.robots);
         variant.file = file;
@@ -187,12 +190,16 @@ class Reader {
   static std::vector<RobotCount> robot_counts(const TomlTable& table, const TomlValue& use,
                                               const core::Scenario& scenario) {
     const std::size_t listed = scenario.robots.size();
-    if (listed == 0) use.fail(fmt::format("scenario '{}' lists no robots", scenario.name));
+    const bool people = core::person_count(scenario) > 0;
     const auto value = table.find("robots");
+    if (!value && listed == 0 && !people)
+      use.fail(fmt::format("scenario '{}' lists neither robots nor people", scenario.name));
     if (!value) return {{listed, use}};
     std::vector<RobotCount> counts;
     for (const TomlValue& count : value->is_array() ? value->array() : std::vector<TomlValue>{*value}) {
-      const auto robots = static_cast<std::size_t>(count.integer(1));
+      const auto robots = static_cast<std::size_t>(count.integer(0));
+      if (robots == 0 && !people)
+        count.fail(fmt::format("without robots nobody is there: scenario '{}' has no people", scenario.name));
       if (robots > listed)
         count.fail(fmt::format("scenario '{}' lists {} robot{}, not {}: drawing more is not built yet", scenario.name,
                                listed, listed == 1 ? "" : "s", robots));
@@ -283,8 +290,10 @@ class Reader {
 
   void check_complete(const TomlTable& root) const {
     if (experiment_.scenarios.empty()) root.fail("the experiment needs a [[scenario]]");
-    if (experiment_.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
-    if (experiment_.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
+    const bool robots = std::any_of(experiment_.scenarios.begin(), experiment_.scenarios.end(),
+                                    [](const ScenarioVariant& variant) { return !variant.scenario.robots.empty(); });
+    if (robots && experiment_.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
+    if (robots && experiment_.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
     if (!experiment_.pedestrian_models.empty()) return;
     for (std::size_t i = 0; i < experiment_.scenarios.size(); ++i)
       if (const auto count = core::person_count(experiment_.scenarios[i].scenario); count > 0)

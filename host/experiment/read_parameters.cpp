@@ -22,16 +22,6 @@ fs::path parameter_set_folder() {
   return shared_data_path() / "parameter_sets";
 }
 
-// By their paths in the folder of parameter sets.
-std::vector<std::string> shipped_parameter_sets() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(parameter_set_folder(), ignored))
-    if (entry.is_regular_file(ignored)) names.push_back(entry.path().lexically_relative(parameter_set_folder()));
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::string unit_of(const ParameterSpec& spec) {
   return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit;
 }
@@ -156,12 +146,27 @@ std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSp
 
 }  // namespace
 
+fs::path parameter_set(const std::string& name, const fs::path& base) {
+  for (const fs::path& folder : {base, parameter_set_folder()})
+    if (std::error_code ignored; fs::is_regular_file(folder / name, ignored)) return fs::canonical(folder / name);
+  return {};
+}
+
+// By their paths in the folder of parameter sets.
+std::vector<std::string> shipped_parameter_sets() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(parameter_set_folder(), ignored))
+    if (entry.is_regular_file(ignored)) names.push_back(entry.path().lexically_relative(parameter_set_folder()));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 fs::path find_parameter_file(const TomlTable& use, const fs::path& base) {
   const auto value = use.find("params_file");
   if (!value) return {};
   const std::string name = value->line();
-  for (const fs::path& folder : {base, parameter_set_folder()})
-    if (std::error_code ignored; fs::is_regular_file(folder / name, ignored)) return fs::canonical(folder / name);
+  if (fs::path file = parameter_set(name, base); !file.empty()) return file;
   const std::vector<std::string> shipped = shipped_parameter_sets();
   value->fail(fmt::format("no parameter file '{}' beside the experiment file (shipped: {}){}", name,
                           join_names(shipped), did_you_mean(name, shipped)));

@@ -16,8 +16,12 @@ struct ParameterVariant {
   std::string label;
 };
 
-// The file behind `params_file` of a plugin's table, absolute: relative to `base`, else a shipped one,
-// "controllers/tuned/dwa.toml". Empty without that key. Throws InputError.
+// The parameter file of that name, absolute: relative to `base`, else a shipped one, "controllers/tuned/dwa.toml". Empty
+// if there is none.
+std::filesystem::path parameter_set(const std::string& name, const std::filesystem::path& base);
+std::vector<std::string> shipped_parameter_sets();
+
+// The same for the key `params_file` of a plugin's table; empty without that key. Throws InputError.
 std::filesystem::path find_parameter_file(const TomlTable& use, const std::filesystem::path& base);
 
 // Reads the values of `file` (lines of key = value; empty: none), over them `params`, over these `sweep` of a plugin's

@@ -186,7 +186,7 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
 void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("flow")) {
-    table.allow_only({"name", "from", "via", "to", "people"});
+    table.allow_only({"name", "from", "via", "to", "people", "start", "respawn"});
     core::Flow flow;
     const TomlValue name = table.need("name");
     flow.name = name.line();
@@ -197,6 +197,9 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
       for (const TomlValue& region : via->array()) flow.regions.push_back(region_index(region, regions));
     flow.regions.push_back(region_index(table.need("to"), regions));
     flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, most_people));
+    if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
+      flow.start = core::FlowStart::from;
+    if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
   }

@@ -44,7 +44,8 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
   }
 
   std::string line;
-  if (arrival_measured) line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
+  if (arrival_measured && robots > 0)
+    line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
   if (contacts) line += counted(static_cast<std::uint64_t>(std::llround(*contacts)), "contact") + separator;
   line += counted(faults, "fault") + separator;
   if (skipped > 0) line += counted(skipped, "trial") + " skipped" + separator;

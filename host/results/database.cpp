@@ -69,8 +69,7 @@ CREATE TABLE fault(
 CREATE INDEX fault_of_trial ON fault(trial_id);
 )sql";
 
-constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};      // by DMRP_DIRECTION_*
-constexpr std::array<const char*, 3> subject_names{"system", "robot", "pedestrian"};  // by DMRP_SUBJECT_*
+constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};  // by DMRP_DIRECTION_*
 
 std::uint32_t index_of(const std::array<const char*, 3>& names, const std::string& name) {
   for (std::uint32_t i = 0; i < names.size(); ++i)
@@ -106,7 +105,9 @@ void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
 void write_values(const SqliteConnection& connection, const TrialRecord& trial) {
   SqliteStatement insert(connection, "INSERT INTO value VALUES (?, ?, ?, ?, ?, ?)");
   for (const MetricValue& value : trial.values) {
-    insert.bind(as_signed(trial.id)).bind(value.metric).bind(std::string_view(subject_names.at(value.subject_kind)));
+    insert.bind(as_signed(trial.id))
+        .bind(value.metric)
+        .bind(std::string_view(subject_kind_names.at(value.subject_kind)));
     if (value.subject)
       insert.bind(as_signed(*value.subject));
     else
@@ -178,7 +179,7 @@ void read_rows(const SqliteConnection& connection, std::string_view select_sql, 
 void take_value(const SqliteStatement& row, TrialRecord& trial) {
   MetricValue& value = trial.values.emplace_back();
   value.metric = row.column_text(1);
-  value.subject_kind = index_of(subject_names, row.column_text(2));
+  value.subject_kind = index_of(subject_kind_names, row.column_text(2));
   if (!row.column_is_null(3)) value.subject = as_unsigned(row.column_integer(3));
   if (!row.column_is_null(4)) value.coordinate = row.column_number(4);
   if (!row.column_is_null(5)) value.value = row.column_number(5);

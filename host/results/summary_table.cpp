@@ -56,11 +56,17 @@ std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const
 }
 
 std::string group_of(const CombinationLabels& combination, bool several_models) {
-  std::string group = combination.scenario + separator + std::to_string(combination.robots) +
+  std::string group = combination.scenario + separator +
+                      (combination.robots == 0 ? "no" : std::to_string(combination.robots)) +
                       (combination.robots == 1 ? " robot" : " robots");
   if (several_models)
     group += separator + (combination.pedestrian_model.empty() ? "no people" : combination.pedestrian_model);
   return group;
+}
+
+std::string label_of(const CombinationLabels& combination) {
+  return combination.robots == 0 ? combination.pedestrian_model
+                                 : combination.global_planner + " + " + combination.local_controller;
 }
 
 // Those that can be compared stand together, whatever the order of trials was.
@@ -71,8 +77,7 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   std::vector<std::vector<Row>> groups;
   for (const CombinationSummary& summary : summaries) {
     const CombinationLabels& combination = summary.combination;
-    Row row{&summary, combination.global_planner + " + " + combination.local_controller,
-            group_of(combination, several_models)};
+    Row row{&summary, label_of(combination), group_of(combination, several_models)};
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const std::vector<Row>& rows) { return rows.front().group == row.group; });
     if (group == groups.end()) group = groups.emplace(groups.end());

@@ -4,6 +4,7 @@
 
 #include <dmrp/descriptor.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct MetricColumn {
   bool wall_clock = false;      // not repeatable to the bit
   std::string description;
 };
+
+inline constexpr std::array<const char*, 3> subject_kind_names{"system", "robot", "pedestrian"};  // by DMRP_SUBJECT_*
 
 struct MetricValue {
   std::string metric;                    // MetricColumn::name

@@ -27,34 +27,43 @@ Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& 
     : experiment_(experiment),
       variant_(variant),
       world_(world),
-      planner_use_(experiment.global_planners[combination.global_planner]),
-      planner_(&pool.get(planner_use_, -1)),
       lidar_(experiment.robot.lidar, variant.geometry),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
-  const std::int64_t step_budget_ns = nanoseconds(experiment.limits.step_time_s);
-  const dmrp_world& view = variant.view.world();
-  offer(*planner_, {DMRP_KIND_GLOBAL_PLANNER, 0}, nullptr);
-  planner_->start(view, instance_seed(seed, "global_planner", 0), nanoseconds(experiment.limits.planner_time_s));
+  if (combination.global_planner >= 0) start_planner(combination, pool, seed);
+  if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
+  if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
+}
 
-  const PluginUse& controller_use = experiment.local_controllers[combination.local_controller];
-  drivers_.reserve(world.robots().size());  // controllers keep the address of their view
-  for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
-    Instance& controller = pool.get(controller_use, static_cast<std::int32_t>(i));
-    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world, i, lidar_, seed),
-                        variant.view.seen_by(static_cast<std::int32_t>(i)), controller.table<dmrp_local_controller>()});
+void Cast::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+  planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
+  planner_ = &pool.get(*planner_use_, -1);
+  offer(*planner_, {DMRP_KIND_GLOBAL_PLANNER, 0}, nullptr);
+  planner_->start(variant_.view.world(), instance_seed(seed, "global_planner", 0),
+                  nanoseconds(experiment_.limits.planner_time_s));
+}
+
+void Cast::start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+  const PluginUse& use = experiment_.local_controllers[static_cast<std::size_t>(combination.local_controller)];
+  drivers_.reserve(world_.robots().size());  // controllers keep the address of their view
+  for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
+    Instance& controller = pool.get(use, static_cast<std::int32_t>(i));
+    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world_, i, lidar_, seed),
+                        variant_.view.seen_by(static_cast<std::int32_t>(i)),
+                        controller.table<dmrp_local_controller>()});
     Driver& driver = drivers_.back();
     offer(controller, {DMRP_KIND_LOCAL_CONTROLLER, i}, driver.sensors);
-    controller.start(driver.view, instance_seed(seed, "local_controller", i), step_budget_ns);
+    controller.start(driver.view, instance_seed(seed, "local_controller", i),
+                     nanoseconds(experiment_.limits.step_time_s));
   }
+}
 
-  if (combination.pedestrian_model >= 0) {
-    pedestrian_model_ =
-        &pool.get(experiment.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
-    offer(*pedestrian_model_, {DMRP_KIND_PEDESTRIAN_MODEL, 0}, nullptr);
-    pedestrian_model_->start(view, instance_seed(seed, "pedestrian_model", 0), step_budget_ns);
-    pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
-  }
-  velocities_.resize(world.people().size());
+void Cast::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+  pedestrian_model_ =
+      &pool.get(experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
+  offer(*pedestrian_model_, {DMRP_KIND_PEDESTRIAN_MODEL, 0}, nullptr);
+  pedestrian_model_->start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
+                           nanoseconds(experiment_.limits.step_time_s));
+  pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
 }
 
 // The instance outlives the trial.
@@ -73,7 +82,7 @@ void Cast::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::R
 }
 
 Plan Cast::plan(const InForce* in_force, std::int64_t step) {
-  Plan plan = make_plan(*planner_, planner_use_.info, variant_, world_, in_force,
+  Plan plan = make_plan(*planner_, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
   if (plan.asked) note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
   return plan;
@@ -134,7 +143,8 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guida
 }
 
 const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
-  if (!pedestrian_model_) return velocities_;
+  velocities_.assign(world_.people().size(), {0.0, 0.0});
+  if (!pedestrian_model_ || velocities_.empty()) return velocities_;
   const auto people = world_.people();
   const auto robots = world_.robot_agents();
   const dmrp_crowd crowd = {sizeof(crowd),       static_cast<std::uint32_t>(people.size()),
@@ -142,7 +152,6 @@ const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
                             people.data(),       robots.data(),
                             sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
                             sizeof(dmrp_agent),  0};
-  std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
   const auto result = pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
     return pedestrian_table_.step(pedestrian_model_->self(), &crowd, velocities_.data());
   });

@@ -32,7 +32,8 @@ class Cast {
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  // Plans from where the robots are; `in_force`: what holds meanwhile, nullptr for the first plan.
+  // Plans from where the robots are, of which there is one at least; `in_force`: what holds meanwhile, nullptr for the
+  // first plan.
   Plan plan(const InForce* in_force, std::int64_t step);
 
   // Hands a robot's controller a path.
@@ -51,6 +52,10 @@ class Cast {
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 
  private:
+  void start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+  void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+  void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+
   // Gives an instance the annotations besides the robot's sensors, if any.
   void offer(Instance& instance, core::TraceSource source, const std::shared_ptr<RobotSensors>& sensors);
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
@@ -58,8 +63,8 @@ class Cast {
   const Experiment& experiment_;
   const VariantWorld& variant_;
   const core::World& world_;
-  const PluginUse& planner_use_;
-  Instance* planner_;
+  const PluginUse* planner_use_ = nullptr;  // these two: nullptr where there are no robots
+  Instance* planner_ = nullptr;
   Instance* pedestrian_model_ = nullptr;
   struct Driver {
     Instance* controller;
@@ -73,7 +78,7 @@ class Cast {
   std::vector<std::shared_ptr<Annotations>> annotations_;
   std::vector<Driver> drivers_;
   dmrp_pedestrian_model pedestrian_table_{};
-  std::vector<dmrp_vec2> velocities_;
+  std::vector<dmrp_vec2> velocities_;  // parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };
 

@@ -28,27 +28,29 @@ class Run {
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns) {}
 
   dmrp_trial_end run() {
-    plan(nullptr);
-    if (!plan_.exists()) return end_without_plan();
+    if (has_robots()) {
+      plan(nullptr);
+      if (!plan_.exists()) return end_without_plan();
+    }
     record({});
 
-    std::uint32_t ending = monitor_.update(0, world_.robots(), dispatcher_.gained_m());
+    std::uint32_t ending = watch();
     while (ending == 0) {
       if (control_due()) {  // sees the state that was recorded last
-        if (replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress())) replan();
+        if (has_robots() && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress())) replan();
         control();
       }
       const auto contacts = world_.step(cast_.walk(step_));
       ++step_;
       dispatcher_.follow();
       record(contacts);
-      ending = monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m());
+      ending = watch();
     }
     ends_ = monitor_.robot_ends(ending, world_.robots());
     return end(ending);
   }
 
-  // All arrived, and none of them oscillated on the way.
+  // All arrived, and none of them oscillated on the way: so does a trial without robots, which has no task to fail.
   bool succeeded() const {
     return std::all_of(ends_.begin(), ends_.end(), [](const dmrp_robot_end& end) {
       return end.state == DMRP_ROBOT_FINISHED && end.failure == DMRP_FAILURE_NONE;
@@ -56,6 +58,12 @@ class Run {
   }
 
  private:
+  bool has_robots() const { return !world_.robots().empty(); }
+
+  std::uint32_t watch() {
+    return monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m(), world_.is_deserted());
+  }
+
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
   // Without a new plan, the one in force stays.
@@ -103,7 +111,7 @@ class Run {
     sample.control_tick = control_due();
     sample.t_ns = world_.t_ns();
     sample.dt_ns = step_ == 0 ? 0 : settings_.step_ns;
-    sample.plan = &plan_.view();
+    sample.plan = plan_.exists() ? &plan_.view() : nullptr;
     sample.robots = robots_.data();
     sample.robot_count = static_cast<std::uint32_t>(robots_.size());
     sample.robot_stride = sizeof(dmrp_robot_sample);
@@ -131,8 +139,8 @@ class Run {
                               ends_.data(),
                               static_cast<std::uint32_t>(ends_.size()),
                               sizeof(dmrp_robot_end)};
-    static constexpr const char* const reasons[] = {"", "all robots arrived", "time limit", "deadlock",
-                                                    "the planner found no plan"};
+    static constexpr const char* const reasons[] = {"",         "all robots arrived",        "time limit",
+                                                    "deadlock", "the planner found no plan", "everybody left"};
     trace_.end(c, reasons[ending]);
     return c;
   }

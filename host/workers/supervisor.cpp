@@ -344,7 +344,7 @@ std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
   const auto all = combinations(experiment);
   const TrialId id = trial_id(trial, all.size());
   // 63 bits, so that it is a positive integer in every database.
-  return toolkit::Stream(experiment.seed, "trial", experiment.scenarios[all[id.combination].scenario].label,
+  return toolkit::Stream(experiment.seed, "trial", experiment.scenarios[all[id.combination].scenario].scenario.name,
                          id.repetition)
              .next_u64() >>
          1;
@@ -359,11 +359,12 @@ TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
   record.id = trial;
   record.scenario = variant.scenario.name;
   record.robots = static_cast<std::uint32_t>(variant.scenario.robots.size());
-  record.global_planner = experiment.global_planners[combination.global_planner].label;
-  record.local_controller = experiment.local_controllers[combination.local_controller].label;
-  if (combination.pedestrian_model >= 0)
-    record.pedestrian_model =
-        experiment.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)].label;
+  const auto label = [](const std::vector<PluginUse>& uses, std::int32_t index) {
+    return index < 0 ? std::string() : uses[static_cast<std::size_t>(index)].label;
+  };
+  record.global_planner = label(experiment.global_planners, combination.global_planner);
+  record.local_controller = label(experiment.local_controllers, combination.local_controller);
+  record.pedestrian_model = label(experiment.pedestrian_models, combination.pedestrian_model);
   record.repetition = id.repetition;
   record.seed = trial_seed(experiment, trial);
   return record;

@@ -62,3 +62,29 @@ expect_mistake "misspelt key of the scenario" '' 's/^size_m = \[8/siez_m = [8/' 
 rm experiment.toml
 expect_status 2 "$host" experiment.toml
 [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "a missing experiment file gets one line"
+
+# the same for a run that is looked at again
+cp "$here/crossing.toml" experiment.toml
+cp "$here/worlds/crossing/scenario.toml" worlds/crossing/scenario.toml
+expect_status 0 "$host" experiment.toml --trials 1 --quiet --out "$scratch/run"
+mkdir "$scratch/empty"
+expect_evaluate_mistake() {
+  local pattern=$1
+  shift
+  expect_status 2 "$host" evaluate "$@"
+  [[ $(wc -l <"$scratch/stderr") == 1 && ! -s $scratch/stdout ]] ||
+    fail "evaluate $*: not one line but: $(cat "$scratch/stderr" "$scratch/stdout")"
+  grep -Eq -- "$pattern" "$scratch/stderr" || fail "evaluate $*: '$(cat "$scratch/stderr")' does not match '$pattern'"
+  echo "evaluate: $(cat "$scratch/stderr")"
+}
+expect_evaluate_mistake "empty: is no run directory" "$scratch/empty"
+expect_evaluate_mistake "'dmrp.metric.st'|dmrp.metric.st: no such metric.*did you mean" "$scratch/run" --metric dmrp.metric.st
+expect_evaluate_mistake "dmrp.planner.cbs: is a global_planner, not a metric" "$scratch/run" --metric dmrp.planner.cbs
+expect_evaluate_mistake "--set distance=1: .*'distance'.*did you mean 'distance_m'" "$scratch/run" --metric dmrp.metric.sto --set distance=1
+expect_evaluate_mistake "--set distance_m=-1: .*distance_m" "$scratch/run" --metric dmrp.metric.sto --set distance_m=-1
+expect_evaluate_mistake "name it by --metric" "$scratch/run" --set distance_m=1
+expect_evaluate_mistake "--params-file none.toml: there is no such file" "$scratch/run" --metric dmrp.metric.sto --params-file none.toml
+expect_evaluate_mistake "--trial 4: .* has 4 trials, from 0 to 3" "$scratch/run" --trial 4
+expect_evaluate_mistake "--plugin libnone.so: there is no such library" "$scratch/run" --plugin libnone.so
+expect_evaluate_mistake "--plugin ./libtext.so: cannot be loaded" "$scratch/run" --plugin ./libtext.so
+expect_evaluate_mistake "--csv .*: there is no folder" "$scratch/run" --csv "$scratch/none/values.csv"

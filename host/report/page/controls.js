@@ -35,6 +35,11 @@ window.dmrp = window.dmrp || {};
       element('span', {}, title), element('span', {class: 'segmented'}, buttons));
   }
 
+  // More than a screenful of rows is shown a scenario at a time, at first.
+  function first_variant(variants, rows) {
+    return rows > 24 && variants.length > 1 ? variants[0].key : 'all';
+  }
+
   // "all" stands first. Says how many robots only where that tells variants apart.
   function variant_select(variants, value, changed) {
     const names = dmrp.labels.distinct(variants.map((variant) => variant.scenario.name));
@@ -83,5 +88,5 @@ window.dmrp = window.dmrp || {};
     return button;
   }
 
-  dmrp.controls = {row, select, segmented, metric_select, variant_select, checkbox, search, copy_button};
+  dmrp.controls = {row, select, segmented, metric_select, first_variant, variant_select, checkbox, search, copy_button};
 })(window.dmrp);

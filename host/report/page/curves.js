@@ -1,1 +1,82 @@
-window.dmrp = window.dmrp || {}; dmrp.curves = {mount: () => false, show() {}};
+// SPDX-License-Identifier: MIT
+// curves.js: lines with bands, a panel for each scenario and planner, a line for each controller: metrics over their
+// thresholds.
+window.dmrp = window.dmrp || {};
+(function (dmrp) {
+  'use strict';
+  const element = (...all) => dmrp.elements.element(...all);
+  const HEIGHT = 200;
+  const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
+
+  // What the axes must hold.
+  function extents_of(curves) {
+    const points = curves.flatMap((curve) => curve.points);
+    return {
+      unit: curves[0].coordinate_unit,
+      coordinates: points.map((point) => point[0]),
+      values: points.flatMap((point) => point.slice(1, 4)).filter(dmrp.numbers.is_number),
+    };
+  }
+
+  function has_values(curve) {
+    return curve.points.some((point) => dmrp.numbers.is_number(point[1]));
+  }
+
+  function series_of(data, curve) {
+    return dmrp.labels.series(data, 'local_controller', data.combinations[curve.combination].local_controller);
+  }
+
+  function draw_curve(svg, curve, series, x, y) {
+    const defined = (point) => dmrp.numbers.is_number(point[1]);
+    const banded = (point) => dmrp.numbers.is_number(point[2]) && dmrp.numbers.is_number(point[3]);
+    svg.append('path').attr('class', 'band').style('fill', series.colour)
+      .attr('d', d3.area().defined(banded).x((point) => x(point[0])).y0((point) => y(point[2])).y1((point) => y(point[3]))(curve.points));
+    svg.append('path').attr('class', 'line').style('stroke', series.colour)
+      .attr('d', d3.line().defined(defined).x((point) => x(point[0])).y((point) => y(point[1]))(curve.points));
+    for (const point of curve.points.filter(defined)) {
+      svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 34))
+        .attr('transform', `translate(${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)})`);
+    }
+  }
+
+  function draw_panel(data, curves, extents, title, holder, width) {
+    dmrp.elements.fill(holder);
+    const x = d3.scaleLinear().domain(d3.extent(extents.coordinates)).range([MARGIN.left, width - MARGIN.right]);
+    const y = dmrp.plots.linear(extents.values, [HEIGHT - MARGIN.bottom, MARGIN.top], {zero: true});
+    const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
+    svg.append('g').attr('class', 'grid').selectAll('line').data(y.ticks(4)).enter().append('line')
+      .attr('x1', MARGIN.left).attr('x2', width - MARGIN.right).attr('y1', y).attr('y2', y);
+    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, `threshold${extents.unit ? ` (${extents.unit})` : ''}`);
+    dmrp.plots.axis_left(svg, y, MARGIN.left);
+    for (const curve of curves) draw_curve(svg, curve, series_of(data, curve), x, y);
+  }
+
+  function show_metric(data, metric, holder, note) {
+    dmrp.elements.fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, metric)}`));
+    const found = data.curves.filter((curve) => curve.metric === metric && has_values(curve));
+    const seen = dmrp.labels.strata(data).map((stratum) => ({
+      stratum, curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
+    })).filter((one) => one.curves.length > 0);
+    const extents = (stratum) =>
+      extents_of(found.filter((curve) => stratum.variant.combinations.includes(curve.combination)));
+    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), 240, 4);
+    seen.forEach((one, i) => dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+      draw_panel(data, one.curves, extents(one.stratum), `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`, plot, width)));
+    const about = dmrp.labels.metric(data, metric);
+    dmrp.elements.fill(note, about ? `${about.description} (${dmrp.labels.direction_words(about.direction)}).` : '');
+  }
+
+  function mount(body, data) {
+    const names = dmrp.labels.distinct(data.curves.filter(has_values).map((curve) => curve.metric));
+    if (names.length === 0) return 'no metric was measured over a range of thresholds';
+    const holder = element('div');
+    const note = element('p', {class: 'note'});
+    const options = names.map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)}));
+    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.select('Metric', options, names[0], (name) => show_metric(data, name, holder, note))),
+      dmrp.plots.field_legend(data, 'local_controller', true), holder, note);
+    show_metric(data, names[0], holder, note);
+    return null;
+  }
+
+  dmrp.curves = {mount};
+})(window.dmrp);

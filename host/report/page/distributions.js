@@ -77,7 +77,7 @@ window.dmrp = window.dmrp || {};
 
   function mount(body, data) {
     const measured = dmrp.labels.measured_metrics(data);
-    if (measured.length === 0) return 'No metric has a value in any trial.';
+    if (measured.length === 0) return 'no metric has a value in any trial';
     const variants = dmrp.labels.variants(data).filter((variant) => variant.combinations.length > 0);
     const chosen = {metric: default_metric(data, measured), variant: 'all'};
     const holder = element('div');
@@ -99,7 +99,7 @@ window.dmrp = window.dmrp || {};
       dmrp.controls.variant_select(variants, 'all', (key) => { chosen.variant = key; show(); })),
     dmrp.trial_points.mark_legend(data), holder, detail);
     show();
-    return true;
+    return null;
   }
 
   dmrp.distributions = {mount, model};

@@ -21,7 +21,7 @@ window.dmrp = window.dmrp || {};
         const i = at(planner, controller);
         return i === undefined ? null : {...data.summaries[i][index], combination: i};
       }));
-      const title = variant.label + (models.length > 1 ? ` · ${dmrp.labels.nobody(model)}` : '');
+      const title = variant.label + (models.length > 1 ? ` · ${dmrp.labels.named(model)}` : '');
       return {title, planners, controllers, cells};
     })).filter((grid) => grid.planners.length > 0);
   }
@@ -79,7 +79,7 @@ window.dmrp = window.dmrp || {};
   function mount(body, data) {
     const measured = dmrp.labels.measured_metrics(data);
     const pairs = Math.max(dmrp.labels.values_of(data, 'global_planner').length, dmrp.labels.values_of(data, 'local_controller').length);
-    if (pairs < 2 || measured.length === 0) return false;
+    if (pairs < 2 || measured.length === 0) return 'there is one planner and one controller';
     const holder = element('div', {class: 'facets heat-grids'});
     const note = element('p', {class: 'note'});
     const show = (name) => {
@@ -92,7 +92,7 @@ window.dmrp = window.dmrp || {};
     const first = default_metric(data, measured);
     show(first);
     dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.metric_select(data, 'Metric', measured, first, show)), holder, note);
-    return true;
+    return null;
   }
 
   dmrp.heat_map = {mount, grids};

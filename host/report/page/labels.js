@@ -16,9 +16,11 @@ window.dmrp = window.dmrp || {};
     return [...new Set(values)];
   }
 
-  // Scenario and number of robots: what combinations are compared within. `combinations`: their indices.
+  // Scenario and number of robots: what combinations are compared within. `combinations`: their indices. Worlds without
+  // robots are left out where there are others: they are there to be compared with.
   function variants(data) {
-    return data.scenarios.map((scenario) => ({
+    const with_robots = data.scenarios.filter((scenario) => scenario.robots > 0);
+    return (with_robots.length > 0 ? with_robots : data.scenarios).map((scenario) => ({
       scenario,
       key: `${scenario.name}/${scenario.robots}`,
       label: `${scenario.name} · ${dmrp.numbers.counted(scenario.robots, 'robot')}`,
@@ -33,8 +35,10 @@ window.dmrp = window.dmrp || {};
     return row.scenario === scenario.name && row.robots === scenario.robots;
   }
 
+  // Worlds without robots have no planner and no controller.
   function values_of(data, field) {
-    return distinct(data.combinations.map((combination) => combination[field]));
+    const with_robots = data.combinations.filter((combination) => combination.robots > 0);
+    return distinct((with_robots.length > 0 ? with_robots : data.combinations).map((combination) => combination[field]));
   }
 
   // The fields that tell combinations apart; pedestrian models only where there are several.
@@ -42,12 +46,29 @@ window.dmrp = window.dmrp || {};
     return FIELDS.filter((field) => field !== 'pedestrian_model' || values_of(data, field).length > 1);
   }
 
-  function nobody(label) {
-    return label === '' ? 'nobody' : label;
+  // What correlations and curves are kept apart by: variant, planner, pedestrian model.
+  function strata(data) {
+    const several = (field) => values_of(data, field).length > 1;
+    return variants(data).flatMap((variant) => {
+      const key = (i) => JSON.stringify([data.combinations[i].global_planner, data.combinations[i].pedestrian_model]);
+      return distinct(variant.combinations.map(key)).map((one) => {
+        const combinations = variant.combinations.filter((i) => key(i) === one);
+        const {global_planner, pedestrian_model} = data.combinations[combinations[0]];
+        const title = [
+          variant.label, several('global_planner') && global_planner, several('pedestrian_model') && named(pedestrian_model),
+        ].filter(Boolean).join(' · ');
+        return {variant, global_planner, pedestrian_model, combinations, title};
+      });
+    });
+  }
+
+  // Labels are empty where nobody plans, drives or walks.
+  function named(label) {
+    return label === '' ? 'none' : label;
   }
 
   function combination(data, index, fields = naming_fields(data)) {
-    return fields.map((field) => nobody(data.combinations[index][field])).join(' + ');
+    return fields.map((field) => named(data.combinations[index][field])).join(' + ');
   }
 
   function trial(data, row) {
@@ -94,7 +115,7 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.labels = {
-    FIELD_TITLES, distinct, variants, is_of, values_of, naming_fields, nobody, combination, trial, metric, metric_title,
+    FIELD_TITLES, distinct, variants, strata, is_of, values_of, naming_fields, named, combination, trial, metric, metric_title,
     metric_with_unit, direction_words, measured_metrics, decimals, series,
   };
 })(window.dmrp);

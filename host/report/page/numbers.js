@@ -45,7 +45,7 @@ window.dmrp = window.dmrp || {};
   }
 
   function percent(share) {
-    return is_number(share) ? `${fixed(100 * share, share > 0 && share < 0.995 && 100 * share % 1 ? 1 : 0)} %` : UNDEFINED;
+    return is_number(share) ? `${fixed(100 * share, 0)} %` : UNDEFINED;
   }
 
   // "1" is how a dimensionless value is declared.

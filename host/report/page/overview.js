@@ -72,7 +72,7 @@ window.dmrp = window.dmrp || {};
     const list = element('dl', {class: 'choices'});
     const add = (title, text) => list.append(element('dt', {}, title), element('dd', {}, text));
     for (const [field, title] of Object.entries(dmrp.labels.FIELD_TITLES)) {
-      const values = dmrp.labels.values_of(data, field).map(dmrp.labels.nobody);
+      const values = dmrp.labels.values_of(data, field).map(dmrp.labels.named);
       add(title + (values.length === 1 ? '' : 's'), values.join(', '));
     }
     add('seed', data.run.seed);

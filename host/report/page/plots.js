@@ -60,8 +60,8 @@ window.dmrp = window.dmrp || {};
     if (low === undefined) [low, high] = [0, 1];
     if (zero) [low, high] = [Math.min(0, low), Math.max(0, high)];
     if (low === high) [low, high] = [low - Math.max(0.5, Math.abs(low) * 0.1), high + Math.max(0.5, Math.abs(high) * 0.1)];
-    const room = zero ? 0 : (high - low) * 0.04;
-    return d3.scaleLinear().domain([low - (low === 0 ? 0 : room), high + room]).range(range).nice(4);
+    const room = zero ? 0 : (high - low) * 0.05;
+    return d3.scaleLinear().domain([low >= 0 ? Math.max(0, low - room) : low - room, high + room]).range(range).nice();
   }
 
   const SYMBOLS = ['symbolCircle', 'symbolTriangle', 'symbolSquare', 'symbolDiamond', 'symbolStar', 'symbolWye', 'symbolCross'];
@@ -99,7 +99,7 @@ window.dmrp = window.dmrp || {};
     if (values.length < 2) return null;
     return legend(values.map((value) => {
       const series = dmrp.labels.series(data, field, value);
-      return {label: dmrp.labels.nobody(value), colour: series.colour, path: symbol(series.symbol), line};
+      return {label: dmrp.labels.named(value), colour: series.colour, path: symbol(series.symbol), line};
     }));
   }
 

@@ -6,8 +6,8 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
 
-  // Each fills the body of its section; returns false if it has nothing to show (the section is left out), or a sentence
-  // that says why it has nothing.
+  // Each fills the body of its section. One that has nothing to show returns why: its section is left out, and the reason
+  // stands at the end of the page.
   function parts() {
     return [
       ['tables', dmrp.tables.mount],
@@ -26,23 +26,23 @@ window.dmrp = window.dmrp || {};
   }
 
   function mount_replay(body, data) {
-    if (!dmrp.replay || (data.replays.length === 0 && data.replays_left_out.length === 0)) return false;
+    if (!dmrp.replay || (data.replays.length === 0 && data.replays_left_out.length === 0)) return 'no trace was recorded';
     dmrp.replay.mount(body.closest('section'), data);
-    return true;
+    return null;
   }
 
   function mount_part(part, data) {
     if (part.done) return;
     part.done = true;
     const body = part.section.querySelector('.section-body');
-    const shown = part.mount(body, data);
-    if (shown === false) {
-      part.section.remove();
-      part.link.remove();
-    } else if (typeof shown === 'string') {
-      dmrp.elements.fill(body, element('p', {class: 'note'}, shown));
-    }
+    const reason = part.mount(body, data);
     part.section.classList.add('ready');
+    if (typeof reason !== 'string') return;
+    const list = document.getElementById('left-out');
+    list.hidden = false;
+    list.append(element('li', {}, `${part.section.querySelector('h2').textContent}: ${reason}.`));
+    part.section.remove();
+    part.link.remove();
   }
 
   function fill_contents(all) {

@@ -41,7 +41,7 @@ window.dmrp = window.dmrp || {};
   }
 
   function label_of(row, fields) {
-    return fields.map((field) => dmrp.labels.nobody(row[field])).join(' + ');
+    return fields.map((field) => dmrp.labels.named(row[field])).join(' + ');
   }
 
   function cell_of(from, row, column) {
@@ -74,7 +74,8 @@ window.dmrp = window.dmrp || {};
     const {rows} = from;
     const fields = fields_of(data, layout);
     const columns = variants.flatMap((variant) => columns_of(data, layout, variant));
-    const names = dmrp.labels.distinct(rows.map((row) => label_of(row, fields)));
+    const shown = rows.filter((row) => variants.some((variant) => dmrp.labels.is_of(variant.scenario, row)));
+    const names = dmrp.labels.distinct(shown.map((row) => label_of(row, fields)));
     const found = (name, variant) =>
       rows.findIndex((row) => label_of(row, fields) === name && dmrp.labels.is_of(variant.scenario, row));
     const table_rows = names.map((name) => ({

@@ -4,8 +4,6 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const MANY_ROWS = 24;  // more are shown a scenario at a time, at first
-
   const fixed = (...all) => dmrp.numbers.fixed(...all);
 
   function defined_words(cell) {
@@ -102,10 +100,9 @@ window.dmrp = window.dmrp || {};
           element('span', {}, group.title)));
       return {rows, body: element('tbody', {}, title, rows)};
     });
-    table.append(element('caption', {}, element('h3', {}, layout.title), layout.note && element('p', {}, layout.note)),
-      head(model, (key) => sort(key)), ...bodies.map((one) => one.body));
+    table.append(head(model, (key) => sort(key)), ...bodies.map((one) => one.body));
     const sort = sorter(table, model, bodies);
-    return element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': layout.title}, table);
+    return dmrp.elements.titled_table(`title-${layout.id}`, layout.title, layout.note, table);
   }
 
   const KEY = 'Dot and bold: the best mean of its column within a scenario, unless most share it. Brackets: 95 % interval over seeds, none where all trials agree; a fraction ' +
@@ -121,7 +118,7 @@ window.dmrp = window.dmrp || {};
     const show = (key) => dmrp.elements.fill(holder, data.layouts.report.tables.map((layout) =>
       table_element(data, layout, variants.filter((variant) => key === 'all' || variant.key === key || layout.across))));
     const paper_key = element('p', {class: 'note', hidden: true}, PAPER_KEY);
-    const first = data.combinations.length > MANY_ROWS && variants.length > 1 ? variants[0].key : 'all';
+    const first = dmrp.controls.first_variant(variants, data.combinations.length);
     show(first);
     dmrp.elements.fill(body, dmrp.controls.row(
       dmrp.controls.variant_select(variants, first, show),
@@ -130,7 +127,7 @@ window.dmrp = window.dmrp || {};
         holder.classList.toggle('with-paper', on);
         paper_key.hidden = !on;
       })), holder, element('p', {class: 'note'}, KEY), paper_key);
-    return data.combinations.length > 0 || 'No trial was run.';
+    return data.combinations.length > 0 ? null : 'no trial was run';
   }
 
   dmrp.tables = {mount};

@@ -4,16 +4,9 @@
 #include <algorithm>
 
 #include "../measure/describe_metric.hpp"
+#include "../measure/in_seconds.hpp"
 
 namespace dmrp::metrics {
-namespace {
-
-// One rounding, so that 0.3 s is the double nearest to 0.3.
-double in_seconds(std::int64_t ns) {
-  return static_cast<double>(ns) / 1e9;
-}
-
-}  // namespace
 
 Descriptor CompletionTime::describe() {
   return describe_metric("dmrp.metric.completion_time", "Completion time")
@@ -28,7 +21,7 @@ Descriptor CompletionTime::describe() {
 
 void CompletionTime::finish(const TrialEnd& end, MetricSink& sink) {
   std::int64_t last_ns = 0;
-  bool all = true;
+  bool all = !end.robots.empty();
   for (std::size_t robot = 0; robot < end.robots.size(); ++robot) {
     const std::int64_t arrival_ns = end.robots[robot].arrival_ns;
     sink.robot("completion_time", robot, arrival_ns >= 0 ? in_seconds(arrival_ns) : undefined);

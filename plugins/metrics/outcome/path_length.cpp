@@ -76,9 +76,10 @@ void PathLength::finish(const TrialEnd&, MetricSink& sink) {
     planned_m.add(length_m);
     turns += turns_of_robot;
   }
-  sink.system("path_length", first_plan_ ? driven_m.value() : undefined);
-  sink.system("planned_length", first_plan_ ? planned_m.value() : undefined);
-  sink.system("plan_turns", first_plan_ ? turns : undefined);
+  const bool measured = first_plan_ && !driven_m_.empty();
+  sink.system("path_length", measured ? driven_m.value() : undefined);
+  sink.system("planned_length", measured ? planned_m.value() : undefined);
+  sink.system("plan_turns", measured ? turns : undefined);
 }
 
 }  // namespace dmrp::metrics

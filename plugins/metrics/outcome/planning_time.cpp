@@ -16,7 +16,8 @@ Descriptor PlanningTime::describe() {
 }
 
 void PlanningTime::finish(const TrialEnd&, MetricSink& sink) {
-  sink.system("planning_time", first_plan_ ? static_cast<double>(first_plan_->planning_ns) / 1e6 : undefined);
+  const bool planned = first_plan_ && !world().robots().empty();
+  sink.system("planning_time", planned ? static_cast<double>(first_plan_->planning_ns) / 1e6 : undefined);
 }
 
 }  // namespace dmrp::metrics

@@ -34,7 +34,8 @@ Descriptor Success::describe() {
       .value(
           "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
           "1 if the robot arrived by the time limit and was not failed by the host, else 0; system: mean over robots")
-      .value("trial_success", "1", Direction::higher_is_better, Subjects::system, "1 if every robot succeeded, else 0")
+      .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
+             "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
              "1 if the robot succeeded without a contact of its own fault, else 0; system: mean over robots");
 }
@@ -66,7 +67,7 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
                  "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure));
   }
   sink.system("success", mean_of_defined(success));
-  sink.system("trial_success", all ? 1.0 : 0.0);
+  sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);
   sink.system("safe_success", mean_of_defined(safe_success));
 }
 

@@ -9,6 +9,7 @@
 
 #include "../measure/describe_metric.hpp"
 #include "../measure/speed_of.hpp"
+#include "../measure/thresholds.hpp"
 #include "../measure/time_span.hpp"
 
 namespace dmrp::metrics {
@@ -31,7 +32,15 @@ Descriptor Ibtr::describe() {
              "mean speed while active, over mission time; events of several pairs count as their union; robot: its own "
              "events; undefined if planning failed")
       .value("ibtr_pair_sum", "%", Direction::lower_is_better, Subjects::system,
-             "the same, with the events of all pairs added up: may exceed 100; undefined if planning failed");
+             "the same, with the events of all pairs added up: may exceed 100; undefined if planning failed")
+      .value("ibtr_by_distance", "%", Direction::lower_is_better, Subjects::system,
+             "ibtr with each of distances_m in place of distance_m, over that distance (m); undefined if planning "
+             "failed")
+      .curve()
+      .value("ibtr_by_speed_fraction", "%", Direction::lower_is_better, Subjects::system,
+             "ibtr with each of speed_fractions in place of speed_fraction, over that share (1); undefined if planning "
+             "failed")
+      .curve();
 }
 
 void Ibtr::begin(const dmrp_plan*) {
@@ -42,6 +51,9 @@ void Ibtr::begin(const dmrp_plan*) {
   speeds_.clear();
   open_since_.assign(robot_count_ * robot_count_, none);
   encounters_.clear();
+  widest_m_ = distance_m;
+  for (const double each_m : *distances_m) widest_m_ = std::max(widest_m_, each_m);
+  meetings_.clear();
 }
 
 void Ibtr::observe(const Sample& sample) {
@@ -55,10 +67,12 @@ void Ibtr::observe(const Sample& sample) {
   const double squared_reach = distance_m * distance_m;
   for (std::uint32_t a = 0; a < robot_count_; ++a) {
     for (std::uint32_t b = a + 1; b < robot_count_; ++b) {
-      const bool near = active_.in_step(a) && active_.in_step(b) &&
-                        toolkit::squared_distance(toolkit::position(sample.robots[a].pose),
-                                                  toolkit::position(sample.robots[b].pose)) <= squared_reach;
-      follow_encounter(a, b, near);
+      const bool both = active_.in_step(a) && active_.in_step(b);
+      const double squared_distance =
+          toolkit::squared_distance(toolkit::position(sample.robots[a].pose), toolkit::position(sample.robots[b].pose));
+      follow_encounter(a, b, both && squared_distance <= squared_reach);
+      if (both && squared_distance <= widest_m_ * widest_m_)
+        meetings_.push_back({times_ns_.size() - 1, a, b, squared_distance});
     }
   }
 }
@@ -75,21 +89,40 @@ void Ibtr::follow_encounter(std::uint32_t a, std::uint32_t b, bool near) {
 }
 
 // A robot that never moved has no pace to fall below: it is in the way, but does not crawl.
-bool Ibtr::both_crawl(const Encounter& encounter, std::size_t sample, const std::vector<double>& thresholds) const {
+bool Ibtr::both_crawl(std::uint32_t a, std::uint32_t b, std::size_t sample,
+                      const std::vector<double>& thresholds) const {
   const double* speeds = &speeds_[sample * robot_count_];
-  return speeds[encounter.a] < thresholds[encounter.a] && speeds[encounter.b] < thresholds[encounter.b];
+  return speeds[a] < thresholds[a] && speeds[b] < thresholds[b];
+}
+
+std::vector<double> Ibtr::speed_thresholds(double fraction) const {
+  std::vector<double> thresholds;
+  for (const TimeMoments& pace : pace_) thresholds.push_back(fraction * pace.mean());
+  return thresholds;
+}
+
+// The union of events as the sum of the steps in which some pair has one.
+double Ibtr::blocked_percent(double reach_m, double fraction, std::int64_t mission_ns) const {
+  const std::vector<double> thresholds = speed_thresholds(fraction);
+  std::int64_t blocked_ns = 0;
+  std::size_t counted = 0;  // the last sample that was
+  for (const Meeting& meeting : meetings_) {
+    if (meeting.sample == counted || meeting.squared_distance > reach_m * reach_m) continue;
+    if (!both_crawl(meeting.a, meeting.b, meeting.sample, thresholds)) continue;
+    counted = meeting.sample;
+    blocked_ns += times_ns_[counted] - times_ns_[counted - 1];
+  }
+  return percent_of(blocked_ns, mission_ns);
 }
 
 // Cuts the encounters to the times in which both robots crawl. In order of beginning, then of the robots.
 std::vector<Ibtr::Congestion> Ibtr::congestions() const {
-  std::vector<double> thresholds;
-  for (const TimeMoments& pace : pace_) thresholds.push_back(speed_fraction * pace.mean());
-
+  const std::vector<double> thresholds = speed_thresholds(speed_fraction);
   std::vector<Congestion> found;
   for (const Encounter& encounter : encounters_) {
     bool open = false;
     for (std::size_t sample = encounter.first; sample <= encounter.last; ++sample) {
-      const bool crawl = both_crawl(encounter, sample, thresholds);
+      const bool crawl = both_crawl(encounter.a, encounter.b, sample, thresholds);
       if (crawl && !open) found.push_back({times_ns_[sample - 1], 0, encounter.a, encounter.b});
       if (crawl) found.back().to_ns = times_ns_[sample];
       open = crawl;
@@ -123,8 +156,13 @@ void Ibtr::finish(const TrialEnd& end, MetricSink& sink) {
   const std::int64_t mission_ns = times_ns_.empty() ? 0 : end.t_ns;
   for (std::size_t robot = 0; robot < robot_count_; ++robot)
     sink.robot("ibtr", robot, percent_of(blocked_of[robot].value_ns(), mission_ns));
-  sink.system("ibtr", percent_of(blocked.value_ns(), mission_ns));
-  sink.system("ibtr_pair_sum", percent_of(pair_sum_ns, mission_ns));
+  const bool measured = robot_count_ > 0;
+  sink.system("ibtr", measured ? percent_of(blocked.value_ns(), mission_ns) : undefined);
+  sink.system("ibtr_pair_sum", measured ? percent_of(pair_sum_ns, mission_ns) : undefined);
+  give_curve(sink, "ibtr_by_distance", distances_m,
+             [&](double each_m) { return measured ? blocked_percent(each_m, speed_fraction, mission_ns) : undefined; });
+  give_curve(sink, "ibtr_by_speed_fraction", speed_fractions,
+             [&](double fraction) { return measured ? blocked_percent(distance_m, fraction, mission_ns) : undefined; });
 }
 
 }  // namespace dmrp::metrics

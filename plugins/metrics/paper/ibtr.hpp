@@ -19,6 +19,15 @@ class Ibtr final : public Metric {
                                      .unit("1")
                                      .range(0.0, 10.0)
                                      .doc("v_thresh as a share of the robot's own mean speed; slower robots crawl");
+  Param<std::vector<double>> distances_m = param("distances_m", std::vector<double>{1.0, 1.5, 2.0, 2.5, 3.0})
+                                               .unit("m")
+                                               .range(0.0, 100.0)
+                                               .doc("values of d for the curve ibtr_by_distance");
+  Param<std::vector<double>> speed_fractions =
+      param("speed_fractions", std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5})
+          .unit("1")
+          .range(0.0, 10.0)
+          .doc("values of v_thresh, as shares of the robot's own mean speed, for the curve ibtr_by_speed_fraction");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;
@@ -36,8 +45,17 @@ class Ibtr final : public Metric {
     std::uint32_t a, b;
   };
 
+  // Two robots, active and near each other by some of the distances, in the step that ends with a sample.
+  struct Meeting {
+    std::size_t sample;
+    std::uint32_t a, b;
+    double squared_distance;
+  };
+
+  std::vector<double> speed_thresholds(double fraction) const;
+  double blocked_percent(double reach_m, double fraction, std::int64_t mission_ns) const;
   void follow_encounter(std::uint32_t a, std::uint32_t b, bool near);
-  bool both_crawl(const Encounter& encounter, std::size_t sample, const std::vector<double>& thresholds) const;
+  bool both_crawl(std::uint32_t a, std::uint32_t b, std::size_t sample, const std::vector<double>& thresholds) const;
   std::vector<Congestion> congestions() const;
 
   // The thresholds are known at the end only, so speeds are kept until then.
@@ -48,6 +66,8 @@ class Ibtr final : public Metric {
   std::vector<double> speeds_;           // robot_count_ a sample
   std::vector<std::size_t> open_since_;  // a pair (a * robot_count_ + b): first sample of its encounter, or none
   std::vector<Encounter> encounters_;
+  double widest_m_ = 0.0;  // of all distances
+  std::vector<Meeting> meetings_;
 };
 
 }  // namespace dmrp::metrics

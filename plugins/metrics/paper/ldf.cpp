@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "ldf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
+#include "../measure/thresholds.hpp"
 
 namespace dmrp::metrics {
 
@@ -28,7 +31,11 @@ Descriptor Ldf::describe() {
              "to the trial's end; system: maximum over robots; undefined if planning failed")
       .value("ldf_active", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "the same among active robots only, counted while the robot itself is active; undefined if planning "
-             "failed");
+             "failed")
+      .value("ldf_by_distance", "1", Direction::lower_is_better, Subjects::system,
+             "ldf with each of distances_m in place of distance_m, over that distance (m); undefined if planning "
+             "failed")
+      .curve();
 }
 
 void Ldf::begin(const dmrp_plan*) {
@@ -38,6 +45,7 @@ void Ldf::begin(const dmrp_plan*) {
   active_.begin(robot_count);
   all_.assign(robot_count, {});
   active_only_.assign(robot_count, {});
+  by_distance_.assign(robot_count * distances_m->size(), {});
 }
 
 void Ldf::observe(const Sample& sample) {
@@ -53,29 +61,40 @@ void Ldf::count_neighbours(const Sample& sample, std::int64_t times) {
   for (std::size_t robot = 0; robot < all_.size(); ++robot) {
     const Vec2 position = toolkit::position(sample.robots[robot].pose);
     std::int64_t neighbours = 0, active_neighbours = 0;
+    squared_distances_.clear();
     for (std::size_t other = 0; other < all_.size(); ++other) {
       if (other == robot) continue;
-      if (toolkit::squared_distance(position, toolkit::position(sample.robots[other].pose)) > squared_reach) continue;
+      squared_distances_.push_back(toolkit::squared_distance(position, toolkit::position(sample.robots[other].pose)));
+      if (squared_distances_.back() > squared_reach) continue;
       ++neighbours;
       active_neighbours += active_.at_instant(other);
     }
     all_[robot].add(neighbours, times);
     if (active_.at_instant(robot)) active_only_[robot].add(active_neighbours, times);
+    count_by_distance(robot, times);
+  }
+}
+
+void Ldf::count_by_distance(std::size_t robot, std::int64_t times) {
+  for (std::size_t i = 0; i < distances_m->size(); ++i) {
+    const double squared_reach = (*distances_m)[i] * (*distances_m)[i];
+    std::int64_t neighbours = 0;
+    for (const double squared_distance : squared_distances_) neighbours += squared_distance <= squared_reach;
+    by_distance_[i * all_.size() + robot].add(neighbours, times);
   }
 }
 
 void Ldf::finish(const TrialEnd&, MetricSink& sink) {
-  const auto give = [&](const char* name, const std::vector<Counts>& counts) {
-    double largest = undefined;
-    for (std::size_t robot = 0; robot < counts.size(); ++robot) {
-      const double variance = counts[robot].variance();
-      sink.robot(name, robot, variance);
-      largest = std::fmax(largest, variance);  // takes the number where one is NaN
-    }
-    sink.system(name, largest);
+  const auto variances = [](const std::vector<Counts>& counts) {
+    return values_of(counts, [](const Counts& of_robot) { return of_robot.variance(); });
   };
-  give("ldf", all_);
-  give("ldf_active", active_only_);
+  give(sink, "ldf", variances(all_), &greatest_of_defined);
+  give(sink, "ldf_active", variances(active_only_), &greatest_of_defined);
+  give_curve(sink, "ldf_by_distance", distances_m, [&](double each_m) {
+    const auto row = std::find(distances_m->begin(), distances_m->end(), each_m) - distances_m->begin();
+    const auto first = by_distance_.begin() + row * static_cast<std::ptrdiff_t>(all_.size());
+    return greatest_of_defined(variances({first, first + static_cast<std::ptrdiff_t>(all_.size())}));
+  });
 }
 
 }  // namespace dmrp::metrics

@@ -16,6 +16,10 @@ class Ldf final : public Metric {
   Param<double> distance_m =
       param("distance_m", 2.0).unit("m").range(0.0, 100.0).doc("R: robots at most this far away are neighbours");
   Param<double> period_s = param("period_s", 1.0).unit("s").range(0.001, 60.0).doc("time between two counts");
+  Param<std::vector<double>> distances_m = param("distances_m", std::vector<double>{1.0, 1.5, 2.0, 2.5, 3.0})
+                                               .unit("m")
+                                               .range(0.0, 100.0)
+                                               .doc("values of R for the curve ldf_by_distance");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;
@@ -30,12 +34,15 @@ class Ldf final : public Metric {
   };
 
   void count_neighbours(const Sample& sample, std::int64_t times);
+  void count_by_distance(std::size_t robot, std::int64_t times);
 
   std::int64_t period_ns_ = 0;
   std::int64_t next_ns_ = 0;  // the next instant to count at
   ActiveSteps active_;
-  std::vector<Counts> all_;          // a robot: among all robots, over the whole trial
-  std::vector<Counts> active_only_;  // among active robots, while active itself
+  std::vector<double> squared_distances_;  // from one robot to the others, at an instant
+  std::vector<Counts> all_;                // a robot: among all robots, over the whole trial
+  std::vector<Counts> active_only_;        // among active robots, while active itself
+  std::vector<Counts> by_distance_;        // as all_, a robot for each of distances_m
 };
 
 }  // namespace dmrp::metrics

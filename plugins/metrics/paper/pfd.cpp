@@ -6,6 +6,7 @@
 #include <dmrp/toolkit/segment.hpp>
 
 #include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {
@@ -30,18 +31,30 @@ Descriptor Pfd::describe() {
           "pfd", "m", Direction::lower_is_better, Subjects::system_and_robots,
           "mean over the control steps of its active time of the distance from the robot to the closest point of its "
           "path in force; system: mean over robots; undefined if planning failed")
+      .value("pfd_max", "m", Direction::lower_is_better, Subjects::system_and_robots,
+             "maximum of the same distances; system: maximum over robots; undefined if planning failed")
+      .value("pfd_sd", "m", Direction::lower_is_better, Subjects::system_and_robots,
+             "standard deviation (1/n) of the same distances; system: mean over robots; undefined if planning failed")
       .value("pfd_initial", "m", Direction::lower_is_better, Subjects::system_and_robots,
-             "the same against the first plan: replans from the current pose do not pull it to zero; undefined if "
+             "pfd against the first plan: replans from the current pose do not pull it to zero; undefined if "
              "planning failed");
 }
 
 void Pfd::Deviation::add(double distance_m) {
   sum_m.add(distance_m);
   ++count;
+  greatest_m = std::fmax(greatest_m, distance_m);
+  const double before = distance_m - running_mean_m;
+  running_mean_m += before / static_cast<double>(count);
+  squares += before * (distance_m - running_mean_m);
 }
 
 double Pfd::Deviation::mean_m() const {
   return count > 0 ? sum_m.value() / static_cast<double>(count) : undefined;
+}
+
+double Pfd::Deviation::standard_deviation_m() const {
+  return count > 0 ? std::sqrt(std::fmax(0.0, squares) / static_cast<double>(count)) : undefined;
 }
 
 void Pfd::begin(const dmrp_plan* plan) {
@@ -66,16 +79,13 @@ void Pfd::observe(const Sample& sample) {
 }
 
 void Pfd::finish(const TrialEnd&, MetricSink& sink) {
-  const auto give = [&](const char* name, const std::vector<Deviation>& deviations) {
-    std::vector<double> means_m;
-    for (std::size_t robot = 0; robot < deviations.size(); ++robot) {
-      means_m.push_back(deviations[robot].mean_m());
-      sink.robot(name, robot, means_m.back());
-    }
-    sink.system(name, mean_of_defined(means_m));
-  };
-  give("pfd", in_force_);
-  give("pfd_initial", initial_);
+  const auto mean = [](const Deviation& deviation) { return deviation.mean_m(); };
+  give_mean(sink, "pfd", values_of(in_force_, mean));
+  give(sink, "pfd_max", values_of(in_force_, [](const Deviation& deviation) { return deviation.greatest_m; }),
+       &greatest_of_defined);
+  give_mean(sink, "pfd_sd",
+            values_of(in_force_, [](const Deviation& deviation) { return deviation.standard_deviation_m(); }));
+  give_mean(sink, "pfd_initial", values_of(initial_, mean));
 }
 
 }  // namespace dmrp::metrics

@@ -18,12 +18,16 @@ class Pfd final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // The mean of one robot's distances.
+  // One robot's distances. All are NaN without one.
   struct Deviation {
     CompensatedSum sum_m;
     std::size_t count = 0;
+    double greatest_m = undefined;
+    double running_mean_m = 0.0;  // after Welford (1962)
+    double squares = 0.0;         // of the differences from it
     void add(double distance_m);
-    double mean_m() const;  // NaN without a distance
+    double mean_m() const;
+    double standard_deviation_m() const;  // with 1/n
   };
 
   const dmrp_plan* first_plan_ = nullptr;

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "../measure/describe_metric.hpp"
-#include "../measure/sums.hpp"
+#include "../measure/per_robot.hpp"
+#include "../measure/thresholds.hpp"
 
 namespace dmrp::metrics {
 namespace {
@@ -50,6 +51,22 @@ bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distan
   return false;
 }
 
+// A robot: the share of its waypoints that some other's path overlaps.
+std::vector<double> overlapping_shares(const std::vector<Steps>& all, double distance_m, std::size_t window) {
+  std::vector<double> shares;
+  for (std::size_t robot = 0; robot < all.size(); ++robot) {
+    std::size_t overlapping = 0;
+    for (std::size_t i = 0; i < all[robot].size(); ++i) {
+      bool near = false;
+      for (std::size_t other = 0; other < all.size() && !near; ++other)
+        near = other != robot && overlaps(all[robot], i, all[other], distance_m, window);
+      overlapping += near;
+    }
+    shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));
+  }
+  return shares;
+}
+
 std::vector<Steps> resample_all(const Plan& plan) {
   if (plan->step_duration_ns <= 0) throw std::invalid_argument("STO needs a plan with a step duration above 0");
   std::int64_t start_ns = plan.path(0)[0].t_ns;
@@ -70,31 +87,22 @@ Descriptor Sto::describe() {
              "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
              "distance_m of some other's waypoint within window steps; system: mean over robots; undefined if planning "
              "failed")
+      .value("sto_by_distance", "1", Direction::lower_is_better, Subjects::system,
+             "the system's sto with each of distances_m in place of distance_m, over that distance (m); undefined if "
+             "planning failed")
+      .curve()
       .value("sto_cell_size", "m", Direction::none, Subjects::system,
              "c, the cells that the plan was made on, without which sto says little; undefined if planning failed");
 }
 
 void Sto::finish(const TrialEnd&, MetricSink& sink) {
-  if (!first_plan_ || first_plan_->path_count == 0) {
-    sink.system("sto", undefined);
-    sink.system("sto_cell_size", undefined);
-    return;
-  }
-  const std::vector<Steps> all = resample_all(Plan(*first_plan_));
-  std::vector<double> shares;
-  for (std::size_t robot = 0; robot < all.size(); ++robot) {
-    std::size_t overlapping = 0;
-    for (std::size_t i = 0; i < all[robot].size(); ++i) {
-      bool near = false;
-      for (std::size_t other = 0; other < all.size() && !near; ++other)
-        near = other != robot && overlaps(all[robot], i, all[other], distance_m, static_cast<std::size_t>(*window));
-      overlapping += near;
-    }
-    shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));
-    sink.robot("sto", robot, shares.back());
-  }
-  sink.system("sto", mean_of_defined(shares));
-  sink.system("sto_cell_size", world().planning_grid().resolution_m);
+  const bool planned = first_plan_ && first_plan_->path_count > 0;
+  const std::vector<Steps> all = planned ? resample_all(Plan(*first_plan_)) : std::vector<Steps>();
+  const auto steps = static_cast<std::size_t>(*window);
+  give_mean(sink, "sto", overlapping_shares(all, distance_m, steps));
+  give_curve(sink, "sto_by_distance", distances_m,
+             [&](double threshold_m) { return mean_of_defined(overlapping_shares(all, threshold_m, steps)); });
+  sink.system("sto_cell_size", planned ? world().planning_grid().resolution_m : undefined);
 }
 
 }  // namespace dmrp::metrics

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dmrp/plugin.hpp>
+#include <vector>
 
 namespace dmrp::metrics {
 
@@ -13,6 +14,12 @@ class Sto final : public Metric {
       param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("D: waypoints at most this far apart overlap");
   Param<std::int64_t> window =
       param("window", 2).unit("1").range(0, 1000).doc("k: compared with the others' waypoints i - k to i + k");
+
+  Param<std::vector<double>> distances_m =
+      param("distances_m", std::vector<double>{0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0})
+          .unit("m")
+          .range(0.0, 100.0)
+          .doc("values of D for the curve sto_by_distance");
 
   void begin(const dmrp_plan* plan) override { first_plan_ = plan; }
   void observe(const Sample&) override {}

@@ -110,7 +110,7 @@ void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
   }
   for (std::size_t robot = 0; robot < tallies.size(); ++robot)
     give_all(tallies[robot], [&](const char* name, int count) { sink.robot(name, robot, count); });
-  give_all(system, [&](const char* name, int count) { sink.system(name, count); });
+  give_all(system, [&](const char* name, int count) { sink.system(name, tallies.empty() ? undefined : count); });
 }
 
 }  // namespace dmrp::metrics

@@ -23,11 +23,10 @@ struct InteractionShape {
 // Influences smaller than exp(-this) are left out.
 inline constexpr double negligible_exponent = 5.0;
 
-// How somebody minds another who is `apart` away (from self to other, `distance_m` long) and to whom their own velocity
-// is `approach` (own minus the other's): slowing down along the interaction's direction, and turning to the side on
+// How somebody minds another who is `distance_m` away along the unit vector `toward` and to whom their own velocity is
+// `approach` (own minus the other's): slowing down along the interaction's direction, and turning to the side on
 // which the other is not. Who meets another exactly head-on turns right.
-inline dmrp_vec2 interaction(const InteractionShape& shape, dmrp_vec2 apart, double distance_m, dmrp_vec2 approach) {
-  const dmrp_vec2 toward = apart / distance_m;
+inline dmrp_vec2 interaction(const InteractionShape& shape, dmrp_vec2 toward, double distance_m, dmrp_vec2 approach) {
   const dmrp_vec2 direction = shape.lambda * approach + toward;
   const double squared_length = toolkit::squared_norm(direction);
   const double furthest_m = negligible_exponent * shape.gamma;
@@ -39,10 +38,12 @@ inline dmrp_vec2 interaction(const InteractionShape& shape, dmrp_vec2 apart, dou
   const double slowing_width = shape.n_prime * range_m;
   const double turning_width = shape.n * range_m;
   const dmrp_vec2 along = direction / length;
-  // theta^2 >= 2 - 2 cos(theta): most of those aside are told without the angle itself
+  // theta^2 = u + u^2 / 12 + u^3 / 90 + ... with u = 2 - 2 cos(theta), all terms positive: most of those aside are told
+  // without the angle itself
   const double cosine = toolkit::dot(along, toward);
+  const double u = 2.0 - 2.0 * cosine;
   const double width = std::min(slowing_width, turning_width);
-  if (decay + width * width * (2.0 - 2.0 * cosine) > negligible_exponent) return {0.0, 0.0};
+  if (decay + width * width * u * (1.0 + u * (1.0 / 12.0 + u / 90.0)) > negligible_exponent) return {0.0, 0.0};
 
   const double theta = std::atan2(toolkit::cross(along, toward), cosine);
   const double squared_theta = theta * theta;

@@ -7,6 +7,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "crowd/wall_push.hpp"
+#include "social_force/headway.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -92,9 +93,12 @@ void SocialForce::gather(const Crowd& crowd) {
 
 Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
   const Person& person = people[slot];
-  const Vec2 desired = person.desired_speed * ways_.direction(slot, person);
+  const Vec2 way = ways_.direction(slot, person);
+  double speed = person.desired_speed;
+  const Vec2 others = from_others(slot, person, way, speed);
+  const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + from_others(slot, person) + from_group(slot, people, desired) + from_walls(person);
+  return drive + others + from_group(slot, people, desired) + from_walls(person);
 }
 
 // How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
@@ -104,19 +108,24 @@ double SocialForce::keeping_off(double gap_m) const {
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
 }
 
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person) {
+// Lowers `speed` to what those ahead permit.
+Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) {
   Vec2 sum = {0.0, 0.0};
   for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
     const Body& other = *body;
     if (other.slot == slot || !(squared_distance > 0.0)) continue;
     const double distance_m = std::sqrt(squared_distance);
     const Vec2 apart = other.position - person.position;
-    const double gap_m = distance_m - person.radius_m - other.radius_m;
+    const Vec2 toward = apart / distance_m;
+    const double reach_m = person.radius_m + other.radius_m;
+    const double gap_m = distance_m - reach_m;
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
-    Vec2 force = social_weight *
-                 interaction(shape_, apart * (as_people_m / distance_m), as_people_m, person.velocity - other.velocity);
-    force -= apart * (keeping_off(gap_m) / distance_m);
-    sum += other.weight * force;
+    const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
+    sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
+
+    const double following_s = other.weight * time_gap;
+    if (gap_m < speed * following_s)
+      speed = std::min(speed, headway(way, apart, reach_m, other.velocity) / following_s);
   }
   return sum;
 }

@@ -20,6 +20,10 @@ class SocialForce final : public PedestrianModel {
 
   Param<double> relaxation_time =
       param("relaxation_time", 0.5).unit("s").range(0.05, 10.0).doc("time to take up the desired velocity, weight 1");
+  Param<double> time_gap = param("time_gap", 0.5)
+                               .unit("s")
+                               .range(0.05, 2.0)
+                               .doc("people take at least this long to cover the way to those ahead");
   Param<double> desired_weight =
       param("force_factor_desired", 2.0).range(0.0, 100.0).doc("weight of keeping the desired velocity");
   Param<double> social_weight =
@@ -51,7 +55,7 @@ class SocialForce final : public PedestrianModel {
   void gather(const Crowd& crowd);
   Vec2 acceleration(std::uint32_t slot, const Span<Person>& people);
   double keeping_off(double gap_m) const;
-  Vec2 from_others(std::uint32_t slot, const Person& person);
+  Vec2 from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed);
   Vec2 from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const;
   Vec2 from_walls(const Person& person);
 

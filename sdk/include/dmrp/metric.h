@@ -36,7 +36,7 @@ typedef struct dmrp_plan {
 typedef struct dmrp_metric_trial {
   uint32_t struct_size;
   uint32_t reserved;
-  const dmrp_plan* plan;  // the first plan; NULL if planning failed
+  const dmrp_plan* plan;  // the first plan; NULL if planning failed, or where there are no robots to plan for
 } dmrp_metric_trial;
 
 // A robot at one sample. Array element.
@@ -91,7 +91,7 @@ typedef struct dmrp_sample {
   const dmrp_robot_sample* robots;
   uint32_t robot_count;
   uint32_t robot_stride;
-  const dmrp_person* people;  // ordered by slot, as a pedestrian model sees them
+  const dmrp_person* people;  // all who are there, as a pedestrian model sees them: people come and leave
   uint32_t person_count;
   uint32_t person_stride;
   const dmrp_contact* contacts;
@@ -106,6 +106,7 @@ typedef struct dmrp_sample {
 #define DMRP_ENDING_TIME_LIMIT 2
 #define DMRP_ENDING_DEADLOCK 3  // no unfinished robot gained 0.2 m along its path for 20 s
 #define DMRP_ENDING_NO_PLAN 4   // the planner found none: nothing moved
+#define DMRP_ENDING_DESERTED 5  // there are no robots, and all people have left for good
 
 #define DMRP_FAILURE_NONE 0
 #define DMRP_FAILURE_TIMEOUT 1
@@ -161,7 +162,7 @@ typedef struct dmrp_metric {
   // [step]
   int32_t (*begin)(dmrp_instance* self, const dmrp_metric_trial* trial);
 
-  // In order of time. Not called when planning failed.
+  // In order of time. Not called when planning failed. A trial without robots has samples of people alone.
   // [step]
   int32_t (*observe)(dmrp_instance* self, const dmrp_sample* sample);
 

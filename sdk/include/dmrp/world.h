@@ -23,7 +23,7 @@ typedef struct dmrp_shape {
 // Lives, with all it points to, from start() until the next start() or destroy(); never changes in between.
 typedef struct dmrp_world {
   uint32_t struct_size;
-  uint32_t person_count;      // constant population
+  uint32_t person_count;      // at most, at any time
   dmrp_vec2 lower;            // the world is the rectangle from lower ...
   dmrp_vec2 upper;            // ... to upper; its border is a wall
   int64_t step_ns;            // one physics step

@@ -18,6 +18,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -64,8 +65,65 @@ using Points = std::vector<dmrp_vec2>;
 
 class SyntheticTrial {
  public:
-  explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count), shapes_(1) { shapes_[0].name = "shelf B"; }
+  // Robots are discs of 0.25 m with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
+  // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
+  explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
+    footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;
+    for (dmrp_robot& robot : robots_) robot.footprint = footprint_.get();
+    for (std::size_t robot = 0; robot < robot_count; ++robot) route(robot, {0, 0, 0}, {{0, 0, std::nan("")}});
+    box("shelf B", {899, 899}, {901, 901});
+    walking_grid({-16, -16}, 4.0, std::vector<std::vector<float>>(8, std::vector<float>(8, 5.0F)));
+  }
   SyntheticTrial(SyntheticTrial&&) = default;  // what plans point to does not move; a copy would point into this one
+
+  SyntheticTrial& route(std::size_t robot, dmrp_pose start, const std::vector<dmrp_pose>& goals) {
+    goals_.emplace_back();
+    for (const dmrp_pose& pose : goals) goals_.back().push_back({{pose, 0.2, 0.1, 0.1, 500'000'000}});
+    robots_[robot].start = start;
+    robots_[robot].goals = &goals_.back().front().element;
+    robots_[robot].goal_count = static_cast<std::uint32_t>(goals.size());
+    robots_[robot].goal_stride = sizeof(Longer<dmrp_goal>);
+    return *this;
+  }
+  SyntheticTrial& robot_radius(double radius_m) {
+    footprint_->radius_m = footprint_->inscribed_radius_m = radius_m;
+    return *this;
+  }
+  SyntheticTrial& bounds(dmrp_vec2 lower, dmrp_vec2 upper) {
+    lower_ = lower;
+    upper_ = upper;
+    return *this;
+  }
+  SyntheticTrial& box(const char* name, dmrp_vec2 lower, dmrp_vec2 upper) {
+    outlines_.push_back({lower, {upper.x, lower.y}, upper, {lower.x, upper.y}});
+    dmrp_shape shape{};
+    shape.name = name;
+    shape.kind = DMRP_SHAPE_POLYGON;
+    shape.vertex_count = 4;
+    shape.vertices = outlines_.back().data();
+    shapes_.push_back(shape);
+    return *this;
+  }
+  SyntheticTrial& circle(const char* name, dmrp_vec2 center, double radius_m) {
+    dmrp_shape shape{};
+    shape.name = name;
+    shape.kind = DMRP_SHAPE_CIRCLE;
+    shape.center = center;
+    shape.radius_m = radius_m;
+    shapes_.push_back(shape);
+    return *this;
+  }
+  // The walking grid: square cells from `origin` on, rows from the lowest, with the clearance of each cell's centre.
+  SyntheticTrial& walking_grid(dmrp_vec2 origin, double resolution_m, const std::vector<std::vector<float>>& rows) {
+    clearance_.clear();
+    for (const std::vector<float>& row : rows) clearance_.insert(clearance_.end(), row.begin(), row.end());
+    walking_grid_->width = static_cast<std::uint32_t>(rows.front().size());
+    walking_grid_->height = static_cast<std::uint32_t>(rows.size());
+    walking_grid_->resolution_m = resolution_m;
+    walking_grid_->origin = origin;
+    walking_grid_->clearance = clearance_.data();
+    return *this;
+  }
 
   // A path a robot, one waypoint a second from t = 0.
   SyntheticTrial& plan(const std::vector<Points>& paths, std::int64_t planning_ns = 0) {
@@ -130,6 +188,15 @@ class SyntheticTrial {
     return *this;
   }
 
+  SyntheticTrial& crowd(const std::vector<dmrp_person>& people) {
+    samples_.back().people = longer(people);
+    return *this;
+  }
+  SyntheticTrial& calls(const std::vector<dmrp_call>& calls) {
+    samples_.back().calls = longer(calls);
+    return *this;
+  }
+
   SyntheticTrial& people_at(const std::vector<dmrp_vec2>& positions) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
       samples_.back().people.push_back({});
@@ -167,7 +234,12 @@ class SyntheticTrial {
     world.shapes = shapes_.data();
     world.shape_count = static_cast<std::uint32_t>(shapes_.size());
     world.shape_stride = sizeof(dmrp_shape);
+    world.lower = lower_;
+    world.upper = upper_;
+    world.step_ns = 20'000'000;
+    world.control_period_ns = 100'000'000;
     world.planning_grid = &planning_grid_;
+    world.walking_grid = walking_grid_.get();
     world.self = -1;
     return world;
   }
@@ -188,6 +260,9 @@ class SyntheticTrial {
       c.people = stored.people.empty() ? nullptr : &stored.people.front().element;
       c.person_count = static_cast<std::uint32_t>(stored.people.size());
       c.person_stride = sizeof(Longer<dmrp_person>);
+      c.calls = stored.calls.empty() ? nullptr : &stored.calls.front().element;
+      c.call_count = static_cast<std::uint32_t>(stored.calls.size());
+      c.call_stride = sizeof(Longer<dmrp_call>);
       use(c);
     }
   }
@@ -215,10 +290,19 @@ class SyntheticTrial {
     std::vector<Longer<dmrp_robot_sample>> robots;
     std::vector<Longer<dmrp_contact>> contacts;
     std::vector<Longer<dmrp_person>> people;
+    std::vector<Longer<dmrp_call>> calls;
   };
 
+  // addresses stay when the trial is moved
+  std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
+  std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
+  std::deque<std::vector<Longer<dmrp_goal>>> goals_;
+  std::deque<std::vector<dmrp_vec2>> outlines_;
+  std::vector<float> clearance_;
   std::vector<dmrp_robot> robots_;
   std::vector<dmrp_shape> shapes_;
+  dmrp_vec2 lower_ = {-1000.0, -1000.0};
+  dmrp_vec2 upper_ = {1000.0, 1000.0};
   std::deque<StoredPlan> plans_;  // addresses stay
   std::vector<StoredSample> samples_;
   std::int64_t end_ns_ = 0;
@@ -235,7 +319,8 @@ struct MeasuredEvent {
 // What a metric gave, refused as a host would where it is undeclared, infinite or given twice.
 struct Measurement {
   using Key = std::tuple<std::string, std::uint32_t, std::uint64_t>;  // name, kind of subject, subject
-  std::map<Key, double> values;
+  std::map<Key, double> values;                                       // of a curve its last point
+  std::map<std::string, std::map<double, double>> curves;             // of the system: name, coordinate
   std::vector<MeasuredEvent> events;
 
   double system(const std::string& name) const { return values.at({name, DMRP_SUBJECT_SYSTEM, 0}); }
@@ -277,8 +362,12 @@ class CheckingSink {
 
   bool take_value(const char* name, std::uint32_t kind, std::uint64_t subject, double coordinate, double value) {
     const dmrp_metric_value_spec* spec = specification(name);
-    if (!spec || (spec->subjects & 1u << kind) == 0 || std::isinf(value) || !std::isnan(coordinate)) return false;
+    if (!spec || (spec->subjects & 1u << kind) == 0 || std::isinf(value)) return false;
     if (kind == DMRP_SUBJECT_ROBOT && subject >= robot_count_) return false;
+    if (!std::isnan(coordinate)) {
+      into_.values[{name, kind, kind == DMRP_SUBJECT_SYSTEM ? 0 : subject}] = value;
+      return spec->curve && !std::isinf(coordinate) && into_.curves[name].emplace(coordinate, value).second;
+    }
     return into_.values.emplace(Measurement::Key{name, kind, kind == DMRP_SUBJECT_SYSTEM ? 0 : subject}, value).second;
   }
 
@@ -307,6 +396,12 @@ inline Measurement measure_once(PluginUnderTest& plugin, const SyntheticTrial& t
 
 inline bool same_bits(const Measurement& a, const Measurement& b) {
   if (a.values.size() != b.values.size() || a.events.size() != b.events.size()) return false;
+  if (a.curves.size() != b.curves.size()) return false;
+  for (auto i = a.curves.begin(), j = b.curves.begin(); i != a.curves.end(); ++i, ++j) {
+    if (i->first != j->first || i->second.size() != j->second.size()) return false;
+    for (auto p = i->second.begin(), q = j->second.begin(); p != i->second.end(); ++p, ++q)
+      if (p->first != q->first || std::memcmp(&p->second, &q->second, sizeof(double)) != 0) return false;
+  }
   for (auto i = a.values.begin(), j = b.values.begin(); i != a.values.end(); ++i, ++j)
     if (i->first != j->first || std::memcmp(&i->second, &j->second, sizeof(double)) != 0) return false;
   return true;

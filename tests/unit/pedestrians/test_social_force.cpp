@@ -5,6 +5,7 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "social_force/headway.hpp"
 #include "walking_world.hpp"
 
 using namespace dmrp::test;
@@ -72,6 +73,32 @@ TEST_CASE("somebody alone takes up the desired speed with the relaxation time ov
   walk_for(walk, 5.0);
   CHECK(walk.people[0].velocity.x == Approx(1.3).margin(1e-3));
   CHECK(walk.people[0].velocity.y == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("the headway is the way to touch, straight ahead, of those who don't come toward") {
+  using dmrp::pedestrians::headway;
+  const dmrp_vec2 east = {1.0, 0.0};
+  CHECK(headway(east, {3.0, 0.0}, 0.5, {0.0, 0.0}) == Approx(2.5));
+  CHECK(headway(east, {3.0, 0.3}, 0.5, {1.0, 0.0}) == Approx(2.6));  // 3 - sqrt(0.5^2 - 0.3^2)
+  CHECK(headway({0.6, 0.8}, {1.8, 2.4}, 0.5, {0.0, 0.0}) == Approx(2.5));
+  CHECK(headway(east, {0.3, 0.1}, 0.5, {0.0, 0.0}) == 0.0);  // touches already
+  CHECK(std::isinf(headway(east, {3.0, -0.5}, 0.5, {0.0, 0.0})));
+  CHECK(std::isinf(headway(east, {-3.0, 0.0}, 0.5, {0.0, 0.0})));
+  CHECK(std::isinf(headway(east, {3.0, 0.0}, 0.5, {-1.0, 0.0})));
+}
+
+TEST_CASE("who walks behind somebody slow keeps the time gap") {
+  const WalkingWorld world({60.0, 0.8}, {});
+  Walk walk(world, social_force);
+  walk.people = {person(1, {2.0, 0.4}, {55.0, 0.4}, 1.5), person(2, {5.0, 0.4}, {55.0, 0.4}, 0.6)};
+  walk_for(walk, 30.0);
+  // the slow one is urged on a little by who is behind
+  const double speed = walk.people[0].velocity.x;
+  CHECK(speed == Approx(walk.people[1].velocity.x).margin(0.01));
+  CHECK(speed <= 1.3 * 0.6);
+  const double gap_m = distance(walk.people[0].position, walk.people[1].position) - 0.6;
+  CHECK(gap_m >= 0.5 * speed);  // s * m/s
+  CHECK(gap_m <= 1.0);
 }
 
 TEST_CASE("RiMEA 1: 40 m of a 2 m corridor at 1.33 m/s take 26 to 34 s") {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// nearest_wall.hpp: the static surface that is nearest to something that moves about.
+#pragma once
+
+#include <algorithm>
+#include <dmrp/plugin.hpp>
+#include <dmrp/toolkit/rectangle.hpp>
+#include <dmrp/toolkit/shape_distance.hpp>
+#include <limits>
+#include <vector>
+
+namespace dmrp::metrics {
+
+// One a moving body. Exact, yet asks few shapes: none but those that were at most 2 * reach further away than the
+// nearest, when the body was last looked at in full, can be nearest before it has moved by more than the reach.
+class NearestWall {
+ public:
+  struct Surface {
+    double distance_m;  // negative inside a shape and beyond the border
+    Vec2 point;         // on the surface
+  };
+
+  void begin(const World& world) {
+    world_ = world;
+    border_ = {world->lower, world->upper};
+    looked_ = false;
+  }
+
+  Surface find(Vec2 point) {
+    if (!looked_ || toolkit::squared_distance(point, looked_from_) > reach_m * reach_m) look_around(point);
+    Surface nearest = border_surface(point);
+    for (const std::size_t index : candidates_) {
+      const Surface surface = shape_surface(world_.shapes()[index], point);
+      if (surface.distance_m < nearest.distance_m) nearest = surface;
+    }
+    return nearest;
+  }
+
+ private:
+  static constexpr double reach_m = 0.5;
+
+  // The border is always asked.
+  void look_around(Vec2 point) {
+    looked_ = true;
+    looked_from_ = point;
+    candidates_.clear();
+    distances_m_.clear();
+    double nearest_m = border_surface(point).distance_m;
+    for (const Shape& shape : world_.shapes()) {
+      // no shape is nearer than its box, whose distance is 0 inside
+      const double to_box_m = toolkit::distance(toolkit::bounds(shape), point);
+      const double to_shape_m =
+          to_box_m > nearest_m + 2.0 * reach_m ? to_box_m : shape_surface(shape, point).distance_m;
+      distances_m_.push_back(to_shape_m);
+      nearest_m = std::min(nearest_m, to_shape_m);
+    }
+    for (std::size_t index = 0; index < distances_m_.size(); ++index)
+      if (distances_m_[index] <= nearest_m + 2.0 * reach_m) candidates_.push_back(index);
+  }
+
+  Surface border_surface(Vec2 point) const {
+    const Vec2 lower = point - border_.lower;
+    const Vec2 upper = border_.upper - point;
+    Surface nearest = {lower.x, {border_.lower.x, point.y}};
+    if (upper.x < nearest.distance_m) nearest = {upper.x, {border_.upper.x, point.y}};
+    if (lower.y < nearest.distance_m) nearest = {lower.y, {point.x, border_.lower.y}};
+    if (upper.y < nearest.distance_m) nearest = {upper.y, {point.x, border_.upper.y}};
+    return nearest;
+  }
+
+  static Surface shape_surface(const Shape& shape, Vec2 point) {
+    if (shape.kind == DMRP_SHAPE_CIRCLE) {
+      const Vec2 outward = toolkit::normalized(point - shape.center);
+      return {toolkit::distance(shape.center, point) - shape.radius_m, shape.center + shape.radius_m * outward};
+    }
+    const toolkit::PolygonView polygon = toolkit::polygon_of(shape);
+    const Vec2 on_border = toolkit::closest_border_point(polygon, point);
+    const double distance_m = toolkit::distance(on_border, point);
+    return {toolkit::contains(polygon, point) ? -distance_m : distance_m, on_border};
+  }
+
+  World world_;
+  toolkit::Rectangle border_;
+  bool looked_ = false;
+  Vec2 looked_from_ = {0.0, 0.0};
+  std::vector<std::size_t> candidates_;  // indices of shapes
+  std::vector<double> distances_m_;
+};
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "arrivals.hpp"
+
+#include <algorithm>
+
+#include "../measure/describe_metric.hpp"
+#include "../measure/in_seconds.hpp"
+#include "../measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor Arrivals::describe() {
+  const auto lower = Direction::lower_is_better;
+  const auto higher = Direction::higher_is_better;
+  return describe_metric("dmrp.metric.arrivals", "Arrivals")
+      .summary("who came to its last goal, when, and goals reached per time")
+      .source(
+          "ISR, CSR, makespan, throughput: Skrynnik et al., POGEMA, ICLR 2025; flowtime: Stern et al., Multi-Agent "
+          "Pathfinding, SoCS 2019")
+      .value("isr", "1", higher, Subjects::system_and_robots,
+             "individual success rate: 1 if the robot was at its last goal in the end, else 0; system: mean over "
+             "robots. Unlike success, a robot that oscillated and arrived after all counts")
+      .value("csr", "1", higher, Subjects::system, "cooperative success rate: 1 if isr is 1 for every robot, else 0")
+      .value("flowtime", "s", lower, Subjects::system,
+             "sum over robots of the time of final arrival; undefined unless all arrive")
+      .value("makespan", "s", lower, Subjects::system,
+             "maximum over robots of the time of final arrival, as completion_time; undefined unless all arrive")
+      .value("throughput", "1/s", higher, Subjects::system_and_robots,
+             "goals that the robot reached (each of a tour counts) / mission time; system: sum over robots");
+}
+
+void Arrivals::begin(const dmrp_plan*) {
+  goal_index_.assign(world().robots().size(), 0);
+}
+
+void Arrivals::observe(const Sample& sample) {
+  for (std::size_t robot = 0; robot < goal_index_.size(); ++robot) goal_index_[robot] = sample.robots[robot].goal_index;
+}
+
+void Arrivals::finish(const TrialEnd& end, MetricSink& sink) {
+  std::vector<double> arrived, throughput;
+  std::int64_t sum_ns = 0, last_ns = 0;
+  for (std::size_t robot = 0; robot < goal_index_.size(); ++robot) {
+    const std::int64_t arrival_ns = end.robots[robot].arrival_ns;
+    const bool at_goal = arrival_ns >= 0;
+    const std::uint32_t goals = at_goal ? world().robots()[robot].goal_count : goal_index_[robot];
+    arrived.push_back(at_goal ? 1.0 : 0.0);
+    throughput.push_back(end.t_ns > 0 ? goals / in_seconds(end.t_ns) : undefined);
+    sum_ns += arrival_ns;
+    last_ns = std::max(last_ns, arrival_ns);
+  }
+  give_mean(sink, "isr", arrived);
+  give(sink, "throughput", throughput, &sum_of_defined);
+  const double csr = least_of_defined(arrived);
+  sink.system("csr", csr);
+  sink.system("flowtime", csr == 1.0 ? in_seconds(sum_ns) : undefined);
+  sink.system("makespan", csr == 1.0 ? in_seconds(last_ns) : undefined);
+}
+
+}  // namespace dmrp::metrics

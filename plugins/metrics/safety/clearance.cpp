@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "clearance.hpp"
+
+#include <cmath>
+
+#include "../measure/bodies.hpp"
+#include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor Clearance::describe() {
+  const auto higher = Direction::higher_is_better;
+  const auto lower = Direction::lower_is_better;
+  const auto robots = Subjects::system_and_robots;
+  return describe_metric("dmrp.metric.clearance", "Clearance")
+      .summary("distance from surface to surface to walls, robots and people, and time closer than a safe distance")
+      .source("Wen et al., MRPB 1.0, ICRA 2021: distance to obstacles, time in the dangerous area")
+      .channels(DMRP_CHANNEL_PEOPLE)
+      .value("clearance_static_min", "m", higher, robots,
+             "minimum over active time of the distance from the robot's surface to the nearest static surface "
+             "(shapes, border); negative where they overlap; system: minimum over robots; undefined if planning failed")
+      .value("clearance_static_mean", "m", higher, robots,
+             "mean over active time of the same distance; system: mean over robots; undefined if planning failed")
+      .value("clearance_robot_min", "m", higher, robots,
+             "minimum over active time of |p - p'| - r - r' to the nearest other robot, parked ones too; system: "
+             "minimum over robots; undefined without another robot")
+      .value("clearance_robot_mean", "m", higher, robots,
+             "mean over active time of the same distance; system: mean over robots; undefined without another robot")
+      .value("clearance_person_min", "m", higher, robots,
+             "minimum over active time of |p - p'| - r - r' to the nearest person; system: minimum over robots; "
+             "undefined without people")
+      .value("clearance_person_mean", "m", higher, robots,
+             "mean over active time with people present of the same distance; system: mean over robots; undefined "
+             "without people")
+      .value("danger_time", "%", lower, robots,
+             "share of active time in which any of the three distances is below safe_distance_m; system: mean over "
+             "robots; undefined if planning failed")
+      .value("danger_time_robot", "%", lower, robots,
+             "share of active time in which the nearest robot is closer than safe_distance_m; system: mean over "
+             "robots; undefined without another robot")
+      .value("danger_time_person", "%", lower, robots,
+             "share of active time with people present in which the nearest is closer than safe_distance_m; system: "
+             "mean over robots; undefined without people");
+}
+
+void Clearance::Room::add(double distance_m, std::int64_t duration_ns) {
+  least_m = std::fmin(least_m, distance_m);
+  mean_m.add(distance_m, duration_ns);
+}
+
+void Clearance::begin(const dmrp_plan*) {
+  active_.begin(world().robots().size());
+  rooms_.assign(world().robots().size(), {});
+  for (Rooms& rooms : rooms_) rooms.wall.begin(world());
+}
+
+void Clearance::observe(const Sample& sample) {
+  active_.observe(sample);
+  for (std::size_t robot = 0; robot < rooms_.size(); ++robot)
+    if (active_.in_step(robot)) measure(sample, robot);
+}
+
+void Clearance::measure(const Sample& sample, std::size_t robot) {
+  Rooms& rooms = rooms_[robot];
+  const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
+  const double to_static_m = rooms.wall.find(own.center).distance_m - own.radius_m;
+  rooms.to_static.add(to_static_m, sample.dt_ns);
+  bool danger = to_static_m < safe_distance_m;
+
+  double to_robot_m = undefined;
+  for (std::size_t other = 0; other < rooms_.size(); ++other)
+    if (other != robot)
+      to_robot_m = std::fmin(to_robot_m, surface_distance(own, disc_of(world().robots()[other], sample.robots[other])));
+  double to_person_m = undefined;
+  for (const Person& person : sample.people)
+    to_person_m = std::fmin(to_person_m, surface_distance(own, disc_of(person)));
+
+  const auto note = [&](double distance_m, Room& room, TimeShare& share) {
+    if (std::isnan(distance_m)) return;
+    room.add(distance_m, sample.dt_ns);
+    share.add(distance_m < safe_distance_m, sample.dt_ns);
+    danger = danger || distance_m < safe_distance_m;
+  };
+  note(to_robot_m, rooms.to_robots, rooms.danger_robots);
+  note(to_person_m, rooms.to_people, rooms.danger_people);
+  rooms.danger.add(danger, sample.dt_ns);
+}
+
+void Clearance::finish(const TrialEnd&, MetricSink& sink) {
+  const auto give_room = [&](const char* least, const char* mean, Room Rooms::*room) {
+    give(sink, least, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*room).least_m; }), &least_of_defined);
+    give_mean(sink, mean, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*room).mean_m.mean(); }));
+  };
+  give_room("clearance_static_min", "clearance_static_mean", &Rooms::to_static);
+  give_room("clearance_robot_min", "clearance_robot_mean", &Rooms::to_robots);
+  give_room("clearance_person_min", "clearance_person_mean", &Rooms::to_people);
+  const auto give_share = [&](const char* name, TimeShare Rooms::*share) {
+    give_mean(sink, name, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*share).percent(); }));
+  };
+  give_share("danger_time", &Rooms::danger);
+  give_share("danger_time_robot", &Rooms::danger_robots);
+  give_share("danger_time_person", &Rooms::danger_people);
+}
+
+}  // namespace dmrp::metrics

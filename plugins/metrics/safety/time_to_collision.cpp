@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "time_to_collision.hpp"
+
+#include <cmath>
+
+#include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+
+// The smallest tau > 0 with |dp + dv tau| = r1 + r2; 0 where they overlap already, NaN where they never meet.
+double TimeToCollision::of_pair(const Moving& a, const Moving& b) {
+  const Vec2 apart = b.disc.center - a.disc.center;
+  const Vec2 drift = b.velocity - a.velocity;
+  const double reach_m = a.disc.radius_m + b.disc.radius_m;
+  const double gap = toolkit::squared_norm(apart) - reach_m * reach_m;
+  if (gap < 0.0) return 0.0;
+  const double approach = -toolkit::dot(apart, drift);
+  if (!(approach > 0.0)) return undefined;
+  const double discriminant = approach * approach - toolkit::squared_norm(drift) * gap;
+  if (discriminant < 0.0) return undefined;
+  return gap / (approach + std::sqrt(discriminant));  // the smaller root, without cancellation
+}
+
+Descriptor TimeToCollision::describe() {
+  return describe_metric("dmrp.metric.time_to_collision", "Time to collision")
+      .summary("time until a robot would touch another robot or a person, all velocities kept")
+      .source(
+          "Hayward, Near-miss determination through use of a scale of danger, 1972; as in SocNavBench, Biswas et al. "
+          "2022, with the radii of both")
+      .channels(DMRP_CHANNEL_PEOPLE)
+      .value("ttc_min", "s", Direction::higher_is_better, Subjects::system_and_robots,
+             "minimum over active time and over robots and people of the smallest tau > 0 with |dp + dv tau| = r + r'; "
+             "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course")
+      .value("ttc_low_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
+             "share of active time in which the time to collision with somebody is below threshold_s; system: mean "
+             "over robots; undefined without another robot or person");
+}
+
+void TimeToCollision::begin(const dmrp_plan*) {
+  active_.begin(world().robots().size());
+  times_.assign(world().robots().size(), {});
+}
+
+void TimeToCollision::observe(const Sample& sample) {
+  active_.observe(sample);
+  robots_.clear();
+  for (std::size_t robot = 0; robot < times_.size(); ++robot)
+    robots_.push_back({disc_of(world().robots()[robot], sample.robots[robot]), world_velocity(sample.robots[robot])});
+  if (robots_.size() + sample.people.size() < 2) return;
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+    if (!active_.in_step(robot)) continue;
+    double soonest_s = undefined;
+    for (std::size_t other = 0; other < robots_.size(); ++other)
+      if (other != robot) soonest_s = std::fmin(soonest_s, of_pair(robots_[robot], robots_[other]));
+    for (const Person& person : sample.people)
+      soonest_s = std::fmin(soonest_s, of_pair(robots_[robot], {disc_of(person), person.velocity}));
+    times_[robot].least_s = std::fmin(times_[robot].least_s, soonest_s);
+    times_[robot].below.add(soonest_s < threshold_s, sample.dt_ns);
+  }
+}
+
+void TimeToCollision::finish(const TrialEnd&, MetricSink& sink) {
+  give(sink, "ttc_min", values_of(times_, [](const Times& times) { return times.least_s; }), &least_of_defined);
+  give_mean(sink, "ttc_low_time", values_of(times_, [](const Times& times) { return times.below.percent(); }));
+}
+
+}  // namespace dmrp::metrics

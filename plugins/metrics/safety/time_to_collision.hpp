@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// time_to_collision.hpp: how soon robots would hit somebody if all went straight on.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "../measure/active_steps.hpp"
+#include "../measure/bodies.hpp"
+#include "../measure/time_share.hpp"
+
+namespace dmrp::metrics {
+
+class TimeToCollision final : public Metric {
+ public:
+  static Descriptor describe();
+  Param<double> threshold_s =
+      param("threshold_s", 1.5).unit("s").range(0.0, 1000.0).doc("a time to collision below this is a conflict");
+
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  struct Moving {
+    Disc disc;
+    Vec2 velocity;  // m/s, world frame
+  };
+  struct Times {
+    double least_s = undefined;
+    TimeShare below;
+  };
+
+  static double of_pair(const Moving& a, const Moving& b);
+
+  ActiveSteps active_;
+  std::vector<Times> times_;    // a robot
+  std::vector<Moving> robots_;  // at the sample
+};
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "proxemics.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "../measure/bodies.hpp"
+#include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+// Hall's zones, m.
+constexpr double intimate_m = 0.45;
+constexpr double personal_m = 1.2;
+constexpr double social_m = 3.6;
+
+}  // namespace
+
+Descriptor Proxemics::describe() {
+  const auto lower = Direction::lower_is_better;
+  const auto robots = Subjects::system_and_robots;
+  return describe_metric("dmrp.metric.proxemics", "Proxemics")
+      .summary("shares of time in people's intimate, personal and social space")
+      .source(
+          "zones: Hall, The Hidden Dimension, 1966; from surface to surface as in HuNavSim, Perez-Higueras et al., "
+          "RA-L 2023")
+      .channels(DMRP_CHANNEL_PEOPLE)
+      .value("proxemics_intimate", "%", lower, robots,
+             "share of active time with people present in which d <= 0.45 m, d = |p - p'| - r - r' to the nearest "
+             "person; system: mean over robots; undefined without people")
+      .value("proxemics_personal", "%", lower, robots,
+             "the same with 0.45 m < d <= 1.2 m; system: mean over robots; undefined without people")
+      .value("proxemics_social", "%", Direction::none, robots,
+             "the same with 1.2 m < d <= 3.6 m; system: mean over robots; undefined without people");
+}
+
+void Proxemics::begin(const dmrp_plan*) {
+  active_.begin(world().robots().size());
+  shares_.assign(world().robots().size(), {});
+}
+
+void Proxemics::observe(const Sample& sample) {
+  active_.observe(sample);
+  if (sample.people.empty()) return;
+  for (std::size_t robot = 0; robot < shares_.size(); ++robot) {
+    if (!active_.in_step(robot)) continue;
+    const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Person& person : sample.people) nearest_m = std::min(nearest_m, surface_distance(own, disc_of(person)));
+    Shares& shares = shares_[robot];
+    shares.intimate.add(nearest_m <= intimate_m, sample.dt_ns);
+    shares.personal.add(nearest_m > intimate_m && nearest_m <= personal_m, sample.dt_ns);
+    shares.social.add(nearest_m > personal_m && nearest_m <= social_m, sample.dt_ns);
+  }
+}
+
+void Proxemics::finish(const TrialEnd&, MetricSink& sink) {
+  const auto give_share = [&](const char* name, TimeShare Shares::*share) {
+    give_mean(sink, name, values_of(shares_, [&](const Shares& shares) { return (shares.*share).percent(); }));
+  };
+  give_share("proxemics_intimate", &Shares::intimate);
+  give_share("proxemics_personal", &Shares::personal);
+  give_share("proxemics_social", &Shares::social);
+}
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// proxemics.hpp: how long robots are in people's intimate, personal and social space.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "../measure/active_steps.hpp"
+#include "../measure/time_share.hpp"
+
+namespace dmrp::metrics {
+
+class Proxemics final : public Metric {
+ public:
+  static Descriptor describe();
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  struct Shares {
+    TimeShare intimate, personal, social;
+  };
+
+  ActiveSteps active_;
+  std::vector<Shares> shares_;  // a robot
+};
+
+}  // namespace dmrp::metrics

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "social_work.hpp"
+
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+
+#include "../measure/bodies.hpp"
+#include "../measure/describe_metric.hpp"
+#include "../measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+// Moussaid et al. 2009, Experimental study of the behavioural mechanisms underlying self-organization in human crowds;
+// the weights of forces as in HuNavSim's lightsfm.
+constexpr double lambda = 2.0;
+constexpr double gamma = 0.35;
+constexpr double n = 2.0;
+constexpr double n_prime = 3.0;
+constexpr double social_weight = 2.1;
+constexpr double obstacle_weight = 10.0;
+constexpr double obstacle_range_m = 0.2;
+
+// exp(-d / B) below this distance is beyond what a double sum would notice: B < gamma * (lambda * 5 m/s + 1) < 4 m.
+constexpr double far_m = 100.0;
+
+// Of `other` on `self`, m/s^2.
+Vec2 social_force(Vec2 position, Vec2 velocity, Vec2 other_position, Vec2 other_velocity) {
+  const Vec2 apart = other_position - position;
+  const double distance_m = toolkit::norm(apart);
+  if (distance_m > far_m) return {0.0, 0.0};
+  const Vec2 toward = toolkit::normalized(apart);
+  const Vec2 interaction = lambda * (velocity - other_velocity) + toward;
+  const double strength = toolkit::norm(interaction);
+  if (!(strength > 0.0)) return {0.0, 0.0};
+  const Vec2 along = interaction / strength;
+  const double theta = std::atan2(toolkit::cross(along, toward), toolkit::dot(along, toward));
+  const double reach = gamma * strength;
+  const auto decay = [&](double weight) {
+    return std::exp(-distance_m / reach - (weight * reach * theta) * (weight * reach * theta));
+  };
+  const double sign = theta > 0.0 ? 1.0 : theta < 0.0 ? -1.0 : 0.0;
+  return -social_weight * (decay(n_prime) * along + sign * decay(n) * toolkit::perpendicular(along));
+}
+
+}  // namespace
+
+Descriptor SocialWork::describe() {
+  const auto lower = Direction::lower_is_better;
+  const auto robots = Subjects::system_and_robots;
+  return describe_metric("dmrp.metric.social_work", "Social work")
+      .summary("social forces between robots and people, and of walls on robots, added up over time")
+      .source(
+          "HuNavSim, Perez-Higueras et al., RA-L 2023: social work; forces: Moussaid et al., Proc. R. Soc. B 276, "
+          "2009, "
+          "lambda 2, gamma 0.35, n 2, n' 3, weights 2.1 (social) and 10 (obstacle, exp(-d / 0.2 m))")
+      .channels(DMRP_CHANNEL_PEOPLE)
+      .value("social_work", "m/s", lower, robots,
+             "integral over active time of |sum of people's social forces on the robot| + |force of the nearest static "
+             "surface on it| + sum over people of |its social force on them|, all per mass; system: sum over robots; "
+             "undefined without people")
+      .value("social_work_robot", "m/s", lower, robots,
+             "the first two of these: what presses on the robot; system: sum over robots; undefined without people")
+      .value("social_work_people", "m/s", lower, robots,
+             "the last of these: what the robot does to people; system: sum over robots; undefined without people");
+}
+
+void SocialWork::begin(const dmrp_plan*) {
+  active_.begin(world().robots().size());
+  people_ = false;
+  works_.assign(world().robots().size(), {});
+  for (Work& work : works_) work.wall.begin(world());
+}
+
+void SocialWork::observe(const Sample& sample) {
+  active_.observe(sample);
+  people_ = people_ || !sample.people.empty();
+  for (std::size_t robot = 0; robot < works_.size(); ++robot) {
+    if (!active_.in_step(robot)) continue;
+    Work& work = works_[robot];
+    const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
+    const Vec2 velocity = world_velocity(sample.robots[robot]);
+    Vec2 on_robot = {0.0, 0.0};
+    double on_people = 0.0;
+    for (const Person& person : sample.people) {
+      on_robot += social_force(own.center, velocity, person.position, person.velocity);
+      on_people += toolkit::norm(social_force(person.position, person.velocity, own.center, velocity));
+    }
+    const double to_wall_m = work.wall.find(own.center).distance_m - own.radius_m;
+    const double of_wall = obstacle_weight * std::exp(-to_wall_m / obstacle_range_m);
+    work.active_ns += sample.dt_ns;
+    work.on_robot.add((toolkit::norm(on_robot) + of_wall) * seconds(sample.dt_ns));
+    work.on_people.add(on_people * seconds(sample.dt_ns));
+  }
+}
+
+void SocialWork::finish(const TrialEnd&, MetricSink& sink) {
+  const auto give_work = [&](const char* name, auto value_of) {
+    give(
+        sink, name,
+        values_of(works_, [&](const Work& work) { return people_ && work.active_ns > 0 ? value_of(work) : undefined; }),
+        &sum_of_defined);
+  };
+  give_work("social_work", [](const Work& work) { return work.on_robot.value() + work.on_people.value(); });
+  give_work("social_work_robot", [](const Work& work) { return work.on_robot.value(); });
+  give_work("social_work_people", [](const Work& work) { return work.on_people.value(); });
+}
+
+}  // namespace dmrp::metrics

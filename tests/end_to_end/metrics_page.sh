@@ -1,0 +1,16 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# metrics_page.sh DMRP_HOST SOURCE_DIR: docs/metrics.md says of the built-in metrics what they say of themselves. Its
+# text above the comment is written by hand; what follows is the output of the command in the comment.
+set -eu
+host=$1
+page=$2/docs/metrics.md
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
+
+"$host" plugins --markdown libdmrp_metrics.so > "$said"
+if ! sed -n '/^<!-- dmrp-host plugins/,$p' "$page" | diff -u - "$said"; then
+  echo "docs/metrics.md is out of date: put the output of 'dmrp-host plugins --markdown libdmrp_metrics.so' below its text"
+  exit 1
+fi
+grep -q '^| `pfd` | m | lower |' "$said" || { echo "the page does not list pfd"; exit 1; }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "evacuation.hpp"
+
+#include "describe_rimea.hpp"
+
+namespace dmrp::rimea {
+
+Descriptor Evacuation::describe() {
+  return describe_rimea("dmrp.rimea.evacuation", "Evacuation")
+      .summary("when everybody has left")
+      .value("evacuation_time", "s", Direction::none, Subjects::system,
+             "until the last person left; undefined where somebody stayed")
+      .value("people_left_behind", "1", Direction::lower_is_better, Subjects::system, "people there at the end");
+}
+
+void Evacuation::begin(const dmrp_plan*) {
+  people_ = 0;
+  deserted_s_ = undefined;
+}
+
+void Evacuation::observe(const Sample& sample) {
+  if (sample.people.size() == 0 && people_ > 0) deserted_s_ = seconds(sample.t_ns);
+  people_ = sample.people.size();
+}
+
+void Evacuation::finish(const TrialEnd&, MetricSink& sink) {
+  sink.system("evacuation_time", people_ == 0 ? deserted_s_ : undefined);
+  sink.system("people_left_behind", static_cast<double>(people_));
+}
+
+}  // namespace dmrp::rimea

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// evacuation.hpp: when everybody has left.
+#pragma once
+
+#include <cstddef>
+#include <dmrp/plugin.hpp>
+
+namespace dmrp::rimea {
+
+class Evacuation final : public Metric {
+ public:
+  static Descriptor describe();
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  std::size_t people_ = 0;   // at the last sample
+  double deserted_s_ = 0.0;  // since when nobody is there
+};
+
+}  // namespace dmrp::rimea

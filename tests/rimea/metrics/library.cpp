@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The measurements of the RiMEA tests as one plugin library, built from the SDK alone.
+#include <stdexcept>
+
+#include "bottleneck.hpp"
+#include "describe_rimea.hpp"
+#include "evacuation.hpp"
+#include "fundamental_diagram.hpp"
+#include "solidity.hpp"
+#include "travel_time.hpp"
+
+namespace dmrp::rimea {
+
+toolkit::Rectangle rectangle_of(const std::vector<double>& lower_m, const std::vector<double>& upper_m) {
+  if (lower_m.size() != 2 || upper_m.size() != 2 || !(lower_m[0] < upper_m[0]) || !(lower_m[1] < upper_m[1]))
+    throw std::invalid_argument("an area needs two corners [x, y], the lower left one first");
+  return {{lower_m[0], lower_m[1]}, {upper_m[0], upper_m[1]}};
+}
+
+}  // namespace dmrp::rimea
+
+DMRP_PLUGINS(dmrp::rimea::TravelTime, dmrp::rimea::Evacuation, dmrp::rimea::FundamentalDiagram, dmrp::rimea::Solidity,
+             dmrp::rimea::Bottleneck)
