@@ -43,6 +43,25 @@ window.dmrp = window.dmrp || {};
     return {...common, center: point(packed.center), radius: packed.radius / 1000};
   }
 
+  // What a lidar saw, a list of [x, y] in the robot's frame for each sample; null where it saw nothing new.
+  function scans(packed, count) {
+    if (!packed) return null;
+    const by_sample = new Array(count).fill(null);
+    let sample = 0;
+    packed.samples.forEach((difference, n) => {
+      sample += difference;
+      let range = 0;
+      const hits = [];
+      for (let beam = 0; beam < packed.beams; ++beam) {
+        range += packed.ranges[n * packed.beams + beam];
+        const angle = (packed.first + beam * packed.step) * 1e-6;
+        if (range > 0) hits.push([range / 100 * Math.cos(angle), range / 100 * Math.sin(angle)]);
+      }
+      by_sample[sample] = hits;
+    });
+    return by_sample;
+  }
+
   function robot(packed, index, count) {
     return {
       index,
@@ -62,6 +81,7 @@ window.dmrp = window.dmrp || {};
       goal: runs(packed.goal, count),
       speed: deltas(packed.speed),
       deviation: deltas(packed.deviation).map((value) => (value < 0 ? NaN : value)),
+      scans: scans(packed.scans, count),
       failure: packed.failure || '',
       arrival: packed.arrival === undefined ? null : packed.arrival / 1000,
     };
@@ -140,6 +160,18 @@ window.dmrp = window.dmrp || {};
     return values[k] + (next - values[k]) * fraction;
   }
 
+  // The newest scan of a robot at a moment, in the world: [x, y] of each hit; none after a second.
+  function scan_hits(one, at) {
+    if (!one.scans) return [];
+    for (let k = at.k; k >= 0 && k > at.k - 10; --k) {
+      const hits = one.scans[k];
+      if (!hits) continue;
+      const [cos, sin] = [Math.cos(one.theta[k]), Math.sin(one.theta[k])];
+      return hits.map(([x, y]) => [one.x[k] + cos * x - sin * y, one.y[k] + sin * x + cos * y]);
+    }
+    return [];
+  }
+
   // Headings go on past pi, so that they can be mixed like any other number.
   function robot_pose(one, at) {
     return {
@@ -179,6 +211,6 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.replay_data = {
-    ACTIVE, FINISHED, FAILED, load, from_json, lively_box, moment, robot_pose, person_pose, path_in_force, planned_place,
+    ACTIVE, FINISHED, FAILED, load, from_json, lively_box, moment, scan_hits, robot_pose, person_pose, path_in_force, planned_place,
   };
 })(window.dmrp);

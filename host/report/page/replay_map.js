@@ -6,6 +6,7 @@ window.dmrp = window.dmrp || {};
   const MANY_ROBOTS = 12;     // above this, only the picked robot shows all of its plan and trail
   const SHORT_TRAIL = 100;    // samples
   const CONTACT_SEEN_S = 1.0;
+  const TOGETHER_M = 4;       // people of a group this near are joined by a line
 
   function trace_line(context, view, xs, ys, from, to) {
     context.beginPath();
@@ -90,6 +91,11 @@ window.dmrp = window.dmrp || {};
     context.strokeRect(left, top, width, height);
   }
 
+  function draw_scan(context, view, robot, at, colour) {
+    context.fillStyle = colour;
+    for (const [x, y] of dmrp.replay_data.scan_hits(robot, at)) context.fillRect(view.x(x) - 1.25, view.y(y) - 1.25, 2.5, 2.5);
+  }
+
   function draw_goal(context, view, robot, goal, colour, strong) {
     const x = view.x(goal.at[0]);
     const y = view.y(goal.at[1]);
@@ -167,7 +173,6 @@ window.dmrp = window.dmrp || {};
     context.stroke();
   }
 
-  // People of a group are joined by a line.
   function draw_people(context, view, replay, at, colours) {
     const groups = new Map();
     const there = [];
@@ -186,6 +191,7 @@ window.dmrp = window.dmrp || {};
     for (const group of groups.values()) {
       context.beginPath();
       for (let i = 1; i < group.length; ++i) {
+        if (Math.hypot(group[i].x - group[i - 1].x, group[i].y - group[i - 1].y) > TOGETHER_M) continue;
         context.moveTo(view.x(group[i - 1].x), view.y(group[i - 1].y));
         context.lineTo(view.x(group[i].x), view.y(group[i].y));
       }
@@ -300,6 +306,8 @@ window.dmrp = window.dmrp || {};
       if (scene.whole_trails) draw_all_of_trail(context, view, robot, colour(robot));
       else if (layers.trails) draw_trail(context, view, robot, poses[robot.index], at, colour(robot), strong, few || strong);
     }
+    if (layers.scans)
+      for (const robot of picked === null ? replay.robots : [replay.robots[picked]]) draw_scan(context, view, robot, at, colour(robot));
     if (layers.people) draw_people(context, view, replay, at, colours);
     draw_relations(context, view, scene, poses);
     for (const robot of ordered) {
