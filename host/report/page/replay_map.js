@@ -50,20 +50,21 @@ window.dmrp = window.dmrp || {};
     const y = view.height - 14;
     const right = x + length * view.scale();
     context.font = '11px system-ui, sans-serif';
-    context.fillStyle = colours.floor;
-    context.globalAlpha = 0.85;
-    context.fillRect(x - 8, y - 16, right - x + 20 + context.measureText(`${length} m`).width, 24);
-    context.globalAlpha = 1;
-    context.strokeStyle = context.fillStyle = colours.muted;
-    context.lineWidth = 1.5;
-    context.beginPath();
-    context.moveTo(x, y - 4);
-    context.lineTo(x, y);
-    context.lineTo(right, y);
-    context.lineTo(right, y - 4);
-    context.stroke();
     context.textAlign = 'left';
     context.textBaseline = 'alphabetic';
+    context.lineJoin = 'round';
+    context.fillStyle = colours.ink;
+    for (const [colour, width] of [[colours.floor, 5], [colours.ink, 1.5]]) {  // a halo first
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.beginPath();
+      context.moveTo(x, y - 4);
+      context.lineTo(x, y);
+      context.lineTo(right, y);
+      context.lineTo(right, y - 4);
+      context.stroke();
+      if (width > 2) context.strokeText(`${length} m`, right + 6, y + 1);
+    }
     context.fillText(`${length} m`, right + 6, y + 1);
   }
 
