@@ -15,6 +15,7 @@
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all
 //                     controllers and pedestrian models
 //   curves            [{metric, combination, coordinate_unit, points: [[coordinate, mean, low, high, defined]]}]
+//   comparisons, correlations, completion, pedestrian_delay: report_statistics.hpp
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts
 //   replays           [{trial, why, element}] in the page; replays_left_out [{why, trials, reason}]

@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<const char*, 9> known_keys{"tables",           "heat_map",    "distributions",
-                                                "diagnosis",        "comparisons", "completion",
-                                                "pedestrian_delay", "curves",      "replays"};
+constexpr std::array<const char*, 9> known_keys{"replays",       "tables",           "heat_map",
+                                                "distributions", "diagnosis",        "comparisons",
+                                                "completion",    "pedestrian_delay", "curves"};
 
 ComparedMetric parse_comparison(const Json& json) {
   ComparedMetric compared;
