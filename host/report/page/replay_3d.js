@@ -34,7 +34,7 @@ window.dmrp = window.dmrp || {};
     stage.background = new THREE.Color(colours.surface);
     stage.add(dmrp.replay_3d_world.make_world(replay, colours));
     const robots = replay.robots.map((robot) => bodies.make_robot(robot, colours));
-    for (const robot of robots) stage.add(robot.body, robot.trail, ...robot.goals);
+    for (const robot of robots) stage.add(robot.body, robot.trail, robot.hits, ...robot.goals);
     const people = bodies.make_people(replay, colours);
     stage.add(...people);
     const contacts = replay.contacts.map((contact) => {
@@ -72,6 +72,8 @@ window.dmrp = window.dmrp || {};
       robot.label.scale.set(label_scale, label_scale, 1);
       robot.label.visible = clear;
       robot.goals.forEach((goal, g) => { goal.visible = clear && g === Math.min(known.goal[at.k], robot.goals.length - 1); });
+      robot.hits.visible = layers.scans && known.scans !== null && (picked === null || i === picked);
+      if (robot.hits.visible) dmrp.replay_3d_bodies.place_hits(robot.hits, known, at);
       robot.trail.visible = layers.trails && clear;
       robot.trail.geometry.setDrawRange(0, 6 * at.k);
       show_plan(set, scene, robot, layers.plans && clear);
@@ -104,7 +106,7 @@ window.dmrp = window.dmrp || {};
       if (wanted === built_of) return;
       if (set) dispose(set.stage);
       set = build(scene.replay, scene.colours);
-      if (!box || built_of.split(' ')[0] !== String(scene.replay.trial)) fit(scene);
+      if (!box || built_of.split(' ')[0] !== String(scene.replay.trial)) first_look(scene.replay);
       built_of = wanted;
     }
 
@@ -115,10 +117,12 @@ window.dmrp = window.dmrp || {};
       camera.resize(...size);
     }
 
-    function fit(scene) {
-      if (scene) box = [scene.replay.lower, scene.replay.upper];
-      camera.show_box(...box);
+    function first_look(replay) {
+      box = [replay.lower, replay.upper];
+      camera.show_box(...dmrp.replay_data.lively_box(replay));
     }
+
+    const fit = () => camera.show_box(...box);
 
     function draw(scene) {
       rebuild(scene);

@@ -107,7 +107,24 @@ window.dmrp = window.dmrp || {};
       return mark;
     });
     const trail = band(robot.x, robot.y, TRAIL, colour, 0.85);
-    return {body, base, picked, label, goals, trail, colour, plans: new Map()};
+    return {body, base, picked, label, goals, trail, hits: make_hits(robot, colour), colour, plans: new Map()};
+  }
+
+  function make_hits(robot, colour) {
+    const most = Math.max(0, ...(robot.scans || []).map((hits) => (hits ? hits.length : 0)));
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * most), 3));
+    const points = new THREE.Points(geometry, new THREE.PointsMaterial({color: colour, size: 3, sizeAttenuation: false}));
+    points.frustumCulled = false;
+    return points;
+  }
+
+  function place_hits(points, robot, at) {
+    const places = points.geometry.attributes.position;
+    const hits = dmrp.replay_data.scan_hits(robot, at);
+    hits.forEach(([x, y], i) => places.setXYZ(i, x, ROBOT_HEIGHT_M, -y));
+    points.geometry.setDrawRange(0, hits.length);
+    places.needsUpdate = true;
   }
 
   // Instances of one body and one head, as many as are ever there at once.
@@ -145,5 +162,5 @@ window.dmrp = window.dmrp || {};
     }
   }
 
-  dmrp.replay_3d_bodies = {ROBOT_HEIGHT_M, PLAN, band, flat_ring, make_robot, make_people, place_people};
+  dmrp.replay_3d_bodies = {ROBOT_HEIGHT_M, PLAN, band, flat_ring, make_robot, make_people, place_hits, place_people};
 })(window.dmrp);

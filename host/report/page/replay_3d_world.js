@@ -6,16 +6,21 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const SHADOW_PX = 2048;
   const CIRCLE_PARTS = 32;
+  const SOLID_M = 1.1;   // walls are glass above this: who is behind them can be seen
+  const GLASS = 0.16;
 
-  function shape_solid(shape) {
-    if (!shape.vertices) {
-      const cylinder = new THREE.CylinderBufferGeometry(shape.radius, shape.radius, shape.height, CIRCLE_PARTS);
-      cylinder.translate(shape.center[0], shape.height / 2, -shape.center[1]);
-      return cylinder;
+  // The part of a shape between two heights.
+  function slice(shape, from, to) {
+    let solid = null;
+    if (shape.vertices) {
+      const outline = new THREE.Shape(shape.vertices.map(([x, y]) => new THREE.Vector2(x, y)));
+      solid = new THREE.ExtrudeBufferGeometry(outline, {depth: to - from, bevelEnabled: false});
+      solid.rotateX(-Math.PI / 2);
+      solid.translate(0, from, 0);
+    } else {
+      solid = new THREE.CylinderBufferGeometry(shape.radius, shape.radius, to - from, CIRCLE_PARTS);
+      solid.translate(shape.center[0], (from + to) / 2, -shape.center[1]);
     }
-    const outline = new THREE.Shape(shape.vertices.map(([x, y]) => new THREE.Vector2(x, y)));
-    const solid = new THREE.ExtrudeBufferGeometry(outline, {depth: shape.height, bevelEnabled: false});
-    solid.rotateX(-Math.PI / 2);
     return solid;
   }
 
@@ -40,10 +45,15 @@ window.dmrp = window.dmrp || {};
     const group = new THREE.Group();
     const line = new THREE.LineBasicMaterial({color: colours.dark ? '#000000' : '#30343a', transparent: true, opacity: colours.dark ? 0.5 : 0.28});
     for (const shape of replay.shapes) {
-      const solid = shape_solid(shape);
-      const mesh = new THREE.Mesh(solid, new THREE.MeshLambertMaterial({color: shape_colour(shape, colours)}));
-      mesh.castShadow = mesh.receiveShadow = true;
-      group.add(mesh, new THREE.LineSegments(new THREE.EdgesGeometry(solid, 30), line));
+      const colour = shape_colour(shape, colours);
+      const solid_m = dmrp.replay_look.is_wall(shape) ? SOLID_M : shape.height;
+      const solid = new THREE.Mesh(slice(shape, 0, solid_m), new THREE.MeshLambertMaterial({color: colour}));
+      solid.castShadow = solid.receiveShadow = true;
+      group.add(solid, new THREE.LineSegments(new THREE.EdgesGeometry(slice(shape, 0, shape.height), 30), line));
+      if (solid_m < shape.height) {
+        const glass = new THREE.MeshLambertMaterial({color: colour, transparent: true, opacity: GLASS, depthWrite: false});
+        group.add(new THREE.Mesh(slice(shape, solid_m, shape.height), glass));
+      }
     }
     return group;
   }
@@ -60,14 +70,14 @@ window.dmrp = window.dmrp || {};
     const depth = replay.upper[1] - replay.lower[1];
     const middle = [(replay.lower[0] + replay.upper[0]) / 2, (replay.lower[1] + replay.upper[1]) / 2];
     const reach = Math.hypot(width, depth) / 2 + 1;
-    const sun = new THREE.DirectionalLight('#ffffff', colours.dark ? 0.55 : 0.5);
+    const sun = new THREE.DirectionalLight('#ffffff', colours.dark ? 0.6 : 0.45);
     sun.position.set(middle[0] - 0.45 * reach, 1.6 * reach, -middle[1] + 0.75 * reach);
     sun.target.position.set(middle[0], 0, -middle[1]);
     sun.castShadow = true;
     sun.shadow.mapSize.set(SHADOW_PX, SHADOW_PX);
     sun.shadow.bias = -0.0008;
     Object.assign(sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 4 * reach});
-    group.add(new THREE.HemisphereLight('#ffffff', colours.dark ? '#50565e' : '#c9c5bb', colours.dark ? 0.75 : 0.62), sun, sun.target);
+    group.add(new THREE.HemisphereLight('#ffffff', colours.dark ? '#50565e' : '#c9c5bb', colours.dark ? 0.75 : 0.58), sun, sun.target);
     return group;
   }
 
