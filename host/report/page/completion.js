@@ -57,7 +57,7 @@ window.dmrp = window.dmrp || {};
     })).filter((one) => one.rows.length > 0);
     dmrp.elements.fill(holder);
     if (seen.length > 0) holder.append(element('p', {class: 'axis-note'}, 'Upwards: share of robots that have arrived'));
-    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), 240, 4);
+    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
     seen.forEach((one, i) => {
       const horizon = Math.max(...one.rows.map((row) => row.horizon_s));
       dmrp.plots.responsive(panels[i].querySelector('.plot'),

@@ -65,7 +65,7 @@ window.dmrp = window.dmrp || {};
     })).filter((one) => one.curves.length > 0);
     const extents = (stratum) =>
       extents_of(data, found.filter((curve) => stratum.variant.combinations.includes(curve.combination)));
-    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), 240, 4);
+    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
     seen.forEach((one, i) => dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
       draw_panel(data, one.curves, extents(one.stratum), `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`, plot, width)));
     const about = dmrp.labels.metric(data, metric);

@@ -86,7 +86,7 @@ window.dmrp = window.dmrp || {};
       dmrp.elements.fill(holder);
       dmrp.elements.fill(detail);
       const seen = variants.filter((variant) => chosen.variant === 'all' || variant.key === chosen.variant);
-      const panels = dmrp.plots.panels(holder, seen.map((variant) => (variants.length > 1 ? variant.label : null)), 340, 3);
+      const panels = dmrp.plots.panels(holder, seen.map((variant) => (variants.length > 1 ? variant.label : null)), {least: 340, most: 760, most_columns: 3});
       const domain = data.values[chosen.metric];
       seen.forEach((variant, i) => {
         const shown = model(data, variant, chosen.metric);
