@@ -102,7 +102,7 @@ const json& comparison(const json& data, const std::string& metric, const std::s
 
 TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
   std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 43.25, std::nullopt, 41.0, 47.0}}, {"B", {50.1, 49.3}}});
-  trials[1].values[3].value = std::nullopt;  // the speed of one trial is undefined
+  trials[1].values[4].value = std::nullopt;  // the speed of one trial is undefined
   trials.push_back(fault_of(example_trial(7, "B", 2, 50.0, 0.5)));
   const json data = data_of(trials);
   const auto metrics = example_metrics();
