@@ -29,6 +29,9 @@ class McapWriter {
   std::uint16_t add_channel(const McapChannel& channel);
   void write(std::uint16_t channel, std::int64_t log_time_ns, std::span<const std::uint8_t> message);
 
+  // Puts what has gathered into the file, as a chunk.
+  void flush() { write_chunk(); }
+
   // Writes the last chunk, the index and the end. A file without it is one cut short.
   void finish();
 

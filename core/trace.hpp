@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.hpp: the encoded trace of a trial: what a trial is measured by, live and later alike.
 //
-// A trace is a sequence of records: the world first, then plans, samples, trajectories and notes as they came about,
+// A trace is a sequence of records: the world first, then plans, samples, scans, trajectories and notes as they came about,
 // the end last. (A trial that was cut short has no end.) A record is
 //
 //   u32 length of the body · u8 kind · body
@@ -20,7 +20,15 @@ namespace dmrp::core {
 
 inline constexpr std::uint32_t trace_format_version = 1;
 
-enum class TraceRecordKind : std::uint8_t { world = 1, plan = 2, sample = 3, trajectory = 4, note = 5, end = 6 };
+enum class TraceRecordKind : std::uint8_t {
+  world = 1,
+  plan = 2,
+  sample = 3,
+  trajectory = 4,
+  note = 5,
+  end = 6,
+  scan = 7
+};
 
 inline constexpr std::size_t trace_record_prefix_bytes = 5;  // length and kind
 

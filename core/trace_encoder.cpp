@@ -130,11 +130,13 @@ void TraceEncoder::record(TraceRecordKind kind, WriteBody&& write_body) {
   if (sink_) sink_(now_ns_, std::span<const std::uint8_t>(bytes_).subspan(begin));
 }
 
-TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink) : sink_(std::move(sink)) {
+TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)
+    : sink_(std::move(sink)), foxglove_(foxglove) {
   record(TraceRecordKind::world, [&](ByteWriter& out) {
     out.put(trace_format_version);
     put_world(out, world);
   });
+  if (foxglove_) foxglove_->world(world);
 }
 
 void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
@@ -156,6 +158,7 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
       out.put(statistic.value);
     }
   });
+  if (foxglove_) foxglove_->plan(now_ns_, plan);
 }
 
 // Robots, people and contacts are most of a trace: each goes in as it lies in memory, where it has no padding.
@@ -179,6 +182,21 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
     for (std::uint32_t i = 0; i < sample.call_count; ++i)
       put_call(out, *DMRP_AT(dmrp_call, sample.calls, sample.call_stride, i));
   });
+  if (foxglove_) foxglove_->sample(sample);
+}
+
+void TraceEncoder::scan(std::uint32_t robot, const dmrp_scan& scan) {
+  record(TraceRecordKind::scan, [&](ByteWriter& out) {
+    out.put(scan.t_ns);
+    out.put(robot);
+    out.put(scan.angle_min);
+    out.put(scan.angle_increment);
+    out.put(scan.range_min);
+    out.put(scan.range_max);
+    out.put(scan.count);
+    out.put_array(scan.ranges, scan.count);
+  });
+  if (foxglove_) foxglove_->scan(robot, scan);
 }
 
 void TraceEncoder::trajectory(TraceSource source, std::uint32_t role, std::span<const dmrp_pose> poses,
@@ -191,6 +209,7 @@ void TraceEncoder::trajectory(TraceSource source, std::uint32_t role, std::span<
     out.put(static_cast<std::uint32_t>(poses.size()));
     out.put_array(poses.data(), poses.size());
   });
+  if (foxglove_) foxglove_->trajectory(now_ns_, source, role, poses);
 }
 
 void TraceEncoder::note(TraceSource source, std::string_view text) {
@@ -199,6 +218,7 @@ void TraceEncoder::note(TraceSource source, std::string_view text) {
     out.put(source);
     out.put_text(text);
   });
+  if (foxglove_) foxglove_->note(now_ns_, source, text);
 }
 
 void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
@@ -214,6 +234,7 @@ void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
     }
     out.put_text(reason);
   });
+  if (foxglove_) foxglove_->end(end, reason);
 }
 
 }  // namespace dmrp::core

@@ -2,6 +2,7 @@
 // trace_encoder.hpp: writes down a trial as it happens.
 #pragma once
 
+#include <dmrp/ext/lidar.h>
 #include <dmrp/metric.h>
 
 #include <cstdint>
@@ -9,11 +10,13 @@
 #include <span>
 #include <string_view>
 
+#include "foxglove_channels.hpp"
 #include "trace.hpp"
 
 namespace dmrp::core {
 
-// Keeps the trace in memory and hands every record, once it is whole, to a sink as well (a file, say).
+// Keeps the trace in memory and hands every record, once it is whole, to a sink as well (a file, say). What there is to
+// look at goes to the Foxglove channels, if any.
 //
 //   TraceEncoder trace(world);
 //   trace.plan(plan, conflicts);
@@ -25,7 +28,7 @@ class TraceEncoder {
   // `t_ns` is the simulated time at which the record was made.
   using RecordSink = std::function<void(std::int64_t t_ns, std::span<const std::uint8_t> record)>;
 
-  explicit TraceEncoder(const dmrp_world& world, RecordSink sink = {});
+  explicit TraceEncoder(const dmrp_world& world, RecordSink sink = {}, FoxgloveChannels* foxglove = nullptr);
 
   // A call of the planner and what it gave. One that gave no plan has no paths. `conflicts`: what the plan validator
   // counted between robots (of uncoordinated planners only; others' plans have none).
@@ -33,6 +36,9 @@ class TraceEncoder {
 
   // `sample.plan` is null or has the revision of a plan with paths that was written before.
   void sample(const dmrp_sample& sample);
+
+  // What a robot's lidar saw at the control tick of the last sample.
+  void scan(std::uint32_t robot, const dmrp_scan& scan);
 
   // What plugins said through dmrp.annotate/1.
   void trajectory(TraceSource source, std::uint32_t role, std::span<const dmrp_pose> poses, std::int64_t step_ns);
@@ -49,6 +55,7 @@ class TraceEncoder {
 
   TraceBytes bytes_;
   RecordSink sink_;
+  FoxgloveChannels* foxglove_;
   std::int64_t now_ns_ = 0;  // of the last sample
 };
 

@@ -27,7 +27,8 @@ TraceBytes bytes_of_file(const std::filesystem::path& path) {
 
 TraceFileWriter::TraceFileWriter(const std::filesystem::path& path)
     : mcap_(path),
-      channel_(mcap_.add_channel({trace_topic, "dmrp", 0, {{"version", std::to_string(trace_format_version)}}})) {}
+      channel_(mcap_.add_channel({trace_topic, "dmrp", 0, {{"version", std::to_string(trace_format_version)}}})),
+      foxglove_(mcap_) {}
 
 TraceBytes read_trace_file(const std::filesystem::path& path) {
   TraceBytes trace;

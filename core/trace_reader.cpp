@@ -292,6 +292,19 @@ void TraceReader::read_record(TraceRecordKind kind, std::size_t body_begin, std:
       read_sample(body_begin, body_end);
       sample_offsets_.push_back({body_begin, body_end});
       return;
+    case TraceRecordKind::scan: {
+      TraceScan& scan = scans_.emplace_back();
+      scan.t_ns = in.take<std::int64_t>();
+      scan.robot = in.take<std::uint32_t>();
+      if (scan.robot >= world_.robot_count) in.fail("a scan of an unknown robot");
+      scan.angle_min = in.take<double>();
+      scan.angle_increment = in.take<double>();
+      scan.range_min = in.take<double>();
+      scan.range_max = in.take<double>();
+      const std::uint32_t count = in.take_count(sizeof(float));
+      scan.ranges = {take_stored<float>(in, storage_, count), count};
+      break;
+    }
     case TraceRecordKind::trajectory: {
       TraceTrajectory& trajectory = trajectories_.emplace_back();
       trajectory.t_ns = in.take<std::int64_t>();

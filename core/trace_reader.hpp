@@ -21,6 +21,17 @@ struct TracePlan {
   std::uint32_t conflicts = 0;  // between robots
 };
 
+// Beam i points at angle_min + i * angle_increment from the robot's heading.
+struct TraceScan {
+  std::int64_t t_ns = 0;
+  std::uint32_t robot = 0;
+  double angle_min = 0.0;
+  double angle_increment = 0.0;
+  double range_min = 0.0;
+  double range_max = 0.0;
+  std::span<const float> ranges;  // infinite where nothing was hit
+};
+
 struct TraceTrajectory {
   TraceSource source;
   std::int64_t t_ns = 0;
@@ -44,7 +55,7 @@ struct TraceNote {
 //   metric.finish(*trace.end());
 //   trace.rewind();
 //
-// World, plans, end, trajectories and notes keep their addresses and live as long as the reader.
+// World, plans, end, scans, trajectories and notes keep their addresses and live as long as the reader.
 class TraceReader {
  public:
   // `bytes` must outlive the reader.
@@ -64,6 +75,7 @@ class TraceReader {
   const dmrp_trial_end* end() const { return ended_ ? &end_ : nullptr; }  // null where the trial was cut short
   std::string_view reason() const { return reason_; }
 
+  const std::vector<TraceScan>& scans() const { return scans_; }  // where they were recorded; by time, then robot
   const std::vector<TraceTrajectory>& trajectories() const { return trajectories_; }
   const std::vector<TraceNote>& notes() const { return notes_; }
 
@@ -76,6 +88,7 @@ class TraceReader {
   std::pmr::monotonic_buffer_resource storage_;  // of everything that lives as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
+  std::vector<TraceScan> scans_;
   std::vector<TraceTrajectory> trajectories_;
   std::vector<TraceNote> notes_;
   dmrp_trial_end end_{};

@@ -28,6 +28,7 @@ Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& 
       variant_(variant),
       world_(world),
       lidar_(experiment.robot.lidar, variant.geometry),
+      scanned_trace_(experiment.scans && experiment.traces != RecordTraces::none ? &trace : nullptr),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
   if (combination.global_planner >= 0) start_planner(combination, pool, seed);
   if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
@@ -99,7 +100,10 @@ void Cast::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoint
 
 void Cast::sense() {
   for (std::uint32_t i = 0; i < drivers_.size(); ++i)
-    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i].sensors->tick();
+    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) {
+      drivers_[i].sensors->tick();
+      if (scanned_trace_) scanned_trace_->scan(i, drivers_[i].sensors->scan());
+    }
 }
 
 std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
@@ -113,8 +117,8 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guida
   observation.robot = robot;
   observation.t_ns = world_.t_ns();
   observation.dt_ns = variant_.simulation.control_period_ns;
-  observation.pose = state.pose;
-  observation.velocity = state.velocity;
+  observation.pose = drivers_[robot].sensors->odometry().pose();
+  observation.velocity = drivers_[robot].sensors->odometry().velocity();
   observation.applied = state.command;
   observation.goal = guidance.goal;
   observation.goal_index = state.goal_index;

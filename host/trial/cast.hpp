@@ -74,6 +74,7 @@ class Cast {
     std::uint64_t paths = 0;  // handed over so far
   };
   core::Lidar lidar_;
+  core::TraceEncoder* scanned_trace_;    // nullptr where no scans are kept
   core::TraceEncoder* annotated_trace_;  // nullptr where no annotations are kept
   std::vector<std::shared_ptr<Annotations>> annotations_;
   std::vector<Driver> drivers_;

@@ -29,7 +29,8 @@ struct Job {
   std::uint64_t trial = 0;
   std::string trace_file;  // "" for none
   bool keep_trace_of_success = true;
-  std::vector<std::uint32_t> skip_metrics;  // that killed a worker before
+  std::vector<std::uint32_t> skip_metrics;  // that killed a worker before, or were measured before another one did
+  std::vector<MetricEvent> known_events;    // that these gave, for the trace
 };
 
 // The end of a trial, without its values.

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <new>
@@ -70,14 +71,21 @@ class Worker {
 
   void run(const Job& job) {
     const Combination& combination = combinations_[trial_id(job.trial, combinations_.size()).combination];
-    const VariantWorld& world = variant(combination.scenario);
     const std::uint64_t seed = trial_seed(experiment_, job.trial);
+    const VariantWorld& shared = variant(combination.scenario);
+    std::unique_ptr<const VariantWorld> own;
+    if (const ScenarioVariant& scenario = experiment_.scenarios[combination.scenario]; is_drawn(scenario))
+      own = std::make_unique<VariantWorld>(experiment_, scenario, shared, seed);
+    const VariantWorld& world = own ? *own : shared;
 
     std::optional<core::TraceFileWriter> file;
     if (!job.trace_file.empty()) file.emplace(job.trace_file);
-    core::TraceEncoder trace(world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
-      if (file) file->write(t_ns, record);
-    });
+    core::TraceEncoder trace(
+        world.view.world(),
+        [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
+          if (file) file->write(t_ns, record);
+        },
+        file ? &file->foxglove() : nullptr);
 
     guard_.reset_stopped();
     TrialDone done;
@@ -85,18 +93,31 @@ class Worker {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
       done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
       done.sim_time_s = ending.sim_time_s;
-      if (file) file->finish();
+      if (file) file->flush();  // whatever metrics do
     } catch (const PluginFault& fault) {
       done.outcome = trial_outcome::fault;
       if (file) file->finish();
       report(fault);
       pool_.clear();
     }
-    if (done.outcome != trial_outcome::fault) measure_all(trace.bytes(), seed, job);
+    std::vector<MetricEvent> events = job.known_events;
+    if (done.outcome != trial_outcome::fault) {
+      measure_all(trace.bytes(), seed, job, events);
+      if (file) finish(*file, std::move(events));
+    }
     done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
       std::filesystem::remove(job.trace_file);
+    if (own) pool_.clear();  // instances may look at their world until they go
     channel_.send(typed("done", done));
+  }
+
+  static void finish(core::TraceFileWriter& file, std::vector<MetricEvent> events) {
+    std::stable_sort(events.begin(), events.end(),
+                     [](const MetricEvent& a, const MetricEvent& b) { return a.from_ns < b.from_ns; });
+    for (const MetricEvent& event : events)
+      file.foxglove().mark({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
+    file.finish();
   }
 
   void report(const PluginFault& fault) {
@@ -107,7 +128,8 @@ class Worker {
     if (fault.fatal()) _exit(1);
   }
 
-  void measure_all(const core::TraceBytes& bytes, std::uint64_t seed, const Job& job) {
+  void measure_all(const core::TraceBytes& bytes, std::uint64_t seed, const Job& job,
+                   std::vector<MetricEvent>& events) {
     core::TraceReader reader(bytes);
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
       if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
@@ -117,6 +139,7 @@ class Worker {
         const MetricResult result = measure(reader, pool_.get(use, -1), use.info, i, seed,
                                             static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
         channel_.send(typed("metric", result));
+        events.insert(events.end(), result.events.begin(), result.events.end());
       } catch (const PluginFault& fault) {
         report(fault);
       }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "core/statistics/bootstrap.hpp"
-#include "core/statistics/descriptive.hpp"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+
+#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 
 using namespace dmrp::core;
 

@@ -135,11 +135,12 @@ struct ExampleSample {
 };
 
 // A whole trial of `samples` steps: a second plan comes after half of them.
-inline core::TraceBytes example_trace(std::int64_t samples, core::TraceEncoder::RecordSink sink = {}) {
+inline core::TraceBytes example_trace(std::int64_t samples, core::TraceEncoder::RecordSink sink = {},
+                                      core::FoxgloveChannels* foxglove = nullptr) {
   const ExampleWorld example;
   const ExamplePlan first(1);
   const ExamplePlan second(2);
-  core::TraceEncoder trace(example.world, std::move(sink));
+  core::TraceEncoder trace(example.world, std::move(sink), foxglove);
   trace.plan(first.plan, 3);
   for (std::int64_t k = 0; k < samples; ++k) {
     if (k == samples / 2) {
@@ -155,6 +156,8 @@ inline core::TraceBytes example_trace(std::int64_t samples, core::TraceEncoder::
     if (k == 1) {
       const std::array<dmrp_pose, 2> poses{{{0, 0, 0}, {0.1, 0, 0.5}}};
       trace.trajectory({DMRP_KIND_LOCAL_CONTROLLER, 0}, 1, poses, 100'000'000);
+      const std::array<float, 3> ranges{1.5F, std::numeric_limits<float>::infinity(), 0.25F};
+      trace.scan(1, {sizeof(dmrp_scan), 3, 20'000'000, -0.5, 0.5, 0.0, 10.0, ranges.data()});
     }
   }
   const std::array<dmrp_robot_end, 2> robots{

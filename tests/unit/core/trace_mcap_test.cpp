@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/random.hpp>
 #include <filesystem>
@@ -47,7 +49,8 @@ constexpr std::int64_t many_samples = 10'000;
 TraceBytes write_example(const ScratchFile& file, std::int64_t samples, bool finish = true) {
   TraceFileWriter writer(file.path());
   const TraceBytes trace = example_trace(
-      samples, [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { writer.write(t_ns, record); });
+      samples, [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { writer.write(t_ns, record); },
+      &writer.foxglove());
   if (finish) writer.finish();
   return trace;
 }
@@ -57,6 +60,15 @@ Value value_at(const TraceBytes& bytes, std::size_t offset) {
   Value value;
   std::memcpy(&value, &bytes.at(offset), sizeof(value));
   return value;
+}
+
+// The footer is followed by the magic bytes alone.
+std::size_t footer_begin(const TraceBytes& bytes) {
+  return bytes.size() - mcap_magic.size() - 20 - mcap_record_prefix_bytes;
+}
+
+std::size_t summary_begin(const TraceBytes& bytes) {
+  return value_at<std::uint64_t>(bytes, footer_begin(bytes) + 9);
 }
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -113,7 +125,7 @@ TEST_CASE("whatever byte is wrong, a file is read or refused", "[mcap]") {
   int other = 0;  // neither refused nor the whole trace: cut short, or another trace altogether
   for (int round = 0; round < 3000; ++round) {
     TraceBytes damaged = whole;
-    damaged[random.below(damaged.size())] ^= static_cast<std::uint8_t>(1 + random.below(255));
+    damaged[random.below(summary_begin(whole))] ^= static_cast<std::uint8_t>(1 + random.below(255));
     TraceBytes found;
     try {
       read_mcap(damaged, "dmrp/trace", [&](std::int64_t, std::span<const std::uint8_t> record) {
@@ -160,17 +172,85 @@ TEST_CASE("the file ends with a summary whose offsets lead to its records", "[mc
   const ScratchFile file;
   write_example(file, many_samples);
   const TraceBytes bytes = file.bytes();
-  const std::size_t footer = bytes.size() - mcap_magic.size() - 20 - mcap_record_prefix_bytes;
+  const std::size_t footer = footer_begin(bytes);
   REQUIRE(bytes[footer] == static_cast<std::uint8_t>(McapOpcode::footer));
   CHECK(value_at<std::uint64_t>(bytes, footer + 1) == 20);
-  const auto summary = value_at<std::uint64_t>(bytes, footer + 9);
+  const std::size_t summary = summary_begin(bytes);
   const auto offsets = value_at<std::uint64_t>(bytes, footer + 17);
-  CHECK(bytes.at(summary) == static_cast<std::uint8_t>(McapOpcode::channel));  // there is no schema
+  CHECK(bytes.at(summary) == static_cast<std::uint8_t>(McapOpcode::schema));
   std::vector<std::uint8_t> groups;
   for (std::size_t at = offsets; at < footer; at += mcap_record_prefix_bytes + 17) {
     REQUIRE(bytes.at(at) == static_cast<std::uint8_t>(McapOpcode::summary_offset));
     groups.push_back(bytes.at(at + 9));
     CHECK(bytes.at(value_at<std::uint64_t>(bytes, at + 10)) == groups.back());
   }
-  CHECK(groups == std::vector<std::uint8_t>{0x04, 0x08, 0x0B});
+  CHECK(groups == std::vector<std::uint8_t>{0x03, 0x04, 0x08, 0x0B});
+}
+
+TEST_CASE("numbers of messages have four decimals and are always numbers", "[mcap]") {
+  const auto text = [](double value) { return JsonText().number(value).text(); };
+  CHECK(text(0.0) == "0");
+  CHECK(text(-0.00004) == "0");
+  CHECK(text(0.00005) == "0.0001");
+  CHECK(text(-1.25) == "-1.25");
+  CHECK(text(12.3456789) == "12.3457");
+  CHECK(text(-3.0) == "-3");
+  CHECK(text(0.99999) == "1");
+  CHECK(text(1e15) == "0");
+  CHECK(text(std::nan("")) == "0");
+  CHECK(JsonText().string("a \"b\"\\\n\x01 \xC3\xB6").text() == "\"a \\\"b\\\"\\\\\\u000a\\u0001 \xC3\xB6\"");
+}
+
+TEST_CASE("what there is to look at stands beside the trace", "[mcap]") {
+  const ScratchFile file;
+  {
+    TraceFileWriter writer(file.path());
+    example_trace(
+        12, [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { writer.write(t_ns, record); },
+        &writer.foxglove());
+    const std::array<std::uint32_t, 2> robots{0, 1};
+    writer.foxglove().mark({"sto", 40'000'000, 1'240'000'000, robots, "near"});
+    writer.finish();
+  }
+  std::vector<std::string> seen;
+  std::vector<std::int64_t> times;
+  const auto read = [&](std::string_view topic) {
+    seen.clear();
+    times.clear();
+    read_mcap(file.bytes(), topic, [&](std::int64_t t_ns, std::span<const std::uint8_t> message) {
+      times.push_back(t_ns);
+      seen.emplace_back(message.begin(), message.end());
+    });
+    return seen.size();
+  };
+  const auto has = [&](std::size_t message, const char* part) {
+    return seen.at(message).find(part) != std::string::npos;
+  };
+
+  // 12 samples 20 ms apart: shown are 0, 0.1, 0.2 and, the last, 0.22 s
+  REQUIRE(read("/tf") == 4);
+  CHECK(times == std::vector<std::int64_t>{0, 100'000'000, 200'000'000, 220'000'000});
+  CHECK(has(3, R"("timestamp":{"sec":0,"nsec":220000000},"parent_frame_id":"map","child_frame_id":"robot_0",)"
+               R"("translation":{"x":3.6667,"y":0.1,"z":0},"rotation":{"x":0,"y":0,"z":0,"w":1})"));
+  REQUIRE(read("/people") == 3);
+  CHECK(has(1, R"("position":{"x":1,"y":1.6667,"z":0.85})"));
+  CHECK(read("/map") == 1);
+  CHECK(has(0, R"("metadata":[{"key":"name","value":"shelf"}])"));
+  CHECK(read("/robots") == 2);  // the second arrives at once
+  CHECK(has(1, R"({"key":"state","value":"finished"})"));
+  CHECK(read("/plan") == 2);
+  CHECK(read("/contacts") == 4);  // one begins at every third sample
+  REQUIRE(read("/robot_1/scan") == 1);
+  CHECK(has(0, R"("start_angle":-0.5,"end_angle":0.5,"ranges":[1.5,0,0.25])"));
+  CHECK(read("/predictions") == 1);
+  REQUIRE(read("/metric_events") == 1);
+  CHECK(times == std::vector<std::int64_t>{40'000'000});
+  CHECK(has(0,
+            "\"message\":\"near: r0, r\xC3\xB6"
+            "1\",\"name\":\"sto\""));
+  REQUIRE(read("/metric_events/robots") == 1);
+  CHECK(has(0, R"("lifetime":{"sec":1,"nsec":200000000},"frame_locked":true)"));
+  REQUIRE(read("/log") == 9);  // two plans and one that failed, a note, four contacts, the end
+  CHECK(has(0, "plan 1 found"));
+  CHECK(has(8, R"("message":"time limit","name":"trial")"));
 }

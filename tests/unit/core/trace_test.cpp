@@ -54,6 +54,7 @@ double touch(TraceReader& trace) {
   }
   for (const auto& trajectory : trace.trajectories())
     for (const dmrp_pose& pose : trajectory.poses) sum += pose.theta;
+  for (const auto& scan : trace.scans()) sum += scan.ranges.empty() ? 0.0 : static_cast<double>(scan.ranges.back());
   for (const auto& note : trace.notes()) sum += static_cast<double>(note.text.size());
   if (trace.end())
     for (std::uint32_t i = 0; i < trace.end()->robot_count; ++i) sum += trace.end()->robots[i].state;
@@ -211,6 +212,20 @@ TEST_CASE("a trace keeps end, notes and trajectories", "[trace]") {
   CHECK(trace.trajectories()[0].step_ns == 100'000'000);
   REQUIRE(trace.trajectories()[0].poses.size() == 2);
   CHECK(trace.trajectories()[0].poses[1].theta == 0.5);
+}
+
+TEST_CASE("a trace keeps scans", "[trace]") {
+  const TraceBytes bytes = example_trace(4);
+  const TraceReader trace(bytes);
+  REQUIRE(trace.scans().size() == 1);
+  const dmrp::core::TraceScan& scan = trace.scans()[0];
+  CHECK(scan.t_ns == 20'000'000);
+  CHECK(scan.robot == 1);
+  CHECK(scan.angle_min == -0.5);
+  CHECK(scan.angle_increment == 0.5);
+  CHECK(scan.range_max == 10.0);
+  CHECK(std::vector<float>(scan.ranges.begin(), scan.ranges.end()) ==
+        std::vector<float>{1.5F, std::numeric_limits<float>::infinity(), 0.25F});
 }
 
 TEST_CASE("the encoder walks arrays by their owner's stride", "[trace]") {

@@ -55,11 +55,14 @@ struct Pair {
 }  // namespace
 
 TEST_CASE("messages keep all their fields") {
-  const Job job = through_text(Job{1ull << 40, "traces/trial_000007.mcap", false, {2, 5}});
+  const Job job =
+      through_text(Job{1ull << 40, "traces/trial_000007.mcap", false, {2, 5}, {{"sto", 1, 2, {3}, "near"}}});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
   CHECK_FALSE(job.keep_trace_of_success);
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
+  REQUIRE(job.known_events.size() == 1);
+  CHECK(job.known_events[0].robots == std::vector<std::uint32_t>{3});
 
   const TrialDone done = through_text(TrialDone{trial_outcome::failed, false, 0.1 + 0.2});
   CHECK(done.outcome == "failed");
