@@ -33,8 +33,10 @@ bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
 
 }  // namespace
 
-ContactTracker::ContactTracker(double a_max, double v_max)
-    : a_max_(a_max), memory_ns_(std::max<std::int64_t>(fault_window_ns, std::llround(1e9 * v_max / a_max))) {}
+ContactTracker::ContactTracker(double a_max, double v_max, std::int64_t latency_ns)
+    : a_max_(a_max),
+      latency_ns_(latency_ns),
+      memory_ns_(std::max<std::int64_t>(fault_window_ns, std::llround(1e9 * v_max / a_max) + latency_ns)) {}
 
 void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
                             std::span<dmrp_contact> contacts) {
@@ -94,7 +96,7 @@ ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact
 
 bool ContactTracker::was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns,
                                      double speed) const {
-  const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / a_max_);
+  const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / a_max_) - latency_ns_;
   // the last moment that is a braking time old, or the first of all
   for (auto moment = history_.rbegin(); moment != history_.rend(); ++moment) {
     if (moment->t_ns > then_ns && std::next(moment) != history_.rend()) continue;

@@ -23,12 +23,13 @@ inline constexpr double fault_speed = 0.05;  // m/s toward the other
 // - static: the robot is at fault.
 // - with a person: the robot, if its velocity toward the person exceeded fault_speed at any time in the fault window
 //   before; otherwise the person. Unavoidable, in addition, if one braking time earlier (the robot's largest speed in
-//   the fault window by a_max) robot and person, both going straight on, would have missed each other.
+//   the fault window by a_max, and the latency of its commands) robot and person, both going straight on, would have missed each other.
 // - between robots: each that moved toward the other, in the same sense.
 // The fault of an event stays on every sample of it.
 class ContactTracker {
  public:
-  ContactTracker(double a_max, double v_max);
+  // `latency_ns`: from what a robot sees to what it does.
+  ContactTracker(double a_max, double v_max, std::int64_t latency_ns = 0);
 
   // Sets `flags` of the contacts at t_ns, given the bodies as they are then. Every step, contacts or not; times grow.
   // Robots keep their index; people are told apart by id.
@@ -61,6 +62,7 @@ class ContactTracker {
   static const dmrp_agent* body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b);
 
   double a_max_;
+  std::int64_t latency_ns_;
   std::int64_t memory_ns_;
   std::deque<Moment> history_;  // before the present step, oldest first
   std::map<Pair, Event> events_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/population.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
@@ -63,11 +64,13 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       regions_(scenario.regions),
       flows_(scenario.flows),
       geometry_(std::move(geometry)),
-      slots_(person_count(scenario)) {
+      tracks_(scenario.tracks),
+      world_{scenario.lower, scenario.upper},
+      slots_(walker_count(scenario)) {
   std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
   std::vector<dmrp_vec2> taken;
   for (const auto& [region, count] : crowds_by_region(flows_)) {
-    places[region] = places_in(region, count, robots);
+    places[region] = places_in(region, count, robots, taken);
     taken.insert(taken.end(), places[region].begin(), places[region].end());
   }
   std::uint32_t slot = 0;
@@ -89,6 +92,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       slot_of_.push_back(slot);
     }
   }
+  let_come(0);
 }
 
 void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity) {
@@ -97,8 +101,9 @@ void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity)
 }
 
 void Population::advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
-  let_leave();
-  for (std::size_t place = 0; place < people_.size(); ++place) {
+  let_leave(t_ns);
+  let_come(t_ns);
+  for (std::size_t place = 0; place < people_.size() && !is_recorded(place); ++place) {
     Slot& own = slots_[slot_of_[place]];
     const bool arrived = has_arrived(place);
     if (arrived && !is_on_last_leg(own)) {
@@ -119,14 +124,57 @@ bool Population::is_on_last_leg(const Slot& slot) const {
   return slot.leg + 2 == flows_[slot.flow].regions.size();
 }
 
+std::optional<dmrp_vec2> Population::position_on_track(std::size_t place, std::int64_t t_ns) const {
+  if (!is_recorded(place)) return std::nullopt;
+  return position_on(track_of(slot_of_[place]), t_ns);
+}
+
+bool Population::is_over(std::int64_t t_ns) const {
+  return people_.empty() && std::none_of(tracks_.begin(), tracks_.end(),
+                                         [&](const Track& track) { return track.points.front().t_ns > t_ns; });
+}
+
+// Recorded people who are not there yet.
+void Population::let_come(std::int64_t t_ns) {
+  for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
+    if (!is_on_track(tracks_[i], t_ns)) continue;
+    const auto slot = static_cast<std::uint32_t>(slots_.size()) + i;
+    const auto after = std::lower_bound(slot_of_.begin(), slot_of_.end(), slot);
+    if (after != slot_of_.end() && *after == slot) continue;
+    people_.insert(people_.begin() + (after - slot_of_.begin()), recorded_person_at(slot, t_ns));
+    slot_of_.insert(after, slot);
+  }
+}
+
+// Whoever wants to know where a recorded person is going gets the whole world as the place, which no way has to be found
+// to, and the end of the track as the target.
+dmrp_person Population::recorded_person_at(std::uint32_t slot, std::int64_t t_ns) const {
+  const Track& track = track_of(slot);
+  dmrp_person person{};
+  person.id = slot;
+  person.target_id = static_cast<std::uint32_t>(regions_.size());
+  person.position = position_on(track, t_ns);
+  person.velocity = velocity_on(track, t_ns);
+  person.radius_m = settings_.radius_m;
+  const double speed = mean_speed(track);
+  person.desired_speed = speed > 0.0 ? speed : settings_.speed_mean;
+  person.target = track.points.back().position;
+  person.area_lower = world_.lower;
+  person.area_upper = world_.upper;
+  return person;
+}
+
 // For good.
-void Population::let_leave() {
+void Population::let_leave(std::int64_t t_ns) {
   std::size_t kept = 0;
   for (std::size_t place = 0; place < people_.size(); ++place) {
-    const Slot& own = slots_[slot_of_[place]];
-    if (!flows_[own.flow].respawn && is_on_last_leg(own) && has_arrived(place)) continue;
+    const std::uint32_t slot = slot_of_[place];
+    const bool leaves = is_recorded(place)
+                            ? !is_on_track(track_of(slot), t_ns)
+                            : !flows_[slots_[slot].flow].respawn && is_on_last_leg(slots_[slot]) && has_arrived(place);
+    if (leaves) continue;
     people_[kept] = people_[place];
-    slot_of_[kept] = slot_of_[place];
+    slot_of_[kept] = slot;
     ++kept;
   }
   people_.resize(kept);
@@ -134,13 +182,13 @@ void Population::let_leave() {
 }
 
 // Places for all who begin in a region, in an order that says nothing.
-std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count,
-                                             std::span<const dmrp_vec2> robots) const {
+std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots,
+                                             std::span<const dmrp_vec2> taken) const {
   const Region& where = regions_[region];
   Stream stream(seed_, "population.from", region);
   const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
   auto places = spread_on_lattice({where.lower, where.upper}, count, apart_m, stream,
-                                  [&](dmrp_vec2 point) { return has_room(point, robots, {}); });
+                                  [&](dmrp_vec2 point) { return has_room(point, robots, taken); });
   if (places.size() < count)
     throw std::runtime_error("no room in region '" + where.name + "' for " + std::to_string(count) + " people, " +
                              std::to_string(places.size()) + " at most");
@@ -177,7 +225,7 @@ Population::Beginning Population::place_along_flow(std::uint32_t slot, std::uint
 dmrp_person Population::person_at(std::uint32_t slot, dmrp_vec2 position) const {
   const Slot& own = slots_[slot];
   dmrp_person person{};
-  person.id = slot + own.predecessors * slots_.size();
+  person.id = slot + own.predecessors * (slots_.size() + tracks_.size());
   person.position = position;
   person.radius_m = settings_.radius_m;
   Stream speeds(seed_, "population.speed", slot, own.predecessors);

@@ -5,7 +5,9 @@
 #include <dmrp/pedestrian_model.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,8 @@ inline constexpr double personal_gap_m = 0.05;             // between the bodies
 // the same for all combinations of a seed, but for where people stand in each other's or a robot's way when they begin.
 // (A flow that starts in its first region is put there on a jittered hexagonal lattice, for densities that people drawn
 // one by one do not reach; all flows that start in the same region together.)
+//
+// Recorded people come and leave with their tracks, in the slots after those of the flows.
 class Population {
  public:
   // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws std::runtime_error if there is no room for
@@ -38,7 +42,15 @@ class Population {
   // Where the person at this place of people() came to, and how.
   void move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity);
 
-  // Next regions for those who reached theirs; who reached its last leaves.
+  bool is_recorded(std::size_t place) const { return slot_of_[place] >= slots_.size(); }
+
+  // Where a recorded person goes until then; nothing for others.
+  std::optional<dmrp_vec2> position_on_track(std::size_t place, std::int64_t t_ns) const;
+
+  // Nobody is there, nor will anybody come.
+  bool is_over(std::int64_t t_ns) const;
+
+  // Next regions for those who reached theirs; who reached its last leaves; recorded people come and leave.
   void advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots);
 
  private:
@@ -56,14 +68,18 @@ class Population {
     std::uint32_t leg = 0;
   };
 
-  std::vector<dmrp_vec2> places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots) const;
+  std::vector<dmrp_vec2> places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots,
+                                   std::span<const dmrp_vec2> taken) const;
   Beginning place_along_flow(std::uint32_t slot, std::uint32_t number, const std::vector<Route>& legs,
                              std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const;
   dmrp_person person_at(std::uint32_t slot, dmrp_vec2 position) const;
   void set_target(dmrp_person& person, std::uint32_t slot) const;
+  dmrp_person recorded_person_at(std::uint32_t slot, std::int64_t t_ns) const;
+  const Track& track_of(std::uint32_t slot) const { return tracks_[slot - slots_.size()]; }
+  void let_come(std::int64_t t_ns);
   bool has_arrived(std::size_t place) const;
   bool is_on_last_leg(const Slot& slot) const;
-  void let_leave();
+  void let_leave(std::int64_t t_ns);
   void try_to_begin_anew(std::size_t place, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
   bool has_room(dmrp_vec2 point, std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const;
 
@@ -72,7 +88,9 @@ class Population {
   std::vector<Region> regions_;
   std::vector<Flow> flows_;
   std::shared_ptr<const StaticGeometry> geometry_;
-  std::vector<Slot> slots_;
+  std::vector<Track> tracks_;
+  toolkit::Rectangle world_;
+  std::vector<Slot> slots_;  // of the flows
   std::vector<dmrp_person> people_;
   std::vector<std::uint32_t> slot_of_;  // parallel to people_, ascending
 };

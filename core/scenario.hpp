@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/track.hpp"
+
 namespace dmrp::core {
 
 // A static body. A box of the file is a polygon here.
@@ -70,12 +72,19 @@ struct Scenario {
   PeopleSettings people;
   std::vector<Region> regions;
   std::vector<Flow> flows;
+  std::vector<Track> tracks;  // of people who walk as they did when they were recorded; time 0 is the trial's beginning
 };
 
-inline std::uint32_t person_count(const Scenario& scenario) {
+// People whom a pedestrian model moves.
+inline std::uint32_t walker_count(const Scenario& scenario) {
   std::uint32_t count = 0;
   for (const Flow& flow : scenario.flows) count += flow.people;
   return count;
+}
+
+// All, at any time.
+inline std::uint32_t person_count(const Scenario& scenario) {
+  return walker_count(scenario) + static_cast<std::uint32_t>(scenario.tracks.size());
 }
 
 }  // namespace dmrp::core

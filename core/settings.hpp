@@ -3,6 +3,7 @@
 // Defaults are those of the benchmark's method.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <numbers>
 
@@ -30,13 +31,21 @@ struct CostmapSettings {
   double cost_scaling = 5.0;  // 1/m
 };
 
+// How well a robot knows where it is (odometry.hpp). All zero: exactly.
+struct OdometrySettings {
+  std::array<double, 4> noise = {0.0, 0.0, 0.0, 0.0};  // a1 (1), a2 (rad^2/m^2), a3 (1), a4 (m^2/rad^2)
+  std::int64_t fix_period_ns = 0;                      // between two moments when it learns the truth; 0: never
+};
+
 struct RobotSettings {
   double radius_m = 0.25;
-  double v_min = 0.0;      // m/s
-  double v_max = 0.8;      // m/s
-  double omega_max = 1.0;  // rad/s
-  double a_max = 1.0;      // m/s^2
-  double alpha_max = 1.0;  // rad/s^2
+  double v_min = 0.0;                     // m/s
+  double v_max = 0.8;                     // m/s
+  double omega_max = 1.0;                 // rad/s
+  double a_max = 1.0;                     // m/s^2
+  double alpha_max = 1.0;                 // rad/s^2
+  std::int64_t actuation_latency_ns = 0;  // from a command to its taking effect
+  OdometrySettings odometry;
   LidarSettings lidar;
   CostmapSettings costmap;
 };
@@ -59,6 +68,8 @@ struct ReplanSettings {
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
+  std::int64_t control_latency_ns = 0;           // from the state that a controller sees to its command
+  std::int64_t planning_latency_ns = 0;          // from the state that a planner sees to its plan's taking effect
   std::int64_t step_duration_ns = 1'800'000'000;
   std::int64_t time_limit_ns = 180'000'000'000;
   double grid_resolution_m = 1.0;

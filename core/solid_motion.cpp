@@ -92,22 +92,40 @@ void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, 
   if (possible_m > allowed_m) constraints_.push_back({a, b, normal, allowed_m});
 }
 
+// Beside somebody who does not yield; `normal`: from there.
+void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint32_t yielding, std::uint32_t other,
+                                   dmrp_vec2 normal, double gap_m) {
+  if (!bodies[yielding].yields) return;
+  const double comes_m = toolkit::dot(bodies[other].displacement, normal);
+  const double allowed_m = std::max(0.0, std::max(0.0, gap_m + solid_depth_m) - comes_m);
+  if (toolkit::norm(bodies[yielding].displacement) > allowed_m)
+    constraints_.push_back({yielding, no_body, normal, allowed_m});
+}
+
 // A half-plane that holds one convex body apart from another on their line of nearest points holds them apart for any
 // motion that respects it. So nothing can be stepped over, however fast it moves.
 void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
   constraints_.clear();
   for (const auto& [body, shape] : shape_neighbours_) {
+    if (!bodies[body].yields) continue;
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
     constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].yields) continue;
     for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
       constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
   }
   for (const auto& [a, b] : body_neighbours_) {
     const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
     const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
-    constrain(bodies, a, b, normal, distance_m - bodies[a].radius_m - bodies[b].radius_m);
+    const double gap_m = distance_m - bodies[a].radius_m - bodies[b].radius_m;
+    if (!bodies[b].yields)
+      constrain_beside(bodies, a, b, normal, gap_m);
+    else if (!bodies[a].yields)
+      constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
+    else
+      constrain(bodies, a, b, normal, gap_m);
   }
 }
 

@@ -24,6 +24,7 @@ struct SolidBody {
   dmrp_vec2 position{};
   double radius_m = 0.0;
   dmrp_vec2 displacement{};
+  bool yields = true;  // false: goes its way whatever is in it, and only others keep clear
 };
 
 // Two bodies, or a body and a shape, that overlap.
@@ -35,7 +36,8 @@ struct Overlap {
 };
 
 // Keeps bodies solid. Nobody is ever pushed: a body loses the part of its motion that would deepen an overlap, the rest
-// stays, and who stands still keeps standing. Where two approach each other, both lose the same share of their approach.
+// stays, and who stands still keeps standing. Where two approach each other, both lose the same share of their approach;
+// where one of them does not yield, the other loses all that is to be lost.
 class SolidMotion {
  public:
   explicit SolidMotion(std::shared_ptr<const StaticGeometry> geometry);
@@ -64,6 +66,8 @@ class SolidMotion {
   void find_neighbours(std::span<const SolidBody> bodies);
   bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
   void collect_constraints(std::span<const SolidBody> bodies);
+  void constrain_beside(std::span<const SolidBody> bodies, std::uint32_t yielding, std::uint32_t other,
+                        dmrp_vec2 normal, double gap_m);
   void constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
   bool relax(std::span<SolidBody> bodies) const;
   void stop_violators(std::span<SolidBody> bodies) const;

@@ -46,7 +46,7 @@ std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec
 }
 
 FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
-  if (person_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
+  if (walker_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
   return find_flow_routes(scenario, build_walking_grid(geometry));
 }
 
@@ -71,15 +71,16 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
       limits_(limits_of(robot)),
       geometry_(std::move(geometry)),
       robots_(initial_states(scenario)),
+      coming_(robots_.size()),
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
       motion_(geometry_),
-      tracker_(robot.a_max, robot.v_max) {
+      tracker_(robot.a_max, robot.v_max, command_latency_ns()) {
   proposed_poses_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (const RobotState& state : robots_) bodies_.push_back({toolkit::position(state.pose), robot.radius_m, {}});
-  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
+  place_bodies_of_people();
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   show_agents();
@@ -87,18 +88,36 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
 
 dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
   RobotState& state = robots_[robot];
-  if (state.state == DMRP_ROBOT_ACTIVE) state.command = clip_to_limits(command, limits_);
+  if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
+  const dmrp_twist clipped = clip_to_limits(command, limits_);
+  if (command_latency_ns() == 0)
+    state.command = clipped;
+  else
+    coming_[robot].push_back({t_ns_ + command_latency_ns(), clipped});
   return state.command;
+}
+
+// Who is done brakes at once: its base does that by itself.
+void World::stop(std::uint32_t robot) {
+  robots_[robot].command = {};
+  coming_[robot].clear();
+}
+
+void World::take_up_commands() {
+  for (std::uint32_t i = 0; i < robots_.size(); ++i)
+    for (auto& coming = coming_[i]; !coming.empty() && coming.front().from_ns <= t_ns_; coming.pop_front())
+      robots_[i].command = coming.front().command;
 }
 
 void World::fail(std::uint32_t robot) {
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return;
   state.state = DMRP_ROBOT_FAILED;
-  state.command = {};
+  stop(robot);
 }
 
 std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
+  take_up_commands();
   propose_motion(person_velocities);
   motion_.resolve(bodies_);
   apply_motion();
@@ -120,6 +139,11 @@ void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
   }
   for (std::size_t i = 0; i < person_velocities.size(); ++i)
     bodies_[robots_.size() + i].displacement = person_velocities[i] * step_s();
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    SolidBody& body = bodies_[robots_.size() + i];
+    if (const auto there = population_.position_on_track(i, t_ns_ + settings_.step_ns))
+      body.displacement = *there - body.position;
+  }
 }
 
 void World::apply_motion() {
@@ -165,14 +189,21 @@ void World::check_arrival(std::uint32_t robot) {
     return;
   }
   state.state = DMRP_ROBOT_FINISHED;
-  state.command = {};
+  stop(robot);
   state.arrival_ns = t_ns_;
 }
 
 void World::advance_people() {
   population_.advance(t_ns_, robot_positions_);
+  place_bodies_of_people();
+}
+
+void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
-  for (const dmrp_person& person : population_.people()) bodies_.push_back({person.position, person.radius_m, {}});
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    const dmrp_person& person = population_.people()[i];
+    bodies_.push_back({person.position, person.radius_m, {}, !population_.is_recorded(i)});
+  }
 }
 
 void World::show_agents() {

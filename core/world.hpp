@@ -6,6 +6,7 @@
 #include <dmrp/pedestrian_model.h>
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -53,11 +54,12 @@ class World {
   // What a pedestrian model is told, by slot: parallel to person_agents().
   std::span<const dmrp_person> people() const { return population_.people(); }
 
-  // There are no robots, and nobody is left.
-  bool is_deserted() const { return robots_.empty() && people().empty(); }
+  // There are no robots, nobody is left and nobody will come.
+  bool is_deserted() const { return robots_.empty() && population_.is_over(t_ns_); }
 
-  // Sets the command in force, clipped to the velocity limits, until the next one. Must be finite. Ignored for a robot
-  // that is not active. Returns what is in force.
+  // Sets the command, clipped to the velocity limits, that is in force until the next one: from now on, or from the
+  // first step after the latencies of control and actuation. Must be finite. Ignored for a robot that is not active.
+  // Returns what is in force now.
   dmrp_twist set_command(std::uint32_t robot, const dmrp_twist& command);
 
   // Gives a robot up: it brakes and stands where it is.
@@ -65,19 +67,32 @@ class World {
 
   // One physics step: robots follow their commands within their accelerations, people move at these velocities (parallel
   // to people(), world frame, finite), bodies stop where they would get deeper into each other, robots arrive, people reach
-  // their regions. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
+  // their regions. Recorded people go along their tracks whatever velocities they are given: the track wins over
+  // everybody in the way, who can move no nearer but is not pushed. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
 
   // Of the last step.
   std::span<const dmrp_contact> contacts() const { return contacts_; }
 
  private:
+  // A command on its way.
+  struct Coming {
+    std::int64_t from_ns;
+    dmrp_twist command;
+  };
+
+  std::int64_t command_latency_ns() const {
+    return settings_.control_latency_ns + robot_settings_.actuation_latency_ns;
+  }
+  void stop(std::uint32_t robot);
+  void take_up_commands();
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
   void apply_motion();
   void check_arrival(std::uint32_t robot);
   void advance_people();
   void show_agents();
   void show_people();
+  void place_bodies_of_people();
   void find_contacts();
   double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
 
@@ -87,6 +102,7 @@ class World {
   std::shared_ptr<const StaticGeometry> geometry_;
   std::int64_t t_ns_ = 0;
   std::vector<RobotState> robots_;
+  std::vector<std::deque<Coming>> coming_;  // by robot, in order of time
   std::vector<std::vector<dmrp_goal>> goals_;
   std::vector<dmrp_vec2> robot_positions_;
   Population population_;

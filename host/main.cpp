@@ -160,6 +160,8 @@ int run_main(int argc, char** argv) {
   std::filesystem::path reported;
   CLI::App* report = app.add_subcommand("report", "write report.html: what a run found, in one file to open anywhere");
   report->add_option("run", reported, "the run directory")->required()->type_name("RUN_DIR");
+  std::vector<std::uint64_t> replayed;
+  report->add_option("--replay", replayed, "a trial to replay, besides those that are chosen")->type_name("TRIAL");
 
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
@@ -176,7 +178,7 @@ int run_main(int argc, char** argv) {
                                                  : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
-  if (report->parsed()) return report_command(reported);
+  if (report->parsed()) return report_command(reported, replayed);
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));

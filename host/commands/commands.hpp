@@ -64,8 +64,8 @@ struct PlanOptions {
 };
 int plan_command(const PlanOptions& options);
 
-// Writes report.html into the run directory.
-int report_command(const std::filesystem::path& run_directory);
+// Writes report.html into the run directory; `replayed`: trials whose replay goes in whatever they are like.
+int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
 struct EvaluateOptions {
   std::filesystem::path run_directory;

@@ -41,12 +41,12 @@ struct Outcome {
   std::vector<std::string> warnings;
 };
 
-// Either a map with tasks, or a scenario.
+// Either a map with tasks, or a scenario, whose robots are drawn where a number is given.
 void check_what_is_planned(const PlanOptions& options) {
   const bool whole_map = !options.map.empty() && !options.tasks.empty() && options.agents > 0;
-  const bool no_map = options.map.empty() && options.tasks.empty() && options.agents == 0;
+  const bool no_map = options.map.empty() && options.tasks.empty();
   if (options.scenario.empty() ? !whole_map : !no_map)
-    throw InputError("plan: needs --map, --scen and --agents together, or --scenario alone");
+    throw InputError("plan: needs --map, --scen and --agents together, or --scenario, with or without --agents");
 }
 
 void check_paths_file(const fs::path& file) {
@@ -201,6 +201,7 @@ int plan_command(const PlanOptions& options) {
   Experiment experiment = options.map.empty() ? adhoc_experiment(options.scenario) : Experiment();
   experiment.seed = options.seed;
   experiment.limits.planner_time_s = options.time_limit_s;
+  if (options.map.empty() && options.agents > 0) draw_robots_in(experiment, options.agents, options.seed);
   if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));
   add_planner(experiment, options.planner, options.plugins, options.settings);

@@ -54,8 +54,8 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   std::string out = experiment.name;
   if (experiment.scenarios.size() == 1) {
     const core::Scenario& scenario = experiment.scenarios[0].scenario;
-    out += fmt::format(" · {} · {}", scenario.name,
-                       scenario.robots.empty() ? "no robots" : plural(scenario.robots.size(), "robot"));
+    const std::uint32_t robots = robot_count(experiment.scenarios[0]);
+    out += fmt::format(" · {} · {}", scenario.name, robots == 0 ? "no robots" : plural(robots, "robot"));
     const auto people = core::person_count(scenario);
     out += people == 0 ? ", no people" : fmt::format(", {} {}", people, people == 1 ? "person" : "people");
   } else {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/planning_grid.hpp"
+#include "core/robot_draw.hpp"
+#include "core/static_geometry.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/nearest_name.hpp"
 #include "host/experiment/read_parameters.hpp"
@@ -85,6 +88,19 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
   if (to_plan) check_world(read, experiment);
   return experiment;
+}
+
+void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
+  core::Scenario& scenario = experiment.scenarios[0].scenario;
+  const core::StaticGeometry geometry(scenario);
+  const core::SimulationSettings& simulation = experiment.simulation;
+  scenario.robots =
+      core::draw_robots(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
+                                                  simulation.planning_margin_m),
+                        robots, seed);
+  if (scenario.robots.size() < robots)
+    throw InputError(fmt::format("--agents {}: scenario '{}' holds at most {} robots drawn so", robots, scenario.name,
+                                 scenario.robots.size()));
 }
 
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,

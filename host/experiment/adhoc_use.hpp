@@ -3,6 +3,7 @@
 // that are given there.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace dmrp::host {
 // An experiment of one scenario, named or given by its path; `to_plan`: checked against the default robot and grid.
 // Throws InputError.
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
+
+// Its scenario with `robots` drawn for the seed in place of those it lists. Throws InputError.
+void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed);
 
 // `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words
 // are strings. Throws InputError.

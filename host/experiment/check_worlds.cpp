@@ -11,7 +11,9 @@
 #include "core/crowd_lattice.hpp"
 #include "core/planning_grid.hpp"
 #include "core/population.hpp"
+#include "core/robot_draw.hpp"
 #include "core/static_geometry.hpp"
+#include "host/input_error.hpp"
 
 namespace dmrp::host {
 
@@ -42,11 +44,14 @@ class WorldCheck {
         planning_(core::build_planning_grid(geometry_, experiment.simulation.grid_resolution_m, radius_m_,
                                             experiment.simulation.planning_margin_m)) {}
 
+  const core::PlanningGrid& planning_grid() const { return planning_; }
+
   void run() {
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
     for (std::size_t a = 0; a < scenario_.robots.size(); ++a)
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
-    if (core::person_count(scenario_) > 0) check_flows();
+    if (core::walker_count(scenario_) > 0) check_flows();
+    check_tracks();
     const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
     if (scenario_.robots.size() > 1 && experiment_.simulation.grid_resolution_m < safe_cell_m)
       warn(file_.size,
@@ -89,33 +94,13 @@ class WorldCheck {
                  fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
   }
 
-  // Cells that can be reached over open edges, orthogonal ones alone: what every planner can use.
-  static std::vector<bool> reachable(const toolkit::GridView& grid, std::uint32_t from) {
-    std::vector<bool> seen(grid.size());
-    std::vector<std::uint32_t> open = {from};
-    seen[from] = true;
-    while (!open.empty()) {
-      const std::uint32_t cell = open.back();
-      open.pop_back();
-      for (int direction = 0; direction < 8; direction += 2) {
-        if (!grid.edge(cell, direction)) continue;
-        const std::uint32_t next = grid.neighbour(cell, direction);
-        if (!seen[next]) {
-          seen[next] = true;
-          open.push_back(next);
-        }
-      }
-    }
-    return seen;
-  }
-
   void check_robot(std::size_t robot) const {
     const core::RobotTask& task = scenario_.robots[robot];
     const dmrp_vec2 start = {task.start.x, task.start.y};
     check_place(robot, "starts", "start", start);
     const dmrp_grid view = planning_.view();
     const toolkit::GridView grid(view);
-    const auto seen = reachable(grid, grid.index(grid.cell_of(start)));
+    const auto seen = core::reachable_cells(planning_, grid.index(grid.cell_of(start)));
     for (const dmrp_pose& goal : task.goals) {
       const dmrp_vec2 point = {goal.x, goal.y};
       check_place(robot, "has its goal", "goal", point);
@@ -164,11 +149,27 @@ class WorldCheck {
   void check_flows() const {
     const core::PlanningGrid walking = core::build_planning_grid(
         geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
-    const dmrp_grid view = walking.view();
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
-      if (scenario_.flows[i].people > 0) check_flow(toolkit::GridView(view), i);
+      if (scenario_.flows[i].people > 0) check_flow(walking, i);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].start == core::FlowStart::from) check_room(i);
+  }
+
+  // Where somebody is at a row of a recording.
+  void check_tracks() const {
+    for (std::size_t i = 0; i < scenario_.tracks.size(); ++i)
+      for (std::size_t row = 0; row < scenario_.tracks[i].points.size(); ++row) {
+        const dmrp_vec2 point = scenario_.tracks[i].points[row].position;
+        const TrackPlace& place = file_.tracks[i];
+        const auto fail = [&](const std::string& where) {
+          throw InputError(fmt::format("{}:{}:1: person {} is {}, at ({}, {})", place.shown_path, place.lines[row],
+                                       place.id, where, point.x, point.y));
+        };
+        if (!geometry_.inside_world(point)) fail("outside the world");
+        const core::NearestShape nearest = geometry_.nearest(point);
+        if (nearest.clearance_m == 0.0 && nearest.shape != geometry_.border())
+          fail(fmt::format("inside '{}'", geometry_.shape_name(nearest.shape)));
+      }
   }
 
   // For all who begin in the first region of this flow. How many there is room for varies a little with the seed.
@@ -188,7 +189,8 @@ class WorldCheck {
                                                            region.name, people, places.size()));
   }
 
-  void check_flow(const toolkit::GridView& grid, std::size_t index) const {
+  void check_flow(const core::PlanningGrid& walking, std::size_t index) const {
+    const toolkit::GridView grid(walking.view());
     const core::Flow& flow = scenario_.flows[index];
     std::vector<bool> seen;
     std::string last;
@@ -198,7 +200,7 @@ class WorldCheck {
       if (cells.empty())
         file_.document->fail(file_.regions[region_index],
                              fmt::format("region '{}' has no free place for a person", region.name));
-      if (seen.empty()) seen = reachable(grid, cells.front());
+      if (seen.empty()) seen = core::reachable_cells(walking, cells.front());
       if (std::none_of(cells.begin(), cells.end(), [&](std::uint32_t cell) { return seen[cell]; }))
         file_.document->fail(file_.flows[index],
                              fmt::format("flow '{}': nobody can walk from '{}' to '{}'", flow.name, last, region.name));
@@ -217,10 +219,21 @@ class WorldCheck {
 
 }  // namespace
 
-void check_world(const ScenarioFile& file, Experiment& experiment) {
+void check_world(const ScenarioFile& file, Experiment& experiment, const DrawnRobots& drawn) {
   check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
   check_size(file, core::walking_resolution_m, "the grid for people");
-  WorldCheck(file, experiment).run();
+  WorldCheck check(file, experiment);
+  check.run();
+  if (drawn.most == 0 || core::surely_room_for(check.planning_grid(), drawn.most)) return;
+  for (std::uint32_t repetition = 0; repetition < experiment.trials; ++repetition) {
+    const std::uint64_t seed = world_seed(experiment, file.scenario.name, repetition);
+    const std::size_t found = core::draw_robots(check.planning_grid(), drawn.most, seed).size();
+    if (found < drawn.most)
+      drawn.at->fail(
+          fmt::format("scenario '{}' holds at most {} robots drawn so (repetition {}: starts, and goals, more "
+                      "than {} m apart), not {}",
+                      file.scenario.name, found, repetition, core::drawn_apart_m, drawn.most));
+  }
 }
 
 }  // namespace dmrp::host

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <dmrp/toolkit/random.hpp>
 #include <numeric>
 
 #include "host/experiment/experiment.hpp"
@@ -20,9 +21,8 @@ std::vector<std::int32_t> choices(const std::vector<PluginUse>& uses, bool neede
 std::vector<Combination> combinations(const Experiment& experiment) {
   std::vector<Combination> out;
   for (std::uint32_t scenario = 0; scenario < experiment.scenarios.size(); ++scenario) {
-    const core::Scenario& world = experiment.scenarios[scenario].scenario;
-    const bool robots = !world.robots.empty();
-    const bool people = core::person_count(world) > 0;
+    const bool robots = robot_count(experiment.scenarios[scenario]) > 0;
+    const bool people = core::walker_count(experiment.scenarios[scenario].scenario) > 0;
     for (const std::int32_t planner : choices(experiment.global_planners, robots))
       for (const std::int32_t controller : choices(experiment.local_controllers, robots))
         for (const std::int32_t model : choices(experiment.pedestrian_models, people))
@@ -34,6 +34,11 @@ std::vector<Combination> combinations(const Experiment& experiment) {
 TrialId trial_id(std::uint64_t number, std::size_t combination_count) {
   return {number, static_cast<std::uint32_t>(number % combination_count),
           static_cast<std::uint32_t>(number / combination_count)};
+}
+
+std::uint64_t world_seed(const Experiment& experiment, const std::string& scenario, std::uint32_t repetition) {
+  // 63 bits, so that it is a positive integer in every database.
+  return toolkit::Stream(experiment.seed, "trial", scenario, repetition).next_u64() >> 1;
 }
 
 }  // namespace dmrp::host

@@ -39,6 +39,21 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
   }
 }
 
+// What robots are drawn for one number depends on the others that stand with it.
+void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios) {
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const ScenarioVariant& variant = scenarios[i];
+    std::string robots = std::to_string(robot_count(variant));
+    if (variant.most_drawn > 0) {
+      for (; i + 1 < scenarios.size() && scenarios[i + 1].entry == variant.entry; ++i)
+        robots += fmt::format(", {}", robot_count(scenarios[i + 1]));
+      robots = "[" + robots + "]";
+    }
+    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()), robots);
+    if (variant.all_drawn) out += "tasks  = \"drawn\"\n";
+  }
+}
+
 void write_simulation(std::string& out, const Experiment& experiment) {
   const core::SimulationSettings& s = experiment.simulation;
   static constexpr const char* const tracking[] = {"none", "visible", "all"};
@@ -50,6 +65,8 @@ void write_simulation(std::string& out, const Experiment& experiment) {
   if (experiment.time_limit_set) out += fmt::format("time_limit_s               = {}\n", seconds(s.time_limit_ns));
   out += fmt::format("grid_resolution_m          = {}\n", toml_text(s.grid_resolution_m));
   out += fmt::format("step_duration_s            = {}\n", seconds(s.step_duration_ns));
+  out += fmt::format("control_latency_s          = {}\n", seconds(s.control_latency_ns));
+  out += fmt::format("planning_latency_s         = {}\n", seconds(s.planning_latency_ns));
   out += fmt::format("planning_margin_m          = {}\n", toml_text(s.planning_margin_m));
   out += fmt::format("tracking                   = \"{}\"\n", tracking[static_cast<int>(s.tracking)]);
   out += fmt::format("tracking_range_m           = {}\n", toml_text(s.tracking_range_m));
@@ -72,6 +89,10 @@ void write_robot(std::string& out, const core::RobotSettings& r) {
   out += fmt::format("v_min     = {}\nv_max     = {}\nomega_max = {}\na_max     = {}\nalpha_max = {}\n",
                      toml_text(r.v_min), toml_text(r.v_max), toml_text(r.omega_max), toml_text(r.a_max),
                      toml_text(r.alpha_max));
+  const auto& noise = r.odometry.noise;
+  out += fmt::format("actuation_latency_s = {}\n", seconds(r.actuation_latency_ns));
+  out += fmt::format("odometry  = {{ noise = [{}, {}, {}, {}], fix_period_s = {} }}\n", toml_text(noise[0]),
+                     toml_text(noise[1]), toml_text(noise[2]), toml_text(noise[3]), seconds(r.odometry.fix_period_ns));
   out += fmt::format(
       "lidar     = {{ beams = {}, field_of_view_rad = {}, range_min_m = {}, range_max_m = {}, noise_sd_m = {}, "
       "dropout_share = {} }}\n",
@@ -94,9 +115,7 @@ std::string effective_toml(const Experiment& experiment) {
   std::vector<std::string> libraries;
   for (const LibraryUse& library : experiment.libraries) libraries.push_back(library.file.string());
   out += "plugins = " + toml_text(libraries) + "\n";
-  for (const ScenarioVariant& variant : experiment.scenarios)
-    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()),
-                       variant.scenario.robots.size());
+  write_scenarios(out, experiment.scenarios);
   write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners);
   write_uses(out, DMRP_KIND_LOCAL_CONTROLLER, experiment.local_controllers);
   write_uses(out, DMRP_KIND_PEDESTRIAN_MODEL, experiment.pedestrian_models);

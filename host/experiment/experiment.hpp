@@ -31,13 +31,21 @@ struct PluginUse {
   std::filesystem::path parameter_file{};  // that some of them come from; absolute, empty if there is none
 };
 
-// A scenario with a number of robots.
+// A scenario with a number of robots: the first of those that it lists, or as many drawn for each trial.
 struct ScenarioVariant {
-  core::Scenario scenario;     // holds exactly the robots that take part
+  core::Scenario scenario;     // holds exactly the listed robots that take part
   std::string label;           // the scenario's name; "mall/2" where it runs with another number than it lists
   std::filesystem::path file;  // of scenario.toml
   std::vector<std::filesystem::path> files{};  // that it names: a map, tasks
+  std::uint32_t drawn_robots = 0;              // none of the listed ones takes part then
+  std::uint32_t most_drawn = 0;  // by the variants of one [[scenario]]: people keep clear of all their starts
+  std::uint32_t entry = 0;       // the [[scenario]] that it comes from
+  bool all_drawn = false;        // tasks = "drawn"
 };
+
+inline std::uint32_t robot_count(const ScenarioVariant& variant) {
+  return variant.drawn_robots + static_cast<std::uint32_t>(variant.scenario.robots.size());
+}
 
 enum class RecordTraces { all, failed, none };
 
@@ -87,6 +95,10 @@ struct TrialId {
   std::uint32_t repetition = 0;
 };
 TrialId trial_id(std::uint64_t number, std::size_t combination_count);
+
+// The seed that all streams of a world come from: equal for every combination of a scenario and repetition, whatever the
+// number of robots, so that all meet the same crowd.
+std::uint64_t world_seed(const Experiment& experiment, const std::string& scenario, std::uint32_t repetition);
 
 // What a library's plugins are found out by: a probe in a child process, or the library itself.
 using PluginSource = std::function<Probe(const std::filesystem::path&)>;

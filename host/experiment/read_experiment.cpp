@@ -23,9 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t most_robots = 10'000;
+
 class Reader {
  public:
-  Reader(const fs::path& file, const PluginSource& source) : source_(source), document_(file.string(), read(file)) {
+  // `trials` > 0 replaces the file's number.
+  Reader(const fs::path& file, std::uint32_t trials, const PluginSource& source)
+      : trials_(trials), source_(source), document_(file.string(), read(file)) {
     experiment_.file = fs::canonical(file);
     experiment_.text = text_;
   }
@@ -47,7 +51,7 @@ class Reader {
     check_complete(root);
     check_order(root);
     if (experiment_.metrics.empty()) use_every_metric(root);
-    for (const ScenarioFile& file : files_) check_world(file, experiment_);
+    for (const Entry& entry : entries_) check_world(entry.file, experiment_, entry.drawn);
     return std::move(experiment_);
   }
 
@@ -83,6 +87,7 @@ class Reader {
     if (const auto seed = header->find("seed")) experiment_.seed = static_cast<std::uint64_t>(seed->integer(0));
     if (const auto trials = header->find("trials"))
       experiment_.trials = static_cast<std::uint32_t>(trials->integer(1, 1'000'000));
+    if (trials_ > 0) experiment_.trials = trials_;
     const TomlValue plugins = header->need("plugins");
     for (const TomlValue& library : plugins.array()) read_library(library);
     if (experiment_.libraries.empty()) plugins.fail("'plugins' must name at least one library");
@@ -138,34 +143,58 @@ class Reader {
 
   void read_scenarios(const TomlTable& root) {
     for (const TomlTable& table : root.tables("scenario")) {
-      table.allow_only({"use", "robots"});
+      table.allow_only({"use", "robots", "tasks"});
       const TomlValue use = table.need("use");
       const fs::path file = find_scenario(use.text(), base());
       if (file.empty()) fail_missing_scenario(use);
-      ScenarioFile scenario = read_scenario_file(file, shown(file));
-      const std::size_t listed = scenario.scenario.robots.size();
-      std::size_t most = 0;
-      for (const RobotCount& count : robot_counts(table, use, scenario.scenario)) {
-        ScenarioVariant variant;
-        variant.scenario = scenario.scenario;
-        auto& robots = variant.scenario.robots;
-        for (std::size_t i = count.robots; i < robots.size(); ++i)
-          variant.scenario.other_starts.push_back({robots[i].start.x, robots[i].start.y});
-        robots.resize(count.robots);
-        variant.label = variant.scenario.name;
-        if (count.robots != listed) variant.label += fmt::format("/{}", count.robots);
-        variant.file = file;
-        variant.files = scenario.files;
-        for (const ScenarioVariant& other : experiment_.scenarios)
-          if (other.label == variant.label)
-            count.value.fail(fmt::format("scenario '{}' is there twice", variant.label));
-        scenario_uses_.push_back(use);
-        experiment_.scenarios.push_back(std::move(variant));
-        most = std::max(most, count.robots);
+      Entry entry = {read_scenario_file(file, shown(file)), {}};
+      const std::vector<RobotCount> counts = robot_counts(table, use, entry.file.scenario);
+      std::size_t most_listed = 0;
+      for (const RobotCount& count : counts) {
+        if (count.drawn && count.robots > entry.drawn.most) entry.drawn = {count.robots, count.value};
+        if (!count.drawn) most_listed = std::max(most_listed, count.robots);
       }
-      scenario.scenario.robots.resize(most);  // the others take no part, so nothing is asked of them
-      files_.push_back(std::move(scenario));
+      for (const RobotCount& count : counts) add_variant(file, use, entry, count);
+      entry.file.scenario.robots.resize(most_listed);  // the others take no part, so nothing is asked of them
+      entries_.push_back(std::move(entry));
     }
+  }
+
+  // A [[scenario]].
+  struct Entry {
+    ScenarioFile file;
+    DrawnRobots drawn;
+  };
+
+  struct RobotCount {
+    std::size_t robots;
+    bool drawn;
+    bool all_drawn;   // of this [[scenario]]
+    TomlValue value;  // where it is asked for
+  };
+
+  void add_variant(const fs::path& file, const TomlValue& use, const Entry& entry, const RobotCount& count) {
+    ScenarioVariant variant;
+    variant.scenario = entry.file.scenario;
+    auto& robots = variant.scenario.robots;
+    const std::size_t listed = robots.size();
+    const std::size_t kept = count.drawn ? 0 : count.robots;
+    for (std::size_t i = kept; i < listed; ++i)
+      variant.scenario.other_starts.push_back({robots[i].start.x, robots[i].start.y});
+    robots.resize(kept);
+    variant.label = variant.scenario.name;
+    if (count.robots != listed || count.drawn) variant.label += fmt::format("/{}", count.robots);
+    variant.file = file;
+    variant.files = entry.file.files;
+    variant.drawn_robots = static_cast<std::uint32_t>(count.drawn ? count.robots : 0);
+    variant.most_drawn = static_cast<std::uint32_t>(entry.drawn.most);
+    variant.entry = static_cast<std::uint32_t>(entries_.size());
+    variant.all_drawn = count.all_drawn;
+    for (const ScenarioVariant& other : experiment_.scenarios)
+      if (other.scenario.name == variant.scenario.name && robot_count(other) == count.robots)
+        count.value.fail(fmt::format("scenario '{}' is there twice", variant.label));
+    scenario_uses_.push_back(use);
+    experiment_.scenarios.push_back(std::move(variant));
   }
 
   [[noreturn]] static void fail_missing_scenario(const TomlValue& use) {
@@ -182,28 +211,27 @@ class Reader {
     return path && *path ? std::string("DMRP_SCENARIO_PATH is ") + path : "DMRP_SCENARIO_PATH is empty";
   }
 
-  struct RobotCount {
-    std::size_t robots;
-    TomlValue value;  // where it is asked for
-  };
-
   static std::vector<RobotCount> robot_counts(const TomlTable& table, const TomlValue& use,
                                               const core::Scenario& scenario) {
     const std::size_t listed = scenario.robots.size();
     const bool people = core::person_count(scenario) > 0;
     const auto value = table.find("robots");
+    const auto tasks = table.find("tasks");
+    const std::string from = tasks ? tasks->choice({"listed", "drawn"}) : "";
+    if (from == "drawn" && !value) tasks->fail_at_key("'tasks' = 'drawn' needs 'robots', how many");
     if (!value && listed == 0 && !people)
       use.fail(fmt::format("scenario '{}' lists neither robots nor people", scenario.name));
-    if (!value) return {{listed, use}};
+    if (!value) return {{listed, false, false, use}};
     std::vector<RobotCount> counts;
     for (const TomlValue& count : value->is_array() ? value->array() : std::vector<TomlValue>{*value}) {
-      const auto robots = static_cast<std::size_t>(count.integer(0));
+      const auto robots = static_cast<std::size_t>(count.integer(0, most_robots));
       if (robots == 0 && !people)
         count.fail(fmt::format("without robots nobody is there: scenario '{}' has no people", scenario.name));
-      if (robots > listed)
-        count.fail(fmt::format("scenario '{}' lists {} robot{}, not {}: drawing more is not built yet", scenario.name,
+      if (robots > listed && from == "listed")
+        count.fail(fmt::format("scenario '{}' lists {} robot{}, not {} ('tasks' = 'drawn' draws them)", scenario.name,
                                listed, listed == 1 ? "" : "s", robots));
-      counts.push_back({robots, count});
+      const bool drawn = robots > 0 && (robots > listed || from == "drawn");
+      counts.push_back({robots, drawn, from == "drawn", count});
     }
     if (counts.empty()) value->fail("'robots' must have at least one number");
     return counts;
@@ -291,12 +319,12 @@ class Reader {
   void check_complete(const TomlTable& root) const {
     if (experiment_.scenarios.empty()) root.fail("the experiment needs a [[scenario]]");
     const bool robots = std::any_of(experiment_.scenarios.begin(), experiment_.scenarios.end(),
-                                    [](const ScenarioVariant& variant) { return !variant.scenario.robots.empty(); });
+                                    [](const ScenarioVariant& variant) { return robot_count(variant) > 0; });
     if (robots && experiment_.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
     if (robots && experiment_.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
     if (!experiment_.pedestrian_models.empty()) return;
     for (std::size_t i = 0; i < experiment_.scenarios.size(); ++i)
-      if (const auto count = core::person_count(experiment_.scenarios[i].scenario); count > 0)
+      if (const auto count = core::walker_count(experiment_.scenarios[i].scenario); count > 0)
         scenario_uses_[i].fail(fmt::format("scenario '{}' has {} {}: the experiment needs a [[pedestrian_model]]",
                                            experiment_.scenarios[i].scenario.name, count,
                                            count == 1 ? "person" : "people"));
@@ -316,20 +344,19 @@ class Reader {
     }
   }
 
+  std::uint32_t trials_;
   const PluginSource& source_;
   std::string text_;
   TomlDocument document_;
   Experiment experiment_;
-  std::vector<ScenarioFile> files_;
+  std::vector<Entry> entries_;
   std::vector<TomlValue> scenario_uses_;  // parallel to experiment_.scenarios
 };
 
 }  // namespace
 
 Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source) {
-  Experiment experiment = Reader(file, source).take();
-  if (trials > 0) experiment.trials = trials;
-  return experiment;
+  return Reader(file, trials, source).take();
 }
 
 }  // namespace dmrp::host

@@ -13,6 +13,8 @@
 #include "host/experiment/nearest_name.hpp"
 #include "host/experiment/read_file.hpp"
 #include "host/experiment/read_map.hpp"
+#include "host/experiment/read_recordings.hpp"
+#include "host/experiment/read_tiles.hpp"
 #include "host/experiment/toml_document.hpp"
 
 namespace dmrp::host {
@@ -184,6 +186,8 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
 }
 
 void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
+  const auto first_own = static_cast<std::uint32_t>(out.scenario.regions.size() - regions.size());  // after tiles'
+  const auto region_of = [&](const TomlValue& value) { return first_own + region_index(value, regions); };
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("flow")) {
     table.allow_only({"name", "from", "via", "to", "people", "start", "respawn"});
@@ -192,10 +196,10 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     flow.name = name.line();
     refuse_twice(name, "flows", names);
     names.push_back(flow.name);
-    flow.regions.push_back(region_index(table.need("from"), regions));
+    flow.regions.push_back(region_of(table.need("from")));
     if (const auto via = table.find("via"))
-      for (const TomlValue& region : via->array()) flow.regions.push_back(region_index(region, regions));
-    flow.regions.push_back(region_index(table.need("to"), regions));
+      for (const TomlValue& region : via->array()) flow.regions.push_back(region_of(region));
+    flow.regions.push_back(region_of(table.need("to")));
     flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, most_people));
     if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
       flow.start = core::FlowStart::from;
@@ -218,9 +222,11 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   scenario.title = header->need("title").line();
   scenario.description = header->need("description").line();
   if (const auto origin = header->find("origin_m")) scenario.lower = point(*origin);
-  if (const auto map = root.find_table("map")) {
+  const bool tiled = root.find_table("tiles").has_value();
+  if (tiled || root.find_table("map")) {
     if (const auto size_value = header->find("size_m"))
-      size_value->fail_at_key("a scenario has either 'size_m' or a [map], which gives its size");
+      size_value->fail_at_key(
+          fmt::format("a scenario has either 'size_m' or {}, which gives its size", tiled ? "[tiles]" : "a [map]"));
   } else {
     const TomlValue size_value = header->need("size_m");
     const dmrp_vec2 extent = size(size_value);
@@ -238,9 +244,11 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   ScenarioFile out;
   out.document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
   const TomlTable root = out.document->root();
-  root.allow_only({"scenario", "map", "box", "circle", "polygon", "robot", "robots", "people", "region", "flow"});
+  root.allow_only({"scenario", "map", "box", "circle", "polygon", "robot", "robots", "people", "region", "flow",
+                   "tiles", "recording"});
   read_header(root, file, out);
   const auto map = read_map(root, file, shown_path, out);
+  read_tiles(root, file, out);
   read_shapes(root, "box", read_box, out);
   read_shapes(root, "circle", read_circle, out);
   read_shapes(root, "polygon", read_polygon, out);
@@ -253,6 +261,7 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   read_people(root, out.scenario.people);
   const auto regions = read_regions(root, out);
   read_flows(root, regions, out);
+  read_recordings(root, file, shown_path, out);
   return out;
 }
 

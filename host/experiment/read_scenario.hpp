@@ -2,6 +2,7 @@
 // read_scenario.hpp: scenario.toml as data, with the places that later checks point at.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +15,13 @@ namespace dmrp::host {
 
 inline constexpr double longest_side_m = 10'000.0;  // of a world
 
+// Where a recorded person stands in its file.
+struct TrackPlace {
+  std::string shown_path;
+  std::string id;
+  std::vector<std::size_t> lines;  // parallel to the track's points
+};
+
 struct ScenarioFile {
   core::Scenario scenario;
   std::vector<std::filesystem::path> files;  // that it is made of beside scenario.toml, absolute: a map, tasks
@@ -22,6 +30,7 @@ struct ScenarioFile {
   std::vector<SourcePosition> robots;   // parallel to scenario.robots
   std::vector<SourcePosition> regions;  // likewise
   std::vector<SourcePosition> flows;
+  std::vector<TrackPlace> tracks;
 };
 
 // Reads and checks the file, `file` being its absolute path, by itself: not yet against a robot. `shown_path`: as

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double longest_s = 1e6;
 constexpr double shortest_s = 1e-3;
+constexpr double longest_latency_s = 10.0;
 constexpr double farthest_m = 1e4;
 constexpr double most_dropouts = 0.9;          // with more a costmap could not tell them from free space
 constexpr double most_costmap_cells = 2000.0;  // along a side
@@ -41,6 +42,11 @@ Read choice(Enum& to, const std::vector<std::string>& choices) {
     for (std::size_t i = 0; i < choices.size(); ++i)
       if (choices[i] == chosen) to = static_cast<Enum>(i);
   };
+}
+
+// Shorter than the window in which robots that stand count as stuck.
+Read latency(std::int64_t& to_ns) {
+  return [&to_ns](const TomlValue& value) { to_ns = std::llround(value.number(0.0, longest_latency_s) * 1e9); };
 }
 
 // 0: never.
@@ -76,6 +82,8 @@ void read_simulation(const TomlTable& root, Experiment& experiment) {
                {"time_limit_s", seconds(to.time_limit_ns)},
                {"grid_resolution_m", number(to.grid_resolution_m, 0.05, 100.0)},
                {"step_duration_s", seconds(to.step_duration_ns)},
+               {"control_latency_s", latency(to.control_latency_ns)},
+               {"planning_latency_s", latency(to.planning_latency_ns)},
                {"planning_margin_m", number(to.planning_margin_m, 0.0, 10.0)},
                {"tracking", choice(to.tracking, {"none", "visible", "all"})},
                {"tracking_range_m", positive(to.tracking_range_m, farthest_m)},
@@ -122,6 +130,19 @@ void read_costmap(const TomlTable& robot, core::CostmapSettings& to) {
                             most_costmap_cells, to.window_m, to.resolution_m, to.window_m / to.resolution_m));
 }
 
+void read_odometry(const TomlTable& robot, core::OdometrySettings& to) {
+  const auto table = robot.find_table("odometry");
+  if (!table) return;
+  const auto noise = [&](const TomlValue& value) {
+    const std::vector<TomlValue> given = value.array();
+    if (given.size() != to.noise.size())
+      value.fail(
+          fmt::format("'noise' must be [a1, a2, a3, a4], not {} number{}", given.size(), given.size() == 1 ? "" : "s"));
+    for (std::size_t i = 0; i < given.size(); ++i) to.noise[i] = given[i].number(0.0, 100.0);
+  };
+  table->read({{"noise", noise}, {"fix_period_s", seconds_or_never(to.fix_period_ns)}});
+}
+
 void read_robot(const TomlTable& root, core::RobotSettings& to) {
   const auto table = root.find_table("robot");
   if (!table) return;
@@ -134,6 +155,8 @@ void read_robot(const TomlTable& root, core::RobotSettings& to) {
                {"omega_max", positive(to.omega_max, 100.0)},
                {"a_max", positive(to.a_max, 1000.0)},
                {"alpha_max", positive(to.alpha_max, 1000.0)},
+               {"actuation_latency_s", latency(to.actuation_latency_ns)},
+               {"odometry", [&](const TomlValue&) { read_odometry(*table, to.odometry); }},
                {"lidar", [&](const TomlValue&) { read_lidar(*table, to.lidar); }},
                {"costmap", [&](const TomlValue&) { read_costmap(*table, to.costmap); }}});
 }

@@ -15,6 +15,7 @@
 //                "state": R, "goal": R,             DMRP_ROBOT_*, the current goal
 //                "speed": D,                        backwards is negative; ends with the robot's task,
 //                "deviation": D,                    as does the distance from its path in force; -1 where it had none
+//                "scans"?: {"first", "step", "beams", "samples": D, "ranges": []},       where they were recorded: see below
 //                "failure"?, "arrival"?}],          "deadlock", ..., or when it arrived
 //    "people": [{"id", "group", "radius", "from", "x": D, "y": D}],     from sample `from` on
 //    "plans": [{"revision", "made", "from", "paths": [{"x": D, "y": D, "t": D}]}],   no paths: the planner gave none
@@ -24,6 +25,9 @@
 //                                                   other: index of the shape (their number: the border) or robot, or id
 //    "events": [{"metric", "from", "to", "robots": [], "text"}],
 //    "end"?: {"t", "reason"}}                       missing where the trial was cut short
+//
+// Scans: angles in microradians; `samples` are those they belong to, `ranges` one list of all scans' beams in centimetres,
+// differences from beam to beam that begin anew with each scan, 0 where nothing was hit.
 #pragma once
 
 #include <cstdint>

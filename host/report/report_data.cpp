@@ -11,6 +11,7 @@
 #include "host/experiment/read_file.hpp"
 #include "host/report/report_curves.hpp"
 #include "host/report/report_frame.hpp"
+#include "host/report/report_statistics.hpp"
 #include "host/results/summary.hpp"
 
 namespace dmrp::host {
@@ -232,10 +233,7 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
       summaries_json(frame.combinations, summarise(run.metrics, run.trials, counts_failures), run.metrics.size());
   add_planners(json, frame, counts_failures);
   json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
-  json["comparisons"] = Json::array();
-  json["correlations"] = Json::array();
-  json["completion"] = Json::array();
-  json["pedestrian_delay"] = Json::array();
+  add_statistics(json, frame, run.manifest.experiment, layouts);
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)}, {"report", Json::parse(layouts.report.json)}};
   add_replays(json, replays);

@@ -15,6 +15,7 @@
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all
 //                     controllers and pedestrian models
 //   curves            [{metric, combination, coordinate_unit, points: [[coordinate, mean, low, high, defined]]}]
+//   comparisons, correlations, completion, pedestrian_delay: report_statistics.hpp
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts
 //   replays           [{trial, why, element}] in the page; replays_left_out [{why, trials, reason}]
@@ -25,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "host/report/replays.hpp"
 #include "host/report/report_layout.hpp"
 #include "host/report/report_run.hpp"
 #include "host/results/summary_layout.hpp"
@@ -45,12 +47,6 @@ struct ReplayMention {
   std::uint64_t trial = 0;
   std::vector<std::string> why;  // "median", "worst", "failure", "fault", "asked"
   std::string element;
-};
-
-struct ReplaysLeftOut {
-  std::string why;
-  std::uint64_t trials = 0;
-  std::string reason;
 };
 
 struct ReplayIndex {

@@ -13,8 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<const char*, 8> known_keys{"tables",      "heat_map",   "distributions",    "diagnosis",
-                                                "comparisons", "completion", "pedestrian_delay", "curves"};
+constexpr std::array<const char*, 9> known_keys{"replays",       "tables",           "heat_map",
+                                                "distributions", "diagnosis",        "comparisons",
+                                                "completion",    "pedestrian_delay", "curves"};
 
 ComparedMetric parse_comparison(const Json& json) {
   ComparedMetric compared;
@@ -58,6 +59,10 @@ ReportLayout parse(std::string_view text) {
   }
   for (const Json& curve : json.value("curves", Json::array()))
     layout.curves.push_back({curve.at("metric"), curve.at("coordinate"), curve.at("coordinate_unit")});
+  if (json.contains("replays")) {
+    json["replays"].at("rank_by").get_to(layout.replays.rank_by);
+    layout.replays.budget_bytes = json["replays"].at("megabytes").get<std::size_t>() * 1'000'000;
+  }
   return layout;
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/report/replays.hpp"
+
 namespace dmrp::host {
 
 enum class PairedTest { signed_rank, sign_flip };
@@ -44,6 +46,7 @@ struct ReportLayout {
   std::string completion;  // metric: when a robot arrived, undefined if it did not
   PedestrianDelayMetrics pedestrian_delay;
   std::vector<CurveAxis> curves;
+  ReplayPolicy replays;
 };
 
 // `name` is for messages. Throws std::runtime_error.

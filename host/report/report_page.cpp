@@ -59,12 +59,13 @@ void replace_line(std::string& page, const std::string& line, const std::string&
 }  // namespace
 
 std::string report_page(const fs::path& folder, const std::string& data_json, std::span<const EmbeddedReplay> replays) {
+  static constexpr const char* const styles_first[] = {"style.css"};
   static constexpr const char* const libraries[] = {"d3.min.js", "three.min.js"};
   const fs::path file = folder / "page.html";
   std::string page = read_file(file, file.string());
 
   std::string styles;
-  for (const fs::path& part : parts(folder, ".css", {}))
+  for (const fs::path& part : parts(folder, ".css", styles_first))
     styles += "<style>\n" + read_file(part, part.string()) + "</style>\n";
   std::string data = "<script type=\"application/json\" id=\"dmrp-data\">" + json_text(data_json) + "</script>\n";
   for (const EmbeddedReplay& replay : replays)

@@ -16,7 +16,7 @@ struct EmbeddedReplay {
 };
 
 // `folder`: page.html with the lines <!-- dmrp:styles -->, <!-- dmrp:data --> and <!-- dmrp:scripts -->; style sheets
-// (*.css) and scripts (*.js) that take their place in the order of their names, d3.min.js and three.min.js first. The
+// (*.css) and scripts (*.js) that take their place in the order of their names, but style.css, d3.min.js and three.min.js first. The
 // data become <script type="application/json" id="dmrp-data">. Throws InputError where a part is missing.
 std::string report_page(const std::filesystem::path& folder, const std::string& data_json,
                         std::span<const EmbeddedReplay> replays);

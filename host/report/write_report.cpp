@@ -1,20 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/write_report.hpp"
 
+#include <algorithm>
+
 #include "host/executable.hpp"
 #include "host/input_error.hpp"
+#include "host/report/replays.hpp"
 #include "host/report/report_data.hpp"
 #include "host/report/report_page.hpp"
 #include "host/results/atomic_file.hpp"
 
 namespace dmrp::host {
 
-void write_report(const std::filesystem::path& run_directory) {
+namespace {
+
+void check_replayed(const std::vector<std::uint64_t>& replayed, const ReportRun& run, const std::string& directory) {
+  for (const std::uint64_t id : replayed)
+    if (std::none_of(run.trials.begin(), run.trials.end(), [id](const auto& trial) { return trial.id == id; }))
+      throw InputError("--replay: " + directory + " has no trial " + std::to_string(id) + " (its trials: " +
+                       std::to_string(run.trials.front().id) + " to " + std::to_string(run.trials.back().id) + ")");
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed) {
   const ReportRun run = read_report_run(run_directory);
   if (run.trials.empty()) throw InputError(run_directory.string() + ": no trial is finished, so there is no report");
+  check_replayed(replayed, run, run_directory.string());
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
-  const std::string data = report_data_json(run, layouts, {});
-  write_file_atomically(run_directory / "report.html", report_page(shared_data_path() / "report", data, {}));
+  ReplayPolicy policy = layouts.report.replays;
+  policy.asked = replayed;
+  const Replays chosen = choose_and_encode_replays(run_directory, run.trials, run.metrics, policy);
+  ReplayIndex index{{}, chosen.left_out};
+  std::vector<EmbeddedReplay> embedded;
+  for (const Replay& replay : chosen.replays) {
+    const std::string element = "dmrp-replay-" + std::to_string(replay.trial);
+    index.replays.push_back({replay.trial, replay.why, element});
+    embedded.push_back({element, replay.packed});
+  }
+  const std::string data = report_data_json(run, layouts, index);
+  write_file_atomically(run_directory / "report.html", report_page(shared_data_path() / "report", data, embedded));
 }
 
 }  // namespace dmrp::host

@@ -117,8 +117,8 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guida
   observation.robot = robot;
   observation.t_ns = world_.t_ns();
   observation.dt_ns = variant_.simulation.control_period_ns;
-  observation.pose = state.pose;
-  observation.velocity = state.velocity;
+  observation.pose = drivers_[robot].sensors->odometry().pose();
+  observation.velocity = drivers_[robot].sensors->odometry().velocity();
   observation.applied = state.command;
   observation.goal = guidance.goal;
   observation.goal_index = state.goal_index;

@@ -118,13 +118,19 @@ Guidance Dispatcher::guidance(std::uint32_t robot) const {
   return guidance;
 }
 
-std::vector<dmrp_vec2> Dispatcher::next_positions() const {
+std::vector<dmrp_vec2> Dispatcher::next_positions(std::int64_t later_ns) const {
   std::vector<dmrp_vec2> positions;
   for (std::size_t i = 0; i < courses_.size(); ++i) {
     const auto& path = courses_[i].path;
-    const std::size_t next = progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0;
-    positions.push_back(path.empty() ? toolkit::position(world_.robots()[i].pose)
-                                     : toolkit::position(path[std::min(next, path.size() - 1)]));
+    if (path.empty()) {
+      positions.push_back(toolkit::position(world_.robots()[i].pose));
+      continue;
+    }
+    std::size_t next =
+        std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
+    const std::int64_t until_ns = path[next].t_ns + later_ns;
+    while (next + 1 < path.size() && path[next + 1].t_ns <= until_ns) ++next;
+    positions.push_back(toolkit::position(path[next]));
   }
   return positions;
 }

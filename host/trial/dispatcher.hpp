@@ -53,8 +53,8 @@ class Dispatcher {
   // After direct().
   Guidance guidance(std::uint32_t robot) const;
 
-  // Where each robot goes next.
-  std::vector<dmrp_vec2> next_positions() const;
+  // Where each robot goes next, or, by the times of its path, this much later.
+  std::vector<dmrp_vec2> next_positions(std::int64_t later_ns) const;
 
   std::span<const core::PathProgress> progress() const { return progress_; }
   std::span<const double> gained_m() const { return gained_m_; }

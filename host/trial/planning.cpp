@@ -144,7 +144,7 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
   c.robot_stride = sizeof(dmrp_planning_robot);
   c.revision = in_force ? in_force->plan.revision + 1 : 1;
   c.now_ns = world.t_ns();
-  c.effective_from_ns = world.t_ns();
+  c.effective_from_ns = world.t_ns() + variant.simulation.planning_latency_ns;
   c.step_duration_ns = variant.simulation.step_duration_ns;
   c.time_budget_ns = time_budget_ns;
   c.grid = &problem.grid;
@@ -160,7 +160,7 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step) {
   Plan plan;
   plan.revision = in_force ? in_force->plan.revision + 1 : 1;
-  plan.from_ns = world.t_ns();
+  plan.from_ns = world.t_ns() + variant.simulation.planning_latency_ns;
   plan.step_duration_ns = variant.simulation.step_duration_ns;
 
   StagedProblem problem;

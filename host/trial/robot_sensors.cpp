@@ -7,7 +7,12 @@
 namespace dmrp::host {
 
 RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
-    : world_(world), robot_(robot), lidar_(lidar), seed_(seed), ranges_(lidar.beams()) {
+    : world_(world),
+      robot_(robot),
+      lidar_(lidar),
+      seed_(seed),
+      odometry_(world.robot_settings().odometry, seed, robot, world.robots()[robot].pose),
+      ranges_(lidar.beams()) {
   lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {
                         return &static_cast<RobotSensors*>(self->context)->scan();
                       }};
@@ -32,16 +37,17 @@ const void* RobotSensors::extension(const std::string& id) {
   if (of_costmap && !costmap_) {
     const core::RobotSettings& robot = world_.robot_settings();
     costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m, robot.lidar.dropout_share);
-    costmap_->update(world_.robots()[robot_].pose, scan());
+    costmap_->update(odometry_.pose(), scan());
   }
   return of_costmap;
 }
 
 void RobotSensors::tick() {
+  odometry_.read(world_.t_ns(), world_.robots()[robot_].pose, world_.robots()[robot_].velocity);
   scan_is_fresh_ = false;
   agents_are_fresh_ = false;
   fresh_clusters_ = nullptr;
-  if (costmap_) costmap_->update(world_.robots()[robot_].pose, scan());
+  if (costmap_) costmap_->update(odometry_.pose(), scan());
 }
 
 const dmrp_scan& RobotSensors::scan() {
@@ -58,6 +64,10 @@ const std::vector<dmrp_agent>& RobotSensors::agents() {
   if (!agents_are_fresh_) {
     core::visible_agents(world_, robot_, agents_);
     core::disturb_agents(world_.settings().tracking_velocity_noise_sd, {seed_, robot_, world_.t_ns()}, agents_);
+    for (dmrp_agent& agent : agents_) {
+      agent.pose = odometry_.as_believed(agent.pose);
+      agent.velocity = odometry_.direction_as_believed(agent.velocity);
+    }
     agents_are_fresh_ = true;
   }
   return agents_;

@@ -14,6 +14,7 @@
 #include "core/costmap.hpp"
 #include "core/lidar.hpp"
 #include "core/obstacle_clusters.hpp"
+#include "core/odometry.hpp"
 #include "core/world.hpp"
 
 namespace dmrp::host {
@@ -35,6 +36,9 @@ class RobotSensors {
   // A control tick begins: what was read before is out of date.
   void tick();
 
+  // Where the robot believes it is and how fast; all that it is told of lies about it there.
+  const core::Odometry& odometry() const { return odometry_; }
+
   // What its lidar sees; the same however often it is asked for.
   const dmrp_scan& scan();
 
@@ -48,6 +52,7 @@ class RobotSensors {
   std::uint32_t robot_;
   core::Lidar& lidar_;
   std::uint64_t seed_;
+  core::Odometry odometry_;
   std::vector<float> ranges_;
   dmrp_scan scan_{};
   bool scan_is_fresh_ = false;

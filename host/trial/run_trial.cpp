@@ -2,6 +2,7 @@
 #include "host/trial/run_trial.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,15 +31,20 @@ class Run {
   dmrp_trial_end run() {
     if (has_robots()) {
       plan(nullptr);
-      if (!plan_.exists()) return end_without_plan();
+      if (!plan_.exists() && !coming_plan_) return end_without_plan();
     }
     record({});
 
     std::uint32_t ending = watch();
     while (ending == 0) {
       if (control_due()) {  // sees the state that was recorded last
-        if (has_robots() && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress())) replan();
-        control();
+        take_up_coming_plan();
+        if (plan_.exists() && !coming_plan_ && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress()))
+          replan();
+        if (plan_.exists())
+          control();
+        else
+          wait();
       }
       const auto contacts = world_.step(cast_.walk(step_));
       ++step_;
@@ -71,12 +77,24 @@ class Run {
     Plan plan = cast_.plan(in_force, step_);
     trace_.plan(plan.view(), plan.conflicts);
     if (!plan.exists()) return;
-    plan_ = std::move(plan);
+    coming_plan_ = std::move(plan);
+    take_up_coming_plan();
+  }
+
+  void take_up_coming_plan() {
+    if (!coming_plan_ || world_.t_ns() < coming_plan_->from_ns) return;
+    plan_ = *std::exchange(coming_plan_, std::nullopt);
     dispatcher_.take_up(plan_);
   }
 
+  // For the first plan: robots sense, and stand.
+  void wait() {
+    cast_.sense();
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) monitor_.command_given(i, world_.t_ns());
+  }
+
   void replan() {
-    const std::vector<dmrp_vec2> next = dispatcher_.next_positions();
+    const std::vector<dmrp_vec2> next = dispatcher_.next_positions(settings_.planning_latency_ns);
     const InForce in_force = {plan_.view(), next};
     plan(&in_force);
   }
@@ -152,7 +170,8 @@ class Run {
   Dispatcher dispatcher_;
   core::ReplanMonitor replanning_;
   core::EndingMonitor monitor_;
-  Plan plan_;
+  Plan plan_;                        // in force
+  std::optional<Plan> coming_plan_;  // made, and not yet in force
   std::int64_t step_ = 0;
   std::vector<dmrp_robot_sample> robots_;
   std::vector<dmrp_robot_end> ends_;

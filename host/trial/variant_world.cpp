@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/variant_world.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "core/robot_draw.hpp"
+
 namespace dmrp::host {
 
 namespace {
@@ -9,6 +15,19 @@ core::SimulationSettings with_time_limit(const Experiment& experiment, const cor
   core::SimulationSettings settings = experiment.simulation;
   if (!experiment.time_limit_set) settings.time_limit_ns = nanoseconds(scenario.time_limit_s);
   return settings;
+}
+
+// The robots of the trial; the starts of those that would be drawn for more stay clear of people as well.
+core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrid& grid, std::uint64_t seed) {
+  core::Scenario scenario = variant.scenario;
+  std::vector<core::RobotTask> drawn = core::draw_robots(grid, variant.most_drawn, seed);
+  if (drawn.size() < variant.most_drawn)
+    throw std::runtime_error(fmt::format("scenario '{}' has no room for {} robots", scenario.name, variant.most_drawn));
+  for (std::size_t i = variant.drawn_robots; i < drawn.size(); ++i)
+    scenario.other_starts.push_back({drawn[i].start.x, drawn[i].start.y});
+  drawn.resize(variant.drawn_robots);
+  scenario.robots.insert(scenario.robots.end(), drawn.begin(), drawn.end());
+  return scenario;
 }
 
 }  // namespace
@@ -21,6 +40,17 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
                                               simulation.planning_margin_m)),
       walking_grid(core::build_walking_grid(*geometry)),
       routes(core::find_flow_routes(scenario, walking_grid)),
+      view(scenario, experiment.robot, simulation, *geometry, planning_grid, walking_grid,
+           nanoseconds(experiment.limits.step_time_s)) {}
+
+VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
+                           std::uint64_t seed)
+    : scenario(with_drawn_robots(variant, shared.planning_grid, seed)),
+      simulation(shared.simulation),
+      geometry(shared.geometry),
+      planning_grid(shared.planning_grid),
+      walking_grid(shared.walking_grid),
+      routes(shared.routes),
       view(scenario, experiment.robot, simulation, *geometry, planning_grid, walking_grid,
            nanoseconds(experiment.limits.step_time_s)) {}
 

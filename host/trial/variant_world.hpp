@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // variant_world.hpp: what all trials of a scenario variant share: its static geometry, grids and the contract's view.
+// Where robots are drawn, each trial has one of its own.
 #pragma once
 
 #include <memory>
@@ -14,9 +15,14 @@
 namespace dmrp::host {
 
 struct VariantWorld {
+  // Without the robots that are drawn.
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant);
 
-  const core::Scenario& scenario;
+  // With the robots that are drawn for the trial of this seed (world_seed()).
+  VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
+               std::uint64_t seed);
+
+  core::Scenario scenario;
   core::SimulationSettings simulation;  // with the time limit that holds for this scenario
   std::shared_ptr<const core::StaticGeometry> geometry;
   core::PlanningGrid planning_grid;
@@ -24,6 +30,11 @@ struct VariantWorld {
   core::FlowRoutes routes;  // of the people
   core::WorldView view;
 };
+
+// Whether every trial of the variant is set in a world of its own.
+inline bool is_drawn(const ScenarioVariant& variant) {
+  return variant.most_drawn > 0;
+}
 
 // A number of seconds from the experiment file, as the contract counts them.
 inline std::int64_t nanoseconds(double seconds) {

@@ -344,11 +344,7 @@ RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
   const auto all = combinations(experiment);
   const TrialId id = trial_id(trial, all.size());
-  // 63 bits, so that it is a positive integer in every database.
-  return toolkit::Stream(experiment.seed, "trial", experiment.scenarios[all[id.combination].scenario].scenario.name,
-                         id.repetition)
-             .next_u64() >>
-         1;
+  return world_seed(experiment, experiment.scenarios[all[id.combination].scenario].scenario.name, id.repetition);
 }
 
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
@@ -359,7 +355,7 @@ TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
   TrialRecord record;
   record.id = trial;
   record.scenario = variant.scenario.name;
-  record.robots = static_cast<std::uint32_t>(variant.scenario.robots.size());
+  record.robots = robot_count(variant);
   const auto label = [](const std::vector<PluginUse>& uses, std::int32_t index) {
     return index < 0 ? std::string() : uses[static_cast<std::size_t>(index)].label;
   };

@@ -71,8 +71,12 @@ class Worker {
 
   void run(const Job& job) {
     const Combination& combination = combinations_[trial_id(job.trial, combinations_.size()).combination];
-    const VariantWorld& world = variant(combination.scenario);
     const std::uint64_t seed = trial_seed(experiment_, job.trial);
+    const VariantWorld& shared = variant(combination.scenario);
+    std::unique_ptr<const VariantWorld> own;
+    if (const ScenarioVariant& scenario = experiment_.scenarios[combination.scenario]; is_drawn(scenario))
+      own = std::make_unique<VariantWorld>(experiment_, scenario, shared, seed);
+    const VariantWorld& world = own ? *own : shared;
 
     std::optional<core::TraceFileWriter> file;
     if (!job.trace_file.empty()) file.emplace(job.trace_file);
@@ -104,6 +108,7 @@ class Worker {
     done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
       std::filesystem::remove(job.trace_file);
+    if (own) pool_.clear();  // instances may look at their world until they go
     channel_.send(typed("done", done));
   }
 

@@ -8,11 +8,17 @@ window.dmrp = window.dmrp || {};
   const HEIGHT = 200;
   const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
+  // What the layout says of a metric's coordinate: {metric, coordinate, coordinate_unit}.
+  function layout_of(data, metric) {
+    return (data.layouts.report.curves || []).find((one) => one.metric === metric) || {};
+  }
+
   // What the axes must hold.
-  function extents_of(curves) {
+  function extents_of(data, curves) {
     const points = curves.flatMap((curve) => curve.points);
+    const unit = dmrp.numbers.unit(curves[0].coordinate_unit || '');
     return {
-      unit: curves[0].coordinate_unit,
+      title: (layout_of(data, curves[0].metric).coordinate || 'threshold') + (unit ? ` (${unit})` : ''),
       coordinates: points.map((point) => point[0]),
       values: points.flatMap((point) => point.slice(1, 4)).filter(dmrp.numbers.is_number),
     };
@@ -46,7 +52,7 @@ window.dmrp = window.dmrp || {};
     const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
     svg.append('g').attr('class', 'grid').selectAll('line').data(y.ticks(4)).enter().append('line')
       .attr('x1', MARGIN.left).attr('x2', width - MARGIN.right).attr('y1', y).attr('y2', y);
-    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, `threshold${extents.unit ? ` (${extents.unit})` : ''}`);
+    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, extents.title);
     dmrp.plots.axis_left(svg, y, MARGIN.left);
     for (const curve of curves) draw_curve(svg, curve, series_of(data, curve), x, y);
   }
@@ -58,8 +64,8 @@ window.dmrp = window.dmrp || {};
       stratum, curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
     })).filter((one) => one.curves.length > 0);
     const extents = (stratum) =>
-      extents_of(found.filter((curve) => stratum.variant.combinations.includes(curve.combination)));
-    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), 240, 4);
+      extents_of(data, found.filter((curve) => stratum.variant.combinations.includes(curve.combination)));
+    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
     seen.forEach((one, i) => dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
       draw_panel(data, one.curves, extents(one.stratum), `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`, plot, width)));
     const about = dmrp.labels.metric(data, metric);

@@ -95,7 +95,7 @@ window.dmrp = window.dmrp || {};
       const values = (name, variant) => seen.filter((one) => one.stratum.variant === variant)
         .flatMap((one) => one.trials.map((i) => data.values[name][i]));
       dmrp.elements.fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, chosen.y)}`));
-      const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), 240, 4);
+      const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
       seen.forEach((one, i) => {
         const {variant} = one.stratum;
         const domains = {x: values(chosen.x, variant), y: values(chosen.y, variant)};

@@ -64,7 +64,7 @@ window.dmrp = window.dmrp || {};
     dmrp.elements.fill(body, dmrp.controls.row(
       dmrp.controls.select('Combination', options, String(state.combination), (value) => { state.combination = Number(value); state.changed(); }),
       dmrp.controls.search('Search metrics', (words) => { state.words = words; state.changed(); })),
-    title, element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': 'title-metrics'},
+    title, element('div', {class: 'table-scroll tall', tabindex: '0', role: 'region', 'aria-labelledby': 'title-metrics'},
       element('table', {class: 'metrics with-intervals', 'aria-labelledby': 'title-metrics'}, head(), rows)),
     count, element('p', {class: 'note'}, 'sd and median: between trials. † the paper\u2019s rule removed every value that is not zero.'));
     state.changed();

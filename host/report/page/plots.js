@@ -129,10 +129,13 @@ window.dmrp = window.dmrp || {};
     return Math.max(0, ...texts.map((text) => context.measureText(text).width));
   }
 
-  // Panels in columns that are at least `least` pixels wide. Returns their elements.
-  function panels(holder, titles, least, most_columns = 4) {
+  const SMALL_PANELS = {least: 240, most: 520, most_columns: 4};
+
+  // Panels in columns of `least` to `most` pixels. Returns their elements.
+  function panels(holder, titles, {least, most, most_columns}) {
     const columns = Math.max(1, Math.min(most_columns, titles.length));
     const grid = element('div', {class: 'facets'});
+    grid.style.maxWidth = `${columns * most}px`;
     grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), calc((100% - ${columns - 1} * 1.75rem) / ${columns})), 1fr))`;
     const made = titles.map((title) => {
       const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), element('div', {class: 'plot'}));
@@ -144,6 +147,6 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.plots = {
-    responsive, frame, axis_bottom, axis_left, linear, symbol, cross, legend, field_legend, show_tip, hide_tip, text_width, panels,
+    responsive, frame, axis_bottom, axis_left, linear, symbol, cross, legend, field_legend, show_tip, hide_tip, text_width, SMALL_PANELS, panels,
   };
 })(window.dmrp);

@@ -2,17 +2,18 @@
 // replay.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
 //
 // For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
-// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people. The section carries the id of the
+// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the id of the
 // trial that is shown as data-trial once it can be played.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
+  const KEY = 'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot to be now. Large rings: goals. Grey: people.';
   let player = null;
 
   function make_player(section, data) {
     const clock = dmrp.replay_clock.make_clock();
-    const layers = {plans: true, trails: true, people: true};
+    const layers = {plans: true, trails: true, people: true, scans: true};
     const scene = {replay: null, at: null, picked: null, follow: false, layers, events: [], colours: null, whole_trails: false};
     let latest = 0;  // number of the last request: an older one that comes late is dropped
 
@@ -32,12 +33,13 @@ window.dmrp = window.dmrp || {};
 
     const follow_box = element('input', {type: 'checkbox', 'data-testid': 'replay-follow',
       onchange: () => { scene.follow = follow_box.checked; if (scene.follow) prepare_following(); redraw(); }});
+    const scan_box = layer_box('scans', 'lidar');
     const boxes = element('div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
-      layer_box('people', 'people'), element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow robot')));
+      layer_box('people', 'people'), scan_box, element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow')));
 
-    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), boxes);
+    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), stage.tools, boxes);
     const node = element('div', {class: 'replay-player'},
-      element('div', {class: 'replay-main'}, stage.node, time_line.node, controls),
+      element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, element('p', {class: 'note replay-key'}, KEY)),
       element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node));
     dmrp.replay_transport.follow_keys(node, clock, {pick, zoom: stage.zoom});
 
@@ -48,7 +50,7 @@ window.dmrp = window.dmrp || {};
       time_line.draw(clock.t);
       curves.draw(scene.at, scene.picked);
       robots.draw(scene.at, clock.playing);
-      happened.draw(clock.t);
+      happened.draw(clock.t, clock.playing);
     }
 
     function pick(index) {
@@ -81,6 +83,7 @@ window.dmrp = window.dmrp || {};
       scene.events = dmrp.replay_events.all_events(replay);
       scene.at = dmrp.replay_data.moment(replay, 0);
       scene.colours = dmrp.replay_look.read_colours();
+      scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
       robots.show(replay);
       robots.pick(null);
       happened.show(scene.events);
@@ -125,10 +128,13 @@ window.dmrp = window.dmrp || {};
       redraw();
     }
 
-    // Paper shows where everybody went.
+    // Paper shows the beginning, and where everybody went from there.
+    let t_before_printing = 0;
     function print(begins) {
       clock.pause();
+      if (begins) t_before_printing = clock.t;
       scene.whole_trails = begins;
+      clock.go(begins ? 0 : t_before_printing);
       relook();
     }
 
@@ -157,7 +163,8 @@ window.dmrp = window.dmrp || {};
       return;
     }
     player = make_player(section, data);
-    body.append(player.chooser, player.summary, player.node, ...notes(data));
+    const choice = dmrp.replay_chooser.choice_words(data);
+    body.append(choice ? element('p', {class: 'lead'}, choice) : '', player.chooser, player.summary, player.node, ...notes(data));
     const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
     player.open(first.trial);
   }

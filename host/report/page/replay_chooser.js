@@ -65,6 +65,14 @@ window.dmrp = window.dmrp || {};
     return {node, show};
   }
 
+  // How the trials were chosen; "" where the layout does not say.
+  function choice_words(data) {
+    const rank_by = (data.layouts.report.replays || {rank_by: []}).rank_by;
+    if (rank_by.length === 0) return '';
+    const titles = rank_by.map((name) => dmrp.labels.metric_title(data, name)).join(', or where that is undefined by ');
+    return `Of each combination: the median and the worst trial by ${titles}; then trials that failed or ended in a fault.`;
+  }
+
   // What is not here, in a sentence each.
   function left_out_words(data) {
     const kinds = {median: 'median trial', worst: 'worst trial', failure: 'failed trial', fault: 'trial with a fault', asked: 'trial that was asked for'};
@@ -74,5 +82,5 @@ window.dmrp = window.dmrp || {};
     });
   }
 
-  dmrp.replay_chooser = {make_chooser, summary, left_out_words};
+  dmrp.replay_chooser = {make_chooser, summary, choice_words, left_out_words};
 })(window.dmrp);

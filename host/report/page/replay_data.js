@@ -43,6 +43,25 @@ window.dmrp = window.dmrp || {};
     return {...common, center: point(packed.center), radius: packed.radius / 1000};
   }
 
+  // What a lidar saw, a list of [x, y] in the robot's frame for each sample; null where it saw nothing new.
+  function scans(packed, count) {
+    if (!packed) return null;
+    const by_sample = new Array(count).fill(null);
+    let sample = 0;
+    packed.samples.forEach((difference, n) => {
+      sample += difference;
+      let range = 0;
+      const hits = [];
+      for (let beam = 0; beam < packed.beams; ++beam) {
+        range += packed.ranges[n * packed.beams + beam];
+        const angle = (packed.first + beam * packed.step) * 1e-6;
+        if (range > 0) hits.push([range / 100 * Math.cos(angle), range / 100 * Math.sin(angle)]);
+      }
+      by_sample[sample] = hits;
+    });
+    return by_sample;
+  }
+
   function robot(packed, index, count) {
     return {
       index,
@@ -62,6 +81,7 @@ window.dmrp = window.dmrp || {};
       goal: runs(packed.goal, count),
       speed: deltas(packed.speed),
       deviation: deltas(packed.deviation).map((value) => (value < 0 ? NaN : value)),
+      scans: scans(packed.scans, count),
       failure: packed.failure || '',
       arrival: packed.arrival === undefined ? null : packed.arrival / 1000,
     };
@@ -105,6 +125,26 @@ window.dmrp = window.dmrp || {};
     return from_json(JSON.parse(await text_of(element)));
   }
 
+  const MARGIN_M = 3;
+
+  // The part of the world in which robots are about: [lower, upper].
+  function lively_box(replay) {
+    const lower = [Infinity, Infinity];
+    const upper = [-Infinity, -Infinity];
+    const take = (axis, value) => {
+      lower[axis] = Math.min(lower[axis], value);
+      upper[axis] = Math.max(upper[axis], value);
+    };
+    for (const robot of replay.robots) {
+      robot.x.forEach((x) => take(0, x));
+      robot.y.forEach((y) => take(1, y));
+      for (const goal of robot.goals) goal.at.forEach((value, axis) => take(axis, value));
+    }
+    if (replay.robots.length === 0) return [replay.lower, replay.upper];
+    return [lower.map((value, axis) => Math.max(replay.lower[axis], value - MARGIN_M)),
+      upper.map((value, axis) => Math.min(replay.upper[axis], value + MARGIN_M))];
+  }
+
   // The sample at or before a time, and how far it is to the next.
   function moment(replay, t) {
     const times = replay.times;
@@ -118,6 +158,18 @@ window.dmrp = window.dmrp || {};
   function between(values, k, fraction) {
     const next = k + 1 < values.length ? values[k + 1] : values[k];
     return values[k] + (next - values[k]) * fraction;
+  }
+
+  // The newest scan of a robot at a moment, in the world: [x, y] of each hit; none after a second.
+  function scan_hits(one, at) {
+    if (!one.scans) return [];
+    for (let k = at.k; k >= 0 && k > at.k - 10; --k) {
+      const hits = one.scans[k];
+      if (!hits) continue;
+      const [cos, sin] = [Math.cos(one.theta[k]), Math.sin(one.theta[k])];
+      return hits.map(([x, y]) => [one.x[k] + cos * x - sin * y, one.y[k] + sin * x + cos * y]);
+    }
+    return [];
   }
 
   // Headings go on past pi, so that they can be mixed like any other number.
@@ -159,6 +211,6 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.replay_data = {
-    ACTIVE, FINISHED, FAILED, load, from_json, moment, robot_pose, person_pose, path_in_force, planned_place,
+    ACTIVE, FINISHED, FAILED, load, from_json, lively_box, moment, scan_hits, robot_pose, person_pose, path_in_force, planned_place,
   };
 })(window.dmrp);

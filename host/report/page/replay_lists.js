@@ -4,7 +4,17 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const UPDATE_S = 0.1;  // of written numbers, in the trial's time
+  const UPDATE_S = 0.1;  // what is written changes no more often than this, in the trial's time
+
+  // Whether so much time has passed, or the replay stands, that what is written should be brought up to date.
+  function make_pace() {
+    let last = null;
+    return (t, is_playing) => {
+      const due = !is_playing || last === null || Math.abs(t - last) >= UPDATE_S;
+      if (due) last = t;
+      return due;
+    };
+  }
 
   function state_words(robot, k) {
     if (robot.state[k] === dmrp.replay_data.FINISHED) return 'arrived';
@@ -16,12 +26,12 @@ window.dmrp = window.dmrp || {};
   function make_robot_list(handlers) {
     const body = element('tbody');
     const node = element('div', {class: 'replay-robots'}, element('table', {},
-      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'now'),
+      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'State'),
         element('th', {scope: 'col', class: 'number'}, 'm/s'), element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)'))),
       body));
     let rows = [];
     let replay = null;
-    let shown_at = null;
+    const is_due = make_pace();
 
     function robot_row(robot) {
       const number = element('span', {class: 'replay-number', style: `--colour: ${dmrp.replay_look.robot_variable(robot.index)}`}, String(robot.index));
@@ -37,7 +47,6 @@ window.dmrp = window.dmrp || {};
 
     function show(shown) {
       replay = shown;
-      shown_at = null;
       rows = replay.robots.map(robot_row);
       body.textContent = '';
       body.append(...rows.map((one) => one.row));
@@ -48,8 +57,7 @@ window.dmrp = window.dmrp || {};
     }
 
     function draw(at, is_playing) {
-      if (is_playing && shown_at !== null && Math.abs(at.t - shown_at) < UPDATE_S) return;
-      shown_at = at.t;
+      if (!is_due(at.t, is_playing)) return;
       rows.forEach(({cells}, i) => {
         const robot = replay.robots[i];
         write(cells.state, state_words(robot, at.k));
@@ -75,6 +83,7 @@ window.dmrp = window.dmrp || {};
     const list = element('ol', {class: 'replay-events', 'data-testid': 'replay-events'});
     const nothing = element('p', {class: 'note'}, 'Nothing was noticed in this trial.');
     const node = element('div', {class: 'replay-happened'}, element('h3', {}, 'What happened'), list, nothing);
+    const is_due = make_pace();
     let buttons = [];
     let events = [];
 
@@ -90,7 +99,8 @@ window.dmrp = window.dmrp || {};
       buttons.forEach((button) => list.append(element('li', {}, button)));
     }
 
-    function draw(t) {
+    function draw(t, is_playing) {
+      if (!is_due(t, is_playing)) return;
       buttons.forEach((button, i) => button.classList.toggle('now', dmrp.replay_events.is_now(events[i], t)));
     }
 

@@ -6,6 +6,7 @@ window.dmrp = window.dmrp || {};
   const MANY_ROBOTS = 12;     // above this, only the picked robot shows all of its plan and trail
   const SHORT_TRAIL = 100;    // samples
   const CONTACT_SEEN_S = 1.0;
+  const TOGETHER_M = 4;       // people of a group this near are joined by a line
 
   function trace_line(context, view, xs, ys, from, to) {
     context.beginPath();
@@ -49,20 +50,21 @@ window.dmrp = window.dmrp || {};
     const y = view.height - 14;
     const right = x + length * view.scale();
     context.font = '11px system-ui, sans-serif';
-    context.fillStyle = colours.floor;
-    context.globalAlpha = 0.85;
-    context.fillRect(x - 8, y - 16, right - x + 20 + context.measureText(`${length} m`).width, 24);
-    context.globalAlpha = 1;
-    context.strokeStyle = context.fillStyle = colours.muted;
-    context.lineWidth = 1.5;
-    context.beginPath();
-    context.moveTo(x, y - 4);
-    context.lineTo(x, y);
-    context.lineTo(right, y);
-    context.lineTo(right, y - 4);
-    context.stroke();
     context.textAlign = 'left';
     context.textBaseline = 'alphabetic';
+    context.lineJoin = 'round';
+    context.fillStyle = colours.ink;
+    for (const [colour, width] of [[colours.floor, 5], [colours.ink, 1.5]]) {  // a halo first
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.beginPath();
+      context.moveTo(x, y - 4);
+      context.lineTo(x, y);
+      context.lineTo(right, y);
+      context.lineTo(right, y - 4);
+      context.stroke();
+      if (width > 2) context.strokeText(`${length} m`, right + 6, y + 1);
+    }
     context.fillText(`${length} m`, right + 6, y + 1);
   }
 
@@ -88,6 +90,11 @@ window.dmrp = window.dmrp || {};
     context.strokeStyle = colours.wall;
     context.lineWidth = 2;
     context.strokeRect(left, top, width, height);
+  }
+
+  function draw_scan(context, view, robot, at, colour) {
+    context.fillStyle = colour;
+    for (const [x, y] of dmrp.replay_data.scan_hits(robot, at)) context.fillRect(view.x(x) - 1.25, view.y(y) - 1.25, 2.5, 2.5);
   }
 
   function draw_goal(context, view, robot, goal, colour, strong) {
@@ -161,13 +168,12 @@ window.dmrp = window.dmrp || {};
     if (Number.isNaN(pose.heading)) return;
     context.beginPath();
     context.moveTo(x + 0.35 * radius * Math.cos(pose.heading), y - 0.35 * radius * Math.sin(pose.heading));
-    context.lineTo(x + 1.5 * radius * Math.cos(pose.heading), y - 1.5 * radius * Math.sin(pose.heading));
+    context.lineTo(x + 1.4 * radius * Math.cos(pose.heading), y - 1.4 * radius * Math.sin(pose.heading));
     context.strokeStyle = colours.person;
     context.lineWidth = 2;
     context.stroke();
   }
 
-  // People of a group are joined by a line.
   function draw_people(context, view, replay, at, colours) {
     const groups = new Map();
     const there = [];
@@ -186,6 +192,7 @@ window.dmrp = window.dmrp || {};
     for (const group of groups.values()) {
       context.beginPath();
       for (let i = 1; i < group.length; ++i) {
+        if (Math.hypot(group[i].x - group[i - 1].x, group[i].y - group[i - 1].y) > TOGETHER_M) continue;
         context.moveTo(view.x(group[i - 1].x), view.y(group[i - 1].y));
         context.lineTo(view.x(group[i].x), view.y(group[i].y));
       }
@@ -261,27 +268,25 @@ window.dmrp = window.dmrp || {};
   }
 
   function draw_contacts(context, view, scene) {
+    context.strokeStyle = scene.colours.bad;
+    context.lineCap = 'butt';
     for (const contact of scene.replay.contacts) {
       if (contact.from > scene.at.t + 1e-6) break;
       const now = scene.at.t <= Math.max(contact.to, contact.from + CONTACT_SEEN_S);
       const x = view.x(contact.at[0]);
       const y = view.y(contact.at[1]);
-      const arm = now ? 6 : 3.5;
-      context.strokeStyle = scene.colours.bad;
-      context.globalAlpha = now ? 1 : 0.7;
-      context.lineWidth = now ? 2.5 : 1.5;
-      context.lineCap = 'butt';
+      const arm = 3.5;
+      context.lineWidth = 2;
       context.beginPath();
       context.moveTo(x - arm, y - arm);
       context.lineTo(x + arm, y + arm);
       context.moveTo(x - arm, y + arm);
       context.lineTo(x + arm, y - arm);
       context.stroke();
-      if (now) {
-        circle(context, x, y, 14);
-        context.stroke();
-      }
-      context.globalAlpha = 1;
+      if (!now) continue;
+      circle(context, x, y, Math.max(16, 0.9 * view.scale()));
+      context.lineWidth = 3;
+      context.stroke();
     }
   }
 
@@ -302,6 +307,8 @@ window.dmrp = window.dmrp || {};
       if (scene.whole_trails) draw_all_of_trail(context, view, robot, colour(robot));
       else if (layers.trails) draw_trail(context, view, robot, poses[robot.index], at, colour(robot), strong, few || strong);
     }
+    if (layers.scans)
+      for (const robot of picked === null ? replay.robots : [replay.robots[picked]]) draw_scan(context, view, robot, at, colour(robot));
     if (layers.people) draw_people(context, view, replay, at, colours);
     draw_relations(context, view, scene, poses);
     for (const robot of ordered) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // replay_stage.js: the picture of a replay: the flat map, or the view in three dimensions, which is made when first asked
-// for; and the small buttons on it.
+// for; and the buttons that change how it is seen.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
@@ -18,11 +18,11 @@ window.dmrp = window.dmrp || {};
     const solid_button = tool('3-D', 'view in three dimensions', 'replay-3d', () => choose('solid'));
     const tip = element('div', {class: 'replay-tip', hidden: true});
     const node = element('div', {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'}, flat_canvas,
-      element('div', {class: 'replay-tools segmented'}, flat_button, solid_button),
-      element('div', {class: 'replay-tools replay-zoom segmented'},
-        tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)), tool('+', 'larger', 'replay-zoom-in', () => zoom(1.4)),
-        tool('⤢', 'all of it', 'replay-fit', fit)),
       tip, message);
+    const tools = element('div', {class: 'replay-tools'},
+      element('div', {class: 'segmented'}, tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)),
+        tool('+', 'larger', 'replay-zoom-in', () => zoom(1.4)), tool('⤢', 'all of it', 'replay-fit', fit)),
+      element('div', {class: 'segmented'}, flat_button, solid_button));
     const map = dmrp.replay_map.make_map(flat_canvas);
     let solid = null;  // replay_3d.js, once it was wanted
     let mode = 'flat';
@@ -67,13 +67,18 @@ window.dmrp = window.dmrp || {};
 
     function zoom(factor, x, y) {
       mode === 'solid' ? solid.zoom_by(factor) : map.view.zoom_by(factor, x, y);
-      flat_canvas.classList.toggle('zoomed', map.view.zoom > 1);
+      show_zoom();
       handlers.redraw();
+    }
+
+    // A finger on a part of the map shifts it; on all of it, it scrolls the page.
+    function show_zoom() {
+      flat_canvas.classList.toggle('zoomed', map.view.zoom > 1.001);
     }
 
     function fit() {
       current().fit ? current().fit() : map.view.fit();
-      flat_canvas.classList.remove('zoomed');
+      show_zoom();
       handlers.redraw();
     }
 
@@ -97,7 +102,7 @@ window.dmrp = window.dmrp || {};
     function resize() {
       if (!scene) return;
       const [width, height] = [0, 1].map((axis) => scene.replay.upper[axis] - scene.replay.lower[axis]);
-      const most = Math.max(260, window.innerHeight - 250);
+      const most = Math.max(260, window.innerHeight - 290);
       node.style.height = `${Math.round(Math.min(most, Math.max(220, node.clientWidth * height / width)))}px`;
       current().resize();
     }
@@ -105,10 +110,10 @@ window.dmrp = window.dmrp || {};
     function show(shown) {
       scene = shown;
       map.view.show_world(scene.replay.lower, scene.replay.upper);
-      flat_canvas.classList.remove('zoomed');
       node.setAttribute('aria-label', `map of ${dmrp.numbers.counted(scene.replay.robots.length, 'robot')}; space plays, arrows step, digits pick a robot`);
       resize();
-      if (solid) solid.fit(scene);
+      map.view.show_box(dmrp.replay_data.lively_box(scene.replay));
+      show_zoom();
     }
 
     function draw(drawn) {
@@ -117,7 +122,7 @@ window.dmrp = window.dmrp || {};
     }
 
     show_mode();
-    return {node, show, draw, resize, zoom, say, forget: () => map.forget()};
+    return {node, tools, show, draw, resize, zoom, say, forget: () => map.forget()};
   }
 
   dmrp.replay_stage = {make_stage};

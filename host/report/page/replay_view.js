@@ -29,6 +29,12 @@ window.dmrp = window.dmrp || {};
       view.center = [(view.lower[0] + view.upper[0]) / 2, (view.lower[1] + view.upper[1]) / 2];
     };
 
+    view.show_box = ([lower, upper]) => {
+      const scale = Math.min(...[0, 1].map((axis) => (axis === 0 ? view.width : view.height) / (upper[axis] - lower[axis])));
+      view.zoom = Math.max(1, scale / fitting_scale());
+      view.look_at([0, 1].map((axis) => (lower[axis] + upper[axis]) / 2));
+    };
+
     // The world stays in sight.
     view.look_at = (center) => {
       for (const axis of [0, 1]) {

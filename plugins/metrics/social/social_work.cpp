@@ -21,23 +21,24 @@ constexpr double social_weight = 2.1;
 constexpr double obstacle_weight = 10.0;
 constexpr double obstacle_range_m = 0.2;
 
-// exp(-d / B) below this distance is beyond what a double sum would notice: B < gamma * (lambda * 5 m/s + 1) < 4 m.
-constexpr double far_m = 100.0;
+// A force whose first factor is exp(-20) or less, 5 nm/s^2, is none.
+constexpr double farthest_in_ranges = 20.0;
 
-// Of `other` on `self`, m/s^2.
+// Of `other` on `self`, m/s^2. The one of `self` on `other` is its opposite, to the bit: all vectors change their sign,
+// and the angle keeps it.
 Vec2 social_force(Vec2 position, Vec2 velocity, Vec2 other_position, Vec2 other_velocity) {
   const Vec2 apart = other_position - position;
   const double distance_m = toolkit::norm(apart);
-  if (distance_m > far_m) return {0.0, 0.0};
   const Vec2 toward = toolkit::normalized(apart);
   const Vec2 interaction = lambda * (velocity - other_velocity) + toward;
   const double strength = toolkit::norm(interaction);
-  if (!(strength > 0.0)) return {0.0, 0.0};
+  const double range_m = gamma * strength;
+  if (!(distance_m < farthest_in_ranges * range_m)) return {0.0, 0.0};
   const Vec2 along = interaction / strength;
   const double theta = std::atan2(toolkit::cross(along, toward), toolkit::dot(along, toward));
-  const double reach = gamma * strength;
-  const auto decay = [&](double weight) {
-    return std::exp(-distance_m / reach - (weight * reach * theta) * (weight * reach * theta));
+  const auto decay = [&](double sharpness) {
+    const double bend = sharpness * range_m * theta;
+    return std::exp(-distance_m / range_m - bend * bend);
   };
   const double sign = theta > 0.0 ? 1.0 : theta < 0.0 ? -1.0 : 0.0;
   return -social_weight * (decay(n_prime) * along + sign * decay(n) * toolkit::perpendicular(along));
@@ -51,14 +52,15 @@ Descriptor SocialWork::describe() {
   return describe_metric("dmrp.metric.social_work", "Social work")
       .summary("social forces between robots and people, and of walls on robots, added up over time")
       .source(
-          "HuNavSim, Perez-Higueras et al., RA-L 2023: social work; forces: Moussaid et al., Proc. R. Soc. B 276, "
-          "2009, "
-          "lambda 2, gamma 0.35, n 2, n' 3, weights 2.1 (social) and 10 (obstacle, exp(-d / 0.2 m))")
+          "HuNavSim, Perez-Higueras et al., RA-L 2023: social work; forces: Moussaid et al., Proc. R. Soc. B 276, 2009")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value("social_work", "m/s", lower, robots,
-             "integral over active time of |sum of people's social forces on the robot| + |force of the nearest static "
-             "surface on it| + sum over people of |its social force on them|, all per mass; system: sum over robots; "
-             "undefined without people")
+      .value(
+          "social_work", "m/s", lower, robots,
+          "integral over active time of |sum of people's social forces on the robot| + |force of the nearest static "
+          "surface on it| + sum over people of |its social force on them|; with e toward the other, D = 2 (v - v') + "
+          "e, B = 0.35 |D|, theta from D to e: social force 2.1 exp(-d / B) (exp(-(3 B theta)^2) back along D + "
+          "exp(-(2 B theta)^2) aside of it), per mass, d between centres; static 10 exp(-d / 0.2 m), d from surface "
+          "to surface; system: sum over robots; undefined without people")
       .value("social_work_robot", "m/s", lower, robots,
              "the first two of these: what presses on the robot; system: sum over robots; undefined without people")
       .value("social_work_people", "m/s", lower, robots,
@@ -83,8 +85,9 @@ void SocialWork::observe(const Sample& sample) {
     Vec2 on_robot = {0.0, 0.0};
     double on_people = 0.0;
     for (const Person& person : sample.people) {
-      on_robot += social_force(own.center, velocity, person.position, person.velocity);
-      on_people += toolkit::norm(social_force(person.position, person.velocity, own.center, velocity));
+      const Vec2 force = social_force(own.center, velocity, person.position, person.velocity);
+      on_robot += force;
+      on_people += toolkit::norm(force);
     }
     const double to_wall_m = work.wall.find(own.center).distance_m - own.radius_m;
     const double of_wall = obstacle_weight * std::exp(-to_wall_m / obstacle_range_m);

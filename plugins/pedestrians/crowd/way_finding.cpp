@@ -13,6 +13,9 @@ namespace {
 // People rather walk a little further than along a wall or round a corner's very edge.
 constexpr toolkit::NavigationCost walking_cost = {1.0, 2.0};
 
+// How much more somebody beside the free cells minds the way on than the way back in.
+constexpr double onward_weight = 10.0;
+
 // More than any scenario has; fields of places that nobody goes to any more must not pile up.
 constexpr std::size_t most_places_kept = 64;
 
@@ -53,10 +56,20 @@ dmrp_vec2 WayFinder::direction(std::size_t slot, const Person& person) {
   if (way.person_id != person.id || way.cell != cell || cell == toolkit::no_cell || way.target != person.target)
     way = find_way(person, cell);
   if (way.field != nullptr) {
-    const dmrp_vec2 along = way.field->direction(person.position);
+    const dmrp_vec2 along = along_field(*way.field, person.position, cell);
     if (along != dmrp_vec2{0.0, 0.0}) return along;
   }
   return toolkit::normalized(person.target - person.position);
+}
+
+// Who is pressed out of the free cells walks on beside them while coming back in: the field alone leads to the middle of
+// the nearest one, be it backward, and a crowd that presses at a wall would stand still there.
+dmrp_vec2 WayFinder::along_field(const toolkit::NavigationField& field, dmrp_vec2 position, std::uint32_t cell) const {
+  const dmrp_vec2 along = field.direction(position);
+  if (cell != toolkit::no_cell && field.reachable(cell)) return along;
+  const std::uint32_t beside = grid_.index_of(position + grid_.resolution_m() * along);
+  if (beside == toolkit::no_cell || !field.reachable(beside)) return along;
+  return toolkit::normalized(along + onward_weight * field.direction(beside));
 }
 
 WayFinder::Way WayFinder::find_way(const Person& person, std::uint32_t cell) {

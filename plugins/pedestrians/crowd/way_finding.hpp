@@ -41,6 +41,7 @@ class WayFinder {
     const toolkit::NavigationField* field = nullptr;  // null: straight
   };
 
+  dmrp_vec2 along_field(const toolkit::NavigationField& field, dmrp_vec2 position, std::uint32_t cell) const;
   bool is_known(const dmrp_grid& grid) const;
   void copy(const dmrp_grid& grid);
   Way find_way(const Person& person, std::uint32_t cell);

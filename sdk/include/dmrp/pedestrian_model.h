@@ -31,7 +31,7 @@ typedef struct dmrp_pedestrian_model {
 
   // Writes person_count velocities (m/s, world frame) for the step that begins now. Bodies are solid in the world:
   // it cancels the part of a velocity that would deepen an overlap. Velocities above 5 m/s or not finite are a fault
-  // (bad_output). Returns DMRP_OK or DMRP_ERROR.
+  // (bad_output); those of people who are replayed from a recording are not used. Returns DMRP_OK or DMRP_ERROR.
   // [step]
   int32_t (*step)(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_vec2* velocities);
 } dmrp_pedestrian_model;

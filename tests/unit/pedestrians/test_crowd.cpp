@@ -27,6 +27,7 @@ TEST_CASE("the neighbour grid finds whom a search through all finds") {
     for (std::uint32_t slot = 0; slot < 60 * round; ++slot)
       bodies.push_back({{chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)}, {0.0, 0.0}, 0.3, 1.0, slot});
     grid.build(bodies);
+    REQUIRE(grid.by_place().size() == bodies.size());
 
     for (int query = 0; query < 50; ++query) {
       const dmrp_vec2 point = {chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)};
@@ -34,10 +35,10 @@ TEST_CASE("the neighbour grid finds whom a search through all finds") {
       for (const Body& body : bodies)
         if (dmrp::toolkit::squared_distance(body.position, point) <= reach_m * reach_m) expected.push_back(body.slot);
       std::vector<std::uint32_t> found;
-      grid.for_each_near(point, reach_m, [&](const Body& body, double squared_distance) {
-        found.push_back(body.slot);
-        REQUIRE(squared_distance == Approx(dmrp::toolkit::squared_distance(body.position, point)));
-      });
+      for (const auto& [squared_distance, body] : grid.near(point, reach_m)) {
+        found.push_back(body->slot);
+        REQUIRE(squared_distance == Approx(dmrp::toolkit::squared_distance(body->position, point)));
+      }
       std::sort(found.begin(), found.end());
       REQUIRE(found == expected);
     }

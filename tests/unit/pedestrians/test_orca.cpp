@@ -14,49 +14,6 @@ namespace {
 
 const std::string orca = "dmrp.pedestrian.orca";
 
-bool arrived(const dmrp_person& p) {
-  return distance(p.position, p.target) < 0.5;
-}
-
-bool all_arrived(const std::vector<dmrp_person>& people) {
-  return std::all_of(people.begin(), people.end(), arrived);
-}
-
-// The least gap between two people's bodies; negative where they overlap.
-double least_gap(const std::vector<dmrp_person>& people) {
-  double least = 100.0;
-  for (std::size_t i = 0; i < people.size(); ++i)
-    for (std::size_t j = i + 1; j < people.size(); ++j)
-      least =
-          std::min(least, distance(people[i].position, people[j].position) - people[i].radius_m - people[j].radius_m);
-  return least;
-}
-
-// Somewhere at least 0.5 m from any wall.
-dmrp_vec2 anywhere(const WalkingWorld& world, dmrp::toolkit::Stream& chance) {
-  dmrp_vec2 point = {0.0, 0.0};
-  while (world.clearance(point) < 0.5)
-    point = {chance.uniform(0.0, world.c().upper.x), chance.uniform(0.0, world.c().upper.y)};
-  return point;
-}
-
-std::vector<dmrp_person> random_people(const WalkingWorld& world, uint64_t count, uint64_t seed,
-                                       double radius_m = 0.3) {
-  dmrp::toolkit::Stream chance(seed, "people");
-  std::vector<dmrp_person> people;
-  while (people.size() < count) {
-    const dmrp_vec2 at = anywhere(world, chance);
-    const bool taken = std::any_of(people.begin(), people.end(), [&](const dmrp_person& other) {
-      return distance(other.position, at) < 2.0 * radius_m + 0.02;
-    });
-    if (taken) continue;
-    people.push_back(
-        person(people.size() + 1, at, anywhere(world, chance), chance.truncated_normal(1.2, 0.2, 0.5, 2.0)));
-    people.back().radius_m = radius_m;
-  }
-  return people;
-}
-
 // How near somebody who walks east comes to a robot in their way.
 double passing_distance(double awareness, const dmrp_agent& in_the_way) {
   const WalkingWorld world({24.0, 10.0}, {});

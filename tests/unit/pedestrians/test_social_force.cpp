@@ -15,14 +15,6 @@ namespace {
 
 const std::string social_force = "dmrp.pedestrian.social_force";
 
-bool arrived(const dmrp_person& p) {
-  return distance(p.position, p.target) < 0.5;
-}
-
-bool all_arrived(const std::vector<dmrp_person>& people) {
-  return std::all_of(people.begin(), people.end(), arrived);
-}
-
 void walk_for(Walk& walk, double duration_s) {
   walk.until(duration_s, [] { return false; });
 }
@@ -39,27 +31,6 @@ double passing_distance(ParamOverrides params, const dmrp_agent& in_the_way) {
     return arrived(walk.people[0]);
   }));
   return nearest;
-}
-
-// People anywhere in the world, each bound for somewhere else.
-std::vector<dmrp_person> random_people(const WalkingWorld& world, uint64_t count, uint64_t seed) {
-  dmrp::toolkit::Stream chance(seed, "people");
-  std::vector<dmrp_person> people;
-  const auto anywhere = [&] {
-    dmrp_vec2 point = {0.0, 0.0};
-    while (world.clearance(point) < 0.5)
-      point = {chance.uniform(0.0, world.c().upper.x), chance.uniform(0.0, world.c().upper.y)};
-    return point;
-  };
-  while (people.size() < count) {
-    const dmrp_vec2 at = anywhere();
-    const bool taken = std::any_of(people.begin(), people.end(),
-                                   [&](const dmrp_person& other) { return distance(other.position, at) < 0.65; });
-    if (taken) continue;
-    const double speed = chance.truncated_normal(1.2, 0.2, 0.5, 2.0);
-    people.push_back(person(people.size() + 1, at, anywhere(), speed));
-  }
-  return people;
 }
 
 }  // namespace

@@ -106,6 +106,48 @@ dmrp_agent robot(uint64_t id, dmrp_vec2 position, dmrp_vec2 velocity, double rad
   return made;
 }
 
+bool arrived(const dmrp_person& person) {
+  return toolkit::distance(person.position, person.target) < 0.5;
+}
+
+bool all_arrived(const std::vector<dmrp_person>& people) {
+  return std::all_of(people.begin(), people.end(), arrived);
+}
+
+double least_gap(const std::vector<dmrp_person>& people) {
+  double least = 100.0;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    for (std::size_t j = i + 1; j < people.size(); ++j) {
+      const double apart_m = toolkit::distance(people[i].position, people[j].position);
+      least = std::min(least, apart_m - people[i].radius_m - people[j].radius_m);
+    }
+  }
+  return least;
+}
+
+dmrp_vec2 anywhere(const WalkingWorld& world, toolkit::Stream& chance) {
+  dmrp_vec2 point = {0.0, 0.0};
+  while (world.clearance(point) < 0.5)
+    point = {chance.uniform(0.0, world.c().upper.x), chance.uniform(0.0, world.c().upper.y)};
+  return point;
+}
+
+std::vector<dmrp_person> random_people(const WalkingWorld& world, uint64_t count, uint64_t seed, double radius_m) {
+  toolkit::Stream chance(seed, "people");
+  std::vector<dmrp_person> people;
+  while (people.size() < count) {
+    const dmrp_vec2 at = anywhere(world, chance);
+    const bool taken = std::any_of(people.begin(), people.end(), [&](const dmrp_person& other) {
+      return toolkit::distance(other.position, at) < 2.0 * radius_m + 0.05;
+    });
+    if (taken) continue;
+    people.push_back(
+        person(people.size() + 1, at, anywhere(world, chance), chance.truncated_normal(1.2, 0.2, 0.5, 2.0)));
+    people.back().radius_m = radius_m;
+  }
+  return people;
+}
+
 Walk::Walk(const WalkingWorld& world, const std::string& model, ParamOverrides params, uint64_t seed)
     : world_(&world), model_("libdmrp_pedestrians.so", model, std::move(params)) {
   restart(world, seed);

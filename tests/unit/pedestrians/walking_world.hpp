@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <dmrp/toolkit/random.hpp>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,18 @@ class WalkingWorld {
 dmrp_person person(uint64_t id, dmrp_vec2 position, dmrp_vec2 target, double desired_speed = 1.3);
 
 dmrp_agent robot(uint64_t id, dmrp_vec2 position, dmrp_vec2 velocity = {0.0, 0.0}, double radius_m = 0.25);
+
+bool arrived(const dmrp_person& person);  // within 0.5 m of the target
+bool all_arrived(const std::vector<dmrp_person>& people);
+
+// The least gap between two people's bodies; negative where they overlap.
+double least_gap(const std::vector<dmrp_person>& people);
+
+// Somewhere at least 0.5 m from any wall.
+dmrp_vec2 anywhere(const WalkingWorld& world, toolkit::Stream& chance);
+
+// People anywhere in the world with 5 cm between them, each bound for somewhere else.
+std::vector<dmrp_person> random_people(const WalkingWorld& world, uint64_t count, uint64_t seed, double radius_m = 0.3);
 
 // A model, its people and robots, stepped at 50 Hz.
 class Walk {

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// report_browser.cjs: what the tests of the report's page share: runs of dmrp-host, a browser, and that nothing is said
+// on its console and nothing asked of any network.
+'use strict';
+const assert = require('node:assert');
+const {spawnSync} = require('node:child_process');
+const fs = require('node:fs');
+const os = require('node:os');
+const path = require('node:path');
+
+const SKIPPED = 77;
+const LAPTOP = {width: 1366, height: 768};
+const PHONE = {width: 390, height: 844};
+
+function find_browser() {
+  const names = ['chromium', 'chromium-browser', 'google-chrome'];
+  const folders = (process.env.PATH || '').split(':');
+  return names.flatMap((name) => folders.map((folder) => path.join(folder, name))).find((file) => fs.existsSync(file));
+}
+
+// {chromium, executable}, or ends the test as skipped.
+function browser_or_skip() {
+  const executable = find_browser();
+  if (!executable) {
+    console.log('skipped: there is no chromium on this machine');
+    process.exit(SKIPPED);
+  }
+  return {chromium: require('playwright-core').chromium, executable};
+}
+
+// WebGL by software, for the 3-D view.
+async function launch() {
+  const {chromium, executable} = browser_or_skip();
+  return chromium.launch({
+    executablePath: executable,
+    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+           '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+  });
+}
+
+// Runs an experiment into `folder`; returns the report's path.
+function run_experiment(experiment, folder, {status = 0, options = [], env = {}} = {}) {
+  const run = spawnSync(process.env.DMRP_HOST, [experiment, '--quiet', '--out', folder, ...options],
+    {encoding: 'utf8', env: {...process.env, ...env}});
+  assert.strictEqual(run.status, status, `dmrp-host ${experiment}: status ${run.status}\n${run.stderr}`);
+  const report = path.join(folder, 'report.html');
+  assert.ok(fs.existsSync(report), `${report} was not written\n${run.stderr}`);
+  return report;
+}
+
+function scratch_folder() {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'dmrp-report-'));
+  process.on('exit', () => fs.rmSync(folder, {recursive: true, force: true}));
+  return folder;
+}
+
+// Opens a report; `said` gathers what a reader should never meet. Sections come as they are scrolled to: all are asked
+// for here.
+async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'light'} = {}) {
+  const context = await browser.newContext({viewport, colorScheme, hasTouch: viewport.width < 600, isMobile: viewport.width < 600});
+  const page = await context.newPage();
+  const said = [];
+  const url = `file://${report}`;
+  page.on('console', (message) => {
+    // of the software renderer, not of the page
+    if (!/GL Driver Message|GPU stall|Automatic fallback to software WebGL/.test(message.text())) said.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => said.push(`error: ${error.stack}`));
+  page.on('request', (request) => {
+    if (request.url() !== url && !/^(data|blob):/.test(request.url())) said.push(`request: ${request.url()}`);
+  });
+  await page.goto(url);
+  await page.locator('#provenance.ready').waitFor({state: 'attached'});
+  return {page, said};
+}
+
+// No empty plot, nothing wider than the screen, no text over the edge of its plot.
+async function check_layout(page, where) {
+  const found = await page.evaluate(() => {
+    const problems = [];
+    const wide = document.scrollingElement.scrollWidth;
+    if (wide > window.innerWidth) problems.push(`the page is ${wide} px wide on a screen of ${window.innerWidth}`);
+    for (const plot of document.querySelectorAll('.section .plot, .section .legend'))
+      if (!plot.querySelector('svg path, svg circle, svg line')) problems.push(`an empty plot in ${plot.closest('section').id}`);
+    for (const body of document.querySelectorAll('.section .section-body'))
+      if (!body.children.length) problems.push(`an empty section: ${body.closest('section').id}`);
+    for (const attribute of document.querySelectorAll('svg [d], svg [transform], svg [x], svg [x1], svg [cx]'))
+      for (const {name, value} of attribute.attributes)
+        if (/NaN|undefined/.test(value)) problems.push(`${name}="${value}" in ${attribute.closest('section').id}`);
+    for (const text of document.querySelectorAll('.page-head, .section p, .section th, .section td'))
+      if (/\bNaN\b|\[object|\bnull\b/.test(text.textContent)) problems.push(`'${text.textContent}' is no text to be read`);
+    return problems;
+  });
+  assert.deepStrictEqual(found, [], where);
+}
+
+function read_csv(file) {
+  const [head, ...lines] = fs.readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
+  return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, line[i]])));
+}
+
+// Runs async tests one after the other and ends the process.
+async function run_tests(tests) {
+  const browser = await launch();
+  let failed = 0;
+  for (const [name, run] of Object.entries(tests)) {
+    try {
+      await run(browser);
+    } catch (error) {
+      ++failed;
+      console.error(`FAILED: ${name}\n${error.stack}`);
+    }
+  }
+  await browser.close();
+  console.log(`${Object.keys(tests).length - failed} of ${Object.keys(tests).length} passed`);
+  process.exit(failed > 0 ? 1 : 0);
+}
+
+module.exports = {LAPTOP, PHONE, browser_or_skip, run_experiment, scratch_folder, open_report, check_layout, read_csv, run_tests};

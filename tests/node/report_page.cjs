@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// The report's page in a browser: report_page.cjs SOURCE_FOLDER. Reports of the quickstart and of a small experiment
+// with something to compare, opened from a file as a reader does.
+'use strict';
+const assert = require('node:assert');
+const fs = require('node:fs');
+const path = require('node:path');
+const {LAPTOP, PHONE, browser_or_skip, run_experiment, scratch_folder, open_report, check_layout, read_csv, run_tests} = require('./report_browser.cjs');
+
+browser_or_skip();
+const source = process.argv[2];
+const scratch = scratch_folder();
+const quickstart = run_experiment(path.join(source, 'examples/quickstart.toml'), path.join(scratch, 'quickstart'));
+const crossing = run_experiment(path.join(source, 'tests/end_to_end/crossing.toml'), path.join(scratch, 'crossing'),
+  {env: {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')}});
+
+const SECTIONS = ['results', 'every trial', 'all metrics', 'provenance'];
+
+async function close(opened) {
+  assert.deepStrictEqual(opened.said, []);
+  await opened.page.context().close();
+}
+
+// The numbers of a table's column in the order of its rows, dashes as null.
+function column(page, table, index) {
+  return page.locator(`${table} tbody tr:not(.group)`).evaluateAll((rows, i) => rows.map((row) => {
+    const mean = row.querySelectorAll('td')[i].querySelector('.mean');
+    const text = [...mean.childNodes].find((node) => node.nodeType === Node.TEXT_NODE).textContent;
+    return text === '—' ? null : Number(text.replace('\u2212', '-'));
+  }), index);
+}
+
+function is_sorted(numbers, descending) {
+  const defined = numbers.filter((number) => number !== null);
+  return defined.every((number, i) => i === 0 || (descending ? defined[i - 1] >= number : defined[i - 1] <= number)) &&
+    numbers.slice(defined.length).every((number) => number === null);
+}
+
+const tests = {};
+
+for (const [name, report] of Object.entries({quickstart, crossing})) {
+  for (const [width, viewport] of Object.entries({laptop: LAPTOP, phone: PHONE})) {
+    for (const colorScheme of ['light', 'dark']) {
+      tests[`${name} on a ${width}, ${colorScheme}`] = async (browser) => {
+        const opened = await open_report(browser, report, {viewport, colorScheme});
+        const {page} = opened;
+        await check_layout(page, `${name} on a ${width}`);
+        assert.strictEqual(await page.evaluate(() => document.documentElement.dataset.theme), colorScheme);
+        const titles = (await page.locator('#contents a').allTextContents()).map((title) => title.toLowerCase());
+        for (const section of SECTIONS) assert.ok(titles.includes(section), `no section '${section}' but ${titles}`);
+        assert.strictEqual(await page.locator('h1').textContent(), name);
+        await close(opened);
+      };
+    }
+  }
+}
+
+tests['the tables show the numbers of summary.csv'] = async (browser) => {
+  for (const report of [quickstart, crossing]) {
+    const opened = await open_report(browser, report);
+    const lines = read_csv(path.join(path.dirname(report), 'summary.csv'));
+    const layout = await opened.page.evaluate(() => dmrp.data.layouts.report.tables.find((table) => !table.across));
+    const names = await opened.page.locator(`#table-${layout.id} tbody tr:not(.group) th`).allTextContents();
+    assert.ok(names.length > 0);
+    for (const [index, {metric, decimals}] of layout.columns.entries()) {
+      const shown = await column(opened.page, `#table-${layout.id}`, index);
+      names.forEach((name, row) => {
+        const line = lines.find((one) => one.metric === metric && `${one.global_planner} + ${one.local_controller}` === name);
+        assert.ok(line, `summary.csv has no ${metric} of ${name}`);
+        const expected = line.mean === '' ? null : Number(Number(line.mean).toFixed(decimals));
+        assert.strictEqual(shown[row], expected, `${metric} of ${name}`);
+      });
+    }
+    await close(opened);
+  }
+};
+
+tests['all metrics of a combination are those of summary.csv'] = async (browser) => {
+  const opened = await open_report(browser, quickstart);
+  const lines = read_csv(path.join(path.dirname(quickstart), 'summary.csv'));
+  const rows = await opened.page.locator('#metrics tbody tr').evaluateAll((all) => all.map((row) => [
+    row.querySelector('.name').textContent, row.querySelector('.mean').textContent.replace('\u2212', '-')]));
+  assert.ok(rows.length > 20);
+  for (const [metric, mean] of rows) {
+    const line = lines.find((one) => one.metric === metric);
+    assert.ok(line, `summary.csv has no ${metric}`);
+    if (line.mean === '') assert.strictEqual(mean, '—', metric);
+    else assert.ok(Math.abs(Number(mean) - Number(line.mean)) <= 0.006 * Math.max(1e-4, Math.abs(line.mean)) + 0.5e-6 || mean === Number(line.mean).toFixed((mean.split('.')[1] || '').length), `${metric}: ${mean}, not ${line.mean}`);
+  }
+  await opened.page.getByPlaceholder('Search metrics').fill('planning time');
+  const found = await opened.page.locator('#metrics tbody .name').allTextContents();
+  assert.ok(found.includes('planning_time') && found.length < rows.length / 2, `found ${found}`);
+  await close(opened);
+};
+
+tests['a header sorts its table, by pointer and by key'] = async (browser) => {
+  const opened = await open_report(browser, crossing);
+  const {page} = opened;
+  const layout = await page.evaluate(() => dmrp.data.layouts.report.tables.find((table) => !table.across));
+  const table = `#table-${layout.id}`;
+  for (const [index] of layout.columns.entries()) {
+    const header = page.locator(`${table} thead th.number`).nth(index);
+    assert.strictEqual(await header.getAttribute('aria-sort'), 'none');
+    await header.locator('button').click();
+    const first = await header.getAttribute('aria-sort');
+    assert.ok(is_sorted(await column(page, table, index), first === 'descending'), `column ${index}, ${first}`);
+    await header.locator('button').press('Enter');
+    const second = await header.getAttribute('aria-sort');
+    assert.notStrictEqual(second, first);
+    assert.ok(is_sorted(await column(page, table, index), second === 'descending'), `column ${index}, ${second}`);
+    assert.strictEqual(await page.locator(`${table} thead th[aria-sort$="scending"]`).count(), 1);
+  }
+  const before = await page.locator(`${table} tbody th[scope=row]`).allTextContents();
+  await page.locator(`${table} thead .names button`).nth(1).click();
+  const after = await page.locator(`${table} tbody th[scope=row]`).allTextContents();
+  assert.deepStrictEqual([...after].sort(), [...before].sort());
+  const controllers = after.map((name) => name.split(' + ')[1]);
+  assert.deepStrictEqual(controllers, [...controllers].sort());
+  await close(opened);
+};
+
+tests['intervals and the paper\u2019s rule are shown when asked for'] = async (browser) => {
+  const opened = await open_report(browser, crossing);
+  const interval = opened.page.locator('.tables .interval:not(:empty)').first();
+  const paper = opened.page.locator('.tables .paper').first();
+  assert.deepStrictEqual([await interval.isVisible(), await paper.isVisible()], [true, false]);
+  await opened.page.getByLabel('95 % intervals').uncheck();
+  await opened.page.getByLabel('the paper\u2019s rule').check();
+  assert.deepStrictEqual([await interval.isVisible(), await paper.isVisible()], [false, true]);
+  await close(opened);
+};
+
+tests['light and dark change by a button'] = async (browser) => {
+  const opened = await open_report(browser, quickstart);
+  const background = () => opened.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await background();
+  await opened.page.locator('#theme').click();
+  assert.notStrictEqual(await background(), light);
+  await opened.page.locator('#theme').click();
+  assert.strictEqual(await background(), light);
+  await close(opened);
+};
+
+tests['the heat map and the points follow the metric that is chosen'] = async (browser) => {
+  const opened = await open_report(browser, crossing);
+  const {page} = opened;
+  for (const section of ['#heat-map', '#distributions']) {
+    await page.locator(`${section} select`).first().selectOption('path_length');
+    assert.match(await page.locator(section).textContent(), /path length \(m\)/);
+    await check_layout(page, section);
+  }
+  assert.strictEqual(await page.locator('#heat-map .cell').count(), 4);
+  assert.strictEqual(await page.locator('#distributions svg .mark.clickable').count(), 12);
+  await close(opened);
+};
+
+tests['points are reached by keys and tell their trial'] = async (browser) => {
+  const opened = await open_report(browser, crossing);
+  const {page} = opened;
+  await page.locator('#distributions .plot svg').first().focus();
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowDown');
+  assert.match(await page.locator('#tip').textContent(), /trial \d+ · crossing/);
+  assert.strictEqual(await page.locator('#distributions .chosen').count(), 1);
+  await page.keyboard.press('Enter');
+  assert.match(await page.locator('#distributions .detail').textContent(), /seed \d+/);
+  await close(opened);
+};
+
+tests['a name leads to all metrics of its combination'] = async (browser) => {
+  const opened = await open_report(browser, crossing);
+  const link = opened.page.locator('.results tbody th a').nth(2);
+  const name = await link.textContent();
+  await link.click();
+  assert.match(await opened.page.locator('#title-metrics').textContent(), new RegExp(`${name.replace('+', '\\+')}$`));
+  await close(opened);
+};
+
+tests['on paper the report is complete'] = async (browser) => {
+  const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
+  const pdf = await opened.page.pdf({format: 'A4'});
+  assert.ok(pdf.length > 20000, `a PDF of ${pdf.length} bytes`);
+  await close(opened);
+};
+
+tests['the replay plays, is scrubbed and turns to 3-D'] = async (browser) => {
+  const opened = await open_report(browser, quickstart);
+  const {page} = opened;
+  assert.ok(await page.evaluate(() => dmrp.data.replays.length) > 0, 'the quickstart has no replay');
+  const id = await page.evaluate(() => dmrp.data.replays[0].trial);
+  await page.evaluate((trial) => dmrp.open_trial(trial), id);
+  const section = page.locator(`#replay[data-trial="${id}"]`);
+  await section.waitFor();
+  const time = () => page.getByTestId('replay-time').textContent();
+  const start = await time();
+  await page.getByTestId('replay-scrub').fill('12.5');
+  assert.notStrictEqual(await time(), start);
+  assert.match(await time(), /12\.5/);
+  const pixels = (testid) => page.locator(`[data-testid="${testid}"]`).evaluate((canvas) => canvas.toDataURL().length);
+  assert.ok(await pixels('replay-map') > 3000, 'the map is empty');
+  await page.getByTestId('replay-play').click();
+  await page.waitForFunction((before) => document.querySelector('[data-testid="replay-time"]').textContent !== before, await time());
+  await page.getByTestId('replay-play').click();
+  await page.getByTestId('replay-3d').click();
+  await page.getByTestId('replay-scrub').fill('20');
+  assert.match(await time(), /20\.0/);
+  await page.getByTestId('replay-2d').click();
+  await close(opened);
+};
+
+tests['nothing in the file asks for another'] = async () => {
+  for (const report of [quickstart, crossing]) {
+    const text = fs.readFileSync(report, 'utf8');
+    assert.doesNotMatch(text, /<(script|img|iframe|source)[^>]*\ssrc=|<link[^>]*\shref="(?!data:)|@import|url\(\s*["']?(https?:)?\/\//i);
+  }
+};
+
+run_tests(tests);

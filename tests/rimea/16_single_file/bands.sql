@@ -1,0 +1,9 @@
+-- RiMEA test 16: reported against the line that Seyfried et al. (2005) measured: a person who walks at v m/s takes up
+-- 0.36 m + 1.06 s v; nobody walks faster than alone.
+WITH point AS (
+  SELECT speed.model, density.value AS density, speed.value AS speed,
+         max(0, min(1.34, (1 / density.value - 0.36) / 1.06)) AS seyfried
+  FROM measured AS speed JOIN measured AS density USING (model, scenario, repetition)
+  WHERE speed.metric = 'walking_speed' AND density.metric = 'density')
+SELECT model, printf('speed at %.4g people/m, m/s (measured: %.3g)', density, seyfried), speed, NULL, NULL, 0
+FROM point ORDER BY model DESC, density;
