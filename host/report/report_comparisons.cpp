@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
 #include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
@@ -55,19 +56,23 @@ core::Interval interval_of_mean(const std::vector<double>& values, std::map<std:
 
 PairedComparison compare(std::span<const double> differences, const core::Interval& mean_interval, PairedTest test) {
   const core::SignedRankTest ranks = core::signed_rank_test(differences);
-  const core::SignFlipTest flips = core::sign_flip_test(differences);
   const core::HodgesLehmann shift = core::hodges_lehmann(differences);
   PairedComparison result{};
   result.pairs = ranks.pairs;
   result.ties = ranks.zeros;
   result.median_difference = shift.estimate;
   result.median_interval = shift.interval;
-  result.mean_difference = flips.mean;
+  result.mean_difference = core::mean(differences);
   result.mean_interval = mean_interval;
   result.effect = ranks.rank_biserial;
   result.test = test;
-  result.exact = test == PairedTest::signed_rank ? ranks.exact : flips.exact;
-  result.p = test == PairedTest::signed_rank ? ranks.p : flips.p;
+  result.exact = ranks.exact;
+  result.p = ranks.p;
+  if (test == PairedTest::sign_flip) {
+    const core::SignFlipTest flips = core::sign_flip_test(differences);
+    result.exact = flips.exact;
+    result.p = flips.p;
+  }
   return result;
 }
 

@@ -45,14 +45,14 @@ struct Setup {
 class Walkers {
  public:
   Walkers(const Setup& setup, const core::StaticGeometry& geometry, const core::PlanningGrid& walking_grid)
-      : view_(setup.scenario, {}, {}, geometry, walking_grid, walking_grid, 0),
-        velocities_(core::person_count(setup.scenario)) {
+      : view_(setup.scenario, {}, {}, geometry, walking_grid, walking_grid, 0) {
     if (setup.walking == Walking::straight) return;
     model_ = std::make_unique<test::PluginUnderTest>("libdmrp_pedestrians.so", "dmrp.pedestrian.social_force");
     if (model_->start(view_.world()) != DMRP_OK) throw std::runtime_error("the model does not start");
   }
 
   const std::vector<dmrp_vec2>& velocities(const core::World& world) {
+    velocities_.resize(world.people().size());
     if (model_) {
       ask_model(world);
     } else {

@@ -3,14 +3,14 @@
 # Writes the closed rings of tests 4 and 16, one file a density: rings.sh [FOLDER] (default: this folder).
 #
 # A ring keeps its density for ever, and nobody meets an end, an entrance or a corner. People begin evenly in its four
-# quarters and walk round counter-clockwise by 16 gates, three times at most.
+# quarters and walk round counter-clockwise by 16 gates, more often than anybody can in the time.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 to=${1:-$here}
 
-# ring INNER OUTER PEOPLE NAME TITLE DESCRIPTION LIMIT: radii of the corners of both walls, 48-sided, m; people a quarter
+# ring INNER OUTER PEOPLE NAME TITLE DESCRIPTION LIMIT LAPS: radii of the corners of both walls, 48-sided, m; people a quarter
 ring() {
-  awk -v inner="$1" -v outer="$2" -v people="$3" -v name="$(basename "$4")" -v title="$5" -v description="$6" -v limit="$7" '
+  awk -v inner="$1" -v outer="$2" -v people="$3" -v name="$(basename "$4")" -v title="$5" -v description="$6" -v limit="$7" -v laps="$8" '
     function at(radius, side) { return sprintf("[%.4f, %.4f]", c + radius * cos(side * step), c + radius * sin(side * step)) }
     function low(a, b) { return a < b ? a : b }
     function high(a, b) { return a < b ? b : a }
@@ -18,7 +18,7 @@ ring() {
       printf "\n[[region]]\nname = \"%s\"\nlower_m = [%.2f, %.2f]\nupper_m = [%.2f, %.2f]\n", name, x0, y0, x1, y1
     }
     BEGIN {
-      sides = 48; gates = 16; laps = 3; pi = atan2(0, -1); step = 2 * pi / sides
+      sides = 48; gates = 16; pi = atan2(0, -1); step = 2 * pi / sides
       c = outer + 0.1
       print "# SPDX-License-Identifier: MIT"
       print "# Written by tests/rimea/rings.sh."
@@ -60,7 +60,7 @@ ring() {
 for people in 10 20 40 60 80 120 160; do
   density=$(awk -v n="$people" 'BEGIN { printf "%.4g", 4 * n / 160 }')
   ring 7.0126 10.0126 "$people" "04_fundamental_diagram/ring_$density" "RiMEA 4: $density people/m2" \
-    "$((4 * people)) people walk round a ring of 160 m2" 70
+    "$((4 * people)) people walk round a ring of 160 m2" 70 3
 done
 
 # test 16: 1 m wide (the narrowest that the walking grid knows a way through), 24 m along the middle:
@@ -68,5 +68,5 @@ done
 for people in 1 2 3 4 6 8 10 12; do
   density=$(awk -v n="$people" 'BEGIN { printf "%.4g", 4 * n / 24 }')
   ring 3.3225 4.3225 "$people" "16_single_file/ring_$density" "RiMEA 16: $density people/m" \
-    "$((4 * people)) people walk in a line round a ring of 24 m" 70
+    "$((4 * people)) people walk in a line round a ring of 24 m" 70 7
 done

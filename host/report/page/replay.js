@@ -128,10 +128,13 @@ window.dmrp = window.dmrp || {};
       redraw();
     }
 
-    // Paper shows where everybody went.
+    // Paper shows the beginning, and where everybody went from there.
+    let t_before_printing = 0;
     function print(begins) {
       clock.pause();
+      if (begins) t_before_printing = clock.t;
       scene.whole_trails = begins;
+      clock.go(begins ? 0 : t_before_printing);
       relook();
     }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr toolkit::NavigationCost walking_cost = {1.0, 2.0};
 
 // How much more somebody beside the free cells minds the way on than the way back in.
-constexpr double onward_weight = 2.0;
+constexpr double onward_weight = 10.0;
 
 // More than any scenario has; fields of places that nobody goes to any more must not pile up.
 constexpr std::size_t most_places_kept = 64;

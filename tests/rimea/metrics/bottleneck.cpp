@@ -12,6 +12,8 @@ Descriptor Bottleneck::describe() {
       .value("speed_before", "m/s", Direction::none, Subjects::system, "of the people there")
       .value("density_behind", "1/m2", Direction::none, Subjects::system, "in the area behind it")
       .value("speed_behind", "m/s", Direction::none, Subjects::system, "of the people there")
+      .value("density_at_exit", "1/m2", Direction::none, Subjects::system, "in the area before the exit")
+      .value("speed_at_exit", "m/s", Direction::none, Subjects::system, "of the people there")
       .value("bottleneck_flow", "1/(m s)", Direction::none, Subjects::system,
              "people who pass the bottleneck, a second and metre of its width");
 }
@@ -19,6 +21,7 @@ Descriptor Bottleneck::describe() {
 void Bottleneck::begin(const dmrp_plan*) {
   before_ = rectangle_of(before_lower_m, before_upper_m);
   behind_ = rectangle_of(behind_lower_m, behind_upper_m);
+  exit_ = rectangle_of(exit_lower_m, exit_upper_m);
   walkers_.clear();
   people_ = 0;
   passed_.clear();
@@ -31,13 +34,14 @@ void Bottleneck::observe(const Sample& sample) {
     if (person.position.x >= line_x_m) passed_.insert(person.id);
   if (!is_due(sample.t_ns, interval_s)) return;
   walkers_.update(sample.people);
-  intervals_.push_back(
-      {seconds(sample.t_ns), passed_.size(), presence_in(before_, sample.people), presence_in(behind_, sample.people)});
+  intervals_.push_back({seconds(sample.t_ns), passed_.size(), presence_in(before_, sample.people),
+                        presence_in(behind_, sample.people), presence_in(exit_, sample.people)});
 }
 
 void Bottleneck::finish(const TrialEnd&, MetricSink& sink) {
   Presence before;
   Presence behind;
+  Presence exit;
   double count = 0.0;
   const Interval* first = nullptr;
   const Interval* last = nullptr;
@@ -47,12 +51,15 @@ void Bottleneck::finish(const TrialEnd&, MetricSink& sink) {
     last = &interval;
     before.add(interval.before);
     behind.add(interval.behind);
+    exit.add(interval.exit);
     ++count;
   }
   sink.system("density_before", before.density(before_, count));
   sink.system("speed_before", before.mean_speed());
   sink.system("density_behind", behind.density(behind_, count));
   sink.system("speed_behind", behind.mean_speed());
+  sink.system("density_at_exit", exit.density(exit_, count));
+  sink.system("speed_at_exit", exit.mean_speed());
   sink.system("bottleneck_flow",
               count > 1.0 ? static_cast<double>(last->passed - first->passed) / ((last->t_s - first->t_s) * width_m)
                           : undefined);

@@ -29,6 +29,10 @@ class Bottleneck final : public Metric {
       param("behind_lower_m", std::vector<double>{0.0, 0.0}).unit("m").doc("the area behind it: lower left corner");
   Param<std::vector<double>> behind_upper_m =
       param("behind_upper_m", std::vector<double>{1.0, 1.0}).unit("m").doc("upper right corner");
+  Param<std::vector<double>> exit_lower_m =
+      param("exit_lower_m", std::vector<double>{0.0, 0.0}).unit("m").doc("the area before the exit: lower left corner");
+  Param<std::vector<double>> exit_upper_m =
+      param("exit_upper_m", std::vector<double>{1.0, 1.0}).unit("m").doc("upper right corner");
   Param<double> interval_s = param("interval_s", 1.0).unit("s").range(0.1, 10.0).doc("speeds are means over this time");
 
   void begin(const dmrp_plan* plan) override;
@@ -47,13 +51,14 @@ class Bottleneck final : public Metric {
   struct Interval {
     double t_s;
     std::size_t passed;  // since the beginning
-    Presence before, behind;
+    Presence before, behind, exit;
   };
 
   Presence presence_in(const toolkit::Rectangle& area, const Span<Person>& people) const;
 
   toolkit::Rectangle before_;
   toolkit::Rectangle behind_;
+  toolkit::Rectangle exit_;
   Walkers walkers_;
   std::size_t people_ = 0;  // at the beginning
   std::set<std::uint64_t> passed_;

@@ -77,5 +77,5 @@ TEST_CASE("people with walls on all sides of their way never get through one") {
   CHECK(clearance >= 0.25);
   const auto through =
       std::count_if(walk.people.begin(), walk.people.end(), [](const dmrp_person& p) { return p.position.x > 5.1; });
-  CHECK(through >= (model == "orca" ? 4 : 20));  // ORCA's people block each other at doors
+  CHECK(through >= (model == "orca" ? 4 : 12));  // ORCA's people block each other at doors
 }
