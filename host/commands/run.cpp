@@ -113,6 +113,19 @@ Manifest manifest_of(const Experiment& experiment, std::uint64_t trials_planned,
   return manifest;
 }
 
+// All that the database has when the run ends.
+struct RunResults {
+  std::vector<MetricColumn> metrics;
+  std::vector<TrialRecord> trials;
+  std::vector<CombinationSummary> summaries;
+};
+
+RunResults read_results(const ResultsDatabase& database, const SummaryLayout& layout) {
+  RunResults results{database.metrics(), database.trials(), {}};
+  results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
+  return results;
+}
+
 class RunFiles {
  public:
   RunFiles(const RunOptions& options, const Experiment& experiment, const Manifest& manifest)
@@ -127,13 +140,10 @@ class RunFiles {
   const fs::path& directory() const { return directory_.path(); }
   fs::path database() const { return directory() / "results.sqlite"; }
 
-  // The tables for people, from all that the database has.
-  void write_tables(const ResultsDatabase& database, const SummaryLayout& layout) const {
-    const auto metrics = database.metrics();
-    const auto trials = database.trials();
-    write_file_atomically(directory() / "trials.csv", trials_csv(metrics, trials));
-    write_file_atomically(directory() / "summary.csv",
-                          summary_csv(metrics, summarise(metrics, trials, layout.counts_failures)));
+  // The tables for people.
+  void write_tables(const RunResults& results) const {
+    write_file_atomically(directory() / "trials.csv", trials_csv(results.metrics, results.trials));
+    write_file_atomically(directory() / "summary.csv", summary_csv(results.metrics, results.summaries));
   }
 
  private:
@@ -162,8 +172,8 @@ class RunFiles {
 };
 
 // Whether there is one: the results are worth keeping without it.
-bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
-  if (database.finished_trials().empty()) return false;
+bool try_to_report(const RunResults& results, const fs::path& directory) {
+  if (results.trials.empty()) return false;
   try {
     write_report(directory);
     return true;
@@ -173,15 +183,13 @@ bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
   }
 }
 
-void print_results(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory,
+void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory,
                    const Experiment& experiment, bool reported) {
-  const auto metrics = database.metrics();
-  const auto trials = database.trials();
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0;
-  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), style),
-             closing_line(layout, trials));
+  fmt::print("\n{}\n  {}\n", summary_table(layout, results.metrics, results.summaries, style),
+             closing_line(layout, results.trials));
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");
   if (experiment.traces != RecordTraces::none) files.push_back("traces/");
@@ -213,16 +221,17 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
       },
       [&] { progress.refresh(); });
   progress.finish();
-  files.write_tables(database, layout);
-  const bool reported = try_to_report(database, files.directory());
-  if (!options.quiet) print_results(database, layout, files.directory(), experiment, reported);
+  const RunResults results = read_results(database, layout);
+  files.write_tables(results);
+  const bool reported = try_to_report(results, files.directory());
+  if (!options.quiet) print_results(results, layout, files.directory(), experiment, reported);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
                files.directory().string());
     return exit_status::interrupted;
   }
-  const auto all = database.trials();
-  const bool faults = std::any_of(all.begin(), all.end(), [](const TrialRecord& t) { return !t.faults.empty(); });
+  const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
+                                  [](const auto& trial) { return !trial.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;
 }
 
