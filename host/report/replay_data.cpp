@@ -10,6 +10,7 @@
 
 #include "host/report/replay_contacts.hpp"
 #include "host/report/replay_numbers.hpp"
+#include "host/report/replay_scans.hpp"
 #include "host/report/replay_tracks.hpp"
 #include "host/report/replay_world.hpp"
 
@@ -20,7 +21,7 @@ using nlohmann::json;
 
 // Everything that is sampled.
 struct Tracks {
-  Deltas times;
+  std::vector<std::int64_t> times_ms;
   std::vector<RobotTrack> robots;
   PeopleTracks people;
   Runs plan;
@@ -34,8 +35,8 @@ std::int64_t index_of(const dmrp_plan* plan, const std::deque<core::TracePlan>& 
 }
 
 void keep_sample(Tracks& to, const dmrp_sample& sample, const std::deque<core::TracePlan>& plans) {
-  const std::size_t index = to.times.size();
-  to.times.add(milliseconds(sample.t_ns));
+  const std::size_t index = to.times_ms.size();
+  to.times_ms.push_back(milliseconds(sample.t_ns));
   for (std::uint32_t i = 0; i < sample.robot_count; ++i)
     to.robots[i].add(index, sample.robots[i], sample.plan ? &sample.plan->paths[i] : nullptr);
   to.people.add(index, sample);
@@ -105,11 +106,15 @@ std::string replay_json(core::TraceReader& trace, const TrialRecord& trial) {
   for (std::uint32_t i = 0; i < world.robot_count; ++i) {
     json& robot = robots.emplace_back(replay_robot(world.robots[i]));
     std::move(tracks.robots[i]).write_to(robot);
+    if (json scans = replay_scans(trace.scans(), i, tracks.times_ms); !scans.is_null())
+      robot["scans"] = std::move(scans);
     if (const dmrp_trial_end* end = trace.end()) write_end_of_robot(robot, end->robots[i]);
   }
+  Deltas times;
+  for (const std::int64_t t_ms : tracks.times_ms) times.add(t_ms);
   json replay = {{"format", 1},
                  {"trial", trial.id},
-                 {"times", std::move(tracks.times).json()},
+                 {"times", std::move(times).json()},
                  {"world", replay_world(world)},
                  {"robots", std::move(robots)},
                  {"people", std::move(tracks.people).json()},

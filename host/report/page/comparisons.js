@@ -6,8 +6,8 @@ window.dmrp = window.dmrp || {};
   const element = (...all) => dmrp.elements.element(...all);
   const SIGNIFICANT = 0.05;
   const TESTS = {
-    signed_rank: {estimate: 'median difference', name: 'Wilcoxon signed-rank test'},
-    sign_flip: {estimate: 'mean difference', name: 'sign-flip permutation test'},
+    signed_rank: {estimate: 'median difference', name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann'},
+    sign_flip: {estimate: 'mean difference', name: 'test by flipping signs'},
   };
 
   // The estimate that belongs to the test.
@@ -80,9 +80,11 @@ window.dmrp = window.dmrp || {};
     const metric = dmrp.labels.metric(data, chosen.metric);
     const test = TESTS[rows[0].test];
     const empty = rows.filter((row) => row.pairs === 0).length;
+    const censored = (data.layouts.report.comparisons || []).some((one) => one.metric === chosen.metric && one.censored);
     return `${dmrp.labels.metric_with_unit(data, chosen.metric)}, ${dmrp.labels.direction_words(metric.direction)}; ` +
-      `${test ? `${test.name}, two-sided` : rows[0].test}. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}. ` +
-      `Pairs: seeds in which both have a value.` +
+      `${test ? `${test.name}, two-sided` : rows[0].test}. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, over all ` +
+      'comparisons of the metric in the scenario between the same kind. Effect: matched-pairs rank-biserial correlation, ' +
+      '\u22121 to 1. Pairs: seeds that both have.' + (censored ? ' A trial that was not completed counts with the time limit.' : '') +
       (empty > 0 ? ` ${dmrp.numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '');
   }
 
@@ -103,7 +105,7 @@ window.dmrp = window.dmrp || {};
     const choose = (key) => (value) => { chosen[key] = value; show(); };
     dmrp.elements.fill(body, dmrp.controls.row(
       dmrp.controls.select('Metric', distinct('metric').map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)})), chosen.metric, choose('metric')),
-      dmrp.controls.segmented('Between', distinct('varied').map((field) => ({value: field, label: `${dmrp.labels.FIELD_TITLES[field].split(' ').pop()}s`})), chosen.varied, choose('varied')),
+      dmrp.controls.segmented('Between', distinct('varied').map((field) => ({value: field, label: dmrp.labels.SHORT_TITLES[field].replace(/s?$/, 's')})), chosen.varied, choose('varied')),
       dmrp.controls.variant_select(variants, chosen.variant, choose('variant'))), holder, note);
     show();
     return null;

@@ -7,9 +7,15 @@ window.dmrp = window.dmrp || {};
   const HEIGHT = 190;
   const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
-  function draw_panel(data, rows, horizon, title, holder, width) {
+  // Somewhat after the last arrival, since nothing changes from there to the time limit.
+  function last_of_interest(rows) {
+    const last = Math.max(...rows.map((row) => row.steps[row.steps.length - 1][0]));
+    return Math.min(1.15 * last, Math.max(...rows.map((row) => row.horizon_s)));
+  }
+
+  function draw_panel(data, rows, until, title, holder, width) {
     dmrp.elements.fill(holder);
-    const x = d3.scaleLinear().domain([0, horizon]).range([MARGIN.left, width - MARGIN.right]);
+    const x = d3.scaleLinear().domain([0, until]).range([MARGIN.left, width - MARGIN.right]);
     const y = d3.scaleLinear().domain([0, 1]).range([HEIGHT - MARGIN.bottom, MARGIN.top]);
     const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
     svg.append('g').attr('class', 'grid').selectAll('line').data([0.5, 1]).enter().append('line')
@@ -20,8 +26,8 @@ window.dmrp = window.dmrp || {};
     for (const row of rows) {
       const series = dmrp.labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
       const last = row.steps[row.steps.length - 1];
-      svg.append('path').attr('class', 'line').style('stroke', series.colour)
-        .attr('d', line([[0, 0], ...row.steps, [row.horizon_s, last[1]]]));
+      svg.append('path').attr('class', 'line').style('stroke', series.colour).style('stroke-dasharray', series.dash)
+        .attr('d', line([[0, 0], ...row.steps, [until, last[1]]]));
       svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 50))
         .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
     }
@@ -35,7 +41,7 @@ window.dmrp = window.dmrp || {};
     for (const variant of variants) {
       const own = rows.filter((row) => variant.combinations.includes(row.combination));
       if (own.length === 0) continue;
-      const best = dmrp.ranking.best(own.map((row) => row.restricted_mean_s), 'lower');
+      const best = dmrp.ranking.best(own.map((row) => row.restricted_mean_s), 'lower', 1);
       made.append(element('tbody', {}, data.scenarios.length > 1 &&
         element('tr', {class: 'group'}, element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))),
       own.map((row, i) => element('tr', {}, element('th', {scope: 'row'}, dmrp.labels.combination(data, row.combination)),
@@ -59,9 +65,9 @@ window.dmrp = window.dmrp || {};
     if (seen.length > 0) holder.append(element('p', {class: 'axis-note'}, 'Upwards: share of robots that have arrived'));
     const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
     seen.forEach((one, i) => {
-      const horizon = Math.max(...one.rows.map((row) => row.horizon_s));
+      const until = last_of_interest(seen.filter((other) => other.stratum.variant === one.stratum.variant).flatMap((other) => other.rows));
       dmrp.plots.responsive(panels[i].querySelector('.plot'),
-        (plot, width) => draw_panel(data, one.rows, horizon, `Arrivals over time: ${one.stratum.title}`, plot, width));
+        (plot, width) => draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width));
     });
     holder.append(table(data, rows, variants));
   }

@@ -28,7 +28,8 @@ window.dmrp = window.dmrp || {};
   function draw_rows(svg, rows, left, right) {
     rows.forEach((row, r) => {
       const y = TOP + (r + 0.5) * ROW;
-      svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end').text(row.label);
+      const text = svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end');
+      dmrp.plots.fit_text(text, row.label, left - 10);
       svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
     });
   }
@@ -40,10 +41,22 @@ window.dmrp = window.dmrp || {};
     svg.append('g').attr('class', 'grid').append('line').attr('x1', right + 10).attr('x2', right + 10).attr('y1', TOP - 6).attr('y2', bottom);
   }
 
+  // Over the points, with a rim that sets them off.
+  function draw_medians(svg, rows, x) {
+    rows.forEach((row, r) => {
+      if (row.median === null) return;
+      const middle = TOP + (r + 0.5) * ROW;
+      for (const kind of ['median rim', 'median']) {
+        svg.append('line').attr('class', kind).attr('x1', x(row.median)).attr('x2', x(row.median))
+          .attr('y1', middle - ROW / 2 + 2).attr('y2', middle + ROW / 2 - 2);
+      }
+    });
+  }
+
   function draw_panel(data, shown, domain, metric, holder, width, detail) {
     dmrp.elements.fill(holder);
     const values = data.values[metric];
-    const left = Math.min(dmrp.plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.45);
+    const left = Math.min(dmrp.plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.48);
     const right = width - 8 - (shown.has_undefined ? UNDEFINED + 14 : 4);
     const bottom = TOP + shown.rows.length * ROW;
     const x = dmrp.plots.linear(domain, [left, right]);
@@ -55,18 +68,15 @@ window.dmrp = window.dmrp || {};
     const points = [];
     shown.rows.forEach((row, r) => {
       const middle = TOP + (r + 0.5) * ROW;
-      if (row.median !== null) {
-        svg.append('line').attr('class', 'median').attr('x1', x(row.median)).attr('x2', x(row.median))
-          .attr('y1', middle - ROW / 2 + 2).attr('y2', middle + ROW / 2 - 2);
-      }
       for (const trial of row.trials) {
         const jitter = dmrp.trial_points.jitter(data.trials.id[trial]);
         const defined = dmrp.ranking.is_defined(values[trial]);
-        const at = defined ? x(values[trial]) : right + 10 + UNDEFINED / 2 + jitter * (UNDEFINED / 2 - 8);
+        const at = defined ? x(values[trial]) : right + 10 + UNDEFINED / 2 + dmrp.trial_points.jitter(data.trials.id[trial], 1) * (UNDEFINED / 2 - 8);
         const y = middle + (row.trials.length > 1 ? jitter * SPREAD : 0);
         points.push({x: at, y: middle, row: trial, node: dmrp.trial_points.draw_mark(svg, data, trial, at, y)});
       }
     });
+    draw_medians(svg, shown.rows, x);
     dmrp.trial_points.choosable(svg, data, points, [metric], detail);
   }
 

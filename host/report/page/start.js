@@ -56,6 +56,13 @@ window.dmrp = window.dmrp || {};
     contents.append(list);
   }
 
+  // Sideways alone: the page must not move.
+  function bring_into_sight(link) {
+    const list = link.parentElement;
+    const room = list.clientWidth - link.offsetWidth;
+    if (link.offsetLeft < list.scrollLeft || link.offsetLeft > list.scrollLeft + room) list.scrollLeft = link.offsetLeft - room / 2;
+  }
+
   // Marks in the contents where the reader is.
   function follow_reading(all) {
     const seen = new Set();
@@ -66,6 +73,7 @@ window.dmrp = window.dmrp || {};
         if (part === current) part.link.firstChild.setAttribute('aria-current', 'true');
         else part.link.firstChild.removeAttribute('aria-current');
       }
+      if (current) bring_into_sight(current.link);
     }, {rootMargin: '-30% 0px -60% 0px'});
     for (const part of all) observer.observe(part.section);
   }

@@ -5,9 +5,10 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
 
-  // A number in [-1, 1) that depends on the trial alone, so that a plot looks the same each time.
-  function jitter(id) {
-    let hash = Math.imul(id + 1, 0x9e3779b1);
+  // A number in [-1, 1) that depends on the trial alone, so that a plot looks the same each time. `axis`: 0 or 1, for
+  // numbers that have nothing to do with each other.
+  function jitter(id, axis = 0) {
+    let hash = Math.imul(id + 1, axis === 0 ? 0x9e3779b1 : 0x27d4eb2f);
     hash = Math.imul(hash ^ (hash >>> 15), 0x85ebca6b);
     hash = Math.imul(hash ^ (hash >>> 13), 0xc2b2ae35);
     return ((hash ^ (hash >>> 16)) >>> 0) / 2147483648 - 1;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -146,6 +147,41 @@ TEST_CASE("Headings go on past pi, the shorter way round") {
   CHECK(replay["plan"] == json{0, -1});
   CHECK(summed(replay["robots"][0]["deviation"]) == std::vector<std::int64_t>{-1, -1, -1, -1});
   CHECK_FALSE(replay.contains("end"));
+}
+
+TEST_CASE("Scans come along in centimetres, at most 180 beams each") {
+  const test::ExampleWorld world;
+  core::TraceEncoder trace(world.world);
+  std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
+  for (std::int64_t k = 0; k <= 10; ++k) {  // every 20 ms; scans at 0 and at 200 ms, of the second robot
+    test::ExampleSample at(k, nullptr);
+    at.sample.contact_count = 0;
+    trace.sample(at.sample);
+    if (k % 10 != 0) continue;
+    ranges[0] = 1.0F + 0.1F * static_cast<float>(k);
+    ranges[1] = 7.0F;  // between two of the kept beams
+    ranges[4] = 2.5F;
+    dmrp_scan scan{};
+    scan.struct_size = sizeof(scan);
+    scan.count = 360;
+    scan.t_ns = k * 20'000'000;
+    scan.angle_min = -1.5;
+    scan.angle_increment = 0.01;
+    scan.range_max = 10.0;
+    scan.ranges = ranges.data();
+    trace.scan(1, scan);
+  }
+  const json replay = replay_of(trace.bytes());
+  CHECK_FALSE(replay["robots"][0].contains("scans"));
+  const json& scans = replay["robots"][1]["scans"];
+  CHECK(scans["first"] == -1'500'000);
+  CHECK(scans["step"] == 20'000);
+  CHECK(scans["beams"] == 180);
+  CHECK(summed(scans["samples"]) == std::vector<std::int64_t>{0, 2});
+  REQUIRE(scans["ranges"].size() == 360);
+  CHECK(std::vector<std::int64_t>(scans["ranges"].begin(), scans["ranges"].begin() + 5) ==
+        std::vector<std::int64_t>{100, -100, 250, -250, 0});
+  CHECK(scans["ranges"][180] == 200);  // begins anew
 }
 
 TEST_CASE("Contacts are events with fault and depth; metrics' events come along") {
