@@ -15,6 +15,7 @@ namespace {
 constexpr std::int64_t shown_every_ns = 100'000'000;
 constexpr std::int64_t contact_shown_ns = 2'000'000'000;
 constexpr std::int64_t prediction_shown_ns = 150'000'000;
+constexpr std::size_t candidate_points = 8;  // roughly, of a trajectory that was only considered
 constexpr std::int64_t least_mark_ns = 500'000'000;
 
 constexpr double tall_m = 2.0;  // shapes this tall are walls, lower ones furniture
@@ -202,6 +203,7 @@ void FoxgloveChannels::plan(std::int64_t now_ns, const dmrp_plan& plan) {
 }
 
 void FoxgloveChannels::sample(const dmrp_sample& sample) {
+  put_told();
   t_ns_ = sample.t_ns;
   bool changed = false;
   for (std::uint32_t i = 0; i < sample.robot_count; ++i) {
@@ -267,17 +269,29 @@ void FoxgloveChannels::scan(std::uint32_t robot, const dmrp_scan& scan) {
 
 void FoxgloveChannels::trajectory(std::int64_t now_ns, TraceSource source, std::uint32_t role,
                                   std::span<const dmrp_pose> poses) {
-  if (now_ns != told_ns_) told_ = 0;
-  told_ns_ = now_ns;
+  const bool more = told_.t_ns == now_ns && told_.role == role && told_.source.robot == source.robot &&
+                    told_.source.plugin_kind == source.plugin_kind;
+  if (!more) {
+    put_told();
+    told_.t_ns = now_ns;
+    told_.source = source;
+    told_.role = role;
+  }
   const bool predicted = role == DMRP_ANNOTATE_PREDICTED;
+  const std::size_t stride = predicted ? 1 : std::max<std::size_t>(poses.size() / candidate_points, 1);
   std::vector<ScenePose> points;
-  for (const dmrp_pose& pose : poses) points.push_back({pose.x, pose.y, 0.05, 0.0});
-  entity_.clear();
-  entity_.note("of", name_of(source));
-  entity_.line(points, false, predicted ? 0.05 : 0.02, of_series(source.robot, predicted ? 0.9 : 0.3));
-  scene_.begin(now_ns);
-  scene_.add(entity_, numbered(predicted ? "predicted_" : "candidate_", told_++), {"map", false, prediction_shown_ns});
-  file_.write(predictions_, now_ns, scene_.message());
+  for (std::size_t i = 0; i < poses.size(); i += stride) points.push_back({poses[i].x, poses[i].y, 0.05, 0.0});
+  told_.lines.line(points, false, predicted ? 0.05 : 0.02, of_series(source.robot, predicted ? 0.9 : 0.3));
+}
+
+void FoxgloveChannels::put_told() {
+  if (told_.t_ns < 0) return;
+  const char* what = told_.role == DMRP_ANNOTATE_PREDICTED ? "predicted by " : "considered by ";
+  scene_.begin(told_.t_ns);
+  scene_.add(told_.lines, what + name_of(told_.source), {"map", false, prediction_shown_ns});
+  file_.write(predictions_, told_.t_ns, scene_.message());
+  told_.lines.clear();
+  told_.t_ns = -1;
 }
 
 void FoxgloveChannels::note(std::int64_t now_ns, TraceSource source, std::string_view text) {
@@ -285,6 +299,7 @@ void FoxgloveChannels::note(std::int64_t now_ns, TraceSource source, std::string
 }
 
 void FoxgloveChannels::end(const dmrp_trial_end& end, std::string_view reason) {
+  put_told();
   if (shown_ns_ >= 0 && shown_ns_ < t_ns_ && !robots_.empty()) put_frames(t_ns_);
   put_log(log_, end.t_ns, end.ending == DMRP_ENDING_ARRIVED ? Level::info : Level::warning, "trial", reason);
 }

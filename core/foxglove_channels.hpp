@@ -74,6 +74,7 @@ class FoxgloveChannels {
   void put_people(const dmrp_sample& sample);
   void put_contact(const dmrp_sample& sample, const dmrp_contact& contact);
   void put_log(std::uint16_t channel, std::int64_t t_ns, Level level, std::string_view name, std::string_view text);
+  void put_told();
   std::string name_of(std::uint32_t robot) const;
   std::string name_of(TraceSource source) const;
 
@@ -85,10 +86,17 @@ class FoxgloveChannels {
   std::vector<std::string> shapes_;
   std::int64_t t_ns_ = 0;       // of the last sample
   std::int64_t shown_ns_ = -1;  // of the last sample that is shown
-  std::int64_t told_ns_ = -1;   // of the last trajectory
-  std::uint32_t told_ = 0;      // trajectories at that time
   std::uint32_t contact_count_ = 0;
   std::uint32_t mark_count_ = 0;
+
+  // trajectories of one plugin, one role and one time: a controller may tell of a hundred in a step
+  struct Told {
+    std::int64_t t_ns = -1;  // -1: there are none
+    TraceSource source;
+    std::uint32_t role = 0;
+    SceneEntity lines;
+  };
+  Told told_;
 
   SceneUpdate scene_;
   SceneEntity entity_;

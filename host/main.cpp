@@ -77,7 +77,9 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   CLI::App* command = app.add_subcommand("plan", "plan once: what it costs and how long it takes");
   command->add_option("--map", options.map, "a MovingAI map: 1 m cells, robots of radius 0")->type_name("M.map");
   command->add_option("--scen", options.tasks, "MovingAI tasks on that map")->type_name("S.scen");
-  command->add_option("--agents", options.agents, "how many of the tasks, from the first")
+  command
+      ->add_option("--agents", options.agents,
+                   "how many of the tasks, from the first; of a scenario: how many to draw for the seed")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
   command->add_option("--scenario", options.scenario, "in place of these: a shipped one, or a path to scenario.toml")
@@ -118,6 +120,13 @@ CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
   return command;
 }
 
+CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
+  CLI::App* command = app.add_subcommand("merge", "joins runs of parts of one experiment (--shard)");
+  command->add_option("out", options.out, "the run directory to make")->required()->type_name("OUT");
+  command->add_option("runs", options.runs, "run directories")->required()->type_name("RUN_DIR");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
@@ -154,6 +163,9 @@ int run_main(int argc, char** argv) {
   EvaluateOptions evaluate;
   CLI::App* evaluating = add_evaluate(app, evaluate);
 
+  MergeOptions merge;
+  CLI::App* merging = add_merge(app, merge);
+
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
@@ -179,6 +191,7 @@ int run_main(int argc, char** argv) {
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
   if (report->parsed()) return report_command(reported, replayed);
+  if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));

@@ -256,7 +256,7 @@ TEST_CASE("the sink gets the records that make up the trace", "[trace]") {
   });
   CHECK(joined == bytes);
   CHECK(std::is_sorted(times.begin(), times.end()));
-  CHECK(times.size() == 10);  // world, plan, sample, 2 plans, note, sample, trajectory, sample, end
+  CHECK(times.size() == 11);  // world, plan, sample, 2 plans, note, sample, trajectory, scan, sample, end
 }
 
 TEST_CASE("a trial cut short is a trace without an end", "[trace]") {
