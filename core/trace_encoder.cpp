@@ -106,37 +106,6 @@ void put_path(ByteWriter& out, const dmrp_path& path) {
   }
 }
 
-void put_robot_sample(ByteWriter& out, const dmrp_robot_sample& robot) {
-  out.put(robot.pose);
-  out.put(robot.velocity);
-  out.put(robot.command);
-  out.put(robot.state);
-  out.put(robot.goal_index);
-  out.put(robot.progress_m);
-}
-
-void put_person(ByteWriter& out, const dmrp_person& person) {
-  out.put(person.id);
-  out.put(person.group);
-  out.put(person.target_id);
-  out.put(person.position);
-  out.put(person.velocity);
-  out.put(person.radius_m);
-  out.put(person.desired_speed);
-  out.put(person.target);
-  out.put(person.area_lower);
-  out.put(person.area_upper);
-}
-
-void put_contact(ByteWriter& out, const dmrp_contact& contact) {
-  out.put(contact.kind);
-  out.put(contact.flags);
-  out.put(contact.a);
-  out.put(contact.b);
-  out.put(contact.depth_m);
-  out.put(contact.point);
-}
-
 void put_call(ByteWriter& out, const dmrp_call& call) {
   out.put(call.kind);
   out.put(call.robot);
@@ -192,8 +161,10 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
   if (foxglove_) foxglove_->plan(now_ns_, plan);
 }
 
+// Robots, people and contacts are most of a trace: each goes in as it lies in memory, where it has no padding.
 void TraceEncoder::sample(const dmrp_sample& sample) {
   now_ns_ = sample.t_ns;
+  if (foxglove_) foxglove_->sample(sample);
   record(TraceRecordKind::sample, [&](ByteWriter& out) {
     out.put(sample.t_ns);
     out.put(sample.dt_ns);
@@ -201,18 +172,17 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
     out.put(sample.plan ? sample.plan->revision : std::uint64_t{0});
     out.put(sample.robot_count);
     for (std::uint32_t i = 0; i < sample.robot_count; ++i)
-      put_robot_sample(out, *DMRP_AT(dmrp_robot_sample, sample.robots, sample.robot_stride, i));
+      out.put(*DMRP_AT(dmrp_robot_sample, sample.robots, sample.robot_stride, i));
     out.put(sample.person_count);
     for (std::uint32_t i = 0; i < sample.person_count; ++i)
-      put_person(out, *DMRP_AT(dmrp_person, sample.people, sample.person_stride, i));
+      out.put(*DMRP_AT(dmrp_person, sample.people, sample.person_stride, i));
     out.put(sample.contact_count);
     for (std::uint32_t i = 0; i < sample.contact_count; ++i)
-      put_contact(out, *DMRP_AT(dmrp_contact, sample.contacts, sample.contact_stride, i));
+      out.put(*DMRP_AT(dmrp_contact, sample.contacts, sample.contact_stride, i));
     out.put(sample.call_count);
     for (std::uint32_t i = 0; i < sample.call_count; ++i)
       put_call(out, *DMRP_AT(dmrp_call, sample.calls, sample.call_stride, i));
   });
-  if (foxglove_) foxglove_->sample(sample);
 }
 
 void TraceEncoder::scan(std::uint32_t robot, const dmrp_scan& scan) {
@@ -252,6 +222,7 @@ void TraceEncoder::note(TraceSource source, std::string_view text) {
 }
 
 void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
+  if (foxglove_) foxglove_->end(end, reason);
   record(TraceRecordKind::end, [&](ByteWriter& out) {
     out.put(end.ending);
     out.put(end.t_ns);
@@ -264,7 +235,6 @@ void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
     }
     out.put_text(reason);
   });
-  if (foxglove_) foxglove_->end(end, reason);
 }
 
 }  // namespace dmrp::core

@@ -17,9 +17,6 @@ constexpr std::size_t goal_bytes = 56;
 constexpr std::size_t shape_bytes = 4 + 4 + 16 + 8 + 8 + 4;
 constexpr std::size_t waypoint_bytes = 36;
 constexpr std::size_t statistic_bytes = 12;
-constexpr std::size_t robot_sample_bytes = 88;
-constexpr std::size_t person_bytes = 112;
-constexpr std::size_t contact_bytes = 40;
 constexpr std::size_t call_bytes = 20;
 constexpr std::size_t robot_end_bytes = 16;
 
@@ -209,43 +206,6 @@ TracePlan take_plan(ByteCursor& in, Storage& storage, std::uint32_t robot_count)
   return made;
 }
 
-dmrp_robot_sample take_robot_sample(ByteCursor& in) {
-  dmrp_robot_sample robot{};
-  robot.pose = in.take<dmrp_pose>();
-  robot.velocity = in.take<dmrp_twist>();
-  robot.command = in.take<dmrp_twist>();
-  robot.state = in.take<std::uint32_t>();
-  robot.goal_index = in.take<std::uint32_t>();
-  robot.progress_m = in.take<double>();
-  return robot;
-}
-
-dmrp_person take_person(ByteCursor& in) {
-  dmrp_person person{};
-  person.id = in.take<std::uint64_t>();
-  person.group = in.take<std::uint32_t>();
-  person.target_id = in.take<std::uint32_t>();
-  person.position = in.take<dmrp_vec2>();
-  person.velocity = in.take<dmrp_vec2>();
-  person.radius_m = in.take<double>();
-  person.desired_speed = in.take<double>();
-  person.target = in.take<dmrp_vec2>();
-  person.area_lower = in.take<dmrp_vec2>();
-  person.area_upper = in.take<dmrp_vec2>();
-  return person;
-}
-
-dmrp_contact take_contact(ByteCursor& in) {
-  dmrp_contact contact{};
-  contact.kind = in.take<std::uint32_t>();
-  contact.flags = in.take<std::uint32_t>();
-  contact.a = in.take<std::uint32_t>();
-  contact.b = in.take<std::uint32_t>();
-  contact.depth_m = in.take<double>();
-  contact.point = in.take<dmrp_vec2>();
-  return contact;
-}
-
 // Metrics index with these without asking again.
 void check_contact(const ByteCursor& in, const dmrp_contact& contact, const dmrp_world& world,
                    std::uint32_t person_count) {
@@ -283,10 +243,16 @@ dmrp_trial_end take_end(ByteCursor& in, Storage& storage, std::uint32_t robot_co
   return end;
 }
 
-template <class Element, class Take>
-void take_elements(ByteCursor& in, std::size_t element_bytes, std::vector<Element>& elements, Take take) {
-  elements.resize(in.take_count(element_bytes));
-  for (Element& element : elements) element = take(in);
+// Elements that lie in the trace as they do in memory.
+template <class Element>
+void take_elements(ByteCursor& in, std::vector<Element>& elements) {
+  elements.resize(in.take_count(sizeof(Element)));
+  in.take_array(elements.data(), elements.size());
+}
+
+void take_calls(ByteCursor& in, std::vector<dmrp_call>& calls) {
+  calls.resize(in.take_count(call_bytes));
+  for (dmrp_call& call : calls) call = take_call(in);
 }
 
 }  // namespace
@@ -379,13 +345,13 @@ void TraceReader::read_sample(std::size_t body_begin, std::size_t body_end) {
   if (revision != 0) sample_.plan = plan_of_revision(revision);
   if (revision != 0 && !sample_.plan) in.fail("a sample under a plan that did not come before it");
 
-  take_elements(in, robot_sample_bytes, robots_, take_robot_sample);
+  take_elements(in, robots_);
   if (robots_.size() != world_.robot_count) in.fail("a sample of another number of robots");
-  take_elements(in, person_bytes, people_, take_person);
-  take_elements(in, contact_bytes, contacts_, take_contact);
+  take_elements(in, people_);
+  take_elements(in, contacts_);
   for (const dmrp_contact& contact : contacts_)
     check_contact(in, contact, world_, static_cast<std::uint32_t>(people_.size()));
-  take_elements(in, call_bytes, calls_, take_call);
+  take_calls(in, calls_);
   for (const dmrp_call& call : calls_)
     if (call.kind == DMRP_CALL_CONTROL && call.robot >= world_.robot_count) in.fail("a call for an unknown robot");
   if (!in.at_end()) in.fail("the record is longer than what it holds");

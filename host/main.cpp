@@ -77,7 +77,9 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   CLI::App* command = app.add_subcommand("plan", "plan once: what it costs and how long it takes");
   command->add_option("--map", options.map, "a MovingAI map: 1 m cells, robots of radius 0")->type_name("M.map");
   command->add_option("--scen", options.tasks, "MovingAI tasks on that map")->type_name("S.scen");
-  command->add_option("--agents", options.agents, "how many of the tasks, from the first")
+  command
+      ->add_option("--agents", options.agents,
+                   "how many of the tasks, from the first; of a scenario: how many to draw for the seed")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
   command->add_option("--scenario", options.scenario, "in place of these: a shipped one, or a path to scenario.toml")

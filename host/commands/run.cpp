@@ -78,9 +78,8 @@ ExperimentFacts facts_of(const Experiment& experiment, std::uint64_t trials_plan
     const double time_limit_s = experiment.time_limit_set
                                     ? static_cast<double>(experiment.simulation.time_limit_ns) / 1e9
                                     : scenario.time_limit_s;
-    facts.scenarios.push_back({scenario.name, scenario.title, scenario.description,
-                               static_cast<std::uint32_t>(scenario.robots.size()), core::person_count(scenario),
-                               time_limit_s});
+    facts.scenarios.push_back({scenario.name, scenario.title, scenario.description, robot_count(variant),
+                               core::person_count(scenario), time_limit_s});
   }
   return facts;
 }

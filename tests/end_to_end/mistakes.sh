@@ -58,6 +58,11 @@ expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0
 expect_mistake "start too near to a wall" '' 's/^start = \[0.5, 2.5/start = [2.4, 3.6/' "$robot.*pillar.*clearance"
 expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
 expect_mistake "misspelt key of the scenario" '' 's/^size_m = \[8/siez_m = [8/' "scenario\.toml:[0-9]+:[0-9]+: .*'siez_m'.*did you mean 'size_m'"
+expect_mistake "more robots than there is room for" 's/^use = "crossing"/&\nrobots = 60/' '' "$line.*holds at most [0-9]+ robots.*not 60"
+expect_mistake "nobody there" 's/^use = "crossing"/&\nrobots = 0/' 's/^people = .*/people = 0/' "$line.*without robots nobody is there"
+expect_mistake "a recording that is not there" '' '$a[[recording]]\nfile = "none.csv"' "scenario\.toml:[0-9]+:[0-9]+: no file 'none.csv'"
+expect_mistake "no room for a crowd" '' 's/^people = .*/people = 99\nstart = "from"/' "scenario\.toml:[0-9]+:[0-9]+: no room in region 'lower right' for 99 people"
+expect_mistake "latency out of range" '$a[robot]\nactuation_latency_s = -1' '' "$line'actuation_latency_s' must be at least 0"
 
 rm experiment.toml
 expect_status 2 "$host" experiment.toml

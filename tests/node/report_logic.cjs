@@ -59,7 +59,7 @@ const tests = {
     same([n.fixed(-1.25, 1), n.fixed(-0.001, 2), n.fixed(null, 2), n.fixed(NaN, 2)], ['\u22121.3', '0.00', '—', '—']);
     same([n.signed(0.5, 1), n.signed(-0.5, 1), n.signed(0, 1)], ['+0.5', '\u22120.5', '0.0']);
     same([n.decimals_of([1, 20]), n.decimals_of([0.25]), n.decimals_of([59.5]), n.decimals_of([0, null]), n.decimals_of([1e-9])], [0, 3, 1, 0, 6]);
-    same([n.interval(1, 2, 1), n.interval(1, 1, 1), n.interval(null, 2, 1)], ['[1.0, 2.0]', '', '']);
+    same([n.interval(1, 2, 1), n.interval(1, 1.01, 1), n.interval(null, 2, 1)], ['[1.0, 2.0]', '', '']);
     same([n.p_value(0.0004), n.p_value(0.25), n.p_value(null)], ['< 0.001', '0.250', '—']);
     same([n.with_unit('3', 'm'), n.with_unit('3', '1'), n.counted(1, 'trial'), n.counted(2, 'person', 'people')], ['3\u00a0m', '3', '1 trial', '2 people']);
   },
@@ -69,12 +69,12 @@ const tests = {
     same(dmrp.ranking.order(['a10', 'a9', 'b'], false), [1, 0, 2]);
   },
   'the best follows the direction, and is nothing where most share it'() {
-    same([...dmrp.ranking.best([3, null, 1, 2], 'lower')], [2]);
-    same([...dmrp.ranking.best([3, null, 1, 2], 'higher')], [0]);
-    same([...dmrp.ranking.best([1, 1, 2, 2], 'higher')], [2, 3]);
-    same([...dmrp.ranking.best([1, 1, 1, 2], 'lower')], []);
-    same([...dmrp.ranking.best([1, 2], 'none')], []);
-    same([...dmrp.ranking.best([1], 'lower')], []);
+    same([...dmrp.ranking.best([3, null, 1, 2], 'lower', 1)], [2]);
+    same([...dmrp.ranking.best([3, null, 1, 2], 'higher', 1)], [0]);
+    same([...dmrp.ranking.best([1, 1, 2, 2.04], 'higher', 1)], [2, 3]);
+    same([...dmrp.ranking.best([1, 1, 1, 2], 'lower', 1)], []);
+    same([...dmrp.ranking.best([1, 2], 'none', 1)], []);
+    same([...dmrp.ranking.best([1], 'lower', 1)], []);
     same(dmrp.ranking.goodness([0, 5, 10, null], 'lower'), [1, 0.5, 0, null]);
     same(dmrp.ranking.goodness([2, 2], 'higher'), [0.5, 0.5]);
   },

@@ -105,7 +105,7 @@ window.dmrp = window.dmrp || {};
     const choose = (key) => (value) => { chosen[key] = value; show(); };
     dmrp.elements.fill(body, dmrp.controls.row(
       dmrp.controls.select('Metric', distinct('metric').map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)})), chosen.metric, choose('metric')),
-      dmrp.controls.segmented('Between', distinct('varied').map((field) => ({value: field, label: `${dmrp.labels.FIELD_TITLES[field].split(' ').pop()}s`})), chosen.varied, choose('varied')),
+      dmrp.controls.segmented('Between', distinct('varied').map((field) => ({value: field, label: dmrp.labels.SHORT_TITLES[field].replace(/s?$/, 's')})), chosen.varied, choose('varied')),
       dmrp.controls.variant_select(variants, chosen.variant, choose('variant'))), holder, note);
     show();
     return null;

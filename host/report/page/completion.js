@@ -26,7 +26,7 @@ window.dmrp = window.dmrp || {};
     for (const row of rows) {
       const series = dmrp.labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
       const last = row.steps[row.steps.length - 1];
-      svg.append('path').attr('class', 'line').style('stroke', series.colour)
+      svg.append('path').attr('class', 'line').style('stroke', series.colour).style('stroke-dasharray', series.dash)
         .attr('d', line([[0, 0], ...row.steps, [until, last[1]]]));
       svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 50))
         .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
@@ -41,7 +41,7 @@ window.dmrp = window.dmrp || {};
     for (const variant of variants) {
       const own = rows.filter((row) => variant.combinations.includes(row.combination));
       if (own.length === 0) continue;
-      const best = dmrp.ranking.best(own.map((row) => row.restricted_mean_s), 'lower');
+      const best = dmrp.ranking.best(own.map((row) => row.restricted_mean_s), 'lower', 1);
       made.append(element('tbody', {}, data.scenarios.length > 1 &&
         element('tr', {class: 'group'}, element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))),
       own.map((row, i) => element('tr', {}, element('th', {scope: 'row'}, dmrp.labels.combination(data, row.combination)),

@@ -37,7 +37,7 @@ window.dmrp = window.dmrp || {};
     const banded = (point) => dmrp.numbers.is_number(point[2]) && dmrp.numbers.is_number(point[3]);
     svg.append('path').attr('class', 'band').style('fill', series.colour)
       .attr('d', d3.area().defined(banded).x((point) => x(point[0])).y0((point) => y(point[2])).y1((point) => y(point[3]))(curve.points));
-    svg.append('path').attr('class', 'line').style('stroke', series.colour)
+    svg.append('path').attr('class', 'line').style('stroke', series.colour).style('stroke-dasharray', series.dash)
       .attr('d', d3.line().defined(defined).x((point) => x(point[0])).y((point) => y(point[1]))(curve.points));
     for (const point of curve.points.filter(defined)) {
       svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 34))

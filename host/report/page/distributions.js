@@ -28,7 +28,8 @@ window.dmrp = window.dmrp || {};
   function draw_rows(svg, rows, left, right) {
     rows.forEach((row, r) => {
       const y = TOP + (r + 0.5) * ROW;
-      svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end').text(row.label);
+      const text = svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end');
+      dmrp.plots.fit_text(text, row.label, left - 10);
       svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
     });
   }
@@ -55,7 +56,7 @@ window.dmrp = window.dmrp || {};
   function draw_panel(data, shown, domain, metric, holder, width, detail) {
     dmrp.elements.fill(holder);
     const values = data.values[metric];
-    const left = Math.min(dmrp.plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.45);
+    const left = Math.min(dmrp.plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.48);
     const right = width - 8 - (shown.has_undefined ? UNDEFINED + 14 : 4);
     const bottom = TOP + shown.rows.length * ROW;
     const x = dmrp.plots.linear(domain, [left, right]);

@@ -54,7 +54,7 @@ window.dmrp = window.dmrp || {};
     const flat = grid.cells.flat();
     const means = flat.map((cell) => (cell === null ? null : cell.mean));
     const goodness = dmrp.ranking.goodness(means, metric.direction);
-    const best = dmrp.ranking.best(means, metric.direction);
+    const best = dmrp.ranking.best(means, metric.direction, decimals);
     const width = grid.controllers.length;
     return element('div', {class: 'facet'}, element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
       element('table', {class: 'heat'}, element('caption', {}, element('h4', {}, grid.title)),

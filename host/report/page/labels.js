@@ -10,6 +10,8 @@ window.dmrp = window.dmrp || {};
     local_controller: 'local controller',
     pedestrian_model: 'pedestrian model',
   };
+  const SHORT_TITLES = {global_planner: 'planner', local_controller: 'controller', pedestrian_model: 'pedestrians'};
+  const DASHES = ['none', '7 4', '2 3', '9 3 2 3'];  // so that lines on top of each other are both seen
   const SERIES = 8;  // colours in style.css, each with a shape and a dash of its own
 
   function distinct(values) {
@@ -80,11 +82,11 @@ window.dmrp = window.dmrp || {};
     return data.metrics.find((candidate) => candidate.name === name);
   }
 
-  // "completion time"; an abbreviation as the layouts write it.
+  // "completion time", "IBTR by distance": abbreviations as the layouts write them.
   function metric_title(data, name) {
-    const columns = data.layouts.report.tables.flatMap((table) => table.columns);
-    const written = columns.find((column) => column.header.toLowerCase() === name);
-    return written ? written.header : name.replace(/_/g, ' ');
+    const headers = data.layouts.report.tables.flatMap((table) => table.columns.map((column) => column.header));
+    const written = new Map(headers.filter((header) => header === header.toUpperCase()).map((header) => [header.toLowerCase(), header]));
+    return name.split('_').map((word) => written.get(word) || word).join(' ');
   }
 
   function metric_with_unit(data, name) {
@@ -111,11 +113,11 @@ window.dmrp = window.dmrp || {};
   // Which colour, symbol and dash a label has among its kind: the same in every plot.
   function series(data, field, label) {
     const index = values_of(data, field).indexOf(label);
-    return {index, colour: `var(--series-${(index % SERIES) + 1})`, symbol: index % 7};
+    return {index, colour: `var(--series-${(index % SERIES) + 1})`, symbol: index % 7, dash: DASHES[index % DASHES.length]};
   }
 
   dmrp.labels = {
-    FIELD_TITLES, distinct, variants, strata, is_of, values_of, naming_fields, named, combination, trial, metric, metric_title,
+    FIELD_TITLES, SHORT_TITLES, distinct, variants, strata, is_of, values_of, naming_fields, named, combination, trial, metric, metric_title,
     metric_with_unit, direction_words, measured_metrics, decimals, series,
   };
 })(window.dmrp);

@@ -19,18 +19,18 @@ window.dmrp = window.dmrp || {};
 
   function row(metric, summary, trials) {
     const decimals = dmrp.numbers.decimals_of([summary.mean, summary.low, summary.high, summary.median]);
-    const number = (...content) => element('td', {class: 'number'}, content);
+    const number = (label, ...content) => element('td', {class: 'number', 'data-label': label}, content);
     const show = (value) => dmrp.numbers.fixed(value, decimals);
     return element('tr', {},
       element('th', {scope: 'row', class: 'about'}, element('span', {class: 'name'}, metric.name),
         metric.wall_clock && element('span', {class: 'tag'}, 'clock time: differs from run to run'),
         element('span', {class: 'description'}, metric.description)),
-      element('td', {class: 'unit-cell'}, dmrp.numbers.unit(metric.unit) || '\u2013'),
-      element('td', {class: 'better', title: dmrp.labels.direction_words(metric.direction)}, BETTER[metric.direction],
+      element('td', {class: 'unit-cell', 'data-label': 'unit'}, dmrp.numbers.unit(metric.unit) || '\u2013'),
+      element('td', {class: 'better', 'data-label': 'better', title: dmrp.labels.direction_words(metric.direction)}, BETTER[metric.direction],
         dmrp.elements.hidden(dmrp.labels.direction_words(metric.direction))),
-      number(element('span', {class: 'mean'}, show(summary.mean)), element('span', {class: 'interval'}, dmrp.numbers.interval(summary.low, summary.high, decimals))),
-      number(show(summary.sd)), number(show(summary.median)), number(`${summary.defined}/${trials}`),
-      number(show(summary.paper_mean), ` (${summary.paper_count})`,
+      number('mean', element('span', {class: 'mean'}, show(summary.mean)), element('span', {class: 'interval'}, dmrp.numbers.interval(summary.low, summary.high, decimals))),
+      number('sd', show(summary.sd)), number('median', show(summary.median)), number('defined', `${summary.defined}/${trials}`),
+      number('paper\u2019s rule', show(summary.paper_mean), ` (${summary.paper_count})`,
         summary.paper_trimmed_all_nonzero && element('abbr', {class: 'flag', title: 'the rule removed every value that is not zero'}, '†')));
   }
 

@@ -34,9 +34,10 @@ window.dmrp = window.dmrp || {};
     return is_number(value) && value > 0 && Number(text) !== 0 ? '+' + text : text;
   }
 
-  // Nothing where all trials agree.
+  // Nothing where both ends are written alike.
   function interval(low, high, decimals, write = fixed) {
-    return is_number(low) && is_number(high) && low !== high ? `[${write(low, decimals)}, ${write(high, decimals)}]` : '';
+    if (!is_number(low) || !is_number(high) || fixed(low, decimals) === fixed(high, decimals)) return '';
+    return `[${write(low, decimals)}, ${write(high, decimals)}]`;
   }
 
   function p_value(p) {

@@ -61,8 +61,9 @@ window.dmrp = window.dmrp || {};
 
   function scenario_list(data) {
     const list = element('dl', {class: 'scenarios'});
-    for (const {scenario, label} of dmrp.labels.variants(data)) {
-      list.append(element('dt', {}, label, `, ${dmrp.numbers.counted(scenario.people, 'person', 'people')}`),
+    for (const scenario of data.scenarios) {
+      const robots = scenario.robots === 0 ? 'without robots, to compare with' : dmrp.numbers.counted(scenario.robots, 'robot');
+      list.append(element('dt', {}, `${scenario.name} · ${robots}, ${dmrp.numbers.counted(scenario.people, 'person', 'people')}`),
         element('dd', {}, scenario.description));
     }
     return list;

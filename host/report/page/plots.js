@@ -59,8 +59,7 @@ window.dmrp = window.dmrp || {};
     let [low, high] = d3.extent(values.filter(dmrp.numbers.is_number));
     if (low === undefined) [low, high] = [0, 1];
     if (zero) [low, high] = [Math.min(0, low), Math.max(0, high)];
-    if (low === high) [low, high] = [low - Math.max(0.5, Math.abs(low) * 0.1), high + Math.max(0.5, Math.abs(high) * 0.1)];
-    const room = zero ? 0 : (high - low) * 0.05;
+    const room = low === high ? Math.max(0.5, Math.abs(low) * 0.1) : (high - low) * (zero ? 0 : 0.05);
     return d3.scaleLinear().domain([low >= 0 ? Math.max(0, low - room) : low - room, high + room]).range(range).nice();
   }
 
@@ -75,7 +74,7 @@ window.dmrp = window.dmrp || {};
     return `M${-radius},${-radius}L${radius},${radius}M${-radius},${radius}L${radius},${-radius}`;
   }
 
-  // entries: [{label, colour, path, failed?, line?}]
+  // entries: [{label, colour, path, failed?, line?, dash?}]
   function legend(entries) {
     const list = element('ul', {class: 'legend'});
     for (const entry of entries) {
@@ -83,7 +82,8 @@ window.dmrp = window.dmrp || {};
       const width = entry.line ? 28 : 14;
       const svg = d3.select(item).append('svg').attr('width', width).attr('height', 14).attr('aria-hidden', 'true');
       if (entry.line)
-        svg.append('line').attr('x1', 0).attr('x2', width).attr('y1', 7).attr('y2', 7).attr('class', 'line').style('stroke', entry.colour);
+        svg.append('line').attr('x1', 0).attr('x2', width).attr('y1', 7).attr('y2', 7).attr('class', 'line').style('stroke', entry.colour)
+          .style('stroke-dasharray', entry.dash);
       svg.append('path').attr('transform', `translate(${width / 2},7)`).attr('d', entry.path)
         .attr('class', entry.failed ? 'mark failed' : 'mark').style('--colour', entry.colour)
         .style('fill', entry.failed ? 'none' : entry.colour);
@@ -99,7 +99,7 @@ window.dmrp = window.dmrp || {};
     if (values.length < 2) return null;
     return legend(values.map((value) => {
       const series = dmrp.labels.series(data, field, value);
-      return {label: dmrp.labels.named(value), colour: series.colour, path: symbol(series.symbol), line};
+      return {label: dmrp.labels.named(value), colour: series.colour, path: symbol(series.symbol), line, dash: series.dash};
     }));
   }
 
@@ -129,6 +129,14 @@ window.dmrp = window.dmrp || {};
     return Math.max(0, ...texts.map((text) => context.measureText(text).width));
   }
 
+  // Cut to `width` pixels; the whole of it for who points at it.
+  function fit_text(text, words, width) {
+    let shown = words;
+    while (shown.length > 4 && text_width([shown]) > width) shown = `${shown.slice(0, -2).trimEnd()}…`;
+    text.text(shown);
+    if (shown !== words) text.append('title').text(words);
+  }
+
   const SMALL_PANELS = {least: 240, most: 520, most_columns: 4};
 
   // Panels in columns of `least` to `most` pixels. Returns their elements.
@@ -147,6 +155,6 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.plots = {
-    responsive, frame, axis_bottom, axis_left, linear, symbol, cross, legend, field_legend, show_tip, hide_tip, text_width, SMALL_PANELS, panels,
+    responsive, frame, axis_bottom, axis_left, linear, symbol, cross, legend, field_legend, show_tip, hide_tip, text_width, fit_text, SMALL_PANELS, panels,
   };
 })(window.dmrp);

@@ -20,8 +20,10 @@ window.dmrp = window.dmrp || {};
     return values.map((_, i) => i).sort((i, j) => compare(values[i], values[j], descending) || i - j);
   }
 
-  // Indices of the best values. None where no direction is better, or where more than half of the values are equally good.
-  function best(values, direction) {
+  // Indices of the best values, as they are written. None where no direction is better, or where more than half of the
+  // values are equally good.
+  function best(exact, direction, decimals) {
+    const values = exact.map((value) => (is_defined(value) ? Number(value.toFixed(decimals)) : null));
     const defined = values.filter(is_defined);
     if (direction === 'none' || defined.length < 2) return new Set();
     const target = direction === 'higher' ? Math.max(...defined) : Math.min(...defined);

@@ -9,6 +9,7 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
   const KEY = 'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot to be now. Large rings: goals. Grey: people.';
+  const SCANS_KEY = ' Dots in a robot\'s colour: what its lidar hit.';
   let player = null;
 
   function make_player(section, data) {
@@ -37,9 +38,10 @@ window.dmrp = window.dmrp || {};
     const boxes = element('div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
       layer_box('people', 'people'), scan_box, element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow')));
 
+    const key = element('p', {class: 'note replay-key'});
     const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), stage.tools, boxes);
     const node = element('div', {class: 'replay-player'},
-      element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, element('p', {class: 'note replay-key'}, KEY)),
+      element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, key),
       element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node));
     dmrp.replay_transport.follow_keys(node, clock, {pick, zoom: stage.zoom});
 
@@ -84,6 +86,7 @@ window.dmrp = window.dmrp || {};
       scene.at = dmrp.replay_data.moment(replay, 0);
       scene.colours = dmrp.replay_look.read_colours();
       scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
+      key.textContent = KEY + (scan_box.hidden ? '' : SCANS_KEY);
       robots.show(replay);
       robots.pick(null);
       happened.show(scene.events);

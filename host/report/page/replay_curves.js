@@ -3,7 +3,7 @@
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
-  const MARGIN = {top: 22, right: 10, bottom: 20, left: 36};
+  const MARGIN = {top: 22, right: 16, bottom: 20, left: 36};
   const HEIGHT_PX = 118;
   const MANY_ROBOTS = 12;
   const POINTS_A_PIXEL = 1;

@@ -15,8 +15,8 @@ window.dmrp = window.dmrp || {};
   }
 
   // A list of differences, as numbers of 1/1000.
-  function deltas(list) {
-    const values = new Float32Array(list.length);
+  function deltas(list, List = Float32Array) {
+    const values = new List(list.length);
     let sum = 0;
     for (let i = 0; i < list.length; ++i) values[i] = (sum += list[i]) / 1000;
     return values;
@@ -98,7 +98,7 @@ window.dmrp = window.dmrp || {};
 
   function from_json(packed) {
     const count = packed.times.length;
-    const times = deltas(packed.times);
+    const times = deltas(packed.times, Float64Array);
     return {
       trial: packed.trial,
       times,

@@ -4,7 +4,7 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const FAILED = 2;  // replay_data.js
-  const SAME_S = 0.15;  // samples are 0.1 s apart
+  const SAME_S = {contact: 0.05, arrival: 0.15, failure: 0.15};  // a robot's state is known every 0.1 s
 
   function other_body(replay, contact) {
     if (contact.kind === 'robot') return `robot ${contact.other}`;
@@ -61,10 +61,10 @@ window.dmrp = window.dmrp || {};
 
   // A metric that speaks of the same moment and robot as what the trace itself tells says nothing new.
   function is_known(event, known) {
-    return known.some((other) => Math.abs(other.from - event.from) < SAME_S && other.robots.length > 0 &&
-      event.robots.length > 0 && other.robots.every((robot) => event.robots.includes(robot)) &&
-      event.robots.every((robot) => other.robots.includes(robot)) &&
-      (event.to - event.from < SAME_S || other.kind === 'contact'));
+    const same_robots = (other) => other.robots.length === event.robots.length &&
+      other.robots.every((robot) => event.robots.includes(robot));
+    return known.some((other) => other.robots.length > 0 && same_robots(other) &&
+      Math.abs(other.from - event.from) < SAME_S[other.kind] && Math.abs(other.to - event.to) < SAME_S[other.kind]);
   }
 
   // lane: events of one lane stand in one row of the time line.

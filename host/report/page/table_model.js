@@ -102,7 +102,7 @@ window.dmrp = window.dmrp || {};
   function mark_best(model) {
     for (const group of model.groups) {
       model.columns.forEach((column, c) => {
-        const best = dmrp.ranking.best(group.rows.map((row) => mean(row.cells[c])), column.metric.direction);
+        const best = dmrp.ranking.best(group.rows.map((row) => mean(row.cells[c])), column.metric.direction, column.decimals);
         group.rows.forEach((row, r) => { if (row.cells[c]) row.cells[c].best = best.has(r); });
       });
     }

@@ -41,7 +41,7 @@ window.dmrp = window.dmrp || {};
     return element('th', {scope: 'col', class: 'names', 'data-key': 'names'}, model.fields.map((field, i) => [
       i > 0 && ' + ',
       element('button', {type: 'button', class: 'sort', 'data-sort': field, onclick: () => sort_by(field)},
-        dmrp.labels.FIELD_TITLES[field].split(' ')[1]),
+        dmrp.labels.SHORT_TITLES[field]),
     ]));
   }
 
@@ -105,7 +105,7 @@ window.dmrp = window.dmrp || {};
     return dmrp.elements.titled_table(`title-${layout.id}`, layout.title, layout.note, table);
   }
 
-  const KEY = 'Dot and bold: the best mean of its column within a scenario, unless most share it. Brackets: 95 % interval over seeds, none where all trials agree; a fraction ' +
+  const KEY = 'Dot and bold: the best mean of its column within a scenario, unless most share it. Brackets: 95 % interval over seeds, none where all trials agree to the digits shown; a fraction ' +
     'after it says in how many trials the value is defined. Differences between rows are judged under Paired differences. ' +
     'Choose a header to sort.';
   const PAPER_KEY = 'Third line: the mean by the paper\u2019s rule and, in parentheses, over how many trials: failed trials ' +

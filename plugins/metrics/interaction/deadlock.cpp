@@ -142,8 +142,9 @@ void Deadlock::close(const Circle& circle, std::int64_t from_ns, std::int64_t to
 
 void Deadlock::finish(const TrialEnd&, MetricSink& sink) {
   for (const auto& [circle, from_ns] : open_) close(circle, from_ns, last_ns_);
-  std::sort(deadlocks_.begin(), deadlocks_.end(),
-            [](const Lasting& a, const Lasting& b) { return std::tie(a.from_ns, a.circle) < std::tie(b.from_ns, b.circle); });
+  std::sort(deadlocks_.begin(), deadlocks_.end(), [](const Lasting& a, const Lasting& b) {
+    return std::tie(a.from_ns, a.circle) < std::tie(b.from_ns, b.circle);
+  });
 
   UnionLength all;
   std::vector<UnionLength> own(progress_.size());

@@ -56,7 +56,7 @@ class Deadlock final : public Metric {
   std::vector<RecentProgress> progress_;  // a robot
   std::map<Circle, std::int64_t> open_;   // since when
   std::int64_t last_ns_ = 0;              // the last sample
-  std::vector<Lasting> deadlocks_;           // those that lasted
+  std::vector<Lasting> deadlocks_;        // those that lasted
 };
 
 }  // namespace dmrp::metrics

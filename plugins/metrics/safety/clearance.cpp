@@ -68,13 +68,11 @@ void Clearance::measure(const Sample& sample, std::size_t robot) {
   rooms.to_static.add(to_static_m, sample.dt_ns);
   bool danger = to_static_m < safe_distance_m;
 
-  double to_robot_m = undefined;
+  NearestDisc nearest_robot(own);
   for (std::size_t other = 0; other < rooms_.size(); ++other)
-    if (other != robot)
-      to_robot_m = std::fmin(to_robot_m, surface_distance(own, disc_of(world().robots()[other], sample.robots[other])));
-  double to_person_m = undefined;
-  for (const Person& person : sample.people)
-    to_person_m = std::fmin(to_person_m, surface_distance(own, disc_of(person)));
+    if (other != robot) nearest_robot.add(disc_of(world().robots()[other], sample.robots[other]));
+  NearestDisc nearest_person(own);
+  for (const Person& person : sample.people) nearest_person.add(disc_of(person));
 
   const auto note = [&](double distance_m, Room& room, TimeShare& share) {
     if (std::isnan(distance_m)) return;
@@ -82,8 +80,8 @@ void Clearance::measure(const Sample& sample, std::size_t robot) {
     share.add(distance_m < safe_distance_m, sample.dt_ns);
     danger = danger || distance_m < safe_distance_m;
   };
-  note(to_robot_m, rooms.to_robots, rooms.danger_robots);
-  note(to_person_m, rooms.to_people, rooms.danger_people);
+  note(nearest_robot.distance_m(), rooms.to_robots, rooms.danger_robots);
+  note(nearest_person.distance_m(), rooms.to_people, rooms.danger_people);
   rooms.danger.add(danger, sample.dt_ns);
 }
 

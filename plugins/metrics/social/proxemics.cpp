@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "proxemics.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "../measure/bodies.hpp"
 #include "../measure/describe_metric.hpp"
 #include "../measure/per_robot.hpp"
@@ -47,8 +44,9 @@ void Proxemics::observe(const Sample& sample) {
   for (std::size_t robot = 0; robot < shares_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
     const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
-    double nearest_m = std::numeric_limits<double>::infinity();
-    for (const Person& person : sample.people) nearest_m = std::min(nearest_m, surface_distance(own, disc_of(person)));
+    NearestDisc nearest(own);
+    for (const Person& person : sample.people) nearest.add(disc_of(person));
+    const double nearest_m = nearest.distance_m();
     Shares& shares = shares_[robot];
     shares.intimate.add(nearest_m <= intimate_m, sample.dt_ns);
     shares.personal.add(nearest_m > intimate_m && nearest_m <= personal_m, sample.dt_ns);

@@ -56,7 +56,8 @@ Descriptor SocialWork::describe() {
       .channels(DMRP_CHANNEL_PEOPLE)
       .value(
           "social_work", "m/s", lower, robots,
-          "integral over active time of |sum of people's social forces on the robot| + |force of the nearest static "
+          "integral over active time, forces taken at control steps and on arrival, of |sum of people's social forces "
+          "on the robot| + |force of the nearest static "
           "surface on it| + sum over people of |its social force on them|; with e toward the other, D = 2 (v - v') + "
           "e, B = 0.35 |D|, theta from D to e: social force 2.1 exp(-d / B) (exp(-(3 B theta)^2) back along D + "
           "exp(-(2 B theta)^2) aside of it), per mass, d between centres; static 10 exp(-d / 0.2 m), d from surface "
@@ -80,6 +81,11 @@ void SocialWork::observe(const Sample& sample) {
   for (std::size_t robot = 0; robot < works_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
     Work& work = works_[robot];
+    work.pending_ns += sample.dt_ns;
+    if (!sample.control_tick && active_.at_instant(robot)) continue;
+    const double duration_s = seconds(work.pending_ns);
+    work.active_ns += work.pending_ns;
+    work.pending_ns = 0;
     const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
     const Vec2 velocity = world_velocity(sample.robots[robot]);
     Vec2 on_robot = {0.0, 0.0};
@@ -91,9 +97,8 @@ void SocialWork::observe(const Sample& sample) {
     }
     const double to_wall_m = work.wall.find(own.center).distance_m - own.radius_m;
     const double of_wall = obstacle_weight * std::exp(-to_wall_m / obstacle_range_m);
-    work.active_ns += sample.dt_ns;
-    work.on_robot.add((toolkit::norm(on_robot) + of_wall) * seconds(sample.dt_ns));
-    work.on_people.add(on_people * seconds(sample.dt_ns));
+    work.on_robot.add((toolkit::norm(on_robot) + of_wall) * duration_s);
+    work.on_people.add(on_people * duration_s);
   }
 }
 

@@ -21,7 +21,8 @@ class SocialWork final : public Metric {
 
  private:
   struct Work {
-    std::int64_t active_ns = 0;
+    std::int64_t active_ns = 0;   // what the sums stand for
+    std::int64_t pending_ns = 0;  // since
     NearestWall wall;
     CompensatedSum on_robot;  // m/s: the integral of forces per mass
     CompensatedSum on_people;

@@ -40,7 +40,7 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     expect(problem.revision == plans_ + 1, "a revision is the next of the plan in force");
-    expect(problem.now_ns == problem.effective_from_ns && (problem.now_ns > 0) == (plans_ > 0), "now");
+    expect(problem.now_ns <= problem.effective_from_ns && (problem.now_ns > 0) == (plans_ > 0), "now");
     expect(problem.in_force.size() == (plans_ == 0 ? 0 : problem.robots.size()), "the plan in force");
     for (std::uint32_t i = 0; i < problem.in_force.size(); ++i)
       expect(dmrp::Path(problem.in_force[i])[0].t_ns < problem.now_ns, "the plan in force is older");

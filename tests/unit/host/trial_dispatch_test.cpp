@@ -200,6 +200,32 @@ TEST_CASE("a plan that fails leaves the old one in force") {
   while (const dmrp_sample* sample = stage.reader->next_sample()) REQUIRE(sample->plan->revision == 1);
 }
 
+TEST_CASE("a plan takes effect when its latency is over: until the first robots wait, then the old one stands") {
+  Stage stage(lanes({9.5}));
+  stage.experiment.simulation.replan.period_ns = 3 * second_ns;
+  stage.experiment.simulation.planning_latency_ns = 1'500'000'000;
+  CHECK(stage.run());
+  const auto& plans = stage.reader->plans();
+  REQUIRE(plans.size() > 3);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    CHECK(plans[i].made_at_ns == static_cast<std::int64_t>(i) * 3 * second_ns);
+    CHECK(plans[i].plan.from_ns == plans[i].made_at_ns + 1'500'000'000);
+    CHECK(plans[i].plan.paths->waypoints->t_ns == plans[i].plan.from_ns);
+    CHECK(plans[i].plan.revision == i + 1);
+  }
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    // the state of a control tick is written down before the plan is taken up
+    const std::int64_t in_force = (sample->t_ns - 1 + 1'500'000'000) / (3 * second_ns);
+    if (sample->t_ns <= 1'500'000'000) {
+      CHECK(sample->plan == nullptr);
+      CHECK(robot_of(*sample, 0).pose.x == 1.5);
+    } else {
+      REQUIRE(sample->plan != nullptr);
+      CHECK(sample->plan->revision == static_cast<std::uint64_t>(in_force));
+    }
+  }
+}
+
 TEST_CASE("a robot that strays is planned anew from where it is") {
   Stage stage(lanes({10.5}));
   stage.experiment.scenarios[0].scenario.upper.y = 8.0;

@@ -63,7 +63,7 @@ struct Stage {
 
   TrialEnding run() {
     trace = std::make_unique<core::TraceEncoder>(variant->view.world());
-    const TrialEnding ending = run_trial({experiment, {}, *variant, 1}, *pool, *trace);
+    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, *trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending;
   }
@@ -75,6 +75,7 @@ struct Stage {
   CallNote note{};
   CallGuard guard{note};
   Experiment experiment;
+  Combination combination;
   std::unique_ptr<VariantWorld> variant;
   std::unique_ptr<InstancePool> pool;
   std::unique_ptr<core::TraceEncoder> trace;
@@ -183,6 +184,27 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   const MetricResult result = stage.measured();
   CHECK(result.index == 3);
   CHECK(system_of(result, "samples") == 0.0);
+}
+
+TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {
+  Stage stage(0);
+  stage.experiment.scenarios[0].scenario.tracks = {{{{0, {1.0, 1.0}}, {2'000'000'000, {3.0, 1.0}}}},
+                                                   {{{1'000'000'000, {5.0, 5.0}}, {3'000'000'000, {5.0, 4.0}}}}};
+  stage.variant = std::make_unique<VariantWorld>(stage.experiment, stage.experiment.scenarios[0]);
+  stage.combination = {0, -1, -1, -1};
+  const TrialEnding ending = stage.run();
+  CHECK(ending.succeeded);
+  CHECK(ending.sim_time_s == 3.02);
+  CHECK(stage.reader->end()->ending == DMRP_ENDING_DESERTED);
+  CHECK(stage.reader->plans().empty());
+  CHECK(stage.reader->world().person_count == 2);
+  std::vector<std::uint32_t> counts;
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    CHECK(sample->plan == nullptr);
+    if (counts.empty() || counts.back() != sample->person_count) counts.push_back(sample->person_count);
+  }
+  CHECK(counts == std::vector<std::uint32_t>{1, 2, 1, 0});
+  CHECK(system_of(stage.measured(), "samples") == 152.0);
 }
 
 TEST_CASE("a whole plan that came late counts") {

@@ -144,6 +144,15 @@ TEST_CASE("social work is the forces between robot and people, added up over tim
     trial.sample(1.0, {at(0, 0)}).crowd({person(500, 0)}).end(1.0, {never});
     CHECK_THAT(measure("dmrp.metric.social_work", trial).system("social_work"), WithinAbs(10 * std::exp(-0.5), 1e-12));
   }
+  SECTION("forces are taken at control steps and on arrival, each for the time since the last") {
+    trial.sample(1.0, {at(0, 0)}).crowd({person(0.1, 0)}).without_control();
+    trial.sample(2.0, {at(0, 0)}).crowd({person(1, 0)});                                   // for 2 s
+    trial.sample(3.0, {at(0, 0, 0.0, parked)}).crowd({person(0.5, 0)}).without_control();  // for 1 s
+    trial.sample(4.0, {at(0, 0, 0.0, parked)}).crowd({person(0.5, 0)});
+    trial.end(4.0, {3.0});
+    CHECK_THAT(measure("dmrp.metric.social_work", trial).system("social_work_people"),
+               WithinAbs(2 * 2.1 * std::exp(-1.0 / 0.35) + 2.1 * std::exp(-0.5 / 0.35), 1e-14));
+  }
   SECTION("without people it is undefined") {
     trial.sample(1.0, {at(0, 0)}).end(1.0, {never});
     CHECK(std::isnan(measure("dmrp.metric.social_work", trial).system("social_work")));
