@@ -120,6 +120,13 @@ CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
   return command;
 }
 
+CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
+  CLI::App* command = app.add_subcommand("merge", "joins runs of parts of one experiment (--shard)");
+  command->add_option("out", options.out, "the run directory to make")->required()->type_name("OUT");
+  command->add_option("runs", options.runs, "run directories")->required()->type_name("RUN_DIR");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
@@ -156,6 +163,9 @@ int run_main(int argc, char** argv) {
   EvaluateOptions evaluate;
   CLI::App* evaluating = add_evaluate(app, evaluate);
 
+  MergeOptions merge;
+  CLI::App* merging = add_merge(app, merge);
+
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
@@ -181,6 +191,7 @@ int run_main(int argc, char** argv) {
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
   if (report->parsed()) return report_command(reported, replayed);
+  if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));

@@ -78,4 +78,10 @@ struct EvaluateOptions {
 };
 int evaluate_command(const EvaluateOptions& options);
 
+struct MergeOptions {
+  std::filesystem::path out;
+  std::vector<std::filesystem::path> runs;
+};
+int merge_command(const MergeOptions& options, const std::vector<std::string>& command_line);
+
 }  // namespace dmrp::host

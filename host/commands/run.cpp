@@ -10,17 +10,14 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/run_directory.hpp"
+#include "host/commands/run_results.hpp"
 #include "host/executable.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/input_error.hpp"
-#include "host/report/write_report.hpp"
 #include "host/results/atomic_file.hpp"
-#include "host/results/closing_line.hpp"
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/summary.hpp"
-#include "host/results/summary_table.hpp"
-#include "host/results/trials_csv.hpp"
+#include "host/results/summary_layout.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/version.hpp"
 #include "host/workers/supervisor.hpp"
@@ -126,15 +123,6 @@ class RunFiles {
   const fs::path& directory() const { return directory_.path(); }
   fs::path database() const { return directory() / "results.sqlite"; }
 
-  // The tables for people, from all that the database has.
-  void write_tables(const ResultsDatabase& database, const SummaryLayout& layout) const {
-    const auto metrics = database.metrics();
-    const auto trials = database.trials();
-    write_file_atomically(directory() / "trials.csv", trials_csv(metrics, trials));
-    write_file_atomically(directory() / "summary.csv",
-                          summary_csv(metrics, summarise(metrics, trials, layout.counts_failures)));
-  }
-
  private:
   void begin(const Experiment& experiment, const Manifest& manifest) const {
     if (experiment.traces != RecordTraces::none) fs::create_directories(directory() / "traces");
@@ -159,33 +147,6 @@ class RunFiles {
 
   RunDirectory directory_;
 };
-
-// Whether there is one: the results are worth keeping without it.
-bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
-  if (database.finished_trials().empty()) return false;
-  try {
-    write_report(directory);
-    return true;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "warning: no report.html: {}\n", error.what());
-    return false;
-  }
-}
-
-void print_results(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory,
-                   const Experiment& experiment, bool reported) {
-  const auto metrics = database.metrics();
-  const auto trials = database.trials();
-  TableStyle style;
-  style.width = terminal_width();
-  style.ansi = style.width > 0;
-  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), style),
-             closing_line(layout, trials));
-  std::vector<std::string> files = {"results.sqlite"};
-  if (reported) files.insert(files.begin(), "report.html");
-  if (experiment.traces != RecordTraces::none) files.push_back("traces/");
-  fmt::print("  {}\n", files_line(directory, files));
-}
 
 }  // namespace
 
@@ -212,16 +173,17 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
       },
       [&] { progress.refresh(); });
   progress.finish();
-  files.write_tables(database, layout);
-  const bool reported = try_to_report(database, files.directory());
-  if (!options.quiet) print_results(database, layout, files.directory(), experiment, reported);
+  const RunResults results = read_results(database, layout);
+  write_tables(results, files.directory());
+  const bool reported = try_to_report(results, files.directory());
+  if (!options.quiet) print_results(results, layout, files.directory(), reported);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
                files.directory().string());
     return exit_status::interrupted;
   }
-  const auto all = database.trials();
-  const bool faults = std::any_of(all.begin(), all.end(), [](const TrialRecord& t) { return !t.faults.empty(); });
+  const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
+                                  [](const TrialRecord& trial) { return !trial.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;
 }
 

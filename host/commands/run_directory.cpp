@@ -59,11 +59,15 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
 
 RunDirectory RunDirectory::reopen(const fs::path& out) {
   if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to go on with");
+  return open_finished(out, "--out " + out.string());
+}
+
+RunDirectory RunDirectory::open_finished(const fs::path& path, const std::string& shown) {
   std::error_code ignored;
-  if (!fs::is_regular_file(out / "results.sqlite", ignored))
-    throw InputError(fmt::format("--out {}: is no run directory (no results.sqlite)", out.string()));
-  RunDirectory directory(out);
-  if (!directory.locked()) throw InputError(fmt::format("--out {}: another dmrp-host is running in it", out.string()));
+  if (!fs::is_regular_file(path / "results.sqlite", ignored))
+    throw InputError(fmt::format("{}: is no run directory (no results.sqlite)", shown));
+  RunDirectory directory(path);
+  if (!directory.locked()) throw InputError(fmt::format("{}: another dmrp-host is running in it", shown));
   return directory;
 }
 

@@ -14,8 +14,11 @@ class RunDirectory {
   // Makes the directory. Throws InputError.
   static RunDirectory make(const std::filesystem::path& out, const std::string& name);
 
-  // Of a run to go on with. Throws InputError.
+  // Of a run to go on with, named by --out. Throws InputError.
   static RunDirectory reopen(const std::filesystem::path& out);
+
+  // One that was run and runs no more; `shown` is how messages call it. Throws InputError.
+  static RunDirectory open_finished(const std::filesystem::path& path, const std::string& shown);
 
   RunDirectory(RunDirectory&& other) noexcept;
   RunDirectory& operator=(RunDirectory&&) = delete;

@@ -43,11 +43,24 @@ void keep_sample(Tracks& to, const dmrp_sample& sample, const std::deque<core::T
   to.plan.add(index, index_of(sample.plan, plans));
 }
 
+// Where planning failed nothing was sampled: the robots stand at their starts.
+void keep_start(Tracks& to, const dmrp_world& world) {
+  to.times_ms.push_back(0);
+  for (std::uint32_t i = 0; i < world.robot_count; ++i) {
+    dmrp_robot_sample robot{};
+    robot.pose = world.robots[i].start;
+    robot.state = DMRP_ROBOT_FAILED;
+    to.robots[i].add(0, robot, nullptr);
+  }
+  to.plan.add(0, -1);
+}
+
 // Contacts are told from every sample; of the rest, the first at or after each period and the last of all are kept.
 Tracks follow(core::TraceReader& trace) {
   Tracks tracks;
   tracks.robots.resize(trace.world().robot_count);
   trace.rewind();
+  if (trace.sample_count() == 0) keep_start(tracks, trace.world());
   std::int64_t next_ns = 0;
   for (std::size_t left = trace.sample_count(); left > 0; --left) {
     const dmrp_sample& sample = *trace.next_sample();

@@ -6,7 +6,7 @@
 // flat list of x and y. Optional keys carry a question mark.
 //
 //   {"format": 1, "trial": 17,
-//    "times": D,                                    of the samples: ten a second, and the trial's last
+//    "times": D,                                    of the samples: ten a second, and the trial's last; 0 without any
 //    "world": {"lower": [x, y], "upper": [x, y],
 //              "shapes": [{"name", "height", "vertices": points | "center": [x, y], "radius"}]},
 //    "robots": [{"name", "radius", "outline"?: points, "v_max",

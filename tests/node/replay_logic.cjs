@@ -66,6 +66,21 @@ const tests = {
     assert.strictEqual(replay_data.moment(replay, 0).k, 0);
   },
 
+  'a trial without a plan stands still, one without robots shows the world'() {
+    const none = packed();
+    Object.assign(none, {times: [0], people: [], plans: [], plan: [0, -1], contacts: [], events: [], end: {t: 0, reason: 'no plan'}});
+    for (const robot of none.robots)
+      Object.assign(robot, {x: [1000], y: [500], theta: [0], speed: [0], deviation: [-1], state: [0, 2], goal: [0, 0], arrival: undefined, failure: 'no plan', scans: undefined});
+    const replay = replay_data.from_json(none);
+    assert.strictEqual(replay.end, 0);
+    const at = replay_data.moment(replay, 0);
+    assert.deepStrictEqual(plain(replay_data.robot_pose(replay.robots[0], at)), {x: 1, y: 0.5, theta: 0});
+    assert.strictEqual(replay_data.path_in_force(replay, 0, at), null);
+    assert.deepStrictEqual(plain(replay_events.all_events(replay).map((event) => event.text)), ['robot 0 failed: no plan', 'robot 1 failed: no plan']);
+    const empty = replay_data.from_json({...none, robots: []});
+    assert.deepStrictEqual(plain(replay_data.lively_box(empty)), [[0, 0], [8, 4]]);
+  },
+
   'people are there from their first to their last sample'() {
     const replay = replay_data.from_json(packed());
     const person = (t) => replay_data.person_pose(replay.people[0], replay_data.moment(replay, t));

@@ -87,6 +87,7 @@ window.dmrp = window.dmrp || {};
       scene.colours = dmrp.replay_look.read_colours();
       scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
       key.textContent = KEY + (scan_box.hidden ? '' : SCANS_KEY);
+      robots.node.hidden = curves.node.hidden = replay.robots.length === 0;
       robots.show(replay);
       robots.pick(null);
       happened.show(scene.events);
@@ -156,7 +157,8 @@ window.dmrp = window.dmrp || {};
   }
 
   function notes(data) {
-    return dmrp.replay_chooser.left_out_words(data).map((words) => element('p', {class: 'note'}, words));
+    const words = [...dmrp.replay_chooser.left_out_words(data), 'Any other trial with a trace comes in by: dmrp-host report RUN_DIR --replay TRIAL'];
+    return words.map((sentence) => element('p', {class: 'note'}, sentence));
   }
 
   function mount(section, data) {

@@ -39,9 +39,10 @@ window.dmrp = window.dmrp || {};
     return mesh;
   }
 
+  // A disc where `inner` is 0.
   function flat_ring(inner, outer, colour) {
-    const ring = new THREE.Mesh(new THREE.RingBufferGeometry(inner, outer, 40),
-      new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide}));
+    const flat = inner > 0 ? new THREE.RingBufferGeometry(inner, outer, 40) : new THREE.CircleBufferGeometry(outer, 24);
+    const ring = new THREE.Mesh(flat, new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide}));
     ring.rotation.x = -Math.PI / 2;
     ring.position.y = RING_HEIGHT_M;
     return ring;

@@ -121,6 +121,18 @@ TEST_CASE("A replay tells the plan in force, the states, and the curves up to th
   CHECK(replay["end"]["reason"] == "time limit");
 }
 
+TEST_CASE("Without a plan there are no samples: the robots stand at their starts") {
+  const test::ExampleWorld world;
+  core::TraceEncoder trace(world.world);
+  const json replay = replay_of(trace.bytes());
+  CHECK(replay["times"] == json::array({0}));
+  CHECK(replay["plan"] == json{0, -1});
+  CHECK(replay["people"].empty());
+  CHECK(replay["robots"][1]["x"] == json::array({5500}));
+  CHECK(replay["robots"][1]["theta"] == json::array({3100}));
+  CHECK(replay["robots"][1]["state"] == json{0, DMRP_ROBOT_FAILED});
+}
+
 TEST_CASE("People have a track each from entering to leaving") {
   const json replay = replay_of(test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
   const json& people = replay["people"];

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Joins runs of parts of one experiment: what they make together is what one run of all would have left.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <system_error>
+
+#include "host/commands/commands.hpp"
+#include "host/commands/run_directory.hpp"
+#include "host/commands/run_results.hpp"
+#include "host/executable.hpp"
+#include "host/experiment/read_file.hpp"
+#include "host/input_error.hpp"
+#include "host/results/atomic_file.hpp"
+#include "host/results/database.hpp"
+#include "host/results/manifest.hpp"
+#include "host/results/summary_layout.hpp"
+#include "host/version.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Part {
+  RunDirectory directory;
+  std::string shown;
+  std::string effective;
+  Manifest manifest;
+  std::vector<MetricColumn> metrics;
+  std::vector<TrialRecord> trials;  // those that were run
+};
+
+Part read_part(const fs::path& path) {
+  Part part = {RunDirectory::open_finished(path, path.string()), path.string(), {}, {}, {}, {}};
+  part.effective = read_file(path / "effective.toml", (path / "effective.toml").string());
+  part.manifest = read_manifest(path / "manifest.json");
+  const ResultsDatabase database = ResultsDatabase::open_read_only(path / "results.sqlite");
+  part.metrics = database.metrics();
+  part.trials = database.trials();
+  std::erase_if(part.trials, [](const TrialRecord& trial) { return trial.outcome == trial_outcome::skipped; });
+  return part;
+}
+
+// Results may only stand together where one run would have given the same bits.
+void check_same(const Part& first, const Part& other) {
+  if (other.effective != first.effective)
+    throw InputError(
+        fmt::format("{}: is a run of another experiment than {} (effective.toml differs)", other.shown, first.shown));
+  if (const auto reasons = differences(first.manifest, other.manifest); !reasons.empty())
+    throw InputError(fmt::format("{}: cannot be joined with {}: {}", other.shown, first.shown, reasons.front()));
+}
+
+void check_apart(const std::vector<Part>& parts) {
+  std::map<std::uint64_t, const Part*> owners;
+  for (const Part& part : parts)
+    for (const TrialRecord& trial : part.trials)
+      if (const auto [owner, is_new] = owners.emplace(trial.id, &part); !is_new)
+        throw InputError(fmt::format("{}: trial {} is in {} already", part.shown, trial.id, owner->second->shown));
+}
+
+Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::string>& command_line) {
+  Manifest manifest = parts.front().manifest;
+  manifest.command_line = command_line;
+  for (const Part& part : parts) {
+    if (&part == &parts.front()) continue;
+    manifest.experiment.trials_planned += part.manifest.experiment.trials_planned;
+    manifest.started_at = std::min(manifest.started_at, part.manifest.started_at);  // ISO 8601 sorts by time
+  }
+  return manifest;
+}
+
+// By a link where the file system can: traces are large, and never written again.
+void take_traces(const Part& part, const fs::path& out) {
+  const fs::path folder = part.directory.path() / "traces";
+  if (std::error_code ignored; !fs::is_directory(folder, ignored)) return;
+  fs::create_directories(out / "traces");
+  for (const TrialRecord& trial : part.trials) {
+    const std::string name = fmt::format("trial_{:06}.mcap", trial.id);
+    std::error_code error;
+    if (!fs::is_regular_file(folder / name, error)) continue;
+    fs::create_hard_link(folder / name, out / "traces" / name, error);
+    if (error) fs::copy_file(folder / name, out / "traces" / name);
+  }
+}
+
+void take_log(const Part& part, const fs::path& out) {
+  std::ifstream from(part.directory.path() / "log.txt", std::ios::binary);
+  if (!from || from.peek() == std::ifstream::traits_type::eof()) return;
+  std::ofstream(out / "log.txt", std::ios::binary | std::ios::app) << from.rdbuf();
+}
+
+}  // namespace
+
+int merge_command(const MergeOptions& options, const std::vector<std::string>& command_line) {
+  std::vector<Part> parts;
+  for (const fs::path& path : options.runs) parts.push_back(read_part(path));
+  for (const Part& part : parts) check_same(parts.front(), part);
+  check_apart(parts);
+  if (std::error_code ignored; fs::exists(options.out, ignored) && !fs::is_empty(options.out, ignored))
+    throw InputError(fmt::format("{}: is there already and not empty", options.out.string()));
+  const RunDirectory made = RunDirectory::make(options.out, "");
+  const fs::path& out = made.path();
+
+  const Manifest manifest = joined_manifest(parts, command_line);
+  fs::copy_file(parts.front().directory.path() / "experiment.toml", out / "experiment.toml");
+  write_file_atomically(out / "effective.toml", parts.front().effective);
+  write_file_atomically(out / "manifest.json", to_json_text(manifest));
+  ResultsDatabase database = ResultsDatabase::create(out / "results.sqlite", parts.front().metrics);
+  std::vector<const TrialRecord*> trials;
+  for (const Part& part : parts)
+    for (const TrialRecord& trial : part.trials) trials.push_back(&trial);
+  std::sort(trials.begin(), trials.end(), [](const auto* a, const auto* b) { return a->id < b->id; });
+  for (const TrialRecord* trial : trials) database.write(*trial);
+  for (const Part& part : parts) {
+    take_traces(part, out);
+    take_log(part, out);
+  }
+
+  const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
+  const RunResults results = read_results(database, layout);
+  write_tables(results, out);
+  print_results(results, layout, out, try_to_report(results, out));
+  if (trials.size() < manifest.experiment.trials_planned)
+    fmt::print(stderr, "{} of {} trials are there: go on with --resume --out {}\n", trials.size(),
+               manifest.experiment.trials_planned, out.string());
+  return exit_status::done;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Shards that are joined are the run that was divided.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+source_file=$here/crossing.toml
+
+run() {
+  expect_status 0 "$host" "$source_file" --trials 2 --quiet "$@"
+}
+# expect_refusal PATTERN ARGUMENT...: of merge, which then leaves nothing behind
+expect_refusal() {
+  expect_status 2 "$host" merge "${@:2}"
+  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
+  grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
+  [[ ! -e $scratch/none ]] || fail "something was written"
+}
+
+run --out "$scratch/whole"
+run --shard 0/3 --out "$scratch/a"
+run --shard 1/3 --out "$scratch/b"
+run --shard 2/3 --out "$scratch/c"
+expect_status 0 "$host" merge "$scratch/joined" "$scratch/c" "$scratch/a" "$scratch/b"
+grep -q "$scratch/joined" "$scratch/stdout" || fail "the run directory is not named"
+[[ ! -s $scratch/stderr ]] || fail "nothing is missing: $(cat "$scratch/stderr")"
+[[ $(values_of "$scratch/joined") == "$(values_of "$scratch/whole")" ]] || fail "the shards together differ from the whole"
+for file in effective.toml experiment.toml; do
+  cmp -s "$scratch/joined/$file" "$scratch/whole/$file" || fail "$file differs"
+done
+names() { (cd "$scratch/$1" && find . -type f -not -name 'results.sqlite-*' -not -name log.txt | sort); }
+[[ $(names joined) == "$(names whole)" ]] || fail "other files than in the whole: $(diff <(names joined) <(names whole))"
+expect_status 0 "$host" evaluate "$scratch/joined" --metric dmrp.metric.path_length
+mv "$scratch/stdout" "$scratch/of_joined"
+expect_status 0 "$host" evaluate "$scratch/whole" --metric dmrp.metric.path_length
+cmp -s "$scratch/stdout" "$scratch/of_joined" || fail "the traces differ"
+
+# what is missing is run by --resume
+expect_status 0 "$host" merge "$scratch/part" "$scratch/a" "$scratch/b"
+run --resume --out "$scratch/part"
+[[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
+
+expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"
+expect_refusal "$scratch/joined: is there already and not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
+mkdir "$scratch/empty"
+expect_refusal "$scratch/empty: is no run directory" "$scratch/none" "$scratch/a" "$scratch/empty"
+sed 's/^seed .*/seed = 8/' "$source_file" >"$scratch/other.toml"
+expect_status 0 "$host" "$scratch/other.toml" --trials 2 --shard 1/3 --quiet --out "$scratch/other"
+expect_refusal "$scratch/other: is a run of another experiment than $scratch/a" "$scratch/none" "$scratch/a" "$scratch/other"
+sed -i 's/"libc": "[^"]*"/"libc": "another 1.0"/' "$scratch/b/manifest.json"
+expect_refusal "$scratch/b: cannot be joined with $scratch/a: libc: .*another 1.0" "$scratch/none" "$scratch/a" "$scratch/b"
