@@ -255,6 +255,9 @@ const tests = {
       ['good']
     );
     assert.match(dmrp.verdict.lines(data)[0].text, /32 of 32 robots arrived/);
+    data.values.contacts = data.trials.id.map((id) => (id === 5 ? 2 : 0));
+    assert.match(dmrp.verdict.lines(data)[0].text, /^32 of 32 robots arrived, with 2 contacts; no faults/);
+    delete data.values.contacts;
     data.values.arrived[2] = 0.5;
     data.trials.outcome[2] = 'failed';
     same(
