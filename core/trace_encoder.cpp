@@ -164,6 +164,7 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
 // Robots, people and contacts are most of a trace: each goes in as it lies in memory, where it has no padding.
 void TraceEncoder::sample(const dmrp_sample& sample) {
   now_ns_ = sample.t_ns;
+  if (foxglove_) foxglove_->sample(sample);
   record(TraceRecordKind::sample, [&](ByteWriter& out) {
     out.put(sample.t_ns);
     out.put(sample.dt_ns);
@@ -182,7 +183,6 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
     for (std::uint32_t i = 0; i < sample.call_count; ++i)
       put_call(out, *DMRP_AT(dmrp_call, sample.calls, sample.call_stride, i));
   });
-  if (foxglove_) foxglove_->sample(sample);
 }
 
 void TraceEncoder::scan(std::uint32_t robot, const dmrp_scan& scan) {
@@ -222,6 +222,7 @@ void TraceEncoder::note(TraceSource source, std::string_view text) {
 }
 
 void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
+  if (foxglove_) foxglove_->end(end, reason);
   record(TraceRecordKind::end, [&](ByteWriter& out) {
     out.put(end.ending);
     out.put(end.t_ns);
@@ -234,7 +235,6 @@ void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
     }
     out.put_text(reason);
   });
-  if (foxglove_) foxglove_->end(end, reason);
 }
 
 }  // namespace dmrp::core

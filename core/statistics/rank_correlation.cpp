@@ -34,9 +34,15 @@ std::int64_t product(const Ranks& a, const Ranks& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), std::int64_t{0});
 }
 
+// Rounding must not lead beyond 1.
+double correlation_of(std::int64_t xx, std::int64_t xy, std::int64_t yy) {
+  if (xx == 0 || yy == 0) return undefined;
+  const double spread = std::sqrt(static_cast<double>(xx)) * std::sqrt(static_cast<double>(yy));
+  return std::clamp(static_cast<double>(xy) / spread, -1.0, 1.0);
+}
+
 double correlation(const Ranks& x, const Ranks& y) {
-  const double spread = std::sqrt(static_cast<double>(product(x, x))) * std::sqrt(static_cast<double>(product(y, y)));
-  return x.size() < 2 || spread == 0.0 ? undefined : static_cast<double>(product(x, y)) / spread;
+  return correlation_of(product(x, x), product(x, y), product(y, y));
 }
 
 double exact_p(const Ranks& x, Ranks y) {
@@ -100,8 +106,7 @@ double weighted_correlation(const Ranks& x, const Ranks& y, const std::vector<st
     xy += count[i] * x[i] * y[i];
     yy += count[i] * y[i] * y[i];
   }
-  if (xx == 0 || yy == 0) return undefined;
-  return static_cast<double>(xy) / (std::sqrt(static_cast<double>(xx)) * std::sqrt(static_cast<double>(yy)));
+  return correlation_of(xx, xy, yy);
 }
 
 Interval bootstrap(std::span<const double> x, std::span<const double> y, std::span<const std::uint64_t> cluster,

@@ -122,8 +122,9 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   }
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
-  write_tables(database, layout, out);
-  print_results(database, layout, out, try_to_report(database, out));
+  const RunResults results = read_results(database, layout);
+  write_tables(results, out);
+  print_results(results, layout, out, try_to_report(results, out));
   if (trials.size() < manifest.experiment.trials_planned)
     fmt::print(stderr, "{} of {} trials are there: go on with --resume --out {}\n", trials.size(),
                manifest.experiment.trials_planned, out.string());

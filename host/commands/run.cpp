@@ -173,16 +173,17 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
       },
       [&] { progress.refresh(); });
   progress.finish();
-  write_tables(database, layout, files.directory());
-  const bool reported = try_to_report(database, files.directory());
-  if (!options.quiet) print_results(database, layout, files.directory(), reported);
+  const RunResults results = read_results(database, layout);
+  write_tables(results, files.directory());
+  const bool reported = try_to_report(results, files.directory());
+  if (!options.quiet) print_results(results, layout, files.directory(), reported);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
                files.directory().string());
     return exit_status::interrupted;
   }
-  const auto all = database.trials();
-  const bool faults = std::any_of(all.begin(), all.end(), [](const TrialRecord& t) { return !t.faults.empty(); });
+  const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
+                                  [](const TrialRecord& trial) { return !trial.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;
 }
 

@@ -11,7 +11,6 @@
 #include "host/report/write_report.hpp"
 #include "host/results/atomic_file.hpp"
 #include "host/results/closing_line.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/summary_table.hpp"
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/progress.hpp"
@@ -20,16 +19,19 @@ namespace dmrp::host {
 
 namespace fs = std::filesystem;
 
-void write_tables(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory) {
-  const auto metrics = database.metrics();
-  const auto trials = database.trials();
-  write_file_atomically(directory / "trials.csv", trials_csv(metrics, trials));
-  write_file_atomically(directory / "summary.csv",
-                        summary_csv(metrics, summarise(metrics, trials, layout.counts_failures)));
+RunResults read_results(const ResultsDatabase& database, const SummaryLayout& layout) {
+  RunResults results{database.metrics(), database.trials(), {}};
+  results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
+  return results;
 }
 
-bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
-  if (database.finished_trials().empty()) return false;
+void write_tables(const RunResults& results, const fs::path& directory) {
+  write_file_atomically(directory / "trials.csv", trials_csv(results.metrics, results.trials));
+  write_file_atomically(directory / "summary.csv", summary_csv(results.metrics, results.summaries));
+}
+
+bool try_to_report(const RunResults& results, const fs::path& directory) {
+  if (results.trials.empty()) return false;
   try {
     write_report(directory);
     return true;
@@ -39,15 +41,12 @@ bool try_to_report(const ResultsDatabase& database, const fs::path& directory) {
   }
 }
 
-void print_results(const ResultsDatabase& database, const SummaryLayout& layout, const fs::path& directory,
-                   bool reported) {
-  const auto metrics = database.metrics();
-  const auto trials = database.trials();
+void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported) {
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0;
-  fmt::print("\n{}\n  {}\n", summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), style),
-             closing_line(layout, trials));
+  fmt::print("\n{}\n  {}\n", summary_table(layout, results.metrics, results.summaries, style),
+             closing_line(layout, results.trials));
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");
   if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");

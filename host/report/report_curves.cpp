@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/report_curves.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -46,9 +47,12 @@ std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const ReportLay
   std::vector<MetricCurve> curves;
   std::map<std::size_t, core::BootstrapDraws> draws;  // by number of seeds
   for (const auto& [key, points] : collected) {
-    MetricCurve& curve = curves.emplace_back(MetricCurve{key.first, key.second, {}});
+    MetricCurve curve{key.first, key.second, {}};
     for (const auto& [coordinate, by_seed] : points)
       curve.points.push_back(summarise_point(coordinate, by_seed, draws));
+    const bool defined =
+        std::any_of(curve.points.begin(), curve.points.end(), [](const auto& point) { return point.defined > 0; });
+    if (defined) curves.push_back(std::move(curve));
   }
   return curves;
 }

@@ -25,7 +25,8 @@ struct MetricCurve {
   std::vector<CurvePoint> points;  // by coordinate
 };
 
-// The system's curves; metrics in their order, combinations within. What the layout needs for delays is left out.
+// The system's curves; metrics in their order, combinations within. Left out: what the layout
+// needs for delays, and curves without a defined point.
 std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const ReportLayout& layout);
 
 }  // namespace dmrp::host

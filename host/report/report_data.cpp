@@ -149,6 +149,7 @@ void add_planners(Json& json, const ReportFrame& frame, std::span<const std::str
   json["planners"] = Json::array();
   std::vector<CombinationLabels> groups;
   for (const CombinationSummary& summary : summaries) {
+    if (summary.combination.robots == 0) continue;  // nobody to plan for
     const CombinationLabels& labels = groups.emplace_back(summary.combination);
     json["planners"].push_back(
         {{"scenario", labels.scenario}, {"robots", labels.robots}, {"global_planner", labels.global_planner}});

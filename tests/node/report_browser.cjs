@@ -33,15 +33,27 @@ async function launch() {
   const {chromium, executable} = browser_or_skip();
   return chromium.launch({
     executablePath: executable,
-    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-           '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+    args: [
+      '--no-sandbox',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist',
+    ],
   });
 }
 
 // Runs an experiment into `folder`; returns the report's path.
 function run_experiment(experiment, folder, {status = 0, options = [], env = {}} = {}) {
-  const run = spawnSync(process.env.DMRP_HOST, [experiment, '--quiet', '--out', folder, ...options],
-    {encoding: 'utf8', env: {...process.env, ...env}});
+  const run = spawnSync(process.env.DMRP_HOST, [experiment, '--quiet', '--out', folder, ...options], {
+    encoding: 'utf8',
+    env: {...process.env, ...env},
+  });
   assert.strictEqual(run.status, status, `dmrp-host ${experiment}: status ${run.status}\n${run.stderr}`);
   const report = path.join(folder, 'report.html');
   assert.ok(fs.existsSync(report), `${report} was not written\n${run.stderr}`);
@@ -57,13 +69,19 @@ function scratch_folder() {
 // Opens a report; `said` gathers what a reader should never meet. Sections come as they are scrolled to: all are asked
 // for here.
 async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'light'} = {}) {
-  const context = await browser.newContext({viewport, colorScheme, hasTouch: viewport.width < 600, isMobile: viewport.width < 600});
+  const context = await browser.newContext({
+    viewport,
+    colorScheme,
+    hasTouch: viewport.width < 600,
+    isMobile: viewport.width < 600,
+  });
   const page = await context.newPage();
   const said = [];
   const url = `file://${report}`;
   page.on('console', (message) => {
     // of the software renderer, not of the page
-    if (!/GL Driver Message|GPU stall|Automatic fallback to software WebGL/.test(message.text())) said.push(`console: ${message.text()}`);
+    if (!/GL Driver Message|GPU stall|Automatic fallback to software WebGL/.test(message.text()))
+      said.push(`console: ${message.text()}`);
   });
   page.on('pageerror', (error) => said.push(`error: ${error.stack}`));
   page.on('request', (request) => {
@@ -81,21 +99,40 @@ async function check_layout(page, where) {
     const wide = document.scrollingElement.scrollWidth;
     if (wide > window.innerWidth) problems.push(`the page is ${wide} px wide on a screen of ${window.innerWidth}`);
     for (const plot of document.querySelectorAll('.section .plot, .section .legend'))
-      if (!plot.querySelector('svg path, svg circle, svg line')) problems.push(`an empty plot in ${plot.closest('section').id}`);
+      if (!plot.querySelector('svg path, svg circle, svg line'))
+        problems.push(`an empty plot in ${plot.closest('section').id}`);
     for (const body of document.querySelectorAll('.section .section-body'))
       if (!body.children.length) problems.push(`an empty section: ${body.closest('section').id}`);
     for (const attribute of document.querySelectorAll('svg [d], svg [transform], svg [x], svg [x1], svg [cx]'))
       for (const {name, value} of attribute.attributes)
         if (/NaN|undefined/.test(value)) problems.push(`${name}="${value}" in ${attribute.closest('section').id}`);
     for (const text of document.querySelectorAll('.page-head, .section p, .section th, .section td'))
-      if (/\bNaN\b|\[object|\bnull\b/.test(text.textContent)) problems.push(`'${text.textContent}' is no text to be read`);
+      if (/\bNaN\b|\[object|\bnull\b/.test(text.textContent))
+        problems.push(`'${text.textContent}' is no text to be read`);
     return problems;
   });
   assert.deepStrictEqual(found, [], where);
 }
 
+// A copy of a report with its data changed, for what no quick run gives by itself.
+function with_data(report, change) {
+  const text = fs.readFileSync(report, 'utf8');
+  const [, before, json, after] = text.match(
+    /^([^]*<script type="application\/json" id="dmrp-data">)([^]*?)(<\/script>[^]*)$/
+  );
+  const data = JSON.parse(json);
+  change(data);
+  const file = path.join(path.dirname(report), 'changed.html');
+  fs.writeFileSync(file, before + JSON.stringify(data).replace(/</g, '\\u003c') + after);
+  return file;
+}
+
 function read_csv(file) {
-  const [head, ...lines] = fs.readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
+  const [head, ...lines] = fs
+    .readFileSync(file, 'utf8')
+    .trim()
+    .split('\n')
+    .map((line) => line.split(','));
   return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, line[i]])));
 }
 
@@ -116,4 +153,15 @@ async function run_tests(tests) {
   process.exit(failed > 0 ? 1 : 0);
 }
 
-module.exports = {LAPTOP, PHONE, browser_or_skip, run_experiment, scratch_folder, open_report, check_layout, read_csv, run_tests};
+module.exports = {
+  LAPTOP,
+  PHONE,
+  browser_or_skip,
+  run_experiment,
+  scratch_folder,
+  with_data,
+  open_report,
+  check_layout,
+  read_csv,
+  run_tests,
+};

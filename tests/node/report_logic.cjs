@@ -8,7 +8,18 @@ const vm = require('node:vm');
 
 const folder = process.argv[2];
 const context = vm.createContext({window: {}, console});
-for (const name of ['numbers', 'ranking', 'labels', 'verdict', 'table_model', 'trial_points', 'comparisons', 'metrics_table', 'provenance', 'heat_map'])
+for (const name of [
+  'numbers',
+  'ranking',
+  'labels',
+  'verdict',
+  'table_model',
+  'trial_points',
+  'comparisons',
+  'metrics_table',
+  'provenance',
+  'heat_map',
+])
   vm.runInContext(fs.readFileSync(path.join(folder, `${name}.js`), 'utf8'), context);
 const {dmrp} = context.window;
 
@@ -23,32 +34,86 @@ function sample() {
     for (const global_planner of ['P', 'Q'])
       for (const local_controller of ['c', 'd'])
         combinations.push({scenario, robots: 2, global_planner, local_controller, pedestrian_model: 'm'});
-  const summary = (mean) => ({defined: mean === null ? 0 : 2, mean, low: mean, high: mean, sd: 0, median: mean,
-                              paper_mean: mean, paper_count: 2, paper_trimmed_all_nonzero: false});
-  const trials = {id: [], combination: [], repetition: [], seed: [], outcome: [], repeatable: [], sim_time_s: [], wall_time_s: []};
-  combinations.forEach((_, c) => [0, 1].forEach((repetition) => {
-    const row = {id: trials.id.length, combination: c, repetition, seed: String(repetition), outcome: 'succeeded', repeatable: true,
-                 sim_time_s: 10, wall_time_s: 1};
-    for (const key of Object.keys(trials)) trials[key].push(row[key]);
-  }));
+  const summary = (mean) => ({
+    defined: mean === null ? 0 : 2,
+    mean,
+    low: mean,
+    high: mean,
+    sd: 0,
+    median: mean,
+    paper_mean: mean,
+    paper_count: 2,
+    paper_trimmed_all_nonzero: false,
+  });
+  const trials = {
+    id: [],
+    combination: [],
+    repetition: [],
+    seed: [],
+    outcome: [],
+    repeatable: [],
+    sim_time_s: [],
+    wall_time_s: [],
+  };
+  combinations.forEach((_, c) =>
+    [0, 1].forEach((repetition) => {
+      const row = {
+        id: trials.id.length,
+        combination: c,
+        repetition,
+        seed: String(repetition),
+        outcome: 'succeeded',
+        repeatable: true,
+        sim_time_s: 10,
+        wall_time_s: 1,
+      };
+      for (const key of Object.keys(trials)) trials[key].push(row[key]);
+    })
+  );
   const times = [5, 3, 4, 3, 9, 8, 7, null];
   const arrived = [1, 0.5, 1, 1, 1, 1, 1, 1];
-  const planners = [['mall', 'P'], ['mall', 'Q'], ['office', 'P'], ['office', 'Q']]
-    .map(([scenario, global_planner]) => ({scenario, robots: 2, global_planner}));
+  const planners = [
+    ['mall', 'P'],
+    ['mall', 'Q'],
+    ['office', 'P'],
+    ['office', 'Q'],
+  ].map(([scenario, global_planner]) => ({scenario, robots: 2, global_planner}));
   return {
-    run: {trials_planned: 16}, faults: [], combinations, trials,
+    run: {trials_planned: 16},
+    faults: [],
+    combinations,
+    trials,
     scenarios: ['mall', 'office'].map((name) => ({name, robots: 2, people: 3, title: name, description: ''})),
-    metrics: [{name: 'arrived', unit: '1', direction: 'higher', description: 'share'}, {name: 'time', unit: 's', direction: 'lower', description: 'how long'}],
+    metrics: [
+      {name: 'arrived', unit: '1', direction: 'higher', description: 'share'},
+      {name: 'time', unit: 's', direction: 'lower', description: 'how long'},
+    ],
     values: {arrived: trials.combination.map((c) => arrived[c]), time: trials.combination.map((c) => times[c])},
     summaries: combinations.map((_, c) => [summary(arrived[c]), summary(times[c])]),
-    planners, planner_summaries: planners.map((_, p) => [summary(1), summary(p)]),
+    planners,
+    planner_summaries: planners.map((_, p) => [summary(1), summary(p)]),
     layouts: {
       summary: {arrived: 'arrived', contacts: 'contacts'},
-      report: {tables: [
-        {id: 'plans', title: 'Plans', rows: ['global_planner'], across: ['scenario'], columns: [{metric: 'time', header: 'time', decimals: 1}]},
-        {id: 'driving', title: 'Driving', rows: ['global_planner', 'local_controller', 'pedestrian_model'],
-         columns: [{metric: 'time', header: 'time', decimals: 1, spread: 'arrived'}, {metric: 'unknown', header: 'x', decimals: 1}]},
-      ]},
+      report: {
+        tables: [
+          {
+            id: 'plans',
+            title: 'Plans',
+            rows: ['global_planner'],
+            across: ['scenario'],
+            columns: [{metric: 'time', header: 'time', decimals: 1}],
+          },
+          {
+            id: 'driving',
+            title: 'Driving',
+            rows: ['global_planner', 'local_controller', 'pedestrian_model'],
+            columns: [
+              {metric: 'time', header: 'time', decimals: 1, spread: 'arrived'},
+              {metric: 'unknown', header: 'x', decimals: 1},
+            ],
+          },
+        ],
+      },
     },
   };
 }
@@ -58,10 +123,22 @@ const tests = {
     const n = dmrp.numbers;
     same([n.fixed(-1.25, 1), n.fixed(-0.001, 2), n.fixed(null, 2), n.fixed(NaN, 2)], ['\u22121.3', '0.00', '—', '—']);
     same([n.signed(0.5, 1), n.signed(-0.5, 1), n.signed(0, 1)], ['+0.5', '\u22120.5', '0.0']);
-    same([n.decimals_of([1, 20]), n.decimals_of([0.25]), n.decimals_of([59.5]), n.decimals_of([0, null]), n.decimals_of([1e-9])], [0, 3, 1, 0, 6]);
+    same(
+      [
+        n.decimals_of([1, 20]),
+        n.decimals_of([0.25]),
+        n.decimals_of([59.5]),
+        n.decimals_of([0, null]),
+        n.decimals_of([1e-9]),
+      ],
+      [0, 3, 1, 0, 6]
+    );
     same([n.interval(1, 2, 1), n.interval(1, 1.01, 1), n.interval(null, 2, 1)], ['[1.0, 2.0]', '', '']);
     same([n.p_value(0.0004), n.p_value(0.25), n.p_value(null)], ['< 0.001', '0.250', '—']);
-    same([n.with_unit('3', 'm'), n.with_unit('3', '1'), n.counted(1, 'trial'), n.counted(2, 'person', 'people')], ['3\u00a0m', '3', '1 trial', '2 people']);
+    same(
+      [n.with_unit('3', 'm'), n.with_unit('3', '1'), n.counted(1, 'trial'), n.counted(2, 'person', 'people')],
+      ['3\u00a0m', '3', '1 trial', '2 people']
+    );
   },
   'undefined values come last both ways, equal ones keep their places'() {
     same(dmrp.ranking.order([3, null, 1, 3], false), [2, 0, 3, 1]);
@@ -81,47 +158,116 @@ const tests = {
   'a table has a group for each scenario, with the best of each'() {
     const data = sample();
     const model = dmrp.table_model.make(data, data.layouts.report.tables[1], dmrp.labels.variants(data));
-    same(model.columns.map((column) => column.metric.name), ['time']);
-    same(model.groups.map((group) => group.rows.map((row) => row.name)), [['P + c', 'P + d', 'Q + c', 'Q + d'], ['P + c', 'P + d', 'Q + c', 'Q + d']]);
-    same(model.groups[0].rows.map((row) => row.cells[0].best), [false, true, false, true]);
-    same(model.groups[1].rows.map((row) => row.cells[0].best), [false, false, true, false]);
-    same(model.groups[0].rows.map((row) => row.cells[0].spread), [1, 0.5, 1, 1]);
-    same(model.groups[1].rows.map((row) => [row.cells[0].defined, row.cells[0].trials]), [[2, 2], [2, 2], [2, 2], [0, 2]]);
-    same(dmrp.table_model.order(model, 0, false), [[1, 3, 2, 0], [2, 1, 0, 3]]);
-    same(dmrp.table_model.order(model, 'local_controller', true), [[1, 3, 0, 2], [1, 3, 0, 2]]);
+    same(
+      model.columns.map((column) => column.metric.name),
+      ['time']
+    );
+    same(
+      model.groups.map((group) => group.rows.map((row) => row.name)),
+      [
+        ['P + c', 'P + d', 'Q + c', 'Q + d'],
+        ['P + c', 'P + d', 'Q + c', 'Q + d'],
+      ]
+    );
+    same(
+      model.groups[0].rows.map((row) => row.cells[0].best),
+      [false, true, false, true]
+    );
+    same(
+      model.groups[1].rows.map((row) => row.cells[0].best),
+      [false, false, true, false]
+    );
+    same(
+      model.groups[0].rows.map((row) => row.cells[0].spread),
+      [1, 0.5, 1, 1]
+    );
+    same(
+      model.groups[1].rows.map((row) => [row.cells[0].defined, row.cells[0].trials]),
+      [
+        [2, 2],
+        [2, 2],
+        [2, 2],
+        [0, 2],
+      ]
+    );
+    same(dmrp.table_model.order(model, 0, false), [
+      [1, 3, 2, 0],
+      [2, 1, 0, 3],
+    ]);
+    same(dmrp.table_model.order(model, 'local_controller', true), [
+      [1, 3, 0, 2],
+      [1, 3, 0, 2],
+    ]);
   },
   'a table across scenarios repeats its columns'() {
     const data = sample();
     const model = dmrp.table_model.make(data, data.layouts.report.tables[0], dmrp.labels.variants(data));
-    same(model.spans, [{title: 'mall · 2 robots', count: 1}, {title: 'office · 2 robots', count: 1}]);
-    same(model.groups[0].rows.map((row) => [row.name, row.cells.map((cell) => [cell.mean, cell.trials])]),
-         [['P', [[0, 4], [2, 4]]], ['Q', [[1, 4], [3, 4]]]]);
+    same(model.spans, [
+      {title: 'mall · 2 robots', count: 1},
+      {title: 'office · 2 robots', count: 1},
+    ]);
+    same(
+      model.groups[0].rows.map((row) => [row.name, row.cells.map((cell) => [cell.mean, cell.trials])]),
+      [
+        [
+          'P',
+          [
+            [0, 4],
+            [2, 4],
+          ],
+        ],
+        [
+          'Q',
+          [
+            [1, 4],
+            [3, 4],
+          ],
+        ],
+      ]
+    );
   },
   'worlds without robots are no rows of their own'() {
     const data = sample();
     data.scenarios.push({name: 'mall', robots: 0, people: 3});
-    data.combinations.push({scenario: 'mall', robots: 0, global_planner: '', local_controller: '', pedestrian_model: 'm'});
+    data.combinations.push({
+      scenario: 'mall',
+      robots: 0,
+      global_planner: '',
+      local_controller: '',
+      pedestrian_model: 'm',
+    });
     data.planners.push({scenario: 'mall', robots: 0, global_planner: ''});
     data.planner_summaries.push(data.planner_summaries[0]);
     same(dmrp.labels.variants(data).length, 2);
     same(dmrp.labels.values_of(data, 'global_planner'), ['P', 'Q']);
     const model = dmrp.table_model.make(data, data.layouts.report.tables[0], dmrp.labels.variants(data));
-    same(model.groups[0].rows.map((row) => row.name), ['P', 'Q']);
+    same(
+      model.groups[0].rows.map((row) => row.name),
+      ['P', 'Q']
+    );
   },
   'the verdict says what went wrong, the worst first'() {
     const data = sample();
     data.values.arrived = data.trials.id.map(() => 1);
-    same(dmrp.verdict.lines(data).map((line) => line.kind), ['good']);
+    same(
+      dmrp.verdict.lines(data).map((line) => line.kind),
+      ['good']
+    );
     assert.match(dmrp.verdict.lines(data)[0].text, /32 of 32 robots arrived/);
     data.values.arrived[2] = 0.5;
     data.trials.outcome[2] = 'failed';
-    same(dmrp.verdict.lines(data).map((line) => line.text),
-         ['1 robot of 32 did not arrive, in 1 trial.', '16 trials without a fault, every one repeatable.']);
+    same(
+      dmrp.verdict.lines(data).map((line) => line.text),
+      ['1 robot of 32 did not arrive, in 1 trial.', '16 trials without a fault, every one repeatable.']
+    );
     data.trials.repeatable[3] = false;
     data.run.trials_planned = 20;
     data.faults = [{trial: 4}, {trial: 4}];
     const lines = dmrp.verdict.lines(data);
-    same(lines.map((line) => line.kind), ['bad', 'bad', 'warning', 'note']);
+    same(
+      lines.map((line) => line.kind),
+      ['bad', 'bad', 'warning', 'note']
+    );
     assert.match(lines[0].text, /^2 faults in 1 trial/);
     assert.match(lines[1].text, /^4 trials of 20 are missing/);
     assert.match(lines[2].text, /^1 trial is not repeatable/);
@@ -136,7 +282,12 @@ const tests = {
     same(dmrp.trial_points.jitter(17), dmrp.trial_points.jitter(17));
   },
   'arrow keys reach the next point of a row, and the next row'() {
-    const points = [{x: 0, y: 0}, {x: 10, y: 0}, {x: 9, y: 20}, {x: 30, y: 0}];
+    const points = [
+      {x: 0, y: 0},
+      {x: 10, y: 0},
+      {x: 9, y: 20},
+      {x: 30, y: 0},
+    ];
     const next = (from, key) => dmrp.trial_points.neighbour(points, from, key);
     same([next(-1, 'ArrowRight'), next(0, 'ArrowRight'), next(1, 'ArrowRight'), next(3, 'ArrowRight')], [0, 1, 3, 3]);
     same([next(1, 'ArrowLeft'), next(1, 'ArrowDown'), next(2, 'ArrowUp'), next(0, 'ArrowUp')], [0, 2, 1, 0]);
@@ -157,8 +308,25 @@ const tests = {
   },
   'a heat map has a cell for each pair'() {
     const grids = dmrp.heat_map.grids(sample(), 'time');
-    same(grids.map((grid) => [grid.title, grid.cells.map((row) => row.map((cell) => cell.mean))]),
-         [['mall · 2 robots', [[5, 3], [4, 3]]], ['office · 2 robots', [[9, 8], [7, null]]]]);
+    same(
+      grids.map((grid) => [grid.title, grid.cells.map((row) => row.map((cell) => cell.mean))]),
+      [
+        [
+          'mall · 2 robots',
+          [
+            [5, 3],
+            [4, 3],
+          ],
+        ],
+        [
+          'office · 2 robots',
+          [
+            [9, 8],
+            [7, null],
+          ],
+        ],
+      ]
+    );
   },
 };
 

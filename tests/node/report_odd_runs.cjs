@@ -5,7 +5,16 @@
 const assert = require('node:assert');
 const fs = require('node:fs');
 const path = require('node:path');
-const {PHONE, browser_or_skip, run_experiment, scratch_folder, open_report, check_layout, run_tests} = require('./report_browser.cjs');
+const {
+  PHONE,
+  browser_or_skip,
+  run_experiment,
+  scratch_folder,
+  with_data,
+  open_report,
+  check_layout,
+  run_tests,
+} = require('./report_browser.cjs');
 
 browser_or_skip();
 const [source, library] = process.argv.slice(2);
@@ -20,12 +29,16 @@ function run(name, {change = (text) => text, change_world = (text) => text, ...o
   fs.writeFileSync(path.join(folder, 'worlds/crossing/scenario.toml'), change_world(world));
   const experiment = path.join(folder, 'experiment.toml');
   fs.writeFileSync(experiment, change(crossing));
-  return run_experiment(experiment, path.join(folder, 'run'), {env: {DMRP_SCENARIO_PATH: path.join(folder, 'worlds')}, ...options});
+  return run_experiment(experiment, path.join(folder, 'run'), {
+    env: {DMRP_SCENARIO_PATH: path.join(folder, 'worlds')},
+    ...options,
+  });
 }
 
 const without = (text, table) => text.replace(new RegExp(`\\[\\[${table}\\]\\]\\n(?:.+\\n)*\\n?`, 'g'), '');
 const one_planner = (text) => `${without(text, 'global_planner')}\n[[global_planner]]\nuse = "dmrp.planner.cbs"\n`;
-const one_controller = (text) => `${without(text, 'local_controller')}\n[[local_controller]]\nuse = "dmrp.controller.dwa"\n`;
+const one_controller = (text) =>
+  `${without(text, 'local_controller')}\n[[local_controller]]\nuse = "dmrp.controller.dwa"\n`;
 
 // Opens it at both widths; gives the verdict and the contents.
 async function look(browser, report, more = async () => {}) {
@@ -41,23 +54,15 @@ async function look(browser, report, more = async () => {}) {
   }
 }
 
-// A report with its data changed, where no run gives the case by itself.
-function changed(report, change) {
-  const text = fs.readFileSync(report, 'utf8');
-  const [, before, json, after] = text.match(/^([^]*<script type="application\/json" id="dmrp-data">)([^]*?)(<\/script>[^]*)$/);
-  const data = JSON.parse(json);
-  change(data);
-  const file = path.join(path.dirname(report), 'changed.html');
-  fs.writeFileSync(file, before + JSON.stringify(data).replace(/</g, '\\u003c') + after);
-  return file;
-}
-
 const tests = {
   async 'no robot arrives'(browser) {
     const report = run('late', {change_world: (text) => text.replace(/time_limit_s = .*/, 'time_limit_s = 2.0')});
     await look(browser, report, async ({page, verdict}) => {
       assert.match(verdict, /No robot arrived: all 24 failed/);
-      assert.strictEqual(await page.locator('.results td[title="defined in 0 of 3 trials"] .mean').first().textContent(), '—');
+      assert.strictEqual(
+        await page.locator('.results td[title="defined in 0 of 3 trials"] .mean').first().textContent(),
+        '—'
+      );
     });
   },
 
@@ -65,7 +70,11 @@ const tests = {
     const report = run('one', {change: (text) => one_controller(one_planner(text)), options: ['--trials', '1']});
     await look(browser, report, async ({verdict, contents, left_out}) => {
       assert.match(verdict, /All is well: 2 of 2 robots arrived/);
-      assert.ok(contents.includes('Every trial') && !contents.includes('Planner by controller') && !contents.includes('Diagnosis'));
+      assert.ok(
+        contents.includes('Every trial') &&
+          !contents.includes('Planner by controller') &&
+          !contents.includes('Diagnosis')
+      );
       assert.match(left_out, /Planner by controller: there is one planner and one controller/);
       assert.match(left_out, /Paired differences: there is one combination/);
     });
@@ -81,7 +90,7 @@ const tests = {
   },
 
   async 'a metric is undefined in one trial'(browser) {
-    const report = changed(run('undefined'), (data) => {
+    const report = with_data(run('undefined'), (data) => {
       const metric = data.layouts.report.distributions.metric;
       const arrived = data.values[data.layouts.summary.arrived];
       data.trials.id.forEach((_, i) => {
@@ -90,7 +99,12 @@ const tests = {
         data.values[metric][i] = i === 0 ? null : 10 + i;
       });
       for (const [c, of] of data.summaries.entries())
-        Object.assign(of[data.metrics.findIndex((one) => one.name === metric)], {defined: c === 0 ? 2 : 3, mean: 11 + c, low: 10, high: 20});
+        Object.assign(of[data.metrics.findIndex((one) => one.name === metric)], {
+          defined: c === 0 ? 2 : 3,
+          mean: 11 + c,
+          low: 10,
+          high: 20,
+        });
     });
     await look(browser, report, async ({page, verdict}) => {
       assert.match(verdict, /1 robot of 24 did not arrive, in 1 trial/);
@@ -101,18 +115,25 @@ const tests = {
   },
 
   async 'plugins fail'(browser) {
-    const faulty = (fault) => `\n[[local_controller]]\nuse = "test.controller.faulty"\nlabel = "${fault}"\nparams = { fault = "${fault}" }\n`;
+    const faulty = (fault) =>
+      `\n[[local_controller]]\nuse = "test.controller.faulty"\nlabel = "${fault}"\nparams = { fault = "${fault}" }\n`;
     const report = run('faults', {
       status: 1,
-      change: (text) => `${one_planner(text).replace('plugins = [', `plugins = ["${library}", `)}${faulty('crash')}${faulty('nan')}` +
-        ['success', 'path_length', 'completion_time'].map((metric) => `\n[[metric]]\nuse = "dmrp.metric.${metric}"\n`).join(''),
+      change: (text) =>
+        `${one_planner(text).replace('plugins = [', `plugins = ["${library}", `)}${faulty('crash')}${faulty('nan')}` +
+        ['success', 'path_length', 'completion_time']
+          .map((metric) => `\n[[metric]]\nuse = "dmrp.metric.${metric}"\n`)
+          .join(''),
     });
     await look(browser, report, async ({page, verdict, contents}) => {
       assert.match(verdict, /6 faults in 6 trials/);
       assert.ok(contents.includes('Faults') && contents.includes('Results'));
       assert.strictEqual(await page.locator('#faults .fault').count(), 6);
       const crash = page.locator('#faults .fault', {hasText: 'crash'}).first();
-      assert.match(await crash.textContent(), /test\.controller\.faulty.*trial \d+ · crossing.*step \d+ · robot \d+ · SIGSEGV/s);
+      assert.match(
+        await crash.textContent(),
+        /test\.controller\.faulty.*trial \d+ · crossing.*step \d+ · robot \d+ · SIGSEGV/s
+      );
       const command = await crash.locator('.command code').textContent();
       assert.match(command, /dmrp-host/);
       await crash.getByRole('button').click();
@@ -121,7 +142,7 @@ const tests = {
   },
 
   async 'a run that was not finished'(browser) {
-    const report = changed(run('unfinished'), (data) => {
+    const report = with_data(run('unfinished'), (data) => {
       data.run.trials_planned = 20;
       data.trials.repeatable[3] = false;
     });
@@ -132,7 +153,9 @@ const tests = {
   },
 
   async 'names that are markup stay text'(browser) {
-    const report = run('markup', {change: (text) => text.replace('label = "together"', 'label = "<b>&amp;</b></script>"')});
+    const report = run('markup', {
+      change: (text) => text.replace('label = "together"', 'label = "<b>&amp;</b></script>"'),
+    });
     await look(browser, report, async ({page}) => {
       assert.ok((await page.locator('.results').first().textContent()).includes('<b>&amp;</b></script>'));
     });

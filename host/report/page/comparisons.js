@@ -6,7 +6,10 @@ window.dmrp = window.dmrp || {};
   const element = (...all) => dmrp.elements.element(...all);
   const SIGNIFICANT = 0.05;
   const TESTS = {
-    signed_rank: {estimate: 'median difference', name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann'},
+    signed_rank: {
+      estimate: 'median difference',
+      name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann',
+    },
     sign_flip: {estimate: 'mean difference', name: 'test by flipping signs'},
   };
 
@@ -19,14 +22,20 @@ window.dmrp = window.dmrp || {};
 
   // Those of one metric and one choice varied, in `variant` or, if that is null, in all.
   function chosen_rows(data, chosen) {
-    return data.comparisons.filter((one) => one.metric === chosen.metric && one.varied === chosen.varied &&
-      (chosen.variant === 'all' || `${one.scenario}/${one.robots}` === chosen.variant));
+    return data.comparisons.filter(
+      (one) =>
+        one.metric === chosen.metric &&
+        one.varied === chosen.varied &&
+        (chosen.variant === 'all' || `${one.scenario}/${one.robots}` === chosen.variant)
+    );
   }
 
   function given_words(data, comparison) {
     const naming = dmrp.labels.naming_fields(data);
-    return Object.entries(comparison.given).filter(([field]) => naming.includes(field))
-      .map(([, label]) => dmrp.labels.named(label)).join(' + ');
+    return Object.entries(comparison.given)
+      .filter(([field]) => naming.includes(field))
+      .map(([, label]) => dmrp.labels.named(label))
+      .join(' + ');
   }
 
   function row_element(data, comparison, x, decimals) {
@@ -34,44 +43,91 @@ window.dmrp = window.dmrp || {};
     const sure = dmrp.numbers.is_number(comparison.p_holm) && comparison.p_holm < SIGNIFICANT;
     const given = given_words(data, comparison);
     const number = (label, ...content) => element('td', {class: 'number', 'data-label': label}, content);
-    return element('tr', {class: sure ? 'sure' : null},
-      element('th', {scope: 'row'}, `${dmrp.labels.named(comparison.b)} \u2212 ${dmrp.labels.named(comparison.a)}`,
-        given && element('span', {class: 'given'}, ` with ${given}`)),
+    return element(
+      'tr',
+      {class: sure ? 'sure' : null},
+      element(
+        'th',
+        {scope: 'row'},
+        `${dmrp.labels.named(comparison.b)} \u2212 ${dmrp.labels.named(comparison.a)}`,
+        given && element('span', {class: 'given'}, ` with ${given}`)
+      ),
       dmrp.interval_rows.cell(estimate, x, sure),
-      number('difference', element('span', {class: 'mean'}, dmrp.numbers.signed(estimate.estimate, decimals)),
-        element('span', {class: 'interval'}, dmrp.numbers.interval(estimate.low, estimate.high, decimals, dmrp.numbers.signed))),
+      number(
+        'difference',
+        element('span', {class: 'mean'}, dmrp.numbers.signed(estimate.estimate, decimals)),
+        element(
+          'span',
+          {class: 'interval'},
+          dmrp.numbers.interval(estimate.low, estimate.high, decimals, dmrp.numbers.signed)
+        )
+      ),
       number('p', dmrp.numbers.p_value(comparison.p)),
       number('p (Holm)', dmrp.numbers.p_value(comparison.p_holm)),
       number('effect', dmrp.numbers.signed(comparison.effect, 2)),
-      number('pairs', `${comparison.pairs}`, comparison.ties > 0 && element('span', {class: 'given'}, ` (${dmrp.numbers.counted(comparison.ties, 'tie')})`)));
+      number(
+        'pairs',
+        `${comparison.pairs}`,
+        comparison.ties > 0 && element('span', {class: 'given'}, ` (${dmrp.numbers.counted(comparison.ties, 'tie')})`)
+      )
+    );
   }
 
   function side_words(direction) {
-    return {lower: ['← first better', 'second better →'], higher: ['← second better', 'first better →'], none: ['', '']}[direction];
+    return {
+      lower: ['← first better', 'second better →'],
+      higher: ['← second better', 'first better →'],
+      none: ['', ''],
+    }[direction];
   }
 
   function head(metric, title, x) {
     const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
     const unit = dmrp.numbers.unit(metric.unit);
-    return element('thead', {}, element('tr', {},
-      element('th', {scope: 'col'}, 'first \u2212 second'),
-      dmrp.interval_rows.axis(x, ...side_words(metric.direction)),
-      column(title, unit && element('span', {class: 'unit'}, unit)), column('p'), column('p (Holm)'), column('effect'), column('pairs')));
+    return element(
+      'thead',
+      {},
+      element(
+        'tr',
+        {},
+        element('th', {scope: 'col'}, 'first \u2212 second'),
+        dmrp.interval_rows.axis(x, ...side_words(metric.direction)),
+        column(title, unit && element('span', {class: 'unit'}, unit)),
+        column('p'),
+        column('p (Holm)'),
+        column('effect'),
+        column('pairs')
+      )
+    );
   }
 
   function table(data, rows, chosen) {
     const metric = dmrp.labels.metric(data, chosen.metric);
     const estimates = rows.map(estimate_of);
     const x = dmrp.interval_rows.scale(estimates);
-    const decimals = dmrp.labels.decimals(data, chosen.metric, estimates.map((one) => one.estimate));
+    const decimals = dmrp.labels.decimals(
+      data,
+      chosen.metric,
+      estimates.map((one) => one.estimate)
+    );
     const {estimate} = TESTS[rows[0].test] || {estimate: 'difference'};
     const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x));
     for (const variant of dmrp.labels.variants(data)) {
       const own = rows.filter((row) => dmrp.labels.is_of(variant.scenario, row));
       if (own.length === 0) continue;
-      made.append(element('tbody', {}, data.scenarios.length > 1 &&
-        element('tr', {class: 'group'}, element('th', {scope: 'rowgroup', colspan: 7}, element('span', {}, variant.label))),
-      own.map((row) => row_element(data, row, x, decimals))));
+      made.append(
+        element(
+          'tbody',
+          {},
+          data.scenarios.length > 1 &&
+            element(
+              'tr',
+              {class: 'group'},
+              element('th', {scope: 'rowgroup', colspan: 7}, element('span', {}, variant.label))
+            ),
+          own.map((row) => row_element(data, row, x, decimals))
+        )
+      );
     }
     return element('div', {class: 'table-scroll'}, made);
   }
@@ -80,33 +136,68 @@ window.dmrp = window.dmrp || {};
     const metric = dmrp.labels.metric(data, chosen.metric);
     const test = TESTS[rows[0].test];
     const empty = rows.filter((row) => row.pairs === 0).length;
-    const censored = (data.layouts.report.comparisons || []).some((one) => one.metric === chosen.metric && one.censored);
-    return `${dmrp.labels.metric_with_unit(data, chosen.metric)}, ${dmrp.labels.direction_words(metric.direction)}; ` +
+    const censored = (data.layouts.report.comparisons || []).some(
+      (one) => one.metric === chosen.metric && one.censored
+    );
+    return (
+      `${dmrp.labels.metric_with_unit(data, chosen.metric)}, ${dmrp.labels.direction_words(metric.direction)}; ` +
       `${test ? `${test.name}, two-sided` : rows[0].test}. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, over all ` +
       'comparisons of the metric in the scenario between the same kind. Effect: matched-pairs rank-biserial correlation, ' +
-      '\u22121 to 1. Pairs: seeds that both have.' + (censored ? ' A trial that was not completed counts with the time limit.' : '') +
-      (empty > 0 ? ` ${dmrp.numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '');
+      '\u22121 to 1. Pairs: seeds that both have.' +
+      (censored ? ' A trial that was not completed counts with the time limit.' : '') +
+      (empty > 0 ? ` ${dmrp.numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '')
+    );
   }
 
   function mount(body, data) {
     if (data.comparisons.length === 0)
-      return data.combinations.length < 2 ? 'there is one combination and nothing to compare it with' : 'no two combinations share a seed';
+      return data.combinations.length < 2
+        ? 'there is one combination and nothing to compare it with'
+        : 'no two combinations share a seed';
     const distinct = (key) => dmrp.labels.distinct(data.comparisons.map((one) => one[key]));
     const variants = dmrp.labels.variants(data);
-    const chosen = {metric: distinct('metric')[0], varied: distinct('varied').includes('local_controller') ? 'local_controller' : distinct('varied')[0],
-                    variant: dmrp.controls.first_variant(variants, data.comparisons.length / distinct('metric').length)};
+    const chosen = {
+      metric: distinct('metric')[0],
+      varied: distinct('varied').includes('local_controller') ? 'local_controller' : distinct('varied')[0],
+      variant: dmrp.controls.first_variant(variants, data.comparisons.length / distinct('metric').length),
+    };
     const holder = element('div');
     const note = element('p', {class: 'note'});
     const show = () => {
       const rows = chosen_rows(data, chosen);
-      dmrp.elements.fill(holder, rows.length > 0 ? table(data, rows, chosen) : element('p', {class: 'note'}, 'Nothing was compared here.'));
+      dmrp.elements.fill(
+        holder,
+        rows.length > 0 ? table(data, rows, chosen) : element('p', {class: 'note'}, 'Nothing was compared here.')
+      );
       dmrp.elements.fill(note, rows.length > 0 && note_words(data, rows, chosen));
     };
-    const choose = (key) => (value) => { chosen[key] = value; show(); };
-    dmrp.elements.fill(body, dmrp.controls.row(
-      dmrp.controls.select('Metric', distinct('metric').map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)})), chosen.metric, choose('metric')),
-      dmrp.controls.segmented('Between', distinct('varied').map((field) => ({value: field, label: dmrp.labels.SHORT_TITLES[field].replace(/s?$/, 's')})), chosen.varied, choose('varied')),
-      dmrp.controls.variant_select(variants, chosen.variant, choose('variant'))), holder, note);
+    const choose = (key) => (value) => {
+      chosen[key] = value;
+      show();
+    };
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(
+        dmrp.controls.select(
+          'Metric',
+          distinct('metric').map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)})),
+          chosen.metric,
+          choose('metric')
+        ),
+        dmrp.controls.segmented(
+          'Between',
+          distinct('varied').map((field) => ({
+            value: field,
+            label: dmrp.labels.SHORT_TITLES[field].replace(/s?$/, 's'),
+          })),
+          chosen.varied,
+          choose('varied')
+        ),
+        dmrp.controls.variant_select(variants, chosen.variant, choose('variant'))
+      ),
+      holder,
+      note
+    );
     show();
     return null;
   }

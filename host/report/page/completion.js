@@ -15,59 +15,151 @@ window.dmrp = window.dmrp || {};
 
   function draw_panel(data, rows, until, title, holder, width) {
     dmrp.elements.fill(holder);
-    const x = d3.scaleLinear().domain([0, until]).range([MARGIN.left, width - MARGIN.right]);
-    const y = d3.scaleLinear().domain([0, 1]).range([HEIGHT - MARGIN.bottom, MARGIN.top]);
+    const x = d3
+      .scaleLinear()
+      .domain([0, until])
+      .range([MARGIN.left, width - MARGIN.right]);
+    const y = d3
+      .scaleLinear()
+      .domain([0, 1])
+      .range([HEIGHT - MARGIN.bottom, MARGIN.top]);
     const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
-    svg.append('g').attr('class', 'grid').selectAll('line').data([0.5, 1]).enter().append('line')
-      .attr('x1', MARGIN.left).attr('x2', width - MARGIN.right).attr('y1', y).attr('y2', y);
+    svg
+      .append('g')
+      .attr('class', 'grid')
+      .selectAll('line')
+      .data([0.5, 1])
+      .enter()
+      .append('line')
+      .attr('x1', MARGIN.left)
+      .attr('x2', width - MARGIN.right)
+      .attr('y1', y)
+      .attr('y2', y);
     dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, 'time (s)');
     dmrp.plots.axis_left(svg, y, MARGIN.left);
-    const line = d3.line().x((step) => x(step[0])).y((step) => y(step[1])).curve(d3.curveStepAfter);
+    const line = d3
+      .line()
+      .x((step) => x(step[0]))
+      .y((step) => y(step[1]))
+      .curve(d3.curveStepAfter);
     for (const row of rows) {
       const series = dmrp.labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
       const last = row.steps[row.steps.length - 1];
-      svg.append('path').attr('class', 'line').style('stroke', series.colour).style('stroke-dasharray', series.dash)
+      svg
+        .append('path')
+        .attr('class', 'line')
+        .style('stroke', series.colour)
+        .style('stroke-dasharray', series.dash)
         .attr('d', line([[0, 0], ...row.steps, [until, last[1]]]));
-      svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 50))
+      svg
+        .append('path')
+        .attr('class', 'mark')
+        .style('fill', series.colour)
+        .attr('d', dmrp.plots.symbol(series.symbol, 50))
         .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
     }
   }
 
   function table(data, rows, variants) {
-    const column = (text, unit) => element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, text), element('span', {class: 'unit'}, unit));
-    const made = element('table', {class: 'results with-intervals'},
-      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'combination'),
-        column('restricted mean', 's'), column('time limit', 's'), column('arrived', '%'), column('robots', '–'))));
+    const column = (text, unit) =>
+      element(
+        'th',
+        {scope: 'col', class: 'number'},
+        element('span', {class: 'header'}, text),
+        element('span', {class: 'unit'}, unit)
+      );
+    const made = element(
+      'table',
+      {class: 'results with-intervals'},
+      element(
+        'thead',
+        {},
+        element(
+          'tr',
+          {},
+          element('th', {scope: 'col'}, 'combination'),
+          column('restricted mean', 's'),
+          column('time limit', 's'),
+          column('arrived', '%'),
+          column('robots', '–')
+        )
+      )
+    );
     for (const variant of variants) {
       const own = rows.filter((row) => variant.combinations.includes(row.combination));
       if (own.length === 0) continue;
-      const best = dmrp.ranking.best(own.map((row) => row.restricted_mean_s), 'lower', 1);
-      made.append(element('tbody', {}, data.scenarios.length > 1 &&
-        element('tr', {class: 'group'}, element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))),
-      own.map((row, i) => element('tr', {}, element('th', {scope: 'row'}, dmrp.labels.combination(data, row.combination)),
-        element('td', {class: best.has(i) ? 'number best' : 'number'},
-          element('span', {class: 'mean'}, best.has(i) && dmrp.elements.hidden('best: '), dmrp.numbers.fixed(row.restricted_mean_s, 1)),
-          element('span', {class: 'interval'}, dmrp.numbers.interval(row.low, row.high, 1))),
-        element('td', {class: 'number'}, dmrp.numbers.fixed(row.horizon_s, 0)),
-        element('td', {class: 'number'}, dmrp.numbers.fixed(100 * row.arrived_share, 1)),
-        element('td', {class: 'number'}, row.robots)))));
+      const best = dmrp.ranking.best(
+        own.map((row) => row.restricted_mean_s),
+        'lower',
+        1
+      );
+      made.append(
+        element(
+          'tbody',
+          {},
+          data.scenarios.length > 1 &&
+            element(
+              'tr',
+              {class: 'group'},
+              element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))
+            ),
+          own.map((row, i) =>
+            element(
+              'tr',
+              {},
+              element('th', {scope: 'row'}, dmrp.labels.combination(data, row.combination)),
+              element(
+                'td',
+                {class: best.has(i) ? 'number best' : 'number'},
+                element(
+                  'span',
+                  {class: 'mean'},
+                  best.has(i) && dmrp.elements.hidden('best: '),
+                  dmrp.numbers.fixed(row.restricted_mean_s, 1)
+                ),
+                element('span', {class: 'interval'}, dmrp.numbers.interval(row.low, row.high, 1))
+              ),
+              element('td', {class: 'number'}, dmrp.numbers.fixed(row.horizon_s, 0)),
+              element('td', {class: 'number'}, dmrp.numbers.fixed(100 * row.arrived_share, 1)),
+              element('td', {class: 'number'}, row.robots)
+            )
+          )
+        )
+      );
     }
-    return dmrp.elements.titled_table('title-completion', 'Restricted mean time to arrive',
-      'The mean over all robots, where one that has not arrived counts with the time limit; 95 % intervals over seeds.', made);
+    return dmrp.elements.titled_table(
+      'title-completion',
+      'Restricted mean time to arrive',
+      'The mean over all robots, where one that has not arrived counts with the time limit; 95 % intervals over seeds.',
+      made
+    );
   }
 
   function show_variants(data, rows, variants, holder) {
     const keys = variants.map((variant) => variant.key);
-    const seen = dmrp.labels.strata(data).filter((stratum) => keys.includes(stratum.variant.key)).map((stratum) => ({
-      stratum, rows: rows.filter((row) => stratum.combinations.includes(row.combination) && (row.steps || []).length > 0),
-    })).filter((one) => one.rows.length > 0);
+    const seen = dmrp.labels
+      .strata(data)
+      .filter((stratum) => keys.includes(stratum.variant.key))
+      .map((stratum) => ({
+        stratum,
+        rows: rows.filter((row) => stratum.combinations.includes(row.combination) && (row.steps || []).length > 0),
+      }))
+      .filter((one) => one.rows.length > 0);
     dmrp.elements.fill(holder);
-    if (seen.length > 0) holder.append(element('p', {class: 'axis-note'}, 'Upwards: share of robots that have arrived'));
-    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
+    if (seen.length > 0)
+      holder.append(element('p', {class: 'axis-note'}, 'Upwards: share of robots that have arrived'));
+    const panels = dmrp.plots.panels(
+      holder,
+      seen.map((one) => one.stratum.title),
+      dmrp.plots.SMALL_PANELS
+    );
     seen.forEach((one, i) => {
-      const until = last_of_interest(seen.filter((other) => other.stratum.variant === one.stratum.variant).flatMap((other) => other.rows));
-      dmrp.plots.responsive(panels[i].querySelector('.plot'),
-        (plot, width) => draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width));
+      const until = last_of_interest(
+        seen.filter((other) => other.stratum.variant === one.stratum.variant).flatMap((other) => other.rows)
+      );
+      dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+        draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width)
+      );
     });
     holder.append(table(data, rows, variants));
   }
@@ -78,9 +170,19 @@ window.dmrp = window.dmrp || {};
     const variants = dmrp.labels.variants(data);
     const first = dmrp.controls.first_variant(variants, rows.length);
     const holder = element('div');
-    const show = (key) => show_variants(data, rows, variants.filter((variant) => key === 'all' || variant.key === key), holder);
-    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.variant_select(variants, first, show)),
-      dmrp.plots.field_legend(data, 'local_controller', true), holder);
+    const show = (key) =>
+      show_variants(
+        data,
+        rows,
+        variants.filter((variant) => key === 'all' || variant.key === key),
+        holder
+      );
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(dmrp.controls.variant_select(variants, first, show)),
+      dmrp.plots.field_legend(data, 'local_controller', true),
+      holder
+    );
     show(first);
     return null;
   }

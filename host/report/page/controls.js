@@ -19,20 +19,31 @@ window.dmrp = window.dmrp || {};
   }
 
   function metric_select(data, title, metrics, value, changed) {
-    const options = metrics.map((metric) => ({value: metric.name, label: dmrp.labels.metric_with_unit(data, metric.name)}));
+    const options = metrics.map((metric) => ({
+      value: metric.name,
+      label: dmrp.labels.metric_with_unit(data, metric.name),
+    }));
     return select(title, options, value, changed);
   }
 
   // A row of buttons, one of them pressed; the same contract as select.
   function segmented(title, options, value, changed) {
     if (options.length < 2) return null;
-    const buttons = options.map((option) => element('button', {type: 'button', class: 'button', 'aria-pressed': String(option.value === value)}, option.label));
-    buttons.forEach((button, i) => button.addEventListener('click', () => {
-      buttons.forEach((one) => one.setAttribute('aria-pressed', String(one === button)));
-      changed(options[i].value);
-    }));
-    return element('div', {class: 'control', role: 'group', 'aria-label': title},
-      element('span', {}, title), element('span', {class: 'segmented'}, buttons));
+    const buttons = options.map((option) =>
+      element('button', {type: 'button', class: 'button', 'aria-pressed': String(option.value === value)}, option.label)
+    );
+    buttons.forEach((button, i) =>
+      button.addEventListener('click', () => {
+        buttons.forEach((one) => one.setAttribute('aria-pressed', String(one === button)));
+        changed(options[i].value);
+      })
+    );
+    return element(
+      'div',
+      {class: 'control', role: 'group', 'aria-label': title},
+      element('span', {}, title),
+      element('span', {class: 'segmented'}, buttons)
+    );
   }
 
   // More than a screenful of rows is shown a scenario at a time, at first.
@@ -44,7 +55,10 @@ window.dmrp = window.dmrp || {};
   function variant_select(variants, value, changed) {
     const names = dmrp.labels.distinct(variants.map((variant) => variant.scenario.name));
     const short = names.length === variants.length;
-    const options = variants.map((variant) => ({value: variant.key, label: short ? variant.scenario.name : variant.label}));
+    const options = variants.map((variant) => ({
+      value: variant.key,
+      label: short ? variant.scenario.name : variant.label,
+    }));
     if (options.length > 1) options.unshift({value: 'all', label: 'all'});
     return (short && options.length <= 6 ? segmented : select)('Scenario', options, value, changed);
   }
@@ -55,7 +69,12 @@ window.dmrp = window.dmrp || {};
   }
 
   function search(title, changed) {
-    const box = element('input', {type: 'search', placeholder: title, 'aria-label': title, oninput: () => changed(box.value)});
+    const box = element('input', {
+      type: 'search',
+      placeholder: title,
+      'aria-label': title,
+      oninput: () => changed(box.value),
+    });
     return element('label', {class: 'control'}, box);
   }
 
@@ -83,7 +102,9 @@ window.dmrp = window.dmrp || {};
     const button = element('button', {type: 'button', class: 'button small', 'aria-label': `copy ${what}`}, 'Copy');
     button.addEventListener('click', async () => {
       button.textContent = (await copy(text)) ? 'Copied' : 'Select and copy by hand';
-      setTimeout(() => { button.textContent = 'Copy'; }, 2000);
+      setTimeout(() => {
+        button.textContent = 'Copy';
+      }, 2000);
     });
     return button;
   }

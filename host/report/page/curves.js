@@ -35,39 +35,101 @@ window.dmrp = window.dmrp || {};
   function draw_curve(svg, curve, series, x, y) {
     const defined = (point) => dmrp.numbers.is_number(point[1]);
     const banded = (point) => dmrp.numbers.is_number(point[2]) && dmrp.numbers.is_number(point[3]);
-    svg.append('path').attr('class', 'band').style('fill', series.colour)
-      .attr('d', d3.area().defined(banded).x((point) => x(point[0])).y0((point) => y(point[2])).y1((point) => y(point[3]))(curve.points));
-    svg.append('path').attr('class', 'line').style('stroke', series.colour).style('stroke-dasharray', series.dash)
-      .attr('d', d3.line().defined(defined).x((point) => x(point[0])).y((point) => y(point[1]))(curve.points));
+    svg
+      .append('path')
+      .attr('class', 'band')
+      .style('fill', series.colour)
+      .attr(
+        'd',
+        d3
+          .area()
+          .defined(banded)
+          .x((point) => x(point[0]))
+          .y0((point) => y(point[2]))
+          .y1((point) => y(point[3]))(curve.points)
+      );
+    svg
+      .append('path')
+      .attr('class', 'line')
+      .style('stroke', series.colour)
+      .style('stroke-dasharray', series.dash)
+      .attr(
+        'd',
+        d3
+          .line()
+          .defined(defined)
+          .x((point) => x(point[0]))
+          .y((point) => y(point[1]))(curve.points)
+      );
     for (const point of curve.points.filter(defined)) {
-      svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', dmrp.plots.symbol(series.symbol, 34))
+      svg
+        .append('path')
+        .attr('class', 'mark')
+        .style('fill', series.colour)
+        .attr('d', dmrp.plots.symbol(series.symbol, 34))
         .attr('transform', `translate(${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)})`);
     }
   }
 
   function draw_panel(data, curves, extents, title, holder, width) {
     dmrp.elements.fill(holder);
-    const x = d3.scaleLinear().domain(d3.extent(extents.coordinates)).range([MARGIN.left, width - MARGIN.right]);
+    const x = d3
+      .scaleLinear()
+      .domain(d3.extent(extents.coordinates))
+      .range([MARGIN.left, width - MARGIN.right]);
     const y = dmrp.plots.linear(extents.values, [HEIGHT - MARGIN.bottom, MARGIN.top], {zero: true});
     const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
-    svg.append('g').attr('class', 'grid').selectAll('line').data(y.ticks(4)).enter().append('line')
-      .attr('x1', MARGIN.left).attr('x2', width - MARGIN.right).attr('y1', y).attr('y2', y);
+    svg
+      .append('g')
+      .attr('class', 'grid')
+      .selectAll('line')
+      .data(y.ticks(4))
+      .enter()
+      .append('line')
+      .attr('x1', MARGIN.left)
+      .attr('x2', width - MARGIN.right)
+      .attr('y1', y)
+      .attr('y2', y);
     dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, extents.title);
     dmrp.plots.axis_left(svg, y, MARGIN.left);
     for (const curve of curves) draw_curve(svg, curve, series_of(data, curve), x, y);
   }
 
   function show_metric(data, metric, holder, note) {
-    dmrp.elements.fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, metric)}`));
+    dmrp.elements.fill(
+      holder,
+      element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, metric)}`)
+    );
     const found = data.curves.filter((curve) => curve.metric === metric && has_values(curve));
-    const seen = dmrp.labels.strata(data).map((stratum) => ({
-      stratum, curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
-    })).filter((one) => one.curves.length > 0);
+    const seen = dmrp.labels
+      .strata(data)
+      .map((stratum) => ({
+        stratum,
+        curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
+      }))
+      .filter((one) => one.curves.length > 0);
     const extents = (stratum) =>
-      extents_of(data, found.filter((curve) => stratum.variant.combinations.includes(curve.combination)));
-    const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
-    seen.forEach((one, i) => dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
-      draw_panel(data, one.curves, extents(one.stratum), `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`, plot, width)));
+      extents_of(
+        data,
+        found.filter((curve) => stratum.variant.combinations.includes(curve.combination))
+      );
+    const panels = dmrp.plots.panels(
+      holder,
+      seen.map((one) => one.stratum.title),
+      dmrp.plots.SMALL_PANELS
+    );
+    seen.forEach((one, i) =>
+      dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+        draw_panel(
+          data,
+          one.curves,
+          extents(one.stratum),
+          `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`,
+          plot,
+          width
+        )
+      )
+    );
     const about = dmrp.labels.metric(data, metric);
     dmrp.elements.fill(note, about ? `${about.description} (${dmrp.labels.direction_words(about.direction)}).` : '');
   }
@@ -78,8 +140,15 @@ window.dmrp = window.dmrp || {};
     const holder = element('div');
     const note = element('p', {class: 'note'});
     const options = names.map((name) => ({value: name, label: dmrp.labels.metric_with_unit(data, name)}));
-    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.select('Metric', options, names[0], (name) => show_metric(data, name, holder, note))),
-      dmrp.plots.field_legend(data, 'local_controller', true), holder, note);
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(
+        dmrp.controls.select('Metric', options, names[0], (name) => show_metric(data, name, holder, note))
+      ),
+      dmrp.plots.field_legend(data, 'local_controller', true),
+      holder,
+      note
+    );
     show_metric(data, names[0], holder, note);
     return null;
   }

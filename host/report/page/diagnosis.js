@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// diagnosis.js: one metric against another, trial by trial, each scenario and planner on its own, with rank correlations.
+// diagnosis.js: one metric against another, trial by trial, each scenario and planner on its own, with rank
+// correlations.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
@@ -11,20 +12,32 @@ window.dmrp = window.dmrp || {};
   function points_of(data, stratum, chosen) {
     const inside = new Set(stratum.combinations);
     const of = (name, i) => data.values[name][i];
-    return data.trials.id.map((_, i) => i).filter((i) => inside.has(data.trials.combination[i]) &&
-      dmrp.ranking.is_defined(of(chosen.x, i)) && dmrp.ranking.is_defined(of(chosen.y, i)));
+    return data.trials.id
+      .map((_, i) => i)
+      .filter(
+        (i) =>
+          inside.has(data.trials.combination[i]) &&
+          dmrp.ranking.is_defined(of(chosen.x, i)) &&
+          dmrp.ranking.is_defined(of(chosen.y, i))
+      );
   }
 
   function correlation_of(data, stratum, x, y) {
-    return data.correlations.find((one) => dmrp.labels.is_of(stratum.variant.scenario, one) && one.x === x && one.y === y &&
-      one.global_planner === stratum.global_planner &&
-      (one.pedestrian_model === undefined || one.pedestrian_model === stratum.pedestrian_model));
+    return data.correlations.find(
+      (one) =>
+        dmrp.labels.is_of(stratum.variant.scenario, one) &&
+        one.x === x &&
+        one.y === y &&
+        one.global_planner === stratum.global_planner &&
+        (one.pedestrian_model === undefined || one.pedestrian_model === stratum.pedestrian_model)
+    );
   }
 
   function correlation_words(found) {
     if (!found) return '';
     if (!dmrp.numbers.is_number(found.rho)) return `no correlation: too few trials, or all equal (n ${found.n})`;
-    return `ρ ${dmrp.numbers.signed(found.rho, 2)} ${dmrp.numbers.interval(found.low, found.high, 2, dmrp.numbers.signed)}, n ${found.n}`;
+    const {interval, signed} = dmrp.numbers;
+    return `ρ ${signed(found.rho, 2)} ${interval(found.low, found.high, 2, signed)}, n ${found.n}`;
   }
 
   function draw_panel(data, trials, chosen, domains, holder, width, detail) {
@@ -33,8 +46,17 @@ window.dmrp = window.dmrp || {};
     const y = dmrp.plots.linear(domains.y, [HEIGHT - MARGIN.bottom, MARGIN.top]);
     const titles = {x: dmrp.labels.metric_with_unit(data, chosen.x), y: dmrp.labels.metric_with_unit(data, chosen.y)};
     const svg = dmrp.plots.frame(holder, width, HEIGHT, `${titles.y} against ${titles.x}`);
-    svg.append('g').attr('class', 'grid').selectAll('line').data(y.ticks(4)).enter().append('line')
-      .attr('x1', MARGIN.left).attr('x2', width - MARGIN.right).attr('y1', y).attr('y2', y);
+    svg
+      .append('g')
+      .attr('class', 'grid')
+      .selectAll('line')
+      .data(y.ticks(4))
+      .enter()
+      .append('line')
+      .attr('x1', MARGIN.left)
+      .attr('x2', width - MARGIN.right)
+      .attr('y1', y)
+      .attr('y2', y);
     dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, titles.x);
     dmrp.plots.axis_left(svg, y, MARGIN.left);
     const points = trials.map((row) => {
@@ -46,26 +68,69 @@ window.dmrp = window.dmrp || {};
 
   function correlation_cell(found) {
     if (!found || !dmrp.numbers.is_number(found.rho)) {
-      return element('td', {class: 'number', title: found ? `too few trials, or all equal (n ${found.n})` : null}, dmrp.numbers.UNDEFINED,
-        found && element('span', {class: 'interval'}, `n ${found.n}`));
+      return element(
+        'td',
+        {class: 'number', title: found ? `too few trials, or all equal (n ${found.n})` : null},
+        dmrp.numbers.UNDEFINED,
+        found && element('span', {class: 'interval'}, `n ${found.n}`)
+      );
     }
-    return element('td', {class: 'number'}, element('span', {class: 'mean'}, dmrp.numbers.signed(found.rho, 2)),
+    return element(
+      'td',
+      {class: 'number'},
+      element('span', {class: 'mean'}, dmrp.numbers.signed(found.rho, 2)),
       element('span', {class: 'interval'}, dmrp.numbers.interval(found.low, found.high, 2, dmrp.numbers.signed)),
-      element('span', {class: 'interval'}, `p ${dmrp.numbers.p_value(found.p)} · n ${found.n} · ties ${dmrp.numbers.percent(found.ties_share)}`));
+      element(
+        'span',
+        {class: 'interval'},
+        `p ${dmrp.numbers.p_value(found.p)} · n ${found.n} · ties ${dmrp.numbers.percent(found.ties_share)}`
+      )
+    );
   }
 
   // Strata by the declared pairs.
   function correlation_table(data, strata) {
-    const pairs = dmrp.labels.distinct(data.correlations.map((one) => JSON.stringify([one.x, one.y]))).map((text) => JSON.parse(text));
+    const pairs = dmrp.labels
+      .distinct(data.correlations.map((one) => JSON.stringify([one.x, one.y])))
+      .map((text) => JSON.parse(text));
     if (pairs.length === 0) return null;
     const title = ([x, y]) => `${dmrp.labels.metric_title(data, x)}, ${dmrp.labels.metric_title(data, y)}`;
-    const note = 'Spearman\u2019s ρ over the trials in which both are defined; 95 % intervals over seeds, p by permutation. ' +
+    const note =
+      'Spearman\u2019s ρ over the trials in which both are defined; 95 % intervals over seeds, p by permutation. ' +
       'Ties: the share of trials that share a value with another.';
-    return dmrp.elements.titled_table('title-correlations', 'Rank correlations', note,
-      element('table', {class: 'results with-intervals'}, element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'scenario and planner'),
-        pairs.map((pair) => element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))))),
-      element('tbody', {}, strata.map((stratum) => element('tr', {}, element('th', {scope: 'row'}, stratum.title),
-        pairs.map(([x, y]) => correlation_cell(correlation_of(data, stratum, x, y))))))));
+    return dmrp.elements.titled_table(
+      'title-correlations',
+      'Rank correlations',
+      note,
+      element(
+        'table',
+        {class: 'results with-intervals'},
+        element(
+          'thead',
+          {},
+          element(
+            'tr',
+            {},
+            element('th', {scope: 'col'}, 'scenario and planner'),
+            pairs.map((pair) =>
+              element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
+            )
+          )
+        ),
+        element(
+          'tbody',
+          {},
+          strata.map((stratum) =>
+            element(
+              'tr',
+              {},
+              element('th', {scope: 'row'}, stratum.title),
+              pairs.map(([x, y]) => correlation_cell(correlation_of(data, stratum, x, y)))
+            )
+          )
+        )
+      )
+    );
   }
 
   function first_choice(data, measured) {
@@ -78,7 +143,8 @@ window.dmrp = window.dmrp || {};
 
   function mount(body, data) {
     const measured = dmrp.labels.measured_metrics(data);
-    if (data.trials.id.length < 3) return `with ${dmrp.numbers.counted(data.trials.id.length, 'trial')} no correlation can be seen`;
+    if (data.trials.id.length < 3)
+      return `with ${dmrp.numbers.counted(data.trials.id.length, 'trial')} no correlation can be seen`;
     if (measured.length < 2) return 'fewer than two metrics have values';
     const strata = dmrp.labels.strata(data);
     const chosen = first_choice(data, measured);
@@ -87,28 +153,51 @@ window.dmrp = window.dmrp || {};
     const show = () => {
       dmrp.elements.fill(holder);
       dmrp.elements.fill(detail);
-      const seen = strata.map((stratum) => ({stratum, trials: points_of(data, stratum, chosen)})).filter((one) => one.trials.length > 0);
+      const seen = strata
+        .map((stratum) => ({stratum, trials: points_of(data, stratum, chosen)}))
+        .filter((one) => one.trials.length > 0);
       if (seen.length === 0) {
         dmrp.elements.fill(holder, element('p', {class: 'note'}, 'In no trial are both defined.'));
         return;
       }
-      const values = (name, variant) => seen.filter((one) => one.stratum.variant === variant)
-        .flatMap((one) => one.trials.map((i) => data.values[name][i]));
-      dmrp.elements.fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, chosen.y)}`));
-      const panels = dmrp.plots.panels(holder, seen.map((one) => one.stratum.title), dmrp.plots.SMALL_PANELS);
+      const values = (name, variant) =>
+        seen
+          .filter((one) => one.stratum.variant === variant)
+          .flatMap((one) => one.trials.map((i) => data.values[name][i]));
+      dmrp.elements.fill(
+        holder,
+        element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, chosen.y)}`)
+      );
+      const panels = dmrp.plots.panels(
+        holder,
+        seen.map((one) => one.stratum.title),
+        dmrp.plots.SMALL_PANELS
+      );
       seen.forEach((one, i) => {
         const {variant} = one.stratum;
         const domains = {x: values(chosen.x, variant), y: values(chosen.y, variant)};
         const words = correlation_words(correlation_of(data, one.stratum, chosen.x, chosen.y));
         panels[i].insertBefore(element('p', {class: 'figure-line'}, words), panels[i].querySelector('.plot'));
-        dmrp.plots.responsive(panels[i].querySelector('.plot'),
-          (plot, width) => draw_panel(data, one.trials, chosen, domains, plot, width, detail));
+        dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+          draw_panel(data, one.trials, chosen, domains, plot, width, detail)
+        );
       });
     };
-    const choose = (key) => (value) => { chosen[key] = value; show(); };
-    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.metric_select(data, 'Sideways', measured, chosen.x, choose('x')),
-      dmrp.controls.metric_select(data, 'Upwards', measured, chosen.y, choose('y'))),
-    dmrp.trial_points.mark_legend(data), holder, detail, correlation_table(data, strata));
+    const choose = (key) => (value) => {
+      chosen[key] = value;
+      show();
+    };
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(
+        dmrp.controls.metric_select(data, 'Sideways', measured, chosen.x, choose('x')),
+        dmrp.controls.metric_select(data, 'Upwards', measured, chosen.y, choose('y'))
+      ),
+      dmrp.trial_points.mark_legend(data),
+      holder,
+      detail,
+      correlation_table(data, strata)
+    );
     show();
     return null;
   }

@@ -4,9 +4,9 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const ROW = 24;          // px, a combination
-  const SPREAD = 7;        // px, points up and down from their row's middle
-  const UNDEFINED = 40;    // px, the column of trials without a value
+  const ROW = 24; // px, a combination
+  const SPREAD = 7; // px, points up and down from their row's middle
+  const UNDEFINED = 40; // px, the column of trials without a value
   const TOP = 26;
   const BOTTOM = 46;
 
@@ -20,7 +20,11 @@ window.dmrp = window.dmrp || {};
     const rows = variant.combinations.map((combination) => {
       const trials = of.get(combination);
       const defined = trials.map((i) => values[i]).filter(dmrp.ranking.is_defined);
-      return {label: dmrp.labels.combination(data, combination), trials, median: defined.length > 1 ? d3.median(defined) : null};
+      return {
+        label: dmrp.labels.combination(data, combination),
+        trials,
+        median: defined.length > 1 ? d3.median(defined) : null,
+      };
     });
     return {rows, has_undefined: rows.some((row) => row.trials.some((i) => !dmrp.ranking.is_defined(values[i])))};
   }
@@ -28,17 +32,42 @@ window.dmrp = window.dmrp || {};
   function draw_rows(svg, rows, left, right) {
     rows.forEach((row, r) => {
       const y = TOP + (r + 0.5) * ROW;
-      const text = svg.append('text').attr('x', left - 10).attr('y', y).attr('dy', '0.32em').attr('text-anchor', 'end');
+      const text = svg
+        .append('text')
+        .attr('x', left - 10)
+        .attr('y', y)
+        .attr('dy', '0.32em')
+        .attr('text-anchor', 'end');
       dmrp.plots.fit_text(text, row.label, left - 10);
-      svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
+      svg
+        .append('g')
+        .attr('class', 'grid')
+        .append('line')
+        .attr('x1', left)
+        .attr('x2', right)
+        .attr('y1', y)
+        .attr('y2', y);
     });
   }
 
   function draw_undefined_column(svg, right, bottom, trials_without) {
     if (!trials_without) return;
-    svg.append('text').attr('class', 'soft').attr('x', right + UNDEFINED / 2 + 4).attr('y', 14).attr('text-anchor', 'middle')
-      .style('font-size', '11px').text('undefined');
-    svg.append('g').attr('class', 'grid').append('line').attr('x1', right + 10).attr('x2', right + 10).attr('y1', TOP - 6).attr('y2', bottom);
+    svg
+      .append('text')
+      .attr('class', 'soft')
+      .attr('x', right + UNDEFINED / 2 + 4)
+      .attr('y', 14)
+      .attr('text-anchor', 'middle')
+      .style('font-size', '11px')
+      .text('undefined');
+    svg
+      .append('g')
+      .attr('class', 'grid')
+      .append('line')
+      .attr('x1', right + 10)
+      .attr('x2', right + 10)
+      .attr('y1', TOP - 6)
+      .attr('y2', bottom);
   }
 
   // Over the points, with a rim that sets them off.
@@ -47,8 +76,13 @@ window.dmrp = window.dmrp || {};
       if (row.median === null) return;
       const middle = TOP + (r + 0.5) * ROW;
       for (const kind of ['median rim', 'median']) {
-        svg.append('line').attr('class', kind).attr('x1', x(row.median)).attr('x2', x(row.median))
-          .attr('y1', middle - ROW / 2 + 2).attr('y2', middle + ROW / 2 - 2);
+        svg
+          .append('line')
+          .attr('class', kind)
+          .attr('x1', x(row.median))
+          .attr('x2', x(row.median))
+          .attr('y1', middle - ROW / 2 + 2)
+          .attr('y2', middle + ROW / 2 - 2);
       }
     });
   }
@@ -71,7 +105,9 @@ window.dmrp = window.dmrp || {};
       for (const trial of row.trials) {
         const jitter = dmrp.trial_points.jitter(data.trials.id[trial]);
         const defined = dmrp.ranking.is_defined(values[trial]);
-        const at = defined ? x(values[trial]) : right + 10 + UNDEFINED / 2 + dmrp.trial_points.jitter(data.trials.id[trial], 1) * (UNDEFINED / 2 - 8);
+        const at = defined
+          ? x(values[trial])
+          : right + 10 + UNDEFINED / 2 + dmrp.trial_points.jitter(data.trials.id[trial], 1) * (UNDEFINED / 2 - 8);
         const y = middle + (row.trials.length > 1 ? jitter * SPREAD : 0);
         points.push({x: at, y: middle, row: trial, node: dmrp.trial_points.draw_mark(svg, data, trial, at, y)});
       }
@@ -96,18 +132,35 @@ window.dmrp = window.dmrp || {};
       dmrp.elements.fill(holder);
       dmrp.elements.fill(detail);
       const seen = variants.filter((variant) => chosen.variant === 'all' || variant.key === chosen.variant);
-      const panels = dmrp.plots.panels(holder, seen.map((variant) => (variants.length > 1 ? variant.label : null)), {least: 340, most: 760, most_columns: 3});
+      const panels = dmrp.plots.panels(
+        holder,
+        seen.map((variant) => (variants.length > 1 ? variant.label : null)),
+        {least: 340, most: 760, most_columns: 3}
+      );
       const domain = data.values[chosen.metric];
       seen.forEach((variant, i) => {
         const shown = model(data, variant, chosen.metric);
-        dmrp.plots.responsive(panels[i].querySelector('.plot'),
-          (plot, width) => draw_panel(data, shown, domain, chosen.metric, plot, width, detail));
+        dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+          draw_panel(data, shown, domain, chosen.metric, plot, width, detail)
+        );
       });
     };
-    dmrp.elements.fill(body, dmrp.controls.row(
-      dmrp.controls.metric_select(data, 'Metric', measured, chosen.metric, (name) => { chosen.metric = name; show(); }),
-      dmrp.controls.variant_select(variants, 'all', (key) => { chosen.variant = key; show(); })),
-    dmrp.trial_points.mark_legend(data), holder, detail);
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(
+        dmrp.controls.metric_select(data, 'Metric', measured, chosen.metric, (name) => {
+          chosen.metric = name;
+          show();
+        }),
+        dmrp.controls.variant_select(variants, 'all', (key) => {
+          chosen.variant = key;
+          show();
+        })
+      ),
+      dmrp.trial_points.mark_legend(data),
+      holder,
+      detail
+    );
     show();
     return null;
   }

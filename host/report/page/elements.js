@@ -35,8 +35,13 @@ window.dmrp = window.dmrp || {};
   // A table under its title, in a box of its own that scrolls sideways where the screen is narrow.
   function titled_table(id, title, note, table) {
     table.setAttribute('aria-labelledby', id);
-    return element('div', {class: 'titled'}, element('h3', {id}, title), note && element('p', {class: 'about-table'}, note),
-      element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': id}, table));
+    return element(
+      'div',
+      {class: 'titled'},
+      element('h3', {id}, title),
+      note && element('p', {class: 'about-table'}, note),
+      element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': id}, table)
+    );
   }
 
   dmrp.elements = {element, hidden, fill, titled_table};

@@ -4,36 +4,53 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const STRONGEST = 0.7;  // more would make the numbers hard to read
+  const STRONGEST = 0.7; // more would make the numbers hard to read
 
   // One grid for each variant and pedestrian model: {title, planners, controllers, cells: [[summary or null]]}.
   function grids(data, metric) {
     const index = data.metrics.findIndex((candidate) => candidate.name === metric);
     const models = dmrp.labels.values_of(data, 'pedestrian_model');
-    return dmrp.labels.variants(data).flatMap((variant) => models.map((model) => {
-      const inside = variant.combinations.filter((i) => data.combinations[i].pedestrian_model === model);
-      const names = (field) => dmrp.labels.distinct(inside.map((i) => data.combinations[i][field]));
-      const at = (planner, controller) => inside.find((i) => data.combinations[i].global_planner === planner &&
-        data.combinations[i].local_controller === controller);
-      const planners = names('global_planner');
-      const controllers = names('local_controller');
-      const cells = planners.map((planner) => controllers.map((controller) => {
-        const i = at(planner, controller);
-        return i === undefined ? null : {...data.summaries[i][index], combination: i};
-      }));
-      const title = variant.label + (models.length > 1 ? ` · ${dmrp.labels.named(model)}` : '');
-      return {title, planners, controllers, cells};
-    })).filter((grid) => grid.planners.length > 0);
+    return dmrp.labels
+      .variants(data)
+      .flatMap((variant) =>
+        models.map((model) => {
+          const inside = variant.combinations.filter((i) => data.combinations[i].pedestrian_model === model);
+          const names = (field) => dmrp.labels.distinct(inside.map((i) => data.combinations[i][field]));
+          const at = (planner, controller) =>
+            inside.find(
+              (i) =>
+                data.combinations[i].global_planner === planner && data.combinations[i].local_controller === controller
+            );
+          const planners = names('global_planner');
+          const controllers = names('local_controller');
+          const cells = planners.map((planner) =>
+            controllers.map((controller) => {
+              const i = at(planner, controller);
+              return i === undefined ? null : {...data.summaries[i][index], combination: i};
+            })
+          );
+          const title = variant.label + (models.length > 1 ? ` · ${dmrp.labels.named(model)}` : '');
+          return {title, planners, controllers, cells};
+        })
+      )
+      .filter((grid) => grid.planners.length > 0);
   }
 
   function cell_element(cell, good, best, decimals, unit) {
     if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', title: 'not run'}, '\u00a0'));
     if (!dmrp.ranking.is_defined(cell.mean)) {
-      return element('td', {}, element('span', {class: 'cell nothing', title: 'undefined in every trial'}, dmrp.numbers.UNDEFINED));
+      return element(
+        'td',
+        {},
+        element('span', {class: 'cell nothing', title: 'undefined in every trial'}, dmrp.numbers.UNDEFINED)
+      );
     }
     const about = dmrp.numbers.with_unit(dmrp.numbers.interval(cell.low, cell.high, decimals), unit);
-    const made = element('span', {class: best ? 'cell best-cell' : 'cell', title: `${about} from ${dmrp.numbers.counted(cell.defined, 'trial')}`},
-      element('span', {}, best && dmrp.elements.hidden('best: '), dmrp.numbers.fixed(cell.mean, decimals)));
+    const made = element(
+      'span',
+      {class: best ? 'cell best-cell' : 'cell', title: `${about} from ${dmrp.numbers.counted(cell.defined, 'trial')}`},
+      element('span', {}, best && dmrp.elements.hidden('best: '), dmrp.numbers.fixed(cell.mean, decimals))
+    );
     made.style.setProperty('--strength', d3.scaleLinear().range([0.03, STRONGEST])(good).toFixed(3));
     return element('td', {}, made);
   }
@@ -46,8 +63,14 @@ window.dmrp = window.dmrp || {};
     if (direction === 'lower') ends.reverse();
     const bar = element('span', {class: 'bar'});
     bar.style.setProperty('--strongest', STRONGEST);
-    return element('p', {class: 'heat-key number', 'aria-hidden': 'true'}, dmrp.numbers.fixed(ends[0], decimals), bar,
-      dmrp.numbers.fixed(ends[1], decimals), direction !== 'none' && ' best');
+    return element(
+      'p',
+      {class: 'heat-key number', 'aria-hidden': 'true'},
+      dmrp.numbers.fixed(ends[0], decimals),
+      bar,
+      dmrp.numbers.fixed(ends[1], decimals),
+      direction !== 'none' && ' best'
+    );
   }
 
   function grid_table(grid, metric, decimals) {
@@ -56,17 +79,52 @@ window.dmrp = window.dmrp || {};
     const goodness = dmrp.ranking.goodness(means, metric.direction);
     const best = dmrp.ranking.best(means, metric.direction, decimals);
     const width = grid.controllers.length;
-    return element('div', {class: 'facet'}, element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
-      element('table', {class: 'heat'}, element('caption', {}, element('h4', {}, grid.title)),
-        element('thead', {}, element('tr', {}, element('td'), grid.controllers.map((name) => element('th', {scope: 'col'}, name)))),
-        element('tbody', {}, grid.planners.map((name, r) => element('tr', {}, element('th', {scope: 'row'}, name),
-          grid.cells[r].map((cell, c) => cell_element(cell, goodness[r * width + c], best.has(r * width + c), decimals, metric.unit))))))),
-    scale_key(means, decimals, metric.direction));
+    return element(
+      'div',
+      {class: 'facet'},
+      element(
+        'div',
+        {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
+        element(
+          'table',
+          {class: 'heat'},
+          element('caption', {}, element('h4', {}, grid.title)),
+          element(
+            'thead',
+            {},
+            element(
+              'tr',
+              {},
+              element('td'),
+              grid.controllers.map((name) => element('th', {scope: 'col'}, name))
+            )
+          ),
+          element(
+            'tbody',
+            {},
+            grid.planners.map((name, r) =>
+              element(
+                'tr',
+                {},
+                element('th', {scope: 'row'}, name),
+                grid.cells[r].map((cell, c) =>
+                  cell_element(cell, goodness[r * width + c], best.has(r * width + c), decimals, metric.unit)
+                )
+              )
+            )
+          )
+        )
+      ),
+      scale_key(means, decimals, metric.direction)
+    );
   }
 
   function key_words(data, metric) {
-    const better = {higher: 'Stronger: higher, which is better.', lower: 'Stronger: lower, which is better.',
-                    none: 'Stronger: higher; neither is better.'}[metric.direction];
+    const better = {
+      higher: 'Stronger: higher, which is better.',
+      lower: 'Stronger: lower, which is better.',
+      none: 'Stronger: higher; neither is better.',
+    }[metric.direction];
     const framed = metric.direction === 'none' ? '' : ' Framed: the best of its scenario.';
     return `${dmrp.labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
   }
@@ -78,20 +136,35 @@ window.dmrp = window.dmrp || {};
 
   function mount(body, data) {
     const measured = dmrp.labels.measured_metrics(data);
-    const pairs = Math.max(dmrp.labels.values_of(data, 'global_planner').length, dmrp.labels.values_of(data, 'local_controller').length);
+    const pairs = Math.max(
+      dmrp.labels.values_of(data, 'global_planner').length,
+      dmrp.labels.values_of(data, 'local_controller').length
+    );
     if (pairs < 2 || measured.length === 0) return 'there is one planner and one controller';
     const holder = element('div', {class: 'facets heat-grids'});
     const note = element('p', {class: 'note'});
     const show = (name) => {
       const metric = dmrp.labels.metric(data, name);
       const all = grids(data, name);
-      const decimals = dmrp.labels.decimals(data, name, all.flatMap((grid) => grid.cells.flat().map((cell) => cell && cell.mean)));
-      dmrp.elements.fill(holder, all.map((grid) => grid_table(grid, metric, decimals)));
+      const decimals = dmrp.labels.decimals(
+        data,
+        name,
+        all.flatMap((grid) => grid.cells.flat().map((cell) => cell && cell.mean))
+      );
+      dmrp.elements.fill(
+        holder,
+        all.map((grid) => grid_table(grid, metric, decimals))
+      );
       dmrp.elements.fill(note, key_words(data, metric));
     };
     const first = default_metric(data, measured);
     show(first);
-    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.metric_select(data, 'Metric', measured, first, show)), holder, note);
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(dmrp.controls.metric_select(data, 'Metric', measured, first, show)),
+      holder,
+      note
+    );
     return null;
   }
 

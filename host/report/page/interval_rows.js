@@ -12,7 +12,10 @@ window.dmrp = window.dmrp || {};
     const ends = rows.flatMap((row) => [row.estimate, row.low, row.high]).filter(dmrp.numbers.is_number);
     const [low, high] = d3.extent(ends.concat(0));
     const room = (high - low) * 0.05 || 1;
-    return d3.scaleLinear().domain([low - room, high + room]).range([2, 98]);
+    return d3
+      .scaleLinear()
+      .domain([low - room, high + room])
+      .range([2, 98]);
   }
 
   const percent = (at) => `${at.toFixed(2)}%`;
@@ -22,7 +25,13 @@ window.dmrp = window.dmrp || {};
   }
 
   function add_zero(svg, x, height) {
-    svg.append('line').attr('class', 'zero').attr('x1', percent(x(0))).attr('x2', percent(x(0))).attr('y1', 0).attr('y2', height);
+    svg
+      .append('line')
+      .attr('class', 'zero')
+      .attr('x1', percent(x(0)))
+      .attr('x2', percent(x(0)))
+      .attr('y1', 0)
+      .attr('y2', height);
   }
 
   // Filled where `sure`.
@@ -32,12 +41,21 @@ window.dmrp = window.dmrp || {};
     const middle = HEIGHT / 2;
     add_zero(svg, x, HEIGHT);
     if (dmrp.numbers.is_number(row.low) && dmrp.numbers.is_number(row.high)) {
-      svg.append('line').attr('class', 'bar').attr('x1', percent(x(row.low))).attr('x2', percent(x(row.high)))
-        .attr('y1', middle).attr('y2', middle);
+      svg
+        .append('line')
+        .attr('class', 'bar')
+        .attr('x1', percent(x(row.low)))
+        .attr('x2', percent(x(row.high)))
+        .attr('y1', middle)
+        .attr('y2', middle);
     }
     if (dmrp.numbers.is_number(row.estimate)) {
-      svg.append('circle').attr('class', sure ? 'estimate sure' : 'estimate').attr('cx', percent(x(row.estimate)))
-        .attr('cy', middle).attr('r', 4.5);
+      svg
+        .append('circle')
+        .attr('class', sure ? 'estimate sure' : 'estimate')
+        .attr('cx', percent(x(row.estimate)))
+        .attr('cy', middle)
+        .attr('r', 4.5);
     }
     return holder;
   }
@@ -49,11 +67,24 @@ window.dmrp = window.dmrp || {};
     const ticks = x.ticks(5);
     const decimals = Math.max(0, -Math.floor(Math.log10(ticks[1] - ticks[0])));
     for (const tick of ticks) {
-      svg.append('text').attr('class', 'soft').attr('x', percent(x(tick))).attr('y', 30).attr('text-anchor', 'middle')
-        .style('font-size', '11px').text(dmrp.numbers.signed(tick, decimals));
+      svg
+        .append('text')
+        .attr('class', 'soft')
+        .attr('x', percent(x(tick)))
+        .attr('y', 30)
+        .attr('text-anchor', 'middle')
+        .style('font-size', '11px')
+        .text(dmrp.numbers.signed(tick, decimals));
     }
-    const words = (text, anchor, at) => svg.append('text').attr('class', 'soft').attr('x', percent(at)).attr('y', 11)
-      .attr('text-anchor', anchor).style('font-size', '11px').text(text);
+    const words = (text, anchor, at) =>
+      svg
+        .append('text')
+        .attr('class', 'soft')
+        .attr('x', percent(at))
+        .attr('y', 11)
+        .attr('text-anchor', anchor)
+        .style('font-size', '11px')
+        .text(text);
     if (left_words) words(left_words, 'start', 0);
     if (right_words) words(right_words, 'end', 100);
     return holder;

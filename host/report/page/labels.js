@@ -11,8 +11,8 @@ window.dmrp = window.dmrp || {};
     pedestrian_model: 'pedestrian model',
   };
   const SHORT_TITLES = {global_planner: 'planner', local_controller: 'controller', pedestrian_model: 'pedestrians'};
-  const DASHES = ['none', '7 4', '2 3', '9 3 2 3'];  // so that lines on top of each other are both seen
-  const SERIES = 8;  // colours in style.css, each with a shape and a dash of its own
+  const DASHES = ['none', '7 4', '2 3', '9 3 2 3']; // so that lines on top of each other are both seen
+  const SERIES = 8; // colours in style.css, each with a shape and a dash of its own
 
   function distinct(values) {
     return [...new Set(values)];
@@ -40,7 +40,9 @@ window.dmrp = window.dmrp || {};
   // Worlds without robots have no planner and no controller.
   function values_of(data, field) {
     const with_robots = data.combinations.filter((combination) => combination.robots > 0);
-    return distinct((with_robots.length > 0 ? with_robots : data.combinations).map((combination) => combination[field]));
+    return distinct(
+      (with_robots.length > 0 ? with_robots : data.combinations).map((combination) => combination[field])
+    );
   }
 
   // The fields that tell combinations apart; pedestrian models only where there are several.
@@ -57,8 +59,12 @@ window.dmrp = window.dmrp || {};
         const combinations = variant.combinations.filter((i) => key(i) === one);
         const {global_planner, pedestrian_model} = data.combinations[combinations[0]];
         const title = [
-          variant.label, several('global_planner') && global_planner, several('pedestrian_model') && named(pedestrian_model),
-        ].filter(Boolean).join(' · ');
+          variant.label,
+          several('global_planner') && global_planner,
+          several('pedestrian_model') && named(pedestrian_model),
+        ]
+          .filter(Boolean)
+          .join(' · ');
         return {variant, global_planner, pedestrian_model, combinations, title};
       });
     });
@@ -85,8 +91,13 @@ window.dmrp = window.dmrp || {};
   // "completion time", "IBTR by distance": abbreviations as the layouts write them.
   function metric_title(data, name) {
     const headers = data.layouts.report.tables.flatMap((table) => table.columns.map((column) => column.header));
-    const written = new Map(headers.filter((header) => header === header.toUpperCase()).map((header) => [header.toLowerCase(), header]));
-    return name.split('_').map((word) => written.get(word) || word).join(' ');
+    const written = new Map(
+      headers.filter((header) => header === header.toUpperCase()).map((header) => [header.toLowerCase(), header])
+    );
+    return name
+      .split('_')
+      .map((word) => written.get(word) || word)
+      .join(' ');
   }
 
   function metric_with_unit(data, name) {
@@ -113,11 +124,32 @@ window.dmrp = window.dmrp || {};
   // Which colour, symbol and dash a label has among its kind: the same in every plot.
   function series(data, field, label) {
     const index = values_of(data, field).indexOf(label);
-    return {index, colour: `var(--series-${(index % SERIES) + 1})`, symbol: index % 7, dash: DASHES[index % DASHES.length]};
+    return {
+      index,
+      colour: `var(--series-${(index % SERIES) + 1})`,
+      symbol: index % 7,
+      dash: DASHES[index % DASHES.length],
+    };
   }
 
   dmrp.labels = {
-    FIELD_TITLES, SHORT_TITLES, distinct, variants, strata, is_of, values_of, naming_fields, named, combination, trial, metric, metric_title,
-    metric_with_unit, direction_words, measured_metrics, decimals, series,
+    FIELD_TITLES,
+    SHORT_TITLES,
+    distinct,
+    variants,
+    strata,
+    is_of,
+    values_of,
+    naming_fields,
+    named,
+    combination,
+    trial,
+    metric,
+    metric_title,
+    metric_with_unit,
+    direction_words,
+    measured_metrics,
+    decimals,
+    series,
   };
 })(window.dmrp);

@@ -68,5 +68,19 @@ window.dmrp = window.dmrp || {};
     return `${(seconds / 3600).toFixed(1)} h`;
   }
 
-  dmrp.numbers = {UNDEFINED, is_number, fixed, decimals_of, general, signed, interval, p_value, percent, unit, with_unit, counted, duration};
+  dmrp.numbers = {
+    UNDEFINED,
+    is_number,
+    fixed,
+    decimals_of,
+    general,
+    signed,
+    interval,
+    p_value,
+    percent,
+    unit,
+    with_unit,
+    counted,
+    duration,
+  };
 })(window.dmrp);

@@ -23,8 +23,15 @@ window.dmrp = window.dmrp || {};
     const names = dmrp.labels.distinct(data.scenarios.map((scenario) => scenario.name));
     return [
       names.join(', '),
-      range_words(data.scenarios.map((scenario) => scenario.robots), 'robot'),
-      range_words(data.scenarios.map((scenario) => scenario.people), 'person', 'people'),
+      range_words(
+        data.scenarios.map((scenario) => scenario.robots),
+        'robot'
+      ),
+      range_words(
+        data.scenarios.map((scenario) => scenario.people),
+        'person',
+        'people'
+      ),
       dmrp.numbers.counted(data.combinations.length, 'combination'),
       `${dmrp.numbers.counted(data.run.repetitions, 'trial')} each`,
     ].join(' · ');
@@ -37,34 +44,50 @@ window.dmrp = window.dmrp || {};
     const list = element('ul', {class: 'verdict'});
     for (const line of dmrp.verdict.lines(data)) {
       const link = line.section && element('a', {href: `#${line.section}`}, 'Show');
-      list.append(element('li', {class: line.kind}, element('span', {class: 'mark', 'aria-hidden': 'true'}, MARKS[line.kind]),
-        element('span', {}, dmrp.elements.hidden(KINDS[line.kind]), line.text, link && ' ', link)));
+      list.append(
+        element(
+          'li',
+          {class: line.kind},
+          element('span', {class: 'mark', 'aria-hidden': 'true'}, MARKS[line.kind]),
+          element('span', {}, dmrp.elements.hidden(KINDS[line.kind]), line.text, link && ' ', link)
+        )
+      );
     }
     return list;
   }
 
   function figure(value, of, title) {
-    return element('div', {class: 'figure'}, element('dt', {}, title),
-      element('dd', {}, value, of && element('span', {class: 'of'}, ` ${of}`)));
+    return element(
+      'div',
+      {class: 'figure'},
+      element('dt', {}, title),
+      element('dd', {}, value, of && element('span', {class: 'of'}, ` ${of}`))
+    );
   }
 
   function figures(data) {
     const t = dmrp.verdict.tally(data);
     const show = (count) => count.toLocaleString('en');
-    return element('dl', {class: 'figures'},
+    return element(
+      'dl',
+      {class: 'figures'},
       figure(show(t.ran), t.ran === t.planned ? '' : `of ${show(t.planned)}`, t.ran === 1 ? 'trial' : 'trials'),
       t.robots > 0 && figure(show(t.arrived), `of ${show(t.robots)}`, 'robots arrived'),
       t.contacts !== null && figure(show(t.contacts), '', t.contacts === 1 ? 'contact' : 'contacts'),
       figure(show(t.faults), '', t.faults === 1 ? 'fault' : 'faults'),
-      figure(dmrp.numbers.duration(t.simulated_s), `in ${dmrp.numbers.duration(t.wall_s)}`, 'simulated, processor time'));
+      figure(dmrp.numbers.duration(t.simulated_s), `in ${dmrp.numbers.duration(t.wall_s)}`, 'simulated, processor time')
+    );
   }
 
   function scenario_list(data) {
     const list = element('dl', {class: 'scenarios'});
     for (const scenario of data.scenarios) {
-      const robots = scenario.robots === 0 ? 'without robots, to compare with' : dmrp.numbers.counted(scenario.robots, 'robot');
-      list.append(element('dt', {}, `${scenario.name} · ${robots}, ${dmrp.numbers.counted(scenario.people, 'person', 'people')}`),
-        element('dd', {}, scenario.description));
+      const robots =
+        scenario.robots === 0 ? 'without robots, to compare with' : dmrp.numbers.counted(scenario.robots, 'robot');
+      list.append(
+        element('dt', {}, `${scenario.name} · ${robots}, ${dmrp.numbers.counted(scenario.people, 'person', 'people')}`),
+        element('dd', {}, scenario.description)
+      );
     }
     return list;
   }
@@ -83,13 +106,19 @@ window.dmrp = window.dmrp || {};
 
   function mount(body, data) {
     document.title = `${data.run.name} · dmrp report`;
-    dmrp.elements.fill(body,
-      element('div', {class: 'title-line'},
+    dmrp.elements.fill(
+      body,
+      element(
+        'div',
+        {class: 'title-line'},
         element('div', {}, element('p', {class: 'kicker'}, 'dmrp benchmark report'), element('h1', {}, data.run.name)),
-        dmrp.theme.button()),
+        dmrp.theme.button()
+      ),
       element('p', {class: 'subtitle'}, subtitle(data)),
-      verdict(data), figures(data),
-      element('div', {class: 'what-was-run'}, scenario_list(data), choices(data)));
+      verdict(data),
+      figures(data),
+      element('div', {class: 'what-was-run'}, scenario_list(data), choices(data))
+    );
   }
 
   dmrp.overview = {mount, date_words};

@@ -9,19 +9,56 @@ window.dmrp = window.dmrp || {};
     const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
     const x = dmrp.interval_rows.scale(estimates);
     const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
-    const table = element('table', {class: 'forest with-intervals'}, element('thead', {}, element('tr', {},
-      element('th', {scope: 'col'}, 'combination'), dmrp.interval_rows.axis(x, '← sooner', 'later →'),
-      column('delay', element('span', {class: 'unit'}, 's')), column('pairs'))));
+    const table = element(
+      'table',
+      {class: 'forest with-intervals'},
+      element(
+        'thead',
+        {},
+        element(
+          'tr',
+          {},
+          element('th', {scope: 'col'}, 'combination'),
+          dmrp.interval_rows.axis(x, '← sooner', 'later →'),
+          column('delay', element('span', {class: 'unit'}, 's')),
+          column('pairs')
+        )
+      )
+    );
     for (const variant of variants) {
       const own = rows.map((row, i) => i).filter((i) => variant.combinations.includes(rows[i].combination));
       if (own.length === 0) continue;
-      table.append(element('tbody', {}, data.scenarios.length > 1 &&
-        element('tr', {class: 'group'}, element('th', {scope: 'rowgroup', colspan: 4}, element('span', {}, variant.label))),
-      own.map((i) => element('tr', {}, element('th', {scope: 'row'}, dmrp.labels.combination(data, rows[i].combination)),
-        dmrp.interval_rows.cell(estimates[i], x, rows[i].low > 0 || rows[i].high < 0),
-        element('td', {class: 'number', 'data-label': 'delay'}, element('span', {class: 'mean'}, dmrp.numbers.signed(rows[i].mean_s, 2)),
-          element('span', {class: 'interval'}, dmrp.numbers.interval(rows[i].low, rows[i].high, 2, dmrp.numbers.signed))),
-        element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)))));
+      table.append(
+        element(
+          'tbody',
+          {},
+          data.scenarios.length > 1 &&
+            element(
+              'tr',
+              {class: 'group'},
+              element('th', {scope: 'rowgroup', colspan: 4}, element('span', {}, variant.label))
+            ),
+          own.map((i) =>
+            element(
+              'tr',
+              {},
+              element('th', {scope: 'row'}, dmrp.labels.combination(data, rows[i].combination)),
+              dmrp.interval_rows.cell(estimates[i], x, rows[i].low > 0 || rows[i].high < 0),
+              element(
+                'td',
+                {class: 'number', 'data-label': 'delay'},
+                element('span', {class: 'mean'}, dmrp.numbers.signed(rows[i].mean_s, 2)),
+                element(
+                  'span',
+                  {class: 'interval'},
+                  dmrp.numbers.interval(rows[i].low, rows[i].high, 2, dmrp.numbers.signed)
+                )
+              ),
+              element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)
+            )
+          )
+        )
+      );
     }
     return element('div', {class: 'table-scroll'}, table);
   }
@@ -32,10 +69,22 @@ window.dmrp = window.dmrp || {};
     const variants = dmrp.labels.variants(data);
     const first = dmrp.controls.first_variant(variants, rows.length);
     const holder = element('div');
-    const show = (key) => dmrp.elements.fill(holder, table_of(data, rows, variants.filter((variant) => key === 'all' || variant.key === key)));
+    const show = (key) =>
+      dmrp.elements.fill(
+        holder,
+        table_of(
+          data,
+          rows,
+          variants.filter((variant) => key === 'all' || variant.key === key)
+        )
+      );
     show(first);
-    dmrp.elements.fill(body, dmrp.controls.row(dmrp.controls.variant_select(variants, first, show)), holder,
-      element('p', {class: 'note'}, 'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero.'));
+    dmrp.elements.fill(
+      body,
+      dmrp.controls.row(dmrp.controls.variant_select(variants, first, show)),
+      holder,
+      element('p', {class: 'note'}, 'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero.')
+    );
     return null;
   }
 

@@ -23,9 +23,14 @@ window.dmrp = window.dmrp || {};
   }
 
   function frame(holder, width, height, label) {
-    return d3.select(holder).append('svg')
-      .attr('viewBox', `0 0 ${width} ${height}`).attr('width', width).attr('height', height)
-      .attr('role', 'img').attr('aria-label', label);
+    return d3
+      .select(holder)
+      .append('svg')
+      .attr('viewBox', `0 0 ${width} ${height}`)
+      .attr('width', width)
+      .attr('height', height)
+      .attr('role', 'img')
+      .attr('aria-label', label);
   }
 
   // Not more ticks than there is room for.
@@ -39,18 +44,33 @@ window.dmrp = window.dmrp || {};
 
   function axis_bottom(parent, scale, y, title, options = {}) {
     const [left, right] = scale.range();
-    const axis = d3.axisBottom(scale).ticks(ticks_for(right - left, 48)).tickSize(4).tickPadding(5).tickFormat(number_format);
+    const axis = d3
+      .axisBottom(scale)
+      .ticks(ticks_for(right - left, 48))
+      .tickSize(4)
+      .tickPadding(5)
+      .tickFormat(number_format);
     const made = parent.append('g').attr('class', 'axis').attr('transform', `translate(0,${y})`).call(axis);
     if (title) {
-      made.append('text').attr('class', 'title').attr('x', options.title_x === undefined ? (left + right) / 2 : options.title_x)
-        .attr('y', 34).attr('text-anchor', 'middle').text(title);
+      made
+        .append('text')
+        .attr('class', 'title')
+        .attr('x', options.title_x === undefined ? (left + right) / 2 : options.title_x)
+        .attr('y', 34)
+        .attr('text-anchor', 'middle')
+        .text(title);
     }
     return made;
   }
 
   function axis_left(parent, scale, x) {
     const [bottom, top] = scale.range();
-    const axis = d3.axisLeft(scale).ticks(ticks_for(bottom - top, 36)).tickSize(4).tickPadding(4).tickFormat(number_format);
+    const axis = d3
+      .axisLeft(scale)
+      .ticks(ticks_for(bottom - top, 36))
+      .tickSize(4)
+      .tickPadding(4)
+      .tickFormat(number_format);
     return parent.append('g').attr('class', 'axis').attr('transform', `translate(${x},0)`).call(axis);
   }
 
@@ -60,13 +80,28 @@ window.dmrp = window.dmrp || {};
     if (low === undefined) [low, high] = [0, 1];
     if (zero) [low, high] = [Math.min(0, low), Math.max(0, high)];
     const room = low === high ? Math.max(0.5, Math.abs(low) * 0.1) : (high - low) * (zero ? 0 : 0.05);
-    return d3.scaleLinear().domain([low >= 0 ? Math.max(0, low - room) : low - room, high + room]).range(range).nice();
+    return d3
+      .scaleLinear()
+      .domain([low >= 0 ? Math.max(0, low - room) : low - room, high + room])
+      .range(range)
+      .nice();
   }
 
-  const SYMBOLS = ['symbolCircle', 'symbolTriangle', 'symbolSquare', 'symbolDiamond', 'symbolStar', 'symbolWye', 'symbolCross'];
+  const SYMBOLS = [
+    'symbolCircle',
+    'symbolTriangle',
+    'symbolSquare',
+    'symbolDiamond',
+    'symbolStar',
+    'symbolWye',
+    'symbolCross',
+  ];
 
   function symbol(index, size = 44) {
-    return d3.symbol().type(d3[SYMBOLS[index % SYMBOLS.length]]).size(size)();
+    return d3
+      .symbol()
+      .type(d3[SYMBOLS[index % SYMBOLS.length]])
+      .size(size)();
   }
 
   // What a trial that failed is drawn as.
@@ -82,10 +117,21 @@ window.dmrp = window.dmrp || {};
       const width = entry.line ? 28 : 14;
       const svg = d3.select(item).append('svg').attr('width', width).attr('height', 14).attr('aria-hidden', 'true');
       if (entry.line)
-        svg.append('line').attr('x1', 0).attr('x2', width).attr('y1', 7).attr('y2', 7).attr('class', 'line').style('stroke', entry.colour)
+        svg
+          .append('line')
+          .attr('x1', 0)
+          .attr('x2', width)
+          .attr('y1', 7)
+          .attr('y2', 7)
+          .attr('class', 'line')
+          .style('stroke', entry.colour)
           .style('stroke-dasharray', entry.dash);
-      svg.append('path').attr('transform', `translate(${width / 2},7)`).attr('d', entry.path)
-        .attr('class', entry.failed ? 'mark failed' : 'mark').style('--colour', entry.colour)
+      svg
+        .append('path')
+        .attr('transform', `translate(${width / 2},7)`)
+        .attr('d', entry.path)
+        .attr('class', entry.failed ? 'mark failed' : 'mark')
+        .style('--colour', entry.colour)
         .style('fill', entry.failed ? 'none' : entry.colour);
       item.append(entry.label);
       list.append(item);
@@ -97,10 +143,18 @@ window.dmrp = window.dmrp || {};
   function field_legend(data, field, line = false) {
     const values = dmrp.labels.values_of(data, field);
     if (values.length < 2) return null;
-    return legend(values.map((value) => {
-      const series = dmrp.labels.series(data, field, value);
-      return {label: dmrp.labels.named(value), colour: series.colour, path: symbol(series.symbol), line, dash: series.dash};
-    }));
+    return legend(
+      values.map((value) => {
+        const series = dmrp.labels.series(data, field, value);
+        return {
+          label: dmrp.labels.named(value),
+          colour: series.colour,
+          path: symbol(series.symbol),
+          line,
+          dash: series.dash,
+        };
+      })
+    );
   }
 
   // Near `target`'s box, inside the window.
@@ -144,9 +198,15 @@ window.dmrp = window.dmrp || {};
     const columns = Math.max(1, Math.min(most_columns, titles.length));
     const grid = element('div', {class: 'facets'});
     grid.style.maxWidth = `${columns * most}px`;
-    grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), calc((100% - ${columns - 1} * 1.75rem) / ${columns})), 1fr))`;
+    const share = `calc((100% - ${columns - 1} * 1.75rem) / ${columns})`;
+    grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), ${share}), 1fr))`;
     const made = titles.map((title) => {
-      const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), element('div', {class: 'plot'}));
+      const panel = element(
+        'div',
+        {class: 'facet'},
+        title && element('h4', {}, title),
+        element('div', {class: 'plot'})
+      );
       grid.append(panel);
       return panel;
     });
@@ -155,6 +215,20 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.plots = {
-    responsive, frame, axis_bottom, axis_left, linear, symbol, cross, legend, field_legend, show_tip, hide_tip, text_width, fit_text, SMALL_PANELS, panels,
+    responsive,
+    frame,
+    axis_bottom,
+    axis_left,
+    linear,
+    symbol,
+    cross,
+    legend,
+    field_legend,
+    show_tip,
+    hide_tip,
+    text_width,
+    fit_text,
+    SMALL_PANELS,
+    panels,
   };
 })(window.dmrp);

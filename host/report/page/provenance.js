@@ -25,17 +25,47 @@ window.dmrp = window.dmrp || {};
       ['processor', machine.cpu_level],
       ['seed', run.seed],
     ].filter(([, value]) => value);
-    return element('dl', {class: 'choices facts'}, pairs.map(([title, value]) => [element('dt', {}, title), element('dd', {}, value)]));
+    return element(
+      'dl',
+      {class: 'choices facts'},
+      pairs.map(([title, value]) => [element('dt', {}, title), element('dd', {}, value)])
+    );
   }
 
   function files(data) {
     const all = data.run.manifest.files || [];
     if (all.length === 0) return null;
-    return dmrp.elements.titled_table('title-files', 'Files that were read', null,
-      element('table', {class: 'files'},
-        element('thead', {}, element('tr', {}, ['what', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text)))),
-        element('tbody', {}, all.map((file) => element('tr', {}, element('th', {scope: 'row'}, file.role),
-          element('td', {}, element('code', {}, file.path)), element('td', {}, element('code', {class: 'hash'}, file.sha256)))))));
+    return dmrp.elements.titled_table(
+      'title-files',
+      'Files that were read',
+      null,
+      element(
+        'table',
+        {class: 'files'},
+        element(
+          'thead',
+          {},
+          element(
+            'tr',
+            {},
+            ['what', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))
+          )
+        ),
+        element(
+          'tbody',
+          {},
+          all.map((file) =>
+            element(
+              'tr',
+              {},
+              element('th', {scope: 'row'}, file.role),
+              element('td', {}, element('code', {}, file.path)),
+              element('td', {}, element('code', {class: 'hash'}, file.sha256))
+            )
+          )
+        )
+      )
+    );
   }
 
   function command(text, what) {
@@ -44,21 +74,41 @@ window.dmrp = window.dmrp || {};
 
   function repeating(data) {
     const line = command_words(data.run.command_line);
-    return element('div', {class: 'repeating'}, element('h3', {}, 'To repeat it'),
-      element('p', {}, 'The run was started by'), command(line, 'the command line'),
-      element('p', {}, 'The experiment with every default written out is effective.toml, below and in the run directory. With the same ' +
-        'libraries, C library and processor level it gives the same bits in every value but clock times:'),
-      command('dmrp-host effective.toml', 'the command that repeats the run'));
+    return element(
+      'div',
+      {class: 'repeating'},
+      element('h3', {}, 'To repeat it'),
+      element('p', {}, 'The run was started by'),
+      command(line, 'the command line'),
+      element(
+        'p',
+        {},
+        'The experiment with every default written out is effective.toml, below and in the run directory. With the same ' +
+          'libraries, C library and processor level it gives the same bits in every value but clock times:'
+      ),
+      command('dmrp-host effective.toml', 'the command that repeats the run')
+    );
   }
 
   function folded(title, text) {
-    return element('details', {class: 'folded'}, element('summary', {}, title),
-      dmrp.controls.copy_button(text, title), element('pre', {tabindex: '0'}, element('code', {}, text)));
+    return element(
+      'details',
+      {class: 'folded'},
+      element('summary', {}, title),
+      dmrp.controls.copy_button(text, title),
+      element('pre', {tabindex: '0'}, element('code', {}, text))
+    );
   }
 
   function mount(body, data) {
-    dmrp.elements.fill(body, facts(data), repeating(data), folded('effective.toml', data.run.effective_toml),
-      folded('manifest.json', JSON.stringify(data.run.manifest, null, 2)), files(data));
+    dmrp.elements.fill(
+      body,
+      facts(data),
+      repeating(data),
+      folded('effective.toml', data.run.effective_toml),
+      folded('manifest.json', JSON.stringify(data.run.manifest, null, 2)),
+      files(data)
+    );
     return null;
   }
 

@@ -26,7 +26,8 @@ window.dmrp = window.dmrp || {};
   }
 
   function mount_replay(body, data) {
-    if (!dmrp.replay || (data.replays.length === 0 && data.replays_left_out.length === 0)) return 'no trace was recorded';
+    if (!dmrp.replay || (data.replays.length === 0 && data.replays_left_out.length === 0))
+      return 'no trace was recorded';
     dmrp.replay.mount(body.closest('section'), data);
     return null;
   }
@@ -35,7 +36,14 @@ window.dmrp = window.dmrp || {};
     if (part.done) return;
     part.done = true;
     const body = part.section.querySelector('.section-body');
-    const reason = part.mount(body, data);
+    let reason = null;
+    try {
+      reason = part.mount(body, data);
+    } catch (error) {
+      // a part that fails must not take the others with it
+      console.error(error);
+      dmrp.elements.fill(body, element('p', {class: 'note'}, `This part could not be shown: ${error.message}`));
+    }
     part.section.classList.add('ready');
     if (typeof reason !== 'string') return;
     const list = document.getElementById('left-out');
@@ -60,29 +68,40 @@ window.dmrp = window.dmrp || {};
   function bring_into_sight(link) {
     const list = link.parentElement;
     const room = list.clientWidth - link.offsetWidth;
-    if (link.offsetLeft < list.scrollLeft || link.offsetLeft > list.scrollLeft + room) list.scrollLeft = link.offsetLeft - room / 2;
+    if (link.offsetLeft < list.scrollLeft || link.offsetLeft > list.scrollLeft + room)
+      list.scrollLeft = link.offsetLeft - room / 2;
   }
 
   // Marks in the contents where the reader is.
   function follow_reading(all) {
     const seen = new Set();
-    const observer = new IntersectionObserver((entries) => {
-      for (const entry of entries) entry.isIntersecting ? seen.add(entry.target) : seen.delete(entry.target);
-      const current = all.find((part) => seen.has(part.section));
-      for (const part of all) {
-        if (part === current) part.link.firstChild.setAttribute('aria-current', 'true');
-        else part.link.firstChild.removeAttribute('aria-current');
-      }
-      if (current) bring_into_sight(current.link);
-    }, {rootMargin: '-30% 0px -60% 0px'});
+    const observer = new IntersectionObserver(
+      (entries) => {
+        for (const entry of entries) entry.isIntersecting ? seen.add(entry.target) : seen.delete(entry.target);
+        const current = all.find((part) => seen.has(part.section));
+        for (const part of all) {
+          if (part === current) part.link.firstChild.setAttribute('aria-current', 'true');
+          else part.link.firstChild.removeAttribute('aria-current');
+        }
+        if (current) bring_into_sight(current.link);
+      },
+      {rootMargin: '-30% 0px -60% 0px'}
+    );
     for (const part of all) observer.observe(part.section);
   }
 
   function mount_when_near(all, data) {
-    const observer = new IntersectionObserver((entries) => {
-      for (const entry of entries)
-        if (entry.isIntersecting) mount_part(all.find((part) => part.section === entry.target), data);
-    }, {rootMargin: '600px'});
+    const observer = new IntersectionObserver(
+      (entries) => {
+        for (const entry of entries)
+          if (entry.isIntersecting)
+            mount_part(
+              all.find((part) => part.section === entry.target),
+              data
+            );
+      },
+      {rootMargin: '600px'}
+    );
     for (const part of all) observer.observe(part.section);
   }
 
@@ -90,10 +109,13 @@ window.dmrp = window.dmrp || {};
     const next = all.find((part) => !part.done);
     if (!next) return;
     const idle = window.requestIdleCallback || ((run) => setTimeout(run, 50));
-    idle(() => {
-      mount_part(next, data);
-      mount_when_idle(all, data);
-    }, {timeout: 1000});
+    idle(
+      () => {
+        mount_part(next, data);
+        mount_when_idle(all, data);
+      },
+      {timeout: 1000}
+    );
   }
 
   // A jump to a section must not be undone by others that grow above it.

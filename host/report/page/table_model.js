@@ -8,7 +8,9 @@ window.dmrp = window.dmrp || {};
   function source(data, layout) {
     const by_planner = layout.rows.length === 1 && layout.rows[0] === 'global_planner';
     const rows = by_planner ? data.planners : data.combinations;
-    const fields = ['scenario', 'robots', 'global_planner'].concat(by_planner ? [] : ['local_controller', 'pedestrian_model']);
+    const fields = ['scenario', 'robots', 'global_planner'].concat(
+      by_planner ? [] : ['local_controller', 'pedestrian_model']
+    );
     const key = (row) => JSON.stringify(fields.map((field) => row[field]));
     const trials = new Map(rows.map((row) => [key(row), 0]));
     data.trials.combination.forEach((combination, i) => {
@@ -16,7 +18,8 @@ window.dmrp = window.dmrp || {};
       if (data.trials.outcome[i] !== 'skipped') trials.set(of, trials.get(of) + 1);
     });
     return {
-      rows, by_planner,
+      rows,
+      by_planner,
       summaries: by_planner ? data.planner_summaries : data.summaries,
       trials: rows.map((row) => trials.get(key(row))),
     };
@@ -25,14 +28,16 @@ window.dmrp = window.dmrp || {};
   // The layout's columns of metrics that the run has: [{metric, index, header, decimals, spread_index, variant}].
   function columns_of(data, layout, variant) {
     const index_of = (name) => data.metrics.findIndex((metric) => metric.name === name);
-    return layout.columns.filter((column) => index_of(column.metric) >= 0).map((column) => ({
-      metric: data.metrics[index_of(column.metric)],
-      index: index_of(column.metric),
-      header: column.header,
-      decimals: column.decimals,
-      spread_index: column.spread ? index_of(column.spread) : -1,
-      variant,
-    }));
+    return layout.columns
+      .filter((column) => index_of(column.metric) >= 0)
+      .map((column) => ({
+        metric: data.metrics[index_of(column.metric)],
+        index: index_of(column.metric),
+        header: column.header,
+        decimals: column.decimals,
+        spread_index: column.spread ? index_of(column.spread) : -1,
+        variant,
+      }));
   }
 
   function fields_of(data, layout) {
@@ -58,12 +63,15 @@ window.dmrp = window.dmrp || {};
     const columns = columns_of(data, layout, null);
     const groups = variants.map((variant) => ({
       title: variant.label,
-      rows: rows.map((row, i) => i).filter((i) => dmrp.labels.is_of(variant.scenario, rows[i])).map((i) => ({
-        labels: rows[i],
-        name: label_of(rows[i], fields),
-        combination: by_planner ? null : i,
-        cells: columns.map((column) => cell_of(from, i, column)),
-      })),
+      rows: rows
+        .map((row, i) => i)
+        .filter((i) => dmrp.labels.is_of(variant.scenario, rows[i]))
+        .map((i) => ({
+          labels: rows[i],
+          name: label_of(rows[i], fields),
+          combination: by_planner ? null : i,
+          cells: columns.map((column) => cell_of(from, i, column)),
+        })),
     }));
     return {fields, columns, groups, spans: []};
   }
@@ -89,7 +97,9 @@ window.dmrp = window.dmrp || {};
     }));
     const per_variant = variants.length === 0 ? 0 : columns.length / variants.length;
     return {
-      fields, columns, groups: [{title: null, rows: table_rows}],
+      fields,
+      columns,
+      groups: [{title: null, rows: table_rows}],
       spans: variants.map((variant) => ({title: variant.label, count: per_variant})),
     };
   }
@@ -102,16 +112,23 @@ window.dmrp = window.dmrp || {};
   function mark_best(model) {
     for (const group of model.groups) {
       model.columns.forEach((column, c) => {
-        const best = dmrp.ranking.best(group.rows.map((row) => mean(row.cells[c])), column.metric.direction, column.decimals);
-        group.rows.forEach((row, r) => { if (row.cells[c]) row.cells[c].best = best.has(r); });
+        const best = dmrp.ranking.best(
+          group.rows.map((row) => mean(row.cells[c])),
+          column.metric.direction,
+          column.decimals
+        );
+        group.rows.forEach((row, r) => {
+          if (row.cells[c]) row.cells[c].best = best.has(r);
+        });
       });
     }
     return model;
   }
 
   function make(data, layout, variants) {
-    const model = (layout.across || []).includes('scenario') ? across(data, layout, variants)
-                                                             : grouped(data, layout, variants);
+    const model = (layout.across || []).includes('scenario')
+      ? across(data, layout, variants)
+      : grouped(data, layout, variants);
     return mark_best(model);
   }
 

@@ -21,25 +21,46 @@ window.dmrp = window.dmrp || {};
   function value_words(data, row, metric) {
     const value = data.values[metric][row];
     const about = dmrp.labels.metric(data, metric);
-    return `${dmrp.labels.metric_title(data, metric)} ` +
-      (dmrp.ranking.is_defined(value) ? dmrp.numbers.with_unit(dmrp.numbers.general(value), about.unit) : 'undefined');
+    return (
+      `${dmrp.labels.metric_title(data, metric)} ` +
+      (dmrp.ranking.is_defined(value) ? dmrp.numbers.with_unit(dmrp.numbers.general(value), about.unit) : 'undefined')
+    );
   }
 
-  const OUTCOMES = {succeeded: 'all robots arrived', failed: 'not all robots arrived', fault: 'ended in a fault', skipped: 'skipped'};
+  const OUTCOMES = {
+    succeeded: 'all robots arrived',
+    failed: 'not all robots arrived',
+    fault: 'ended in a fault',
+    skipped: 'skipped',
+  };
 
   function tip_of(data, row, metrics) {
-    return [element('strong', {}, dmrp.labels.trial(data, row)), element('br'),
-      metrics.map((metric) => value_words(data, row, metric)).join(', '), element('br'), OUTCOMES[data.trials.outcome[row]]];
+    return [
+      element('strong', {}, dmrp.labels.trial(data, row)),
+      element('br'),
+      metrics.map((metric) => value_words(data, row, metric)).join(', '),
+      element('br'),
+      OUTCOMES[data.trials.outcome[row]],
+      has_replay(data, data.trials.id[row]) && [element('br'), 'Choose it to see its replay'],
+    ];
   }
 
   // The line under a plot that tells of the chosen trial.
   function detail_of(data, row, metrics) {
     const id = data.trials.id[row];
-    const words = `${dmrp.labels.trial(data, row)} · repetition ${data.trials.repetition[row]} · seed ${data.trials.seed[row]} · ` +
+    const words =
+      `${dmrp.labels.trial(data, row)} · repetition ${data.trials.repetition[row]} · seed ${data.trials.seed[row]} · ` +
       `${metrics.map((metric) => value_words(data, row, metric)).join(', ')} · ${OUTCOMES[data.trials.outcome[row]]}`;
-    return [element('span', {class: 'number'}, words), has_replay(data, id)
-      ? element('button', {type: 'button', class: 'button small', onclick: () => dmrp.open_trial(id)}, 'Open its replay')
-      : element('span', {class: 'none'}, 'no replay in this report')];
+    return [
+      element('span', {class: 'number'}, words),
+      has_replay(data, id)
+        ? element(
+            'button',
+            {type: 'button', class: 'button small', onclick: () => dmrp.open_trial(id)},
+            'Open its replay'
+          )
+        : element('span', {class: 'none'}, 'no replay in this report'),
+    ];
   }
 
   // The next of `points` ({x, y}) in the direction of an arrow key: along a row to the nearest in x, else to the nearest row.
@@ -81,7 +102,9 @@ window.dmrp = window.dmrp || {};
       point.node.addEventListener('pointerleave', dmrp.plots.hide_tip);
       point.node.addEventListener('click', () => choose(i));
     });
-    svg.attr('tabindex', 0).attr('role', 'group')
+    svg
+      .attr('tabindex', 0)
+      .attr('role', 'group')
       .on('blur', dmrp.plots.hide_tip)
       .on('keydown', () => {
         const {key} = d3.event;
@@ -105,10 +128,14 @@ window.dmrp = window.dmrp || {};
     const combination = data.combinations[data.trials.combination[row]];
     const series = dmrp.labels.series(data, 'local_controller', combination.local_controller);
     const failed = data.trials.outcome[row] !== 'succeeded';
-    return parent.append('path').attr('transform', `translate(${x.toFixed(1)},${y.toFixed(1)})`)
+    return parent
+      .append('path')
+      .attr('transform', `translate(${x.toFixed(1)},${y.toFixed(1)})`)
       .attr('d', failed ? dmrp.plots.cross() : dmrp.plots.symbol(series.symbol))
       .attr('class', failed ? 'mark failed' : 'mark')
-      .style('--colour', series.colour).style('fill', failed ? 'none' : series.colour).node();
+      .style('--colour', series.colour)
+      .style('fill', failed ? 'none' : series.colour)
+      .node();
   }
 
   // What the marks mean.

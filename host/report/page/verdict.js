@@ -15,7 +15,8 @@ window.dmrp = window.dmrp || {};
     const ran = trials.id.map((_, i) => i).filter((i) => trials.outcome[i] !== 'skipped');
     const robots = (i) => combinations[trials.combination[i]].robots;
     const {arrived, contacts} = data.layouts.summary;
-    const known = (name) => ran.filter((i) => (values[name] || [])[i] !== null && (values[name] || [])[i] !== undefined);
+    const known = (name) =>
+      ran.filter((i) => (values[name] || [])[i] !== null && (values[name] || [])[i] !== undefined);
     return {
       planned: run.trials_planned,
       ran: ran.length,
@@ -39,18 +40,36 @@ window.dmrp = window.dmrp || {};
     const add = (kind, text, section = null) => found.push({kind, text, section});
     if (t.ran === 0) add('bad', 'No trial was run: there is nothing to show.');
     if (t.faults > 0)
-      add('bad', `${counted(t.faults, 'fault')} in ${counted(t.fault_trials, 'trial')}: what a plugin did not give is missing from the numbers below.`, 'faults');
+      add(
+        'bad',
+        `${counted(t.faults, 'fault')} in ${counted(t.fault_trials, 'trial')}: what a plugin did not give is missing from the numbers below.`,
+        'faults'
+      );
     if (t.missing > 0 && t.ran > 0)
-      add('bad', `${counted(t.missing, 'trial')} of ${t.planned} ${t.missing === 1 ? 'is' : 'are'} missing: the run was not finished.`);
+      add(
+        'bad',
+        `${counted(t.missing, 'trial')} of ${t.planned} ${t.missing === 1 ? 'is' : 'are'} missing: the run was not finished.`
+      );
     if (t.not_repeatable > 0)
-      add('warning', `${counted(t.not_repeatable, 'trial')} ${t.not_repeatable === 1 ? 'is' : 'are'} not repeatable to the bit: something was stopped by the clock.`);
+      add(
+        'warning',
+        `${counted(t.not_repeatable, 'trial')} ${t.not_repeatable === 1 ? 'is' : 'are'} not repeatable to the bit: something was stopped by the clock.`
+      );
     if (t.robots > 0 && t.arrived === 0)
       add('note', `No robot arrived: all ${t.robots} failed. Times of completion are undefined.`, 'distributions');
     else if (t.arrived < t.robots)
-      add('note', `${counted(t.robots - t.arrived, 'robot')} of ${t.robots} did not arrive, in ${counted(t.failed_trials, 'trial')}.`, 'distributions');
+      add(
+        'note',
+        `${counted(t.robots - t.arrived, 'robot')} of ${t.robots} did not arrive, in ${counted(t.failed_trials, 'trial')}.`,
+        'distributions'
+      );
     if (found.length === 0)
-      add('good', t.robots > 0 ? `All is well: ${t.robots} of ${t.robots} robots arrived, no faults, every trial repeatable.`
-                               : 'All is well: no faults, every trial repeatable.');
+      add(
+        'good',
+        t.robots > 0
+          ? `All is well: ${t.robots} of ${t.robots} robots arrived, no faults, every trial repeatable.`
+          : 'All is well: no faults, every trial repeatable.'
+      );
     else if (t.ran > 0 && found.every((line) => line.kind === 'note'))
       add('good', `${counted(t.ran, 'trial')} without a fault, every one repeatable.`);
     return found;

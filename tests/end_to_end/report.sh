@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# A run leaves report.html; `report` writes the same file again; what is no run gets one line.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+run=$scratch/run
+expect_status 0 "$host" "$here/crossing.toml" --out "$run"
+grep -Eq "run   report.html  results.sqlite  traces/" "$scratch/stdout" || fail "the files are not named in a line"
+cp "$run/report.html" "$scratch/before.html"
+expect_status 0 "$host" report "$run"
+[[ $(cat "$scratch/stdout") == "$run/report.html" ]] || fail "report names its file: $(cat "$scratch/stdout")"
+cmp "$scratch/before.html" "$run/report.html" || fail "the same results give another report"
+grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a part is not filled in"
+grep -Eq '<(script|img|iframe)[^>]* src=|<link[^>]* href="(http|/)' "$run/report.html" && fail "the page fetches something"
+
+# what the data say, without a browser
+data() {
+  sed -n 's|.*<script type="application/json" id="dmrp-data">\(.*\)</script>$|\1|p' "$run/report.html"
+}
+[[ $(data | wc -c) -gt 10000 ]] || fail "there are no data"
+data | grep -q '"trials_planned":12,"trials_finished":12' || fail "the trials are not counted"
+data | grep -q '"varied":"local_controller"' || fail "controllers are not compared"
+
+# of an interrupted run
+query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id > 4;"
+expect_status 0 "$host" report "$run"
+data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials are not told of"
+
+# of nothing
+query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial;"
+for what in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
+  expect_status 2 "$host" report "${what%%:*}"
+  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  grep -Eq "$what" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$what'"
+done
