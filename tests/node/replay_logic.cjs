@@ -13,30 +13,76 @@ for (const name of ['replay_data', 'replay_events', 'replay_view'])
 const {replay_data, replay_events, replay_view} = context.window.dmrp;
 
 const plain = (value) => JSON.parse(JSON.stringify(value));
-const near = (found, expected, what = '') => assert.ok(Math.abs(found - expected) < 1e-5, `${what}: ${found}, not ${expected}`);
+const near = (found, expected, what = '') =>
+  assert.ok(Math.abs(found - expected) < 1e-5, `${what}: ${found}, not ${expected}`);
 
 // As report_data writes it: two robots, a person who comes late and leaves early, samples at 0, 0.1, 0.2 and 0.24 s.
 function packed() {
   const robot = (index) => ({
-    name: `r${index}`, radius: 250, v_max: 800, goals: [{at: [3000, 1000], theta: 1571, tolerance: 200}],
-    x: [1000, 100, 100, 40], y: [500 + 1000 * index, 0, 0, 0], theta: [3100, 100, 100, 0], state: [0, 0, 3, 1], goal: [0, 0],
-    speed: [0, 500, 300, 0], deviation: [-1, 1, 20, 0], arrival: 240,
+    name: `r${index}`,
+    radius: 250,
+    v_max: 800,
+    goals: [{at: [3000, 1000], theta: 1571, tolerance: 200}],
+    x: [1000, 100, 100, 40],
+    y: [500 + 1000 * index, 0, 0, 0],
+    theta: [3100, 100, 100, 0],
+    state: [0, 0, 3, 1],
+    goal: [0, 0],
+    speed: [0, 500, 300, 0],
+    deviation: [-1, 1, 20, 0],
+    arrival: 240,
   });
   return {
-    format: 1, trial: 7, times: [0, 100, 100, 40],
-    world: {lower: [0, 0], upper: [8000, 4000], shapes: [{name: 'box', height: 900, vertices: [1000, 0, 2000, 0, 2000, 500]},
-      {name: 'post', height: 2500, center: [4000, 2000], radius: 300}]},
-    robots: [robot(0), {...robot(1), arrival: undefined, failure: 'deadlock', state: [0, 0, 2, 2],
-      scans: {first: 0, step: 1570796, beams: 4, samples: [0, 2], ranges: [100, -100, 200, 0, 0, 0, 0, 300]}}],
+    format: 1,
+    trial: 7,
+    times: [0, 100, 100, 40],
+    world: {
+      lower: [0, 0],
+      upper: [8000, 4000],
+      shapes: [
+        {name: 'box', height: 900, vertices: [1000, 0, 2000, 0, 2000, 500]},
+        {name: 'post', height: 2500, center: [4000, 2000], radius: 300}
+      ]
+    },
+    robots: [
+      robot(0), {
+        ...robot(1),
+        arrival: undefined,
+        failure: 'deadlock',
+        state: [0, 0, 2, 2],
+        scans: {first: 0, step: 1570796, beams: 4, samples: [0, 2], ranges: [100, -100, 200, 0, 0, 0, 0, 300]}
+      }
+    ],
     people: [{id: 41, group: 2, radius: 300, from: 1, x: [2000, 100], y: [2000, 0]}],
-    plans: [{revision: 1, made: 0, from: 0, paths: [{x: [1000, 1000, 0, 1000], y: [500, 0, 0, 0], t: [0, 1000, 2000, 1000]}, {x: [], y: [], t: []}]},
-      {revision: 2, made: 100, from: 200, paths: []}],
+    plans: [
+      {
+        revision: 1,
+        made: 0,
+        from: 0,
+        paths: [{x: [1000, 1000, 0, 1000], y: [500, 0, 0, 0], t: [0, 1000, 2000, 1000]}, {x: [], y: [], t: []}]
+      },
+      {revision: 2, made: 100, from: 200, paths: []}
+    ],
     plan: [0, 0],
-    contacts: [{kind: 'robot', robot: 0, other: 1, from: 100, to: 200, at: [1500, 700], depth: 4, fault: 'both', unavoidable: false},
-      {kind: 'static', robot: 1, other: 2, from: 220, to: 220, at: [0, 0], depth: 1, fault: 'robot', unavoidable: false}],
-    events: [{metric: 'blocking', from: 0, to: 200, robots: [0, 1], text: 'they block each other'},
+    contacts: [
+      {
+        kind: 'robot',
+        robot: 0,
+        other: 1,
+        from: 100,
+        to: 200,
+        at: [1500, 700],
+        depth: 4,
+        fault: 'both',
+        unavoidable: false
+      },
+      {kind: 'static', robot: 1, other: 2, from: 220, to: 220, at: [0, 0], depth: 1, fault: 'robot', unavoidable: false}
+    ],
+    events: [
+      {metric: 'blocking', from: 0, to: 200, robots: [0, 1], text: 'they block each other'},
       {metric: 'touches', from: 100, to: 200, robots: [0, 1], text: 'robot 0 and robot 1'},
-      {metric: 'done', from: 200, to: 200, robots: [1], text: 'robot 1 failed: deadlock'}],
+      {metric: 'done', from: 200, to: 200, robots: [1], text: 'robot 1 failed: deadlock'}
+    ],
     end: {t: 240, reason: 'time limit'},
   };
 }
@@ -68,15 +114,30 @@ const tests = {
 
   'a trial without a plan stands still, one without robots shows the world'() {
     const none = packed();
-    Object.assign(none, {times: [0], people: [], plans: [], plan: [0, -1], contacts: [], events: [], end: {t: 0, reason: 'no plan'}});
+    Object.assign(
+      none,
+      {times: [0], people: [], plans: [], plan: [0, -1], contacts: [], events: [], end: {t: 0, reason: 'no plan'}});
     for (const robot of none.robots)
-      Object.assign(robot, {x: [1000], y: [500], theta: [0], speed: [0], deviation: [-1], state: [0, 2], goal: [0, 0], arrival: undefined, failure: 'no plan', scans: undefined});
+      Object.assign(robot, {
+        x: [1000],
+        y: [500],
+        theta: [0],
+        speed: [0],
+        deviation: [-1],
+        state: [0, 2],
+        goal: [0, 0],
+        arrival: undefined,
+        failure: 'no plan',
+        scans: undefined
+      });
     const replay = replay_data.from_json(none);
     assert.strictEqual(replay.end, 0);
     const at = replay_data.moment(replay, 0);
     assert.deepStrictEqual(plain(replay_data.robot_pose(replay.robots[0], at)), {x: 1, y: 0.5, theta: 0});
     assert.strictEqual(replay_data.path_in_force(replay, 0, at), null);
-    assert.deepStrictEqual(plain(replay_events.all_events(replay).map((event) => event.text)), ['robot 0 failed: no plan', 'robot 1 failed: no plan']);
+    assert.deepStrictEqual(
+      plain(replay_events.all_events(replay).map((event) => event.text)),
+      ['robot 0 failed: no plan', 'robot 1 failed: no plan']);
     const empty = replay_data.from_json({...none, robots: []});
     assert.deepStrictEqual(plain(replay_data.lively_box(empty)), [[0, 0], [8, 4]]);
   },

@@ -62,7 +62,8 @@ tests['a robot is picked on the map, an event is jumped to'] = async (browser) =
     for (let x = 10; x < box.width && !hit; x += 12) {
       hit = await map.evaluate((canvas, at) => {
         const where = canvas.getBoundingClientRect();
-        const send = (type) => canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, clientX: where.left + at.x, clientY: where.top + at.y, bubbles: true}));
+        const send = (type) => canvas.dispatchEvent(
+          new PointerEvent(type, {pointerId: 1, clientX: where.left + at.x, clientY: where.top + at.y, bubbles: true}));
         canvas.setPointerCapture = () => {};
         send('pointerdown');
         send('pointerup');
@@ -98,8 +99,13 @@ tests['the time and the picture agree with the trace'] = async (browser) => {
     const entry = dmrp.data.replays[0];
     const replay = await dmrp.replay_data.load(document.getElementById(entry.element));
     const row = dmrp.data.trials.id.indexOf(entry.trial);
-    return {end: replay.end, sim_time_s: dmrp.data.trials.sim_time_s[row], arrived: replay.robots.filter((robot) => robot.arrival !== null).length,
-      robots: replay.robots.length, success: dmrp.data.values.success[row]};
+    return {
+      end: replay.end,
+      sim_time_s: dmrp.data.trials.sim_time_s[row],
+      arrived: replay.robots.filter((robot) => robot.arrival !== null).length,
+      robots: replay.robots.length,
+      success: dmrp.data.values.success[row]
+    };
   });
   assert.ok(Math.abs(found.end - found.sim_time_s) < 0.021, `${found.end} s, but the trial took ${found.sim_time_s} s`);
   assert.strictEqual(found.arrived / found.robots, found.success);
@@ -111,7 +117,8 @@ tests['without WebGL the flat map stays, and it is said why'] = async (browser) 
   const {page} = opened;
   await page.evaluate(() => {
     const get = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : get.call(this, kind, ...rest); };
+    HTMLCanvasElement.prototype.getContext = function(
+      kind, ...rest) { return /webgl/.test(kind) ? null : get.call(this, kind, ...rest); };
   });
   await page.getByTestId('replay-3d').click();
   assert.match(await page.locator('.replay-message').textContent(), /no WebGL/);
@@ -122,7 +129,9 @@ tests['without WebGL the flat map stays, and it is said why'] = async (browser) 
 tests['a damaged replay is told, the others play'] = async (browser) => {
   const opened = await open_replay(browser);
   const {page} = opened;
-  await page.evaluate(() => { document.getElementById(dmrp.data.replays[1].element).textContent = 'AAAA'; });
+  await page.evaluate(() => {
+    document.getElementById(dmrp.data.replays[1].element).textContent = 'AAAA';
+  });
   assert.strictEqual(await page.evaluate(() => dmrp.replay.open(dmrp.data.replays[1].trial)), false);
   assert.match(await page.locator('.replay-message').textContent(), /cannot be unpacked/);
   assert.strictEqual(await page.evaluate(() => dmrp.replay.open(dmrp.data.replays[0].trial)), true);

@@ -2,20 +2,22 @@
 // replay.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
 //
 // For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
-// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the id of the
-// trial that is shown as data-trial once it can be played.
+// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the
+// id of the trial that is shown as data-trial once it can be played.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const KEY = 'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot to be now. Large rings: goals. Grey: people.';
+  const KEY = 'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot now. ' +
+    'Large rings: goals. Grey: people.';
   const SCANS_KEY = ' Dots in a robot\'s colour: what its lidar hit.';
   let player = null;
 
   function make_player(section, data) {
     const clock = dmrp.replay_clock.make_clock();
     const layers = {plans: true, trails: true, people: true, scans: true};
-    const scene = {replay: null, at: null, picked: null, follow: false, layers, events: [], colours: null, whole_trails: false};
+    const scene =
+      {replay: null, at: null, picked: null, follow: false, layers, events: [], colours: null, whole_trails: false};
     let latest = 0;  // number of the last request: an older one that comes late is dropped
 
     const stage = dmrp.replay_stage.make_stage({pick, redraw});
@@ -27,20 +29,38 @@ window.dmrp = window.dmrp || {};
     const summary = element('p', {class: 'note replay-summary', 'aria-live': 'polite'});
 
     function layer_box(name, title) {
-      const box = element('input', {type: 'checkbox', checked: layers[name], 'data-testid': `replay-${name}`,
-        onchange: () => { layers[name] = box.checked; redraw(); }});
+      const box = element('input', {
+        type: 'checkbox',
+        checked: layers[name],
+        'data-testid': `replay-${name}`,
+        onchange: () => {
+          layers[name] = box.checked;
+          redraw();
+        }
+      });
       return element('label', {class: 'control check'}, box, element('span', {}, title));
     }
 
-    const follow_box = element('input', {type: 'checkbox', 'data-testid': 'replay-follow',
-      onchange: () => { scene.follow = follow_box.checked; if (scene.follow) prepare_following(); redraw(); }});
+    const follow_box = element('input', {
+      type: 'checkbox',
+      'data-testid': 'replay-follow',
+      onchange: () => {
+        scene.follow = follow_box.checked;
+        if (scene.follow) prepare_following();
+        redraw();
+      }
+    });
     const scan_box = layer_box('scans', 'lidar');
-    const boxes = element('div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
-      layer_box('people', 'people'), scan_box, element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow')));
+    const boxes = element(
+      'div', {class: 'replay-layers'}, layer_box('plans', 'plans'), layer_box('trails', 'trails'),
+      layer_box('people', 'people'), scan_box,
+      element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow')));
 
     const key = element('p', {class: 'note replay-key'});
-    const controls = element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), stage.tools, boxes);
-    const node = element('div', {class: 'replay-player'},
+    const controls =
+      element('div', {class: 'replay-controls'}, dmrp.replay_transport.make_transport(clock), stage.tools, boxes);
+    const node = element(
+      'div', {class: 'replay-player'},
       element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, key),
       element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node));
     dmrp.replay_transport.follow_keys(node, clock, {pick, zoom: stage.zoom});
@@ -113,7 +133,8 @@ window.dmrp = window.dmrp || {};
         if (request === latest) stage.say(`This replay cannot be unpacked here: ${error.message}`);
         return false;
       }
-      summary.textContent = `${dmrp.replay_chooser.summary(data, entry)}: ended after ${scene.replay.end.toFixed(1)} s, ${scene.replay.reason}.`;
+      summary.textContent = `${dmrp.replay_chooser.summary(data, entry)}: ended after ${
+        scene.replay.end.toFixed(1)} s, ${scene.replay.reason}.`;
       section.dataset.trial = trial;
       return true;
     }
@@ -157,7 +178,10 @@ window.dmrp = window.dmrp || {};
   }
 
   function notes(data) {
-    const words = [...dmrp.replay_chooser.left_out_words(data), 'Any other trial with a trace comes in by: dmrp-host report RUN_DIR --replay TRIAL'];
+    const words = [
+      ...dmrp.replay_chooser.left_out_words(data),
+      'Any other trial with a trace comes in by: dmrp-host report RUN_DIR --replay TRIAL'
+    ];
     return words.map((sentence) => element('p', {class: 'note'}, sentence));
   }
 
@@ -169,7 +193,8 @@ window.dmrp = window.dmrp || {};
     }
     player = make_player(section, data);
     const choice = dmrp.replay_chooser.choice_words(data);
-    body.append(choice ? element('p', {class: 'lead'}, choice) : '', player.chooser, player.summary, player.node, ...notes(data));
+    body.append(
+      choice ? element('p', {class: 'lead'}, choice) : '', player.chooser, player.summary, player.node, ...notes(data));
     const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
     player.open(first.trial);
   }

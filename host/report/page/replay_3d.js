@@ -71,7 +71,9 @@ window.dmrp = window.dmrp || {};
       robot.picked.visible = i === picked;
       robot.label.scale.set(label_scale, label_scale, 1);
       robot.label.visible = clear;
-      robot.goals.forEach((goal, g) => { goal.visible = clear && g === Math.min(known.goal[at.k], robot.goals.length - 1); });
+      robot.goals.forEach((goal, g) => {
+        goal.visible = clear && g === Math.min(known.goal[at.k], robot.goals.length - 1);
+      });
       robot.hits.visible = layers.scans && known.scans !== null && (picked === null || i === picked);
       if (robot.hits.visible) dmrp.replay_3d_bodies.place_hits(robot.hits, known, at);
       robot.trail.visible = layers.trails && clear;
@@ -82,7 +84,8 @@ window.dmrp = window.dmrp || {};
 
   function place_contacts(set, scene) {
     scene.replay.contacts.forEach((contact, i) => {
-      set.contacts[i].visible = scene.at.t >= contact.from - 1e-6 && scene.at.t <= Math.max(contact.to, contact.from + CONTACT_SEEN_S);
+      set.contacts[i].visible =
+        scene.at.t >= contact.from - 1e-6 && scene.at.t <= Math.max(contact.to, contact.from + CONTACT_SEEN_S);
     });
   }
 

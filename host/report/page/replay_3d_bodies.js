@@ -6,8 +6,14 @@ window.dmrp = window.dmrp || {};
   const ROBOT_HEIGHT_M = 0.35;
   const BODY_HEIGHT_M = 1.4;  // of people, below the head
   const HEAD_M = 0.14;
-  const PLAN = {width: 0.1, height: 0.02};
-  const TRAIL = {width: 0.14, height: 0.03};
+  const PLAN = {
+    width: 0.1,
+    height: 0.02
+  };
+  const TRAIL = {
+    width: 0.14,
+    height: 0.03
+  };
   const RING_HEIGHT_M = 0.04;
   const LABEL_PX = 128;
 
@@ -64,7 +70,8 @@ window.dmrp = window.dmrp || {};
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     context.fillText(text, LABEL_PX / 2, LABEL_PX / 2 + 4);
-    const label = new THREE.Sprite(new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false}));
+    const label = new THREE.Sprite(
+      new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false}));
     label.renderOrder = 10;
     label.position.y = 1.1;
     return label;
@@ -85,7 +92,8 @@ window.dmrp = window.dmrp || {};
   // Points forward, on the robot's top and a little beyond it.
   function heading_solid(robot) {
     const r = robot.radius;
-    const arrow = new THREE.Shape([[1.5 * r, 0], [0.1 * r, 0.6 * r], [0.1 * r, -0.6 * r]].map(([x, y]) => new THREE.Vector2(x, y)));
+    const arrow =
+      new THREE.Shape([[1.5 * r, 0], [0.1 * r, 0.6 * r], [0.1 * r, -0.6 * r]].map(([x, y]) => new THREE.Vector2(x, y)));
     const solid = new THREE.ExtrudeBufferGeometry(arrow, {depth: 0.06, bevelEnabled: false});
     solid.rotateX(-Math.PI / 2);
     solid.translate(0, ROBOT_HEIGHT_M, 0);
@@ -97,7 +105,8 @@ window.dmrp = window.dmrp || {};
     const body = new THREE.Group();
     const base = new THREE.Mesh(robot_solid(robot), new THREE.MeshLambertMaterial({color: colour}));
     base.castShadow = true;
-    const heading = new THREE.Mesh(heading_solid(robot), new THREE.MeshLambertMaterial({color: dmrp.replay_look.text_on(colour)}));
+    const heading =
+      new THREE.Mesh(heading_solid(robot), new THREE.MeshLambertMaterial({color: dmrp.replay_look.text_on(colour)}));
     const picked = flat_ring(robot.radius + 0.12, robot.radius + 0.24, colours.ink);
     const label = number_label(String(robot.index), colour);
     body.add(base, heading, picked, label);
@@ -115,7 +124,8 @@ window.dmrp = window.dmrp || {};
     const most = Math.max(0, ...(robot.scans || []).map((hits) => (hits ? hits.length : 0)));
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * most), 3));
-    const points = new THREE.Points(geometry, new THREE.PointsMaterial({color: colour, size: 3, sizeAttenuation: false}));
+    const points =
+      new THREE.Points(geometry, new THREE.PointsMaterial({color: colour, size: 3, sizeAttenuation: false}));
     points.frustumCulled = false;
     return points;
   }
@@ -134,7 +144,10 @@ window.dmrp = window.dmrp || {};
     const material = new THREE.MeshLambertMaterial({color: colours.person});
     const trunk = new THREE.CylinderBufferGeometry(0.72, 1, 1, 16);  // scaled to each person's radius
     trunk.translate(0, 0.5, 0);
-    const meshes = [new THREE.InstancedMesh(trunk, material, most), new THREE.InstancedMesh(new THREE.SphereBufferGeometry(HEAD_M, 14, 10), material, most)];
+    const meshes = [
+      new THREE.InstancedMesh(trunk, material, most),
+      new THREE.InstancedMesh(new THREE.SphereBufferGeometry(HEAD_M, 14, 10), material, most)
+    ];
     for (const mesh of meshes) {
       mesh.castShadow = true;
       mesh.frustumCulled = false;
@@ -163,5 +176,14 @@ window.dmrp = window.dmrp || {};
     }
   }
 
-  dmrp.replay_3d_bodies = {ROBOT_HEIGHT_M, PLAN, band, flat_ring, make_robot, make_people, place_hits, place_people};
+  dmrp.replay_3d_bodies = {
+    ROBOT_HEIGHT_M,
+    PLAN,
+    band,
+    flat_ring,
+    make_robot,
+    make_people,
+    place_hits,
+    place_people
+  };
 })(window.dmrp);

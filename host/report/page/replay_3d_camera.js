@@ -4,11 +4,11 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const FIELD_OF_VIEW_DEG = 38;
-  const LOWEST = 0.12;   // rad above the floor
+  const LOWEST = 0.12;  // rad above the floor
   const HIGHEST = 1.55;
   const BOX_HEIGHT_M = 2;
   const FITTING_ROUNDS = 8;
-  const FILLED = 0.94;   // of the picture
+  const FILLED = 0.94;  // of the picture
   const RADIANS_A_PIXEL = 0.008;
 
   function make_camera() {
@@ -18,7 +18,8 @@ window.dmrp = window.dmrp || {};
 
     function apply() {
       const level = camera.distance * Math.cos(camera.elevation);
-      lens.position.set(camera.target[0] + level * Math.sin(-camera.azimuth), camera.distance * Math.sin(camera.elevation),
+      lens.position.set(
+        camera.target[0] + level * Math.sin(-camera.azimuth), camera.distance * Math.sin(camera.elevation),
         -camera.target[1] + level * Math.cos(camera.azimuth));
       lens.lookAt(camera.target[0], 0, -camera.target[1]);
       lens.near = Math.max(0.1, camera.distance / 60);
@@ -70,7 +71,8 @@ window.dmrp = window.dmrp || {};
     camera.shift = (dx, dy) => {
       const metres = camera.distance * 0.0014;
       const [cos, sin] = [Math.cos(camera.azimuth), Math.sin(camera.azimuth)];
-      camera.target = [camera.target[0] - metres * (dx * cos - dy * sin), camera.target[1] + metres * (dx * sin + dy * cos)];
+      camera.target =
+        [camera.target[0] - metres * (dx * cos - dy * sin), camera.target[1] + metres * (dx * sin + dy * cos)];
       apply();
     };
 

@@ -6,7 +6,7 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const SHADOW_PX = 2048;
   const CIRCLE_PARTS = 32;
-  const SOLID_M = 1.1;   // walls are glass above this: who is behind them can be seen
+  const SOLID_M = 1.1;  // walls are glass above this: who is behind them can be seen
   const GLASS = 0.16;
 
   // The part of a shape between two heights.
@@ -34,7 +34,8 @@ window.dmrp = window.dmrp || {};
   function make_floor(replay, colours) {
     const width = replay.upper[0] - replay.lower[0];
     const depth = replay.upper[1] - replay.lower[1];
-    const floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(width, depth), new THREE.MeshLambertMaterial({color: colours.floor}));
+    const floor = new THREE.Mesh(
+      new THREE.PlaneBufferGeometry(width, depth), new THREE.MeshLambertMaterial({color: colours.floor}));
     floor.rotation.x = -Math.PI / 2;
     floor.position.set((replay.lower[0] + replay.upper[0]) / 2, 0, -(replay.lower[1] + replay.upper[1]) / 2);
     floor.receiveShadow = true;
@@ -43,7 +44,8 @@ window.dmrp = window.dmrp || {};
 
   function make_shapes(replay, colours) {
     const group = new THREE.Group();
-    const line = new THREE.LineBasicMaterial({color: colours.dark ? '#000000' : '#30343a', transparent: true, opacity: colours.dark ? 0.5 : 0.28});
+    const line = new THREE.LineBasicMaterial(
+      {color: colours.dark ? '#000000' : '#30343a', transparent: true, opacity: colours.dark ? 0.5 : 0.28});
     for (const shape of replay.shapes) {
       const colour = shape_colour(shape, colours);
       const solid_m = dmrp.replay_look.is_wall(shape) ? SOLID_M : shape.height;
@@ -51,7 +53,8 @@ window.dmrp = window.dmrp || {};
       solid.castShadow = solid.receiveShadow = true;
       group.add(solid, new THREE.LineSegments(new THREE.EdgesGeometry(slice(shape, 0, shape.height), 30), line));
       if (solid_m < shape.height) {
-        const glass = new THREE.MeshLambertMaterial({color: colour, transparent: true, opacity: GLASS, depthWrite: false});
+        const glass =
+          new THREE.MeshLambertMaterial({color: colour, transparent: true, opacity: GLASS, depthWrite: false});
         group.add(new THREE.Mesh(slice(shape, solid_m, shape.height), glass));
       }
     }
@@ -60,8 +63,10 @@ window.dmrp = window.dmrp || {};
 
   function make_border(replay, colours) {
     const [[left, bottom], [right, top]] = [replay.lower, replay.upper];
-    const corners = [[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]].map(([x, y]) => new THREE.Vector3(x, 0.02, -y));
-    return new THREE.Line(new THREE.BufferGeometry().setFromPoints(corners), new THREE.LineBasicMaterial({color: colours.wall}));
+    const corners = [[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]].map(
+      ([x, y]) => new THREE.Vector3(x, 0.02, -y));
+    return new THREE.Line(
+      new THREE.BufferGeometry().setFromPoints(corners), new THREE.LineBasicMaterial({color: colours.wall}));
   }
 
   function make_light(replay, colours) {
@@ -76,14 +81,19 @@ window.dmrp = window.dmrp || {};
     sun.castShadow = true;
     sun.shadow.mapSize.set(SHADOW_PX, SHADOW_PX);
     sun.shadow.bias = -0.0008;
-    Object.assign(sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 4 * reach});
-    group.add(new THREE.HemisphereLight('#ffffff', colours.dark ? '#50565e' : '#c9c5bb', colours.dark ? 0.75 : 0.58), sun, sun.target);
+    Object.assign(
+      sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 4 * reach});
+    group.add(
+      new THREE.HemisphereLight('#ffffff', colours.dark ? '#50565e' : '#c9c5bb', colours.dark ? 0.75 : 0.58), sun,
+      sun.target);
     return group;
   }
 
   function make_world(replay, colours) {
     const group = new THREE.Group();
-    group.add(make_floor(replay, colours), make_shapes(replay, colours), make_border(replay, colours), make_light(replay, colours));
+    group.add(
+      make_floor(replay, colours), make_shapes(replay, colours), make_border(replay, colours),
+      make_light(replay, colours));
     return group;
   }
 

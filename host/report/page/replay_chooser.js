@@ -11,8 +11,9 @@ window.dmrp = window.dmrp || {};
   function combination_words(data, index) {
     const combination = data.combinations[index];
     const names = [combination.scenario];
-    if (dmrp.labels.distinct(data.combinations.map((one) => `${one.scenario}/${one.robots}`)).length >
-        dmrp.labels.distinct(data.combinations.map((one) => one.scenario)).length)
+    if (
+      dmrp.labels.distinct(data.combinations.map((one) => `${one.scenario}/${one.robots}`)).length >
+      dmrp.labels.distinct(data.combinations.map((one) => one.scenario)).length)
       names.push(dmrp.numbers.counted(combination.robots, 'robot'));
     names.push(dmrp.labels.combination(data, index));
     return names.join(' · ');
@@ -26,18 +27,20 @@ window.dmrp = window.dmrp || {};
   // One line about a trial.
   function summary(data, replay) {
     const row = row_of(data, replay.trial);
-    return [`Trial ${replay.trial}`, combination_words(data, data.trials.combination[row]), `seed ${data.trials.seed[row]}`,
-      data.trials.outcome[row]].join(' · ');
+    return [
+      `Trial ${replay.trial}`, combination_words(data, data.trials.combination[row]), `seed ${data.trials.seed[row]}`,
+      data.trials.outcome[row]
+    ].join(' · ');
   }
 
-  function labelled(title, box) {
-    return element('label', {class: 'control'}, element('span', {}, title), box);
-  }
+  function labelled(title, box) { return element('label', {class: 'control'}, element('span', {}, title), box); }
 
   // `choose` gets the id of a trial.
   function make_chooser(data, choose) {
-    const with_replays = dmrp.labels.distinct(data.replays.map((replay) => combination_of(data, replay.trial))).sort((a, b) => a - b);
-    const combination_box = element('select', {'data-testid': 'replay-combination'},
+    const with_replays =
+      dmrp.labels.distinct(data.replays.map((replay) => combination_of(data, replay.trial))).sort((a, b) => a - b);
+    const combination_box = element(
+      'select', {'data-testid': 'replay-combination'},
       with_replays.map((index) => element('option', {value: index}, combination_words(data, index))));
     const trial_box = element('select', {'data-testid': 'replay-trial'});
 
@@ -60,8 +63,9 @@ window.dmrp = window.dmrp || {};
       trial_box.value = trial;
     }
 
-    const node = element('div', {class: 'controls'},
-      with_replays.length > 1 ? labelled('Combination', combination_box) : null, labelled('Trial', trial_box));
+    const node = element(
+      'div', {class: 'controls'}, with_replays.length > 1 ? labelled('Combination', combination_box) : null,
+      labelled('Trial', trial_box));
     return {node, show};
   }
 
@@ -70,17 +74,29 @@ window.dmrp = window.dmrp || {};
     const rank_by = (data.layouts.report.replays || {rank_by: []}).rank_by;
     if (rank_by.length === 0) return '';
     const titles = rank_by.map((name) => dmrp.labels.metric_title(data, name)).join(', or where that is undefined by ');
-    return `Of each combination: the median and the worst trial by ${titles}; then trials that failed or ended in a fault.`;
+    return `Of each combination: the median and the worst trial by ${
+      titles}; then trials that failed or ended in a fault.`;
   }
 
   // What is not here, in a sentence each.
   function left_out_words(data) {
-    const kinds = {median: 'median trial', worst: 'worst trial', failure: 'failed trial', fault: 'trial with a fault', asked: 'trial that was asked for'};
+    const kinds = {
+      median: 'median trial',
+      worst: 'worst trial',
+      failure: 'failed trial',
+      fault: 'trial with a fault',
+      asked: 'trial that was asked for'
+    };
     return data.replays_left_out.map((one) => {
       const noun = kinds[one.why] || 'trial';
       return `${dmrp.numbers.counted(one.trials, noun, noun.replace('trial', 'trials'))} left out: ${one.reason}.`;
     });
   }
 
-  dmrp.replay_chooser = {make_chooser, summary, choice_words, left_out_words};
+  dmrp.replay_chooser = {
+    make_chooser,
+    summary,
+    choice_words,
+    left_out_words
+  };
 })(window.dmrp);

@@ -3,25 +3,38 @@
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
-  const MARGIN = {top: 22, right: 16, bottom: 20, left: 36};
+  const MARGIN = {
+    top: 22,
+    right: 16,
+    bottom: 20,
+    left: 36
+  };
   const HEIGHT_PX = 118;
   const MANY_ROBOTS = 12;
   const POINTS_A_PIXEL = 1;
 
   const KINDS = [
     {key: 'speed', title: 'Speed (m/s)', top: (replay) => Math.max(0.1, ...replay.robots.map((robot) => robot.v_max))},
-    {key: 'deviation', title: 'Distance from the path in force (m)', top: (replay) => Math.max(0.5, largest(replay, 'deviation'))},
+    {
+      key: 'deviation',
+      title: 'Distance from the path in force (m)',
+      top: (replay) => Math.max(0.5, largest(replay, 'deviation'))
+    },
   ];
 
   function largest(replay, key) {
     let most = 0;
-    for (const robot of replay.robots) for (const value of robot[key]) if (value > most) most = value;
+    for (const robot of replay.robots)
+      for (const value of robot[key])
+        if (value > most) most = value;
     return most;
   }
 
   function smallest(replay, key) {
     let least = 0;
-    for (const robot of replay.robots) for (const value of robot[key]) if (value < least) least = value;
+    for (const robot of replay.robots)
+      for (const value of robot[key])
+        if (value < least) least = value;
     return least;
   }
 
@@ -47,47 +60,88 @@ window.dmrp = window.dmrp || {};
     let x = null;
 
     function draw_axes(svg, y, width) {
-      svg.append('g').attr('class', 'grid').attr('transform', `translate(${MARGIN.left},0)`)
+      svg.append('g')
+        .attr('class', 'grid')
+        .attr('transform', `translate(${MARGIN.left},0)`)
         .call(d3.axisLeft(y).ticks(3).tickSize(-(width - MARGIN.left - MARGIN.right)).tickFormat(''))
-        .select('.domain').remove();
-      svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${HEIGHT_PX - MARGIN.bottom})`)
+        .select('.domain')
+        .remove();
+      svg.append('g')
+        .attr('class', 'axis')
+        .attr('transform', `translate(0,${HEIGHT_PX - MARGIN.bottom})`)
         .call(d3.axisBottom(x).ticks(Math.max(2, Math.floor(width / 90))).tickSizeOuter(0).tickFormat((t) => `${t} s`));
-      svg.append('g').attr('class', 'axis').attr('transform', `translate(${MARGIN.left},0)`)
-        .call(d3.axisLeft(y).ticks(3).tickSizeOuter(0)).select('.domain').remove();
+      svg.append('g')
+        .attr('class', 'axis')
+        .attr('transform', `translate(${MARGIN.left},0)`)
+        .call(d3.axisLeft(y).ticks(3).tickSizeOuter(0))
+        .select('.domain')
+        .remove();
     }
 
     // When metrics noticed something.
     function draw_spans(svg) {
-      svg.append('g').selectAll('rect').data(events.filter((event) => event.kind === 'metric' && event.to > event.from)).enter()
-        .append('rect').attr('class', 'replay-span')
-        .attr('x', (event) => x(event.from)).attr('width', (event) => Math.max(1, x(event.to) - x(event.from)))
-        .attr('y', MARGIN.top).attr('height', HEIGHT_PX - MARGIN.top - MARGIN.bottom);
+      svg.append('g')
+        .selectAll('rect')
+        .data(events.filter((event) => event.kind === 'metric' && event.to > event.from))
+        .enter()
+        .append('rect')
+        .attr('class', 'replay-span')
+        .attr('x', (event) => x(event.from))
+        .attr('width', (event) => Math.max(1, x(event.to) - x(event.from)))
+        .attr('y', MARGIN.top)
+        .attr('height', HEIGHT_PX - MARGIN.top - MARGIN.bottom);
     }
 
     function draw_lines(svg, kind, y, width) {
-      const robots = svg.append('g').attr('class', `replay-lines${replay.robots.length > MANY_ROBOTS ? ' many' : ''}`)
-        .selectAll('path').data(replay.robots).enter();
+      const robots = svg.append('g')
+                       .attr('class', `replay-lines${replay.robots.length > MANY_ROBOTS ? ' many' : ''}`)
+                       .selectAll('path')
+                       .data(replay.robots)
+                       .enter();
       const most = POINTS_A_PIXEL * width;
-      robots.append('path').attr('data-robot', (robot) => robot.index)
+      robots.append('path')
+        .attr('data-robot', (robot) => robot.index)
         .style('stroke', (robot) => dmrp.replay_look.robot_variable(robot.index))
-        .attr('d', (robot) => d3.line().defined((i) => Number.isFinite(robot[kind.key][i]))
-          .x((i) => x(replay.times[i])).y((i) => y(robot[kind.key][i]))(thinned(robot[kind.key], most)))
+        .attr(
+          'd',
+          (robot) => d3.line()
+                       .defined((i) => Number.isFinite(robot[kind.key][i]))
+                       .x((i) => x(replay.times[i]))
+                       .y((i) => y(robot[kind.key][i]))(thinned(robot[kind.key], most)))
         .on('click', (robot) => handlers.pick(robot.index));
     }
 
     function follow_pointer(svg) {
       let dragging = false;
       const go = () => handlers.go(x.invert(d3.mouse(svg.node())[0]));
-      svg.on('pointerdown', () => { dragging = true; svg.node().setPointerCapture(d3.event.pointerId); go(); })
-        .on('pointermove', () => { if (dragging) go(); })
-        .on('pointerup pointercancel', () => { dragging = false; });
+      svg
+        .on(
+          'pointerdown',
+          () => {
+            dragging = true;
+            svg.node().setPointerCapture(d3.event.pointerId);
+            go();
+          })
+        .on(
+          'pointermove',
+          () => {
+            if (dragging) go();
+          })
+        .on('pointerup pointercancel', () => {
+          dragging = false;
+        });
     }
 
     function draw_plot(kind, width) {
       const bottom = kind.key === 'speed' ? smallest(replay, 'speed') : 0;
-      const y = d3.scaleLinear().domain([bottom, kind.top(replay)]).nice(3).range([HEIGHT_PX - MARGIN.bottom, MARGIN.top]);
-      const svg = d3.select(node).append('svg').attr('width', width).attr('height', HEIGHT_PX).attr('role', 'img')
-        .attr('aria-label', `${kind.title} of each robot over time`);
+      const y =
+        d3.scaleLinear().domain([bottom, kind.top(replay)]).nice(3).range([HEIGHT_PX - MARGIN.bottom, MARGIN.top]);
+      const svg = d3.select(node)
+                    .append('svg')
+                    .attr('width', width)
+                    .attr('height', HEIGHT_PX)
+                    .attr('role', 'img')
+                    .attr('aria-label', `${kind.title} of each robot over time`);
       svg.append('text').attr('class', 'replay-plot-title').attr('x', 0).attr('y', 12).text(kind.title);
       draw_axes(svg, y, width);
       draw_spans(svg);
@@ -124,9 +178,13 @@ window.dmrp = window.dmrp || {};
     }
 
     function pick(picked) {
-      d3.select(node).selectAll('.replay-lines').classed('some-picked', picked !== null)
-        .selectAll('path').classed('picked', (robot) => robot.index === picked)
-        .filter((robot) => robot.index === picked).raise();
+      d3.select(node)
+        .selectAll('.replay-lines')
+        .classed('some-picked', picked !== null)
+        .selectAll('path')
+        .classed('picked', (robot) => robot.index === picked)
+        .filter((robot) => robot.index === picked)
+        .raise();
     }
 
     return {node, show, draw, resize, pick};

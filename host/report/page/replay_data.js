@@ -70,10 +70,10 @@ window.dmrp = window.dmrp || {};
       outline: packed.outline ? points(packed.outline) : null,
       v_max: packed.v_max / 1000,
       goals: packed.goals.map((goal) => ({
-        at: point(goal.at),
-        theta: goal.theta === undefined ? null : goal.theta / 1000,
-        tolerance: goal.tolerance / 1000,
-      })),
+                                at: point(goal.at),
+                                theta: goal.theta === undefined ? null : goal.theta / 1000,
+                                tolerance: goal.tolerance / 1000,
+                              })),
       x: deltas(packed.x),
       y: deltas(packed.y),
       theta: deltas(packed.theta),
@@ -109,21 +109,28 @@ window.dmrp = window.dmrp || {};
       shapes: packed.world.shapes.map(shape),
       robots: packed.robots.map((one, index) => robot(one, index, count)),
       people: packed.people.map((one) => ({
-        id: one.id, group: one.group, radius: one.radius / 1000, from: one.from, x: deltas(one.x), y: deltas(one.y),
-      })),
+                                  id: one.id,
+                                  group: one.group,
+                                  radius: one.radius / 1000,
+                                  from: one.from,
+                                  x: deltas(one.x),
+                                  y: deltas(one.y),
+                                })),
       plans: packed.plans.map(plan),
       plan: runs(packed.plan, count),
       contacts: packed.contacts.map((one) => ({
-        ...one, from: one.from / 1000, to: one.to / 1000, at: point(one.at), depth: one.depth / 1000,
-      })),
+                                      ...one,
+                                      from: one.from / 1000,
+                                      to: one.to / 1000,
+                                      at: point(one.at),
+                                      depth: one.depth / 1000,
+                                    })),
       events: packed.events.map((one) => ({...one, from: one.from / 1000, to: one.to / 1000})),
     };
   }
 
   // Rejects where the browser cannot unpack or the data are damaged.
-  async function load(element) {
-    return from_json(JSON.parse(await text_of(element)));
-  }
+  async function load(element) { return from_json(JSON.parse(await text_of(element))); }
 
   const MARGIN_M = 3;
 
@@ -141,8 +148,10 @@ window.dmrp = window.dmrp || {};
       for (const goal of robot.goals) goal.at.forEach((value, axis) => take(axis, value));
     }
     if (replay.robots.length === 0) return [replay.lower, replay.upper];
-    return [lower.map((value, axis) => Math.max(replay.lower[axis], value - MARGIN_M)),
-      upper.map((value, axis) => Math.min(replay.upper[axis], value + MARGIN_M))];
+    return [
+      lower.map((value, axis) => Math.max(replay.lower[axis], value - MARGIN_M)),
+      upper.map((value, axis) => Math.min(replay.upper[axis], value + MARGIN_M))
+    ];
   }
 
   // The sample at or before a time, and how far it is to the next.
@@ -211,6 +220,17 @@ window.dmrp = window.dmrp || {};
   }
 
   dmrp.replay_data = {
-    ACTIVE, FINISHED, FAILED, load, from_json, lively_box, moment, scan_hits, robot_pose, person_pose, path_in_force, planned_place,
+    ACTIVE,
+    FINISHED,
+    FAILED,
+    load,
+    from_json,
+    lively_box,
+    moment,
+    scan_hits,
+    robot_pose,
+    person_pose,
+    path_in_force,
+    planned_place,
   };
 })(window.dmrp);

@@ -19,30 +19,53 @@ window.dmrp = window.dmrp || {};
   function state_words(robot, k) {
     if (robot.state[k] === dmrp.replay_data.FINISHED) return 'arrived';
     if (robot.state[k] === dmrp.replay_data.FAILED) return robot.failure ? `failed: ${robot.failure}` : 'failed';
-    return robot.goals.length > 1 ? `to goal ${Math.min(robot.goal[k] + 1, robot.goals.length)} of ${robot.goals.length}` : 'driving';
+    return robot.goals.length > 1 ?
+      `to goal ${Math.min(robot.goal[k] + 1, robot.goals.length)} of ${robot.goals.length}` :
+      'driving';
   }
 
   // handlers: pick(robot index).
   function make_robot_list(handlers) {
     const body = element('tbody');
-    const node = element('div', {class: 'replay-robots'}, element('table', {},
-      element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'State'),
-        element('th', {scope: 'col', class: 'number'}, 'm/s'), element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)'))),
-      body));
+    const node = element(
+      'div', {class: 'replay-robots'},
+      element(
+        'table', {},
+        element(
+          'thead', {},
+          element(
+            'tr', {}, element('th', {scope: 'col'}, 'Robot'), element('th', {scope: 'col'}, 'State'),
+            element('th', {scope: 'col', class: 'number'}, 'm/s'),
+            element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)'))),
+        body));
     let rows = [];
     let replay = null;
     const is_due = make_pace();
 
     function robot_row(robot) {
-      const number = element('span', {class: 'replay-number', style: `--colour: ${dmrp.replay_look.robot_variable(robot.index)}`}, String(robot.index));
-      const button = element('button', {
-        type: 'button', class: 'replay-robot', 'aria-pressed': 'false', 'data-testid': `replay-robot-${robot.index}`,
-        'aria-label': `robot ${robot.index}, ${robot.name}`, onclick: () => handlers.pick(robot.index),
-      }, number, element('span', {class: 'replay-robot-name'}, robot.name));
+      const number = element(
+        'span', {class: 'replay-number', style: `--colour: ${dmrp.replay_look.robot_variable(robot.index)}`},
+        String(robot.index));
+      const button = element(
+        'button', {
+          type: 'button',
+          class: 'replay-robot',
+          'aria-pressed': 'false',
+          'data-testid': `replay-robot-${robot.index}`,
+          'aria-label': `robot ${robot.index}, ${robot.name}`,
+          onclick: () => handlers.pick(robot.index),
+        },
+        number, element('span', {class: 'replay-robot-name'}, robot.name));
       const cells = {
-        state: element('td'), speed: element('td', {class: 'number'}), deviation: element('td', {class: 'number'}),
+        state: element('td'),
+        speed: element('td', {class: 'number'}),
+        deviation: element('td', {class: 'number'}),
       };
-      return {button, cells, row: element('tr', {}, element('th', {scope: 'row'}, button), cells.state, cells.speed, cells.deviation)};
+      return {
+        button,
+        cells,
+        row: element('tr', {}, element('th', {scope: 'row'}, button), cells.state, cells.speed, cells.deviation)
+      };
     }
 
     function show(shown) {
@@ -61,8 +84,11 @@ window.dmrp = window.dmrp || {};
       rows.forEach(({cells}, i) => {
         const robot = replay.robots[i];
         write(cells.state, state_words(robot, at.k));
-        write(cells.speed, at.k < robot.speed.length ? dmrp.numbers.fixed(robot.speed[at.k], 2) : dmrp.numbers.UNDEFINED);
-        write(cells.deviation, at.k < robot.deviation.length ? dmrp.numbers.fixed(robot.deviation[at.k], 2) : dmrp.numbers.UNDEFINED);
+        write(
+          cells.speed, at.k < robot.speed.length ? dmrp.numbers.fixed(robot.speed[at.k], 2) : dmrp.numbers.UNDEFINED);
+        write(
+          cells.deviation,
+          at.k < robot.deviation.length ? dmrp.numbers.fixed(robot.deviation[at.k], 2) : dmrp.numbers.UNDEFINED);
       });
     }
 
@@ -76,7 +102,13 @@ window.dmrp = window.dmrp || {};
     return {node, show, draw, pick};
   }
 
-  const SYMBOLS = {contact: '✕', arrival: '✓', failure: '■', plan: '↻', metric: '▬'};
+  const SYMBOLS = {
+    contact: '✕',
+    arrival: '✓',
+    failure: '■',
+    plan: '↻',
+    metric: '▬'
+  };
 
   // handlers: jump(event).
   function make_event_list(handlers) {
@@ -92,10 +124,16 @@ window.dmrp = window.dmrp || {};
       list.textContent = '';
       nothing.hidden = events.length > 0;
       list.hidden = events.length === 0;
-      buttons = events.map((event) => element('button', {type: 'button', class: `replay-event ${event.kind}`, onclick: () => handlers.jump(event)},
-        element('span', {class: 'number'}, `${event.from.toFixed(1)} s`),
-        element('span', {class: 'replay-symbol', 'aria-hidden': 'true'}, SYMBOLS[event.kind]),
-        element('span', {}, event.text, event.to - event.from >= 0.1 ? element('span', {class: 'soft'}, ` for ${(event.to - event.from).toFixed(1)} s`) : null)));
+      buttons = events.map(
+        (event) => element(
+          'button', {type: 'button', class: `replay-event ${event.kind}`, onclick: () => handlers.jump(event)},
+          element('span', {class: 'number'}, `${event.from.toFixed(1)} s`),
+          element('span', {class: 'replay-symbol', 'aria-hidden': 'true'}, SYMBOLS[event.kind]),
+          element(
+            'span', {}, event.text,
+            event.to - event.from >= 0.1 ?
+              element('span', {class: 'soft'}, ` for ${(event.to - event.from).toFixed(1)} s`) :
+              null)));
       buttons.forEach((button) => list.append(element('li', {}, button)));
     }
 
@@ -107,5 +145,8 @@ window.dmrp = window.dmrp || {};
     return {node, show, draw};
   }
 
-  dmrp.replay_lists = {make_robot_list, make_event_list};
+  dmrp.replay_lists = {
+    make_robot_list,
+    make_event_list
+  };
 })(window.dmrp);

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// replay_map.js: the flat map of a replay, drawn on a canvas: what stands still on one of its own, the rest every frame.
+// replay_map.js: the flat map of a replay, drawn on a canvas: what stands still on one of its own, the rest every
+// frame.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
-  const MANY_ROBOTS = 12;     // above this, only the picked robot shows all of its plan and trail
-  const SHORT_TRAIL = 100;    // samples
+  const MANY_ROBOTS = 12;   // above this, only the picked robot shows all of its plan and trail
+  const SHORT_TRAIL = 100;  // samples
   const CONTACT_SEEN_S = 1.0;
-  const TOGETHER_M = 4;       // people of a group this near are joined by a line
+  const TOGETHER_M = 4;  // people of a group this near are joined by a line
 
   function trace_line(context, view, xs, ys, from, to) {
     context.beginPath();
     for (let i = from; i < to; ++i) {
-      if (i === from) context.moveTo(view.x(xs[i]), view.y(ys[i]));
-      else context.lineTo(view.x(xs[i]), view.y(ys[i]));
+      if (i === from)
+        context.moveTo(view.x(xs[i]), view.y(ys[i]));
+      else
+        context.lineTo(view.x(xs[i]), view.y(ys[i]));
     }
   }
 
@@ -24,7 +27,8 @@ window.dmrp = window.dmrp || {};
   function trace_shape(context, view, shape) {
     if (shape.vertices) {
       context.beginPath();
-      shape.vertices.forEach(([x, y], i) => (i === 0 ? context.moveTo(view.x(x), view.y(y)) : context.lineTo(view.x(x), view.y(y))));
+      shape.vertices.forEach(
+        ([x, y], i) => (i === 0 ? context.moveTo(view.x(x), view.y(y)) : context.lineTo(view.x(x), view.y(y))));
       context.closePath();
     } else {
       circle(context, view.x(shape.center[0]), view.y(shape.center[1]), shape.radius * view.scale());
@@ -40,9 +44,7 @@ window.dmrp = window.dmrp || {};
   }
 
   // A round distance whose bar is not longer than 100 px.
-  function scale_bar_m(scale) {
-    return [50, 20, 10, 5, 2, 1, 0.5, 0.2].find((length) => length * scale <= 100) || 0.1;
-  }
+  function scale_bar_m(scale) { return [50, 20, 10, 5, 2, 1, 0.5, 0.2].find((length) => length * scale <= 100) || 0.1; }
 
   function draw_scale_bar(context, view, colours) {
     const length = scale_bar_m(view.scale());
@@ -94,7 +96,8 @@ window.dmrp = window.dmrp || {};
 
   function draw_scan(context, view, robot, at, colour) {
     context.fillStyle = colour;
-    for (const [x, y] of dmrp.replay_data.scan_hits(robot, at)) context.fillRect(view.x(x) - 1.25, view.y(y) - 1.25, 2.5, 2.5);
+    for (const [x, y] of dmrp.replay_data.scan_hits(robot, at))
+      context.fillRect(view.x(x) - 1.25, view.y(y) - 1.25, 2.5, 2.5);
   }
 
   function draw_goal(context, view, robot, goal, colour, strong) {
@@ -208,7 +211,8 @@ window.dmrp = window.dmrp || {};
       return;
     }
     context.beginPath();
-    robot.outline.forEach(([x, y], i) => (i === 0 ? context.moveTo(x * scale, -y * scale) : context.lineTo(x * scale, -y * scale)));
+    robot.outline.forEach(
+      ([x, y], i) => (i === 0 ? context.moveTo(x * scale, -y * scale) : context.lineTo(x * scale, -y * scale)));
     context.closePath();
   }
 
@@ -256,7 +260,8 @@ window.dmrp = window.dmrp || {};
       context.beginPath();
       event.robots.forEach((index, i) => {
         const pose = poses[index];
-        if (pose) i === 0 ? context.moveTo(view.x(pose.x), view.y(pose.y)) : context.lineTo(view.x(pose.x), view.y(pose.y));
+        if (pose)
+          i === 0 ? context.moveTo(view.x(pose.x), view.y(pose.y)) : context.lineTo(view.x(pose.x), view.y(pose.y));
       });
       context.strokeStyle = scene.colours.warning;
       context.lineWidth = Math.max(6, 0.3 * view.scale());
@@ -302,13 +307,18 @@ window.dmrp = window.dmrp || {};
     for (const robot of ordered) {
       const strong = robot.index === picked;
       const path = dmrp.replay_data.path_in_force(replay, robot.index, at);
-      if (few || strong) draw_goal(context, view, robot, robot.goals[Math.min(robot.goal[at.k], robot.goals.length - 1)], colour(robot), strong);
+      if (few || strong)
+        draw_goal(
+          context, view, robot, robot.goals[Math.min(robot.goal[at.k], robot.goals.length - 1)], colour(robot), strong);
       if (layers.plans && path && (few || strong)) draw_plan(context, view, path, colour(robot), strong);
-      if (scene.whole_trails) draw_all_of_trail(context, view, robot, colour(robot));
-      else if (layers.trails) draw_trail(context, view, robot, poses[robot.index], at, colour(robot), strong, few || strong);
+      if (scene.whole_trails)
+        draw_all_of_trail(context, view, robot, colour(robot));
+      else if (layers.trails)
+        draw_trail(context, view, robot, poses[robot.index], at, colour(robot), strong, few || strong);
     }
     if (layers.scans)
-      for (const robot of picked === null ? replay.robots : [replay.robots[picked]]) draw_scan(context, view, robot, at, colour(robot));
+      for (const robot of picked === null ? replay.robots : [replay.robots[picked]])
+        draw_scan(context, view, robot, at, colour(robot));
     if (layers.people) draw_people(context, view, replay, at, colours);
     draw_relations(context, view, scene, poses);
     for (const robot of ordered) {
@@ -390,7 +400,16 @@ window.dmrp = window.dmrp || {};
       return shape ? `${shape.name || 'obstacle'}, ${shape.height} m high` : '';
     }
 
-    return {view, resize, draw, robot_at, words_at, forget: () => { still_is = ''; }};
+    return {
+      view,
+      resize,
+      draw,
+      robot_at,
+      words_at,
+      forget: () => {
+        still_is = '';
+      }
+    };
   }
 
   dmrp.replay_map = {make_map};

@@ -5,8 +5,8 @@ window.dmrp = window.dmrp || {};
   'use strict';
   const TAP_PX = 5;
 
-  // handlers: tap(x, y), drag(dx, dy, second_way), pinch(factor, x, y), hover(x, y) or hover(null). `second_way`: by the
-  // right button, with Shift, or by two fingers. Wheels zoom only with Ctrl, so that the page can be scrolled.
+  // handlers: tap(x, y), drag(dx, dy, second_way), pinch(factor, x, y), hover(x, y) or hover(null). `second_way`: by
+  // the right button, with Shift, or by two fingers. Wheels zoom only with Ctrl, so that the page can be scrolled.
   function follow(canvas, handlers) {
     const down = new Map();  // pointers: id to [x, y]
     let travelled = 0;

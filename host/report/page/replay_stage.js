@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// replay_stage.js: the picture of a replay: the flat map, or the view in three dimensions, which is made when first asked
-// for; and the buttons that change how it is seen.
+// replay_stage.js: the picture of a replay: the flat map, or the view in three dimensions, which is made when first
+// asked for; and the buttons that change how it is seen.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
 
   function tool(text, label, id, pressed) {
-    return element('button', {type: 'button', class: 'button', 'aria-label': label, title: label, 'data-testid': id, onclick: pressed}, text);
+    return element(
+      'button',
+      {type: 'button', class: 'button', 'aria-label': label, title: label, 'data-testid': id, onclick: pressed}, text);
   }
 
   // handlers: pick(robot index or null), redraw().
@@ -17,10 +19,13 @@ window.dmrp = window.dmrp || {};
     const flat_button = tool('2-D', 'flat map', 'replay-2d', () => choose('flat'));
     const solid_button = tool('3-D', 'view in three dimensions', 'replay-3d', () => choose('solid'));
     const tip = element('div', {class: 'replay-tip', hidden: true});
-    const node = element('div', {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'}, flat_canvas,
-      tip, message);
-    const tools = element('div', {class: 'replay-tools'},
-      element('div', {class: 'segmented'}, tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)),
+    const node = element(
+      'div', {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'}, flat_canvas, tip,
+      message);
+    const tools = element(
+      'div', {class: 'replay-tools'},
+      element(
+        'div', {class: 'segmented'}, tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)),
         tool('+', 'larger', 'replay-zoom-in', () => zoom(1.4)), tool('⤢', 'all of it', 'replay-fit', fit)),
       element('div', {class: 'segmented'}, flat_button, solid_button));
     const map = dmrp.replay_map.make_map(flat_canvas);
@@ -54,7 +59,10 @@ window.dmrp = window.dmrp || {};
         flat_canvas.after(solid.canvas);
         dmrp.replay_pointer.follow(solid.canvas, {
           tap: (x, y) => handlers.pick(scene ? solid.robot_at(scene, x, y) : null),
-          drag: (dx, dy, second_way) => { second_way ? solid.shift(dx, dy) : solid.orbit(dx, dy); handlers.redraw(); },
+          drag: (dx, dy, second_way) => {
+            second_way ? solid.shift(dx, dy) : solid.orbit(dx, dy);
+            handlers.redraw();
+          },
           pinch: (factor) => zoom(factor),
           hover: () => {},
         });
@@ -72,9 +80,7 @@ window.dmrp = window.dmrp || {};
     }
 
     // A finger on a part of the map shifts it; on all of it, it scrolls the page.
-    function show_zoom() {
-      flat_canvas.classList.toggle('zoomed', map.view.zoom > 1.001);
-    }
+    function show_zoom() { flat_canvas.classList.toggle('zoomed', map.view.zoom > 1.001); }
 
     function fit() {
       current().fit ? current().fit() : map.view.fit();
@@ -93,7 +99,10 @@ window.dmrp = window.dmrp || {};
 
     dmrp.replay_pointer.follow(flat_canvas, {
       tap: (x, y) => handlers.pick(scene ? map.robot_at(scene, x, y) : null),
-      drag: (dx, dy) => { map.view.shift_by(dx, dy); handlers.redraw(); },
+      drag: (dx, dy) => {
+        map.view.shift_by(dx, dy);
+        handlers.redraw();
+      },
       pinch: zoom,
       hover,
     });
@@ -110,7 +119,10 @@ window.dmrp = window.dmrp || {};
     function show(shown) {
       scene = shown;
       map.view.show_world(scene.replay.lower, scene.replay.upper);
-      node.setAttribute('aria-label', `map of ${dmrp.numbers.counted(scene.replay.robots.length, 'robot')}; space plays, arrows step, digits pick a robot`);
+      node.setAttribute(
+        'aria-label',
+        `map of ${
+          dmrp.numbers.counted(scene.replay.robots.length, 'robot')}; space plays, arrows step, digits pick a robot`);
       resize();
       map.view.show_box(dmrp.replay_data.lively_box(scene.replay));
       show_zoom();

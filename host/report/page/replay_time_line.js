@@ -12,8 +12,12 @@ window.dmrp = window.dmrp || {};
   }
 
   function lanes_of(events) {
-    const order = ['contacts', ...dmrp.labels.distinct(events.filter((event) => event.kind === 'metric').map((event) => event.lane)), 'plans', 'robots'];
-    return order.map((name) => ({name, events: events.filter((event) => event.lane === name)})).filter((lane) => lane.events.length > 0);
+    const order = [
+      'contacts', ...dmrp.labels.distinct(events.filter((event) => event.kind === 'metric').map((event) => event.lane)),
+      'plans', 'robots'
+    ];
+    return order.map((name) => ({name, events: events.filter((event) => event.lane === name)}))
+      .filter((lane) => lane.events.length > 0);
   }
 
   function mark(event, x, width) {
@@ -45,13 +49,22 @@ window.dmrp = window.dmrp || {};
       drawn.addEventListener('click', () => jump(event));
       svg.append(drawn);
     }
-    return [element('span', {class: 'replay-lane'}, lane_title(data, lane.name)), element('div', {class: 'replay-marks'}, svg)];
+    return [
+      element('span', {class: 'replay-lane'}, lane_title(data, lane.name)), element('div', {class: 'replay-marks'}, svg)
+    ];
   }
 
   // handlers: jump(event), go(t).
   function make_time_line(data, handlers) {
     const slider = element('input', {
-      type: 'range', min: 0, max: 0, step: 0.1, value: 0, class: 'replay-slider', 'aria-label': 'time in the trial', 'data-testid': 'replay-scrub',
+      type: 'range',
+      min: 0,
+      max: 0,
+      step: 0.1,
+      value: 0,
+      class: 'replay-slider',
+      'aria-label': 'time in the trial',
+      'data-testid': 'replay-scrub',
     });
     const readout = element('output', {class: 'replay-time number', 'data-testid': 'replay-time'});
     const rows = element('div', {class: 'replay-lanes'});

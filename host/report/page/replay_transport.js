@@ -23,13 +23,29 @@ window.dmrp = window.dmrp || {};
   }
 
   function icon_button(name, label, id, pressed) {
-    return element('button', {type: 'button', class: 'button replay-icon', 'aria-label': label, title: label, 'data-testid': id, onclick: pressed}, icon(name));
+    return element(
+      'button', {
+        type: 'button',
+        class: 'button replay-icon',
+        'aria-label': label,
+        title: label,
+        'data-testid': id,
+        onclick: pressed
+      },
+      icon(name));
   }
 
   function make_transport(clock) {
     const play = icon_button('play', 'Play (space)', 'replay-play', () => clock.toggle());
     play.classList.add('replay-play');
-    const speed = element('select', {'aria-label': 'speed of the replay', 'data-testid': 'replay-speed', onchange: () => { clock.speed = Number(speed.value); }},
+    const speed = element(
+      'select', {
+        'aria-label': 'speed of the replay',
+        'data-testid': 'replay-speed',
+        onchange: () => {
+          clock.speed = Number(speed.value);
+        }
+      },
       SPEEDS.map((one) => element('option', {value: one, selected: one === 1}, `${one}×`)));
     let showed_playing = false;
 
@@ -40,7 +56,8 @@ window.dmrp = window.dmrp || {};
       play.setAttribute('aria-label', clock.playing ? 'Pause (space)' : 'Play (space)');
     });
 
-    return element('div', {class: 'replay-transport'}, play,
+    return element(
+      'div', {class: 'replay-transport'}, play,
       icon_button('back', 'One sample back (left arrow)', 'replay-back', () => clock.step(-0.1)),
       icon_button('forward', 'One sample on (right arrow)', 'replay-forward', () => clock.step(0.1)), speed);
   }
@@ -59,7 +76,8 @@ window.dmrp = window.dmrp || {};
     };
     node.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === 'SELECT') return;
-      if (event.key === ' ' && ['BUTTON', 'INPUT'].includes(event.target.tagName) && event.target.type !== 'range') return;
+      if (event.key === ' ' && ['BUTTON', 'INPUT'].includes(event.target.tagName) && event.target.type !== 'range')
+        return;
       const digit = /^[0-9]$/.test(event.key) ? () => handlers.pick(Number(event.key)) : null;
       const action = actions[event.key] || digit;
       if (!action) return;
@@ -68,5 +86,8 @@ window.dmrp = window.dmrp || {};
     });
   }
 
-  dmrp.replay_transport = {make_transport, follow_keys};
+  dmrp.replay_transport = {
+    make_transport,
+    follow_keys
+  };
 })(window.dmrp);

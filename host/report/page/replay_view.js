@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// replay_view.js: which part of the world the flat map shows: the world's metres to the canvas's pixels, zoom and shift.
+// replay_view.js: which part of the world the flat map shows: the world's metres to the canvas's pixels, zoom and
+// shift.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
@@ -9,14 +10,15 @@ window.dmrp = window.dmrp || {};
   function make_view() {
     const view = {width: 1, height: 1, zoom: 1, center: [0, 0], lower: [0, 0], upper: [1, 1]};
 
-    const fitting_scale = () => Math.min((view.width - 2 * MARGIN) / (view.upper[0] - view.lower[0]),
+    const fitting_scale = () => Math.min(
+      (view.width - 2 * MARGIN) / (view.upper[0] - view.lower[0]),
       (view.height - 2 * MARGIN) / (view.upper[1] - view.lower[1]));
 
     view.scale = () => Math.max(1e-3, fitting_scale() * view.zoom);
     view.x = (x) => view.width / 2 + (x - view.center[0]) * view.scale();
     view.y = (y) => view.height / 2 - (y - view.center[1]) * view.scale();
-    view.world = (px, py) => [view.center[0] + (px - view.width / 2) / view.scale(),
-      view.center[1] - (py - view.height / 2) / view.scale()];
+    view.world = (px, py) =>
+      [view.center[0] + (px - view.width / 2) / view.scale(), view.center[1] - (py - view.height / 2) / view.scale()];
 
     view.show_world = (lower, upper) => {
       view.lower = lower;
@@ -30,7 +32,8 @@ window.dmrp = window.dmrp || {};
     };
 
     view.show_box = ([lower, upper]) => {
-      const scale = Math.min(...[0, 1].map((axis) => (axis === 0 ? view.width : view.height) / (upper[axis] - lower[axis])));
+      const scale =
+        Math.min(...[0, 1].map((axis) => (axis === 0 ? view.width : view.height) / (upper[axis] - lower[axis])));
       view.zoom = Math.max(1, scale / fitting_scale());
       view.look_at([0, 1].map((axis) => (lower[axis] + upper[axis]) / 2));
     };
