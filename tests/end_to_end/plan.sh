@@ -159,7 +159,7 @@ broken "3:1: agents 0 and 1 both start at \(0, 2\)" '3s/\t6\t2\t0/\t0\t2\t1/' sc
 expect_mistake "no such planner.*did you mean 'dmrp.planner.cbs'" --scenario mall --planner dmrp.planner.csb
 expect_mistake "^--set node_limits=4: unknown key .*did you mean 'node_limit'" --scenario mall --planner dmrp.planner.cbs --set node_limits=4
 expect_mistake "^--set node_limit=few: 'node_limit' must be an integer" --scenario mall --planner dmrp.planner.cbs --set node_limit=few
-expect_mistake "needs --map, --scen and --agents together, or --scenario alone" --map bay.map --scen bay.scen --planner dmrp.planner.cbs
+expect_mistake "needs --map, --scen and --agents together, or --scenario, with or without --agents" --map bay.map --scen bay.scen --planner dmrp.planner.cbs
 expect_mistake "there is no such library" --scenario mall --planner dmrp.planner.cbs --plugin ./nothing.so
 expect_mistake "there is no folder" --scenario mall --planner dmrp.planner.cbs --paths nowhere/paths.csv
 expect_mistake "time-limit" --scenario mall --planner dmrp.planner.cbs --time-limit -1
