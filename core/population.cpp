@@ -47,11 +47,25 @@ RoutePlace place_on(const std::vector<Route>& legs, double fraction) {
   }
 }
 
-// How many people begin in each region.
-std::map<std::uint32_t, std::size_t> crowds_by_region(const std::vector<Flow>& flows) {
-  std::map<std::uint32_t, std::size_t> crowds;
+// A region and how many people begin in it.
+struct RegionCrowd {
+  std::uint32_t region = 0;
+  std::size_t people = 0;
+};
+
+// The smallest first: where regions overlap, it has the least room to evade.
+std::vector<RegionCrowd> crowds_by_region(const std::vector<Flow>& flows, const std::vector<Region>& regions) {
+  std::map<std::uint32_t, std::size_t> people;
   for (const Flow& flow : flows)
-    if (flow.start == FlowStart::from) crowds[flow.regions.front()] += flow.people;
+    if (flow.start == FlowStart::from) people[flow.regions.front()] += flow.people;
+  std::vector<RegionCrowd> crowds;
+  for (const auto& [region, count] : people) crowds.push_back({region, count});
+  const auto area = [&](const RegionCrowd& crowd) {
+    const dmrp_vec2 extent = regions[crowd.region].upper - regions[crowd.region].lower;
+    return extent.x * extent.y;
+  };
+  std::stable_sort(crowds.begin(), crowds.end(),
+                   [&](const RegionCrowd& one, const RegionCrowd& two) { return area(one) < area(two); });
   return crowds;
 }
 
@@ -69,9 +83,10 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       slots_(walker_count(scenario)) {
   std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
   std::vector<dmrp_vec2> taken;
-  for (const auto& [region, count] : crowds_by_region(flows_)) {
-    places[region] = places_in(region, count, robots, taken);
-    taken.insert(taken.end(), places[region].begin(), places[region].end());
+  for (const RegionCrowd& crowd : crowds_by_region(flows_, regions_)) {
+    std::vector<dmrp_vec2>& found = places[crowd.region];
+    found = places_in(crowd.region, crowd.people, robots, taken);
+    taken.insert(taken.end(), found.begin(), found.end());
   }
   std::uint32_t slot = 0;
   for (std::uint32_t flow = 0; flow < flows_.size(); ++flow) {

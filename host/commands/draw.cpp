@@ -93,6 +93,8 @@ Plan plan_once(const Experiment& experiment) {
 
 int draw_command(const DrawOptions& options) {
   Experiment experiment = adhoc_experiment(options.scenario, !options.planner.empty());
+  if (!options.planner.empty() && experiment.scenarios[0].scenario.robots.empty())
+    throw InputError(fmt::format("scenario '{}' lists no robots to plan for", options.scenario));
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);

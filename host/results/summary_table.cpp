@@ -65,8 +65,8 @@ std::string group_of(const CombinationLabels& combination, bool several_models) 
 }
 
 std::string label_of(const CombinationLabels& combination) {
-  return combination.robots == 0 ? combination.pedestrian_model
-                                 : combination.global_planner + " + " + combination.local_controller;
+  if (combination.robots > 0) return combination.global_planner + " + " + combination.local_controller;
+  return combination.pedestrian_model.empty() ? "recorded people" : combination.pedestrian_model;
 }
 
 // Those that can be compared stand together, whatever the order of trials was.

@@ -30,7 +30,7 @@ EOT
 run() {
   expect_status 0 "$host" "$scratch/$1.toml" --quiet --jobs 1 --out "$scratch/$1"
   expect_status 0 "$host" "$scratch/$1.toml" --quiet --jobs 2 --out "$scratch/$1.two"
-  [[ $(values_of "$scratch/$1") == $(values_of "$scratch/$1.two") ]] || fail "$1: --jobs 2 differs from --jobs 1"
+  [[ $(values_of "$scratch/$1") == "$(values_of "$scratch/$1.two")" ]] || fail "$1: --jobs 2 differs from --jobs 1"
   [[ $(query "$scratch/$1" "SELECT count(*) FROM fault") == 0 ]] || fail "$1: there are faults"
 }
 
@@ -54,7 +54,7 @@ run drawn
 [[ $(query "$scratch/drawn" "SELECT count(DISTINCT value) FROM value JOIN trial ON id = trial_id WHERE robots = 3
   AND metric = 'planned_length' AND subject_kind = 'robot' AND subject = 0") == 2 ]] || fail "tasks should differ"
 expect_status 0 "$host" "$scratch/drawn/effective.toml" --quiet --out "$scratch/again"
-[[ $(values_of "$scratch/again") == $(values_of "$scratch/drawn") ]] || fail "effective.toml gives other worlds"
+[[ $(values_of "$scratch/again") == "$(values_of "$scratch/drawn")" ]] || fail "effective.toml gives other worlds"
 
 # the enlarged mall plans and drives
 for agents in 4 100; do

@@ -16,6 +16,7 @@ for (const name of [
   'table_model',
   'trial_points',
   'comparisons',
+  'faults',
   'metrics_table',
   'provenance',
   'heat_map',
@@ -254,6 +255,9 @@ const tests = {
       ['good']
     );
     assert.match(dmrp.verdict.lines(data)[0].text, /32 of 32 robots arrived/);
+    data.values.contacts = data.trials.id.map((id) => (id === 5 ? 2 : 0));
+    assert.match(dmrp.verdict.lines(data)[0].text, /^32 of 32 robots arrived, with 2 contacts; no faults/);
+    delete data.values.contacts;
     data.values.arrived[2] = 0.5;
     data.trials.outcome[2] = 'failed';
     same(
@@ -297,6 +301,16 @@ const tests = {
     same(dmrp.comparisons.estimate_of({...comparison, test: 'signed_rank'}), {estimate: 1, low: 0, high: 2});
     same(dmrp.comparisons.estimate_of({...comparison, test: 'sign_flip'}), {estimate: 5, low: 4, high: 6});
   },
+  'faults of one kind in one function stand together'() {
+    const fault = (trial, kind, plugin) => ({trial, kind, plugin, function: 'step'});
+    const faults = [fault(0, 'crash', 'a'), fault(1, 'hang', 'b'), fault(2, 'crash', 'a'), fault(3, 'crash', 'b')];
+    same(
+      dmrp.faults.groups(faults).map((group) => group.map((one) => one.trial)),
+      [[0, 2], [1], [3]]
+    );
+    assert.strictEqual(dmrp.faults.count_words(faults), '3 crash, 1 hang');
+  },
+
   'metrics are found by all words'() {
     const data = sample();
     same(dmrp.metrics_table.found(data, ''), [0, 1]);

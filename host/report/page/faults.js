@@ -4,7 +4,6 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const AT_FIRST = 20;
   const SIGNALS = {
     4: 'SIGILL',
     6: 'SIGABRT',
@@ -25,17 +24,10 @@ window.dmrp = window.dmrp || {};
       .join(' · ');
   }
 
-  function item(data, fault) {
+  function occurrence(data, fault) {
     return element(
-      'li',
-      {class: 'fault'},
-      element(
-        'h3',
-        {},
-        element('span', {class: 'kind'}, fault.kind.replace(/_/g, ' ')),
-        ` ${fault.plugin}`,
-        fault.function && element('code', {}, ` ${fault.function}()`)
-      ),
+      'div',
+      {class: 'occurrence'},
       element('p', {class: 'where number'}, where_words(data, fault)),
       fault.detail && element('p', {class: 'detail-text'}, fault.detail),
       element(
@@ -45,6 +37,49 @@ window.dmrp = window.dmrp || {};
         dmrp.controls.copy_button(fault.rerun, `the command that runs trial ${fault.trial} again`)
       )
     );
+  }
+
+  // Filled when it is unfolded: there may be many.
+  function folded_rest(data, faults) {
+    const made = element(
+      'details',
+      {class: 'more'},
+      element('summary', {}, `${dmrp.numbers.counted(faults.length, 'more time', 'more times')}`)
+    );
+    const fill = () => {
+      made.append(...faults.map((fault) => occurrence(data, fault)));
+      made.removeEventListener('toggle', fill);
+    };
+    made.addEventListener('toggle', fill);
+    return made;
+  }
+
+  function group_item(data, faults) {
+    const [first, ...rest] = faults;
+    return element(
+      'li',
+      {class: 'fault'},
+      element(
+        'h3',
+        {},
+        element('span', {class: 'kind'}, first.kind.replace(/_/g, ' ')),
+        ` ${first.plugin}`,
+        first.function && element('code', {}, ` ${first.function}()`)
+      ),
+      occurrence(data, first),
+      rest.length > 0 && folded_rest(data, rest)
+    );
+  }
+
+  // What one function of a plugin did in the same way, together; in the order of the first of each.
+  function groups(faults) {
+    const found = new Map();
+    for (const fault of faults) {
+      const key = JSON.stringify([fault.kind, fault.plugin, fault.function]);
+      if (!found.has(key)) found.set(key, []);
+      found.get(key).push(fault);
+    }
+    return [...found.values()];
   }
 
   // "3 crash, 1 hang"
@@ -57,29 +92,17 @@ window.dmrp = window.dmrp || {};
 
   function mount(body, data) {
     if (data.faults.length === 0) return 'no plugin failed';
-    const list = element(
-      'ul',
-      {class: 'faults'},
-      data.faults.slice(0, AT_FIRST).map((fault) => item(data, fault))
-    );
-    const rest = data.faults.slice(AT_FIRST);
-    const more =
-      rest.length > 0 &&
+    dmrp.elements.fill(
+      body,
+      element('p', {class: 'note'}, `${count_words(data.faults)}.`),
       element(
-        'button',
-        {
-          type: 'button',
-          class: 'button',
-          onclick: () => {
-            list.append(...rest.map((fault) => item(data, fault)));
-            more.remove();
-          },
-        },
-        `Show the other ${rest.length}`
-      );
-    dmrp.elements.fill(body, element('p', {class: 'note'}, `${count_words(data.faults)}.`), list, more);
+        'ul',
+        {class: 'faults'},
+        groups(data.faults).map((faults) => group_item(data, faults))
+      )
+    );
     return null;
   }
 
-  dmrp.faults = {mount, count_words};
+  dmrp.faults = {mount, groups, count_words};
 })(window.dmrp);

@@ -33,6 +33,14 @@ window.dmrp = window.dmrp || {};
     };
   }
 
+  function all_well(t) {
+    if (t.robots === 0) return 'All is well: no faults, every trial repeatable.';
+    const arrived = `${t.robots} of ${t.robots} robots arrived`;
+    return t.contacts > 0
+      ? `${arrived}, with ${counted(t.contacts, 'contact')}; no faults, every trial repeatable.`
+      : `All is well: ${arrived}, no faults, every trial repeatable.`;
+  }
+
   // [{kind: "bad"|"warning"|"note"|"good", text, section}], the worst first.
   function lines(data) {
     const t = tally(data);
@@ -63,13 +71,7 @@ window.dmrp = window.dmrp || {};
         `${counted(t.robots - t.arrived, 'robot')} of ${t.robots} did not arrive, in ${counted(t.failed_trials, 'trial')}.`,
         'distributions'
       );
-    if (found.length === 0)
-      add(
-        'good',
-        t.robots > 0
-          ? `All is well: ${t.robots} of ${t.robots} robots arrived, no faults, every trial repeatable.`
-          : 'All is well: no faults, every trial repeatable.'
-      );
+    if (found.length === 0) add('good', all_well(t));
     else if (t.ran > 0 && found.every((line) => line.kind === 'note'))
       add('good', `${counted(t.ran, 'trial')} without a fault, every one repeatable.`);
     return found;

@@ -217,7 +217,7 @@ TEST_CASE(
   double deepest_m = 0.0;
   while (world.t_ns() < 15 * second_ns) {
     if (world.t_ns() >= 6 * second_ns) world.set_command(1, {0.8, 0.0, 0.0});  // at the person, who stands by then
-    world.step({{0.0, 0.0}});
+    world.step(std::vector<dmrp_vec2>(1));
     for (const dmrp_contact& contact : world.contacts()) {
       if (contact.kind != DMRP_CONTACT_PERSON) continue;
       if (contact.a == 0) {

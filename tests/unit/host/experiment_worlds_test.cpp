@@ -200,7 +200,7 @@ upper_m = [129.0, 2.0]
     CHECK(message_of(with(experiment_text, "./hall/", "./row/")) == "row/scenario.toml:" + message);
   };
   mistake("of = \"../hall/scenario.toml\"", "5:1: [tiles] needs 'columns'");
-  mistake("of = \"hal\"\ncolumns = 2", "6:6: no scenario 'hal'");
+  mistake("of = \"nowhere\"\ncolumns = 2", "6:6: no scenario 'nowhere'");
   mistake("of = \"scenario.toml\"\ncolumns = 2", "6:6: a scenario cannot be made of itself");
   mistake("of = \"../hall/scenario.toml\"\ncolumns = 0", "7:11: 'columns' must be at least 1, not 0");
 }
