@@ -107,7 +107,8 @@ window.dmrp = window.dmrp || {};
       scene.colours = dmrp.replay_look.read_colours();
       scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
       key.textContent = KEY + (scan_box.hidden ? '' : SCANS_KEY);
-      robots.node.hidden = curves.node.hidden = replay.robots.length === 0;
+      robots.node.hidden = replay.robots.length === 0;
+      curves.node.hidden = robots.node.hidden || replay.end === 0;  // without a plan nothing moved
       robots.show(replay);
       robots.pick(null);
       happened.show(scene.events);
