@@ -18,7 +18,7 @@ typedef struct dmrp_crowd {
   // All who are there, ordered by slot. A person is known by its id: whoever leaves for good gives up the slot, and all
   // after it move up; where somebody new takes the slot, the place has a new id and the others keep theirs.
   const dmrp_person* people;
-  const dmrp_agent* robots;   // all robots, as kind DMRP_AGENT_ROBOT, ordered by index
+  const dmrp_agent* robots;  // all robots, as kind DMRP_AGENT_ROBOT, ordered by index
   uint32_t person_stride;
   uint32_t robot_count;
   uint32_t robot_stride;
