@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "collision_free_speed/speed_function.hpp"
@@ -18,6 +19,13 @@ constexpr double negligible_influence = 1e-4;
 // Bodies and steps up to this broad and long are minded in time, m.
 constexpr double broadest_radius_m = 0.5;
 constexpr double longest_step_m = 0.1;
+
+// Who is slower than this share of their wish and has somebody nearer than this is wedged in; they give way for moments
+// of this length, in this share of all moments.
+constexpr double wedged_speed_share = 0.1;
+constexpr double wedged_gap_m = 0.02;
+constexpr std::int64_t giving_way_ns = 1'000'000'000;
+constexpr double giving_way_share = 0.25;
 
 // The cells of the grid, m.
 constexpr double neighbor_cell_m = 1.0;
@@ -41,6 +49,7 @@ Descriptor CollisionFreeSpeed::describe() {
 
 Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
+  seed_ = seed;
   leanings_.start(seed);
   ways_.start(world.walking_grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
@@ -59,7 +68,7 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
     const std::uint32_t slot = body.slot;
     const Person& person = crowd.people[slot];
     look_around(slot, person);
-    const Vec2 along = direction(slot, person);
+    const Vec2 along = direction(slot, person, crowd.t_ns);
     velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
   }
   return Status::ok;
@@ -91,8 +100,9 @@ void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person) {
 }
 
 // Where to go, turned away from bodies and walls; a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person) {
+Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person, std::int64_t t_ns) {
   Vec2 sum = leanings_.lean(slot, person, ways_.direction(slot, person));
+  if (gives_way(person, t_ns)) sum = -sum;
   for (const Near& other : near_) {
     if (other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
@@ -102,6 +112,17 @@ Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person) {
     return repulsion(wall_strength, wall_range, distance_m - person.radius_m);
   });
   return toolkit::normalized(sum);
+}
+
+// Whether somebody who is wedged in steps back for a moment. Without it people who touch each other in an arch round a
+// door would stand there for ever: each is held by the two beside and by those who press from behind.
+bool CollisionFreeSpeed::gives_way(const Person& person, std::int64_t t_ns) const {
+  if (toolkit::norm(person.velocity) > wedged_speed_share * person.desired_speed) return false;
+  const bool touches =
+      std::any_of(near_.begin(), near_.end(), [](const Near& other) { return other.gap_m < wedged_gap_m; });
+  if (!touches) return false;
+  toolkit::Stream chance(seed_, "pedestrian.patience", person.id, t_ns / giving_way_ns);
+  return chance.uniform() < giving_way_share;
 }
 
 double CollisionFreeSpeed::speed_along(Vec2 direction, const Person& person, double step_s) const {

@@ -52,10 +52,12 @@ class CollisionFreeSpeed final : public PedestrianModel {
 
   void gather(const Crowd& crowd);
   void look_around(std::uint32_t slot, const Person& person);
-  Vec2 direction(std::uint32_t slot, const Person& person);
+  Vec2 direction(std::uint32_t slot, const Person& person, std::int64_t t_ns);
+  bool gives_way(const Person& person, std::int64_t t_ns) const;
   double speed_along(Vec2 direction, const Person& person, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
 
+  std::uint64_t seed_ = 0;
   double neighbor_reach_m_ = 0.0;  // beyond this gap nobody is turned away from
   WayFinder ways_;
   Leanings leanings_;
