@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
 #include "core/crowd_lattice.hpp"
@@ -34,9 +36,10 @@ void check_size(const ScenarioFile& file, double resolution_m, const char* grid)
 
 class WorldCheck {
  public:
-  WorldCheck(const ScenarioFile& file, Experiment& experiment)
+  WorldCheck(const ScenarioFile& file, Experiment& experiment, std::size_t most_drawn)
       : file_(file),
         experiment_(experiment),
+        most_drawn_(most_drawn),
         scenario_(file.scenario),
         radius_m_(experiment.robot.radius_m),
         needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
@@ -172,21 +175,49 @@ class WorldCheck {
       }
   }
 
-  // For all who begin in the first region of this flow. How many there is room for varies a little with the seed.
+  // For all who begin in the first region of this flow, in every repetition: the lattice lies elsewhere each time, and
+  // so do robots that are drawn. One is enough where there is room to spare and robots start where they always do.
   void check_room(std::size_t index) const {
     const std::uint32_t first = scenario_.flows[index].regions.front();
-    const core::Region& region = scenario_.regions[first];
     std::size_t people = 0;
     for (const core::Flow& flow : scenario_.flows)
       if (flow.start == core::FlowStart::from && flow.regions.front() == first) people += flow.people;
+    const std::size_t with_spare = people + people / 4;
+    for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
+      const std::uint64_t seed = world_seed(experiment_, scenario_.name, repetition);
+      const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
+      if (const std::size_t places = places_in(first, people, seed, starts); places < people)
+        file_.document->fail(file_.flows[index], fmt::format("no room in region '{}' for {} people, for {} at most",
+                                                             scenario_.regions[first].name, people, places));
+      if (most_drawn_ == 0 && places_in(first, with_spare, seed, starts) == with_spare) return;
+    }
+  }
+
+  // Where nobody begins near: the starts of robots that take part, or would under another number.
+  std::vector<dmrp_vec2> starts_kept_clear(std::uint64_t seed) const {
+    std::vector<dmrp_vec2> starts = scenario_.other_starts;
+    for (const core::RobotTask& task : scenario_.robots) starts.push_back({task.start.x, task.start.y});
+    if (most_drawn_ > 0)
+      for (const core::RobotTask& task : core::draw_robots(planning_, most_drawn_, seed))
+        starts.push_back({task.start.x, task.start.y});
+    return starts;
+  }
+
+  // How many of `people` find one, as core::Population spreads them.
+  std::size_t places_in(std::uint32_t index, std::size_t people, std::uint64_t seed,
+                        const std::vector<dmrp_vec2>& starts) const {
+    const core::Region& region = scenario_.regions[index];
     const double radius_m = scenario_.people.radius_m;
-    toolkit::Stream stream(experiment_.seed, "room", first);
-    const auto places =
-        core::spread_on_lattice({region.lower, region.upper}, people, 2.0 * radius_m + core::personal_gap_m, stream,
-                                [&](dmrp_vec2 point) { return geometry_.disc_is_free(point, radius_m); });
-    if (places.size() < people)
-      file_.document->fail(file_.flows[index], fmt::format("no room in region '{}' for {} people, for {} at most",
-                                                           region.name, people, places.size()));
+    const auto has_room = [&](dmrp_vec2 point) {
+      return std::none_of(
+                 starts.begin(), starts.end(),
+                 [&](dmrp_vec2 start) { return toolkit::distance(start, point) < core::spawn_distance_to_robots_m; }) &&
+             geometry_.disc_is_free(point, radius_m);
+    };
+    toolkit::Stream stream(seed, "population.from", index);
+    return core::spread_on_lattice({region.lower, region.upper}, people, 2.0 * radius_m + core::personal_gap_m, stream,
+                                   has_room)
+        .size();
   }
 
   void check_flow(const core::PlanningGrid& walking, std::size_t index) const {
@@ -210,6 +241,7 @@ class WorldCheck {
 
   const ScenarioFile& file_;
   Experiment& experiment_;
+  std::size_t most_drawn_;
   const core::Scenario& scenario_;
   double radius_m_;
   double needed_m_;
@@ -222,7 +254,7 @@ class WorldCheck {
 void check_world(const ScenarioFile& file, Experiment& experiment, const DrawnRobots& drawn) {
   check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
   check_size(file, core::walking_resolution_m, "the grid for people");
-  WorldCheck check(file, experiment);
+  WorldCheck check(file, experiment, drawn.most);
   check.run();
   if (drawn.most == 0 || core::surely_room_for(check.planning_grid(), drawn.most)) return;
   for (std::uint32_t repetition = 0; repetition < experiment.trials; ++repetition) {

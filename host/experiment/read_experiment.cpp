@@ -155,7 +155,7 @@ class Reader {
         if (!count.drawn) most_listed = std::max(most_listed, count.robots);
       }
       for (const RobotCount& count : counts) add_variant(file, use, entry, count);
-      entry.file.scenario.robots.resize(most_listed);  // the others take no part, so nothing is asked of them
+      keep_listed(entry.file.scenario, most_listed);
       entries_.push_back(std::move(entry));
     }
   }
@@ -172,6 +172,13 @@ class Reader {
     bool all_drawn;   // of this [[scenario]]
     TomlValue value;  // where it is asked for
   };
+
+  // The others take no part, so nothing is asked of them; but people keep clear of their starts.
+  static void keep_listed(core::Scenario& scenario, std::size_t count) {
+    for (std::size_t i = count; i < scenario.robots.size(); ++i)
+      scenario.other_starts.push_back({scenario.robots[i].start.x, scenario.robots[i].start.y});
+    scenario.robots.resize(count);
+  }
 
   void add_variant(const fs::path& file, const TomlValue& use, const Entry& entry, const RobotCount& count) {
     ScenarioVariant variant;

@@ -258,7 +258,8 @@ TEST_CASE("mistakes in a recording") {
 
 TEST_CASE("flows that start in their first region and leave for good") {
   const ExperimentFolder folder;
-  write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 3\nstart = \"from\"\nrespawn = false"));
+  const std::string back = with(scenario_text, "from = \"west\"\nto = \"east\"", "from = \"east\"\nto = \"west\"");
+  write_file("hall/scenario.toml", with(back, "people = 2", "people = 3\nstart = \"from\"\nrespawn = false"));
   const core::Flow flow = load(experiment_text).scenarios[0].scenario.flows[0];
   CHECK(flow.start == core::FlowStart::from);
   CHECK_FALSE(flow.respawn);
@@ -268,6 +269,21 @@ TEST_CASE("flows that start in their first region and leave for good") {
         "hall/scenario.toml:45:11: 'respawn' must be true or false, not an integer");
   CHECK_THAT(message_of_scenario("people = 2", "people = 50\nstart = \"from\""),
              Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 50 people, for"));
+}
+
+// Two robots start by the region 'west': of its 1 m x 2 m, people find but a corner that is 1.5 m away from both.
+TEST_CASE("a crowd has to find room beside the robots' starts, whether they take part or not") {
+  const ExperimentFolder folder;
+  const std::string crowd = with(scenario_text, "people = 2", "people = 3\nstart = \"from\"");
+  const auto no_room = Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 3 people, for");
+  write_file("hall/scenario.toml", crowd);
+  CHECK_THAT(message_of(experiment_text), no_room);
+  CHECK_THAT(message_of(with_robots("robots = 0")), no_room);
+  std::string alone = crowd;
+  const auto begin = alone.find("[[robot]]");
+  alone.erase(begin, alone.find("[[region]]") - begin);
+  write_file("hall/scenario.toml", alone);
+  CHECK(message_of(experiment_text) == "no error");
 }
 
 TEST_CASE("what is imperfect is off unless it is asked for") {
