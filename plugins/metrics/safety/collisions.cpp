@@ -40,7 +40,8 @@ Descriptor Collisions::describe() {
       .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
       .source("rising-edge events attributed as in HuNavSim; fault by the benchmark's rule")
       .value("collisions", "1", lower, robots,
-             "contact events the robot took part in, whoever's fault; system: all events, one between two robots once")
+             "contact events the robot took part in, whoever's fault; system: all events, one between two robots once; "
+             "undefined if planning failed, as all that follow")
       .value("collisions_at_fault", "1", lower, robots,
              "contact events of the robot's own fault; system: events that are the fault of a robot")
       .value("collisions_static", "1", lower, robots, "contact events with walls, furniture or the world's border")
@@ -52,7 +53,8 @@ Descriptor Collisions::describe() {
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 
-void Collisions::begin(const dmrp_plan*) {
+void Collisions::begin(const dmrp_plan* plan) {
+  planned_ = plan != nullptr;
   events_.clear();
   latest_.clear();
 }
@@ -109,8 +111,9 @@ void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
     sink.event("collisions", event.from_ns, event.to_ns, robots, text_of(event));
   }
   for (std::size_t robot = 0; robot < tallies.size(); ++robot)
-    give_all(tallies[robot], [&](const char* name, int count) { sink.robot(name, robot, count); });
-  give_all(system, [&](const char* name, int count) { sink.system(name, tallies.empty() ? undefined : count); });
+    give_all(tallies[robot],
+             [&](const char* name, int count) { sink.robot(name, robot, planned_ ? count : undefined); });
+  give_all(system, [&](const char* name, int count) { sink.system(name, planned_ ? count : undefined); });
 }
 
 }  // namespace dmrp::metrics

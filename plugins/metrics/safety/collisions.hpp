@@ -32,6 +32,7 @@ class Collisions final : public Metric {
   static Pair pair_of(const Contact& contact, const Sample& sample);
   std::string text_of(const Event& event) const;
 
+  bool planned_ = false;                // nothing moves without a plan
   std::vector<Event> events_;           // in order of their beginning
   std::map<Pair, std::size_t> latest_;  // index of the pair's last event
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Collisions: events, not samples; attributed; whole on the time line.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "synthetic_trial.hpp"
 
@@ -120,6 +121,14 @@ TEST_CASE("people keep their contacts when their places in the array change") {
   REQUIRE(m.events.size() == 2);
   CHECK(m.events[0].to_s == 1.0);  // 7
   CHECK(m.events[1].to_s == 2.0);  // 8
+}
+
+TEST_CASE("a trial without a plan has no number of collisions: 0 would flatter the planner") {
+  SyntheticTrial trial(2);
+  trial.end(0.0, {never, never});
+  const Measurement m = measure("dmrp.metric.collisions", trial);
+  for (const auto& [key, value] : m.values) CHECK(std::isnan(value));
+  CHECK(m.values.size() == 18);
 }
 
 TEST_CASE("a trial without contacts has 0 collisions") {
