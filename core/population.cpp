@@ -83,6 +83,8 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       slots_(walker_count(scenario)) {
   std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
   std::vector<dmrp_vec2> taken;
+  for (const Track& track : tracks_)
+    if (is_on_track(track, 0)) taken.push_back(position_on(track, 0));
   for (const RegionCrowd& crowd : crowds_by_region(flows_, regions_)) {
     std::vector<dmrp_vec2>& found = places[crowd.region];
     found = places_in(crowd.region, crowd.people, robots, taken);

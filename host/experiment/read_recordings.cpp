@@ -40,6 +40,7 @@ class Recording {
 
   void read(ScenarioFile& out) {
     std::string_view rest = text_;
+    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // the byte order mark of spreadsheets
     bool has_header = false;
     while (!rest.empty()) {
       const auto end = rest.find('\n');

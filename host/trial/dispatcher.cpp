@@ -122,7 +122,7 @@ std::vector<dmrp_vec2> Dispatcher::next_positions(std::int64_t later_ns) const {
   std::vector<dmrp_vec2> positions;
   for (std::size_t i = 0; i < courses_.size(); ++i) {
     const auto& path = courses_[i].path;
-    if (path.empty()) {
+    if (path.empty() || world_.robots()[i].state == DMRP_ROBOT_FAILED) {
       positions.push_back(toolkit::position(world_.robots()[i].pose));
       continue;
     }

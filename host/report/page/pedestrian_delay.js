@@ -4,6 +4,7 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
+  const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
 
   function table_of(data, rows, variants) {
     const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
@@ -43,7 +44,7 @@ window.dmrp = window.dmrp || {};
               'tr',
               {},
               element('th', {scope: 'row'}, dmrp.labels.combination(data, rows[i].combination)),
-              dmrp.interval_rows.cell(estimates[i], x, rows[i].low > 0 || rows[i].high < 0),
+              dmrp.interval_rows.cell(estimates[i], x, rows[i].pairs >= fewest_to_judge && (rows[i].low > 0 || rows[i].high < 0)),
               element(
                 'td',
                 {class: 'number', 'data-label': 'delay'},
@@ -83,7 +84,12 @@ window.dmrp = window.dmrp || {};
       body,
       dmrp.controls.row(dmrp.controls.variant_select(variants, first, show)),
       holder,
-      element('p', {class: 'note'}, 'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero.')
+      element(
+        'p',
+        {class: 'note'},
+        'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero, from six pairs on; ' +
+          'that of fewer is too narrow to judge by.'
+      )
     );
     return null;
   }

@@ -197,6 +197,15 @@ TEST_CASE("recorded people come and leave with their tracks, and go along them t
   CHECK(world.people().size() == 2);
 }
 
+TEST_CASE("nobody begins in a recorded person") {
+  Scenario scenario = room(60);
+  for (const double x : {2.0, 4.0, 6.0, 8.0}) scenario.tracks.push_back(track({{0, {x, x}}, {second_ns, {x, x}}}));
+  scenario.flows.push_back({"along", {0, 1}, 10});
+  const World world = world_of(scenario);
+  REQUIRE(world.people().size() == 74);
+  CHECK(nearest_pair(world.people()) >= 0.6);
+}
+
 TEST_CASE("a world of recorded people is deserted when the last has left, not before the first has come") {
   Scenario scenario = empty_scenario(10, 10);
   scenario.tracks = {track({{second_ns, {2, 2}}, {2 * second_ns, {3, 2}}})};

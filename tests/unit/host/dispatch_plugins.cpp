@@ -73,6 +73,7 @@ class Follower final : public dmrp::LocalController {
   static dmrp::Descriptor describe() { return dmrp::Descriptor("test.controller.follower", "Follower", "1.0.0"); }
   dmrp::Param<bool> by_waypoint = param("by_waypoint", false).doc("expects a waypoint at a time");
   dmrp::Param<bool> dawdles = param("dawdles", false).doc("has a speed of its own, and stops now and then");
+  dmrp::Param<bool> gives_up = param("gives_up", false).doc("has no command in the second lane from x = 3.2 m on");
   dmrp::Param<bool> strays = param("strays", false).doc("turns left from 3 s on for two seconds");
 
   dmrp::Status start(const dmrp::World&, std::uint64_t seed) override {
@@ -95,6 +96,7 @@ class Follower final : public dmrp::LocalController {
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     check(now);
+    if (gives_up && now.pose.y > 2.0 && now.pose.x > 3.2) return dmrp::Status::no_solution;
     const dmrp::Vec2 position = toolkit::position(now.pose);
     const double end_m = arcs_[now.released_waypoint];
     const dmrp::Vec2 carrot = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.35, end_m));

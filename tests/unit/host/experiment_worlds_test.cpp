@@ -219,7 +219,7 @@ TEST_CASE("recorded people come from a file beside the scenario") {
   CHECK(core::person_count(hall) == 4);
   CHECK(core::walker_count(hall) == 2);
   const std::string digest = experiment_digest(e);
-  write_file("hall/crowd.csv", "time,id,x,y\n0,7,1,1\n");
+  write_file("hall/crowd.csv", "\xEF\xBB\xBFtime,id,x,y\n0,7,1,1\n");
   CHECK(experiment_digest(load(experiment_text)) != digest);
   check_round_trip(load(experiment_text));
 }

@@ -184,6 +184,20 @@ TEST_CASE("every new plan is handed over with the next revision, and robots get 
   }
 }
 
+TEST_CASE("a robot that was given up is planned round where it stands") {
+  Stage stage(lanes({11.5, 11.5}));
+  stage.experiment.simulation.replan.period_ns = 2 * second_ns;
+  Stage::set(stage.experiment.local_controllers[0], "gives_up");
+  CHECK_FALSE(stage.run());
+  std::vector<double> xs;  // of the given-up robot's one cell, by plan
+  for (const core::TracePlan& made : stage.reader->plans()) {
+    const dmrp_path& path = *DMRP_AT(dmrp_path, made.plan.paths, made.plan.path_stride, 1);
+    if (path.count == 1) xs.push_back(path.waypoints->x);
+  }
+  REQUIRE(xs.size() > 2);
+  CHECK(std::all_of(xs.begin(), xs.end(), [](double x) { return x == 3.5; }));
+}
+
 TEST_CASE("a plan that fails leaves the old one in force") {
   Stage stage(lanes({9.5}));
   stage.experiment.simulation.replan.period_ns = 3 * second_ns;
