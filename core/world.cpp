@@ -202,7 +202,8 @@ void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
   for (std::size_t i = 0; i < population_.people().size(); ++i) {
     const dmrp_person& person = population_.people()[i];
-    bodies_.push_back({person.position, person.radius_m, {}, !population_.is_recorded(i)});
+    const auto bearing = population_.is_recorded(i) ? SolidBody::Bearing::unstoppable : SolidBody::Bearing::gives_way;
+    bodies_.push_back({person.position, person.radius_m, {}, bearing});
   }
 }
 

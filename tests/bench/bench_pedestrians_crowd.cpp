@@ -90,7 +90,7 @@ void CrossingCrowd::place_people(const Square& square, std::uint64_t seed) {
         chance.truncated_normal(settings.speed_mean, settings.speed_sd, settings.speed_min, settings.speed_max);
     send_to(person, static_cast<std::uint32_t>(person.id % 4));
     people_.push_back(person);
-    bodies_.push_back({at, settings.radius_m, {}});
+    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::Bearing::gives_way});
   }
 }
 
