@@ -47,7 +47,7 @@ std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec
 
 FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
   if (walker_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
-  return find_flow_routes(scenario, build_walking_grid(geometry));
+  return find_flow_routes(scenario, build_walking_grid(geometry, scenario.people.radius_m));
 }
 
 bool is_at_goal(const RobotState& robot, const dmrp_goal& goal) {

@@ -50,7 +50,7 @@ core::Scenario furnished_square(std::uint32_t people) {
 }
 
 core::WorldView view_of(const core::Scenario& scenario, const core::StaticGeometry& geometry) {
-  const core::PlanningGrid walking_grid = core::build_walking_grid(geometry);
+  const core::PlanningGrid walking_grid = core::build_walking_grid(geometry, scenario.people.radius_m);
   return {scenario, {}, {}, geometry, walking_grid, walking_grid, 0};
 }
 
