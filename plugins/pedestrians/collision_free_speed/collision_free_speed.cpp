@@ -59,30 +59,17 @@ Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
-  gather(crowd);
-  neighbors_.build(bodies_);
+  walkers_.gather(crowd, robot_awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
+    return leanings_.lean(slot, person, ways_.direction(slot, person));
+  });
 
   const double step_s = seconds(crowd.dt_ns);
-  for (const Body& body : neighbors_.by_place()) {
-    if (body.slot == no_slot) continue;
-    const std::uint32_t slot = body.slot;
-    const Person& person = crowd.people[slot];
+  for (const auto& [person, way, slot] : walkers_.by_place()) {
     look_around(slot, person);
-    const Vec2 along = direction(slot, person, crowd.t_ns);
+    const Vec2 along = direction(way, person, crowd.t_ns);
     velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
   }
   return Status::ok;
-}
-
-void CollisionFreeSpeed::gather(const Crowd& crowd) {
-  bodies_.clear();
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
-    const Person& person = crowd.people[slot];
-    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
-  }
-  if (robot_awareness > 0.0)
-    for (const Agent& robot : crowd.robots)
-      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
 }
 
 // All who are turned away from or who may be in the way, and the walls.
@@ -100,9 +87,8 @@ void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person) {
 }
 
 // Where to go, turned away from bodies and walls; a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person, std::int64_t t_ns) {
-  Vec2 sum = leanings_.lean(slot, person, ways_.direction(slot, person));
-  if (gives_way(person, t_ns)) sum = -sum;
+Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person, std::int64_t t_ns) {
+  Vec2 sum = gives_way(person, t_ns) ? -way : way;
   for (const Near& other : near_) {
     if (other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);

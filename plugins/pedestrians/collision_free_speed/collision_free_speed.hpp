@@ -9,6 +9,7 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
 
@@ -50,9 +51,8 @@ class CollisionFreeSpeed final : public PedestrianModel {
     double weight;
   };
 
-  void gather(const Crowd& crowd);
   void look_around(std::uint32_t slot, const Person& person);
-  Vec2 direction(std::uint32_t slot, const Person& person, std::int64_t t_ns);
+  Vec2 direction(Vec2 way, const Person& person, std::int64_t t_ns);
   bool gives_way(const Person& person, std::int64_t t_ns) const;
   double speed_along(Vec2 direction, const Person& person, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
@@ -63,7 +63,7 @@ class CollisionFreeSpeed final : public PedestrianModel {
   Leanings leanings_;
   NeighborGrid neighbors_;
   WallGrid walls_;
-  std::vector<Body> bodies_;
+  Walkers walkers_;
   std::vector<Near> near_;              // to the person whose turn it is
   std::vector<WallPoint> wall_points_;  // likewise
 };
