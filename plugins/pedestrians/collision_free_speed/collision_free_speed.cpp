@@ -63,44 +63,30 @@ Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
-  gather(crowd);
-  neighbors_.build(bodies_);
+  walkers_.gather(crowd, robot_awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
+    return leanings_.lean(slot, person, ways_.direction(slot, person));
+  });
 
   const double step_s = seconds(crowd.dt_ns);
-  for (const Body& body : neighbors_.by_place()) {
-    if (body.slot == no_slot) continue;
-    const std::uint32_t slot = body.slot;
-    const Person& person = crowd.people[slot];
-    look_around(crowd, slot, step_s);
-    const Vec2 along = direction(slot, person);
+  for (const auto& [person, way, slot] : walkers_.by_place()) {
+    look_around(slot, person, is_held_up(slot, person, step_s), crowd.people);
+    const Vec2 along = direction(way, person);
     velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
   }
   return Status::ok;
 }
 
-void CollisionFreeSpeed::gather(const Crowd& crowd) {
-  bodies_.clear();
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
-    const Person& person = crowd.people[slot];
-    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
-  }
-  if (robot_awareness > 0.0)
-    for (const Agent& robot : crowd.robots)
-      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
-}
-
 // All who are turned away from or who may be in the way, and the walls. Who is held up is turned aside only by those who
 // have less far to go: else people who are in each other's way at a door would turn each other back for ever.
-void CollisionFreeSpeed::look_around(const Crowd& crowd, std::uint32_t slot, double step_s) {
-  const Person& person = crowd.people[slot];
-  const bool held_up = is_held_up(slot, person, step_s);
+void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, bool held_up,
+                                     const Span<Person>& people) {
   near_.clear();
   const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
     if (other->slot == slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
-    const bool turns_aside = !held_up || other->slot == no_slot || !goes_before(person, crowd.people[other->slot]);
+    const bool turns_aside = !held_up || other->slot == no_slot || !goes_before(person, people[other->slot]);
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
                      other->weight, turns_aside});
   }
@@ -108,8 +94,8 @@ void CollisionFreeSpeed::look_around(const Crowd& crowd, std::uint32_t slot, dou
 }
 
 // Where to go, turned away from bodies and walls; a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(std::uint32_t slot, const Person& person) {
-  Vec2 sum = leanings_.lean(slot, person, ways_.direction(slot, person));
+Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person) {
+  Vec2 sum = way;
   for (const Near& other : near_) {
     if (!other.turns_aside || other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);

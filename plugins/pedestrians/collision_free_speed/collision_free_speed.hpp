@@ -9,6 +9,7 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
 
@@ -58,10 +59,9 @@ class CollisionFreeSpeed final : public PedestrianModel {
     Vec2 velocity = {0.0, 0.0};  // mean, the older the less
   };
 
-  void gather(const Crowd& crowd);
-  void look_around(const Crowd& crowd, std::uint32_t slot, double step_s);
   bool is_held_up(std::uint32_t slot, const Person& person, double step_s);
-  Vec2 direction(std::uint32_t slot, const Person& person);
+  void look_around(std::uint32_t slot, const Person& person, bool held_up, const Span<Person>& people);
+  Vec2 direction(Vec2 way, const Person& person);
   double speed_along(Vec2 direction, const Person& person, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
 
@@ -71,7 +71,7 @@ class CollisionFreeSpeed final : public PedestrianModel {
   std::vector<Progress> progress_;  // by slot
   NeighborGrid neighbors_;
   WallGrid walls_;
-  std::vector<Body> bodies_;
+  Walkers walkers_;
   std::vector<Near> near_;              // to the person whose turn it is
   std::vector<WallPoint> wall_points_;  // likewise
 };
