@@ -150,10 +150,8 @@ class WorldCheck {
     return cells;
   }
 
-  // Broad people need more room than the grid on which all find their way leaves them.
   void check_flows() const {
-    const core::PlanningGrid walking = core::build_planning_grid(
-        geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
+    const core::PlanningGrid walking = core::build_walking_grid(geometry_, scenario_.people.radius_m);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
     for (const core::RegionCrowd& crowd : core::crowds_by_region(scenario_)) check_room(crowd);
