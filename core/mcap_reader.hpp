@@ -27,7 +27,7 @@ struct McapMessage {
 //   while (const auto message = file.next()) ...
 class McapReader {
  public:
-  // Reads nothing yet: the file may still be written to. Throws std::system_error where it cannot be opened.
+  // Throws std::system_error where the file cannot be opened.
   McapReader(const std::filesystem::path& path, std::string topic);
 
   // The next message whose channel is called `topic`, valid until the next call; none after the last. A file that was

@@ -21,7 +21,16 @@ TraceRecords::TraceRecords(const std::filesystem::path& file, std::size_t most_b
     : file_(std::make_unique<McapReader>(file, trace_topic)), most_bytes_in_memory_(most_bytes_in_memory) {}
 
 std::optional<TraceRecord> TraceRecords::next() {
-  return file_ ? next_in_file() : next_in_memory();
+  if (file_) return next_in_file();
+  return spool_ ? next_in_spool() : next_in_memory();
+}
+
+std::optional<TraceRecord> TraceRecords::next_in_spool() {
+  const auto bytes = spool_->next();
+  if (!bytes) return std::nullopt;
+  const TraceRecord record = first_record(*bytes, position_);
+  position_ += record.whole.size();
+  return record;
 }
 
 std::optional<TraceRecord> TraceRecords::next_in_memory() {
@@ -59,6 +68,7 @@ void TraceRecords::keep(std::span<const std::uint8_t> record) {
 
 void TraceRecords::rewind() {
   position_ = 0;
+  if (spool_) spool_->rewind();
   if (!file_) return;
   file_->rewind();
   kept_.clear();

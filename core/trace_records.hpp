@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_records.hpp: the records of a trace one after the other, as often as anybody wants them, from memory or a file.
+// trace_records.hpp: the records of a trace one after the other, as often as anybody wants them, wherever it is.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 
 #include "mcap_reader.hpp"
 #include "trace.hpp"
+#include "trace_spool.hpp"
 
 namespace dmrp::core {
 
@@ -31,8 +32,10 @@ class TraceRecords {
   // `bytes`, the whole trace, outlive it.
   explicit TraceRecords(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  // Opens the file, and reads when asked for a record: it may be written to until then. One that was cut short ends
-  // with its last whole chunk. Throws std::system_error.
+  // All that was written to the spool, which outlives it.
+  explicit TraceRecords(TraceSpool& spool) : spool_(&spool) { spool.rewind(); }
+
+  // One that was cut short ends with its last whole chunk. Throws std::system_error.
   explicit TraceRecords(const std::filesystem::path& file, std::size_t most_bytes_in_memory = small_trace_bytes);
 
   // The next record, valid until the next call; none after the last. Throws TraceError, and std::system_error.
@@ -43,11 +46,13 @@ class TraceRecords {
 
  private:
   std::optional<TraceRecord> next_in_memory();
+  std::optional<TraceRecord> next_in_spool();
   std::optional<TraceRecord> next_in_file();
   void keep(std::span<const std::uint8_t> record);
 
   std::span<const std::uint8_t> bytes_;  // of a trace in memory
-  std::unique_ptr<McapReader> file_;     // of another one
+  TraceSpool* spool_ = nullptr;          // of one in a spool
+  std::unique_ptr<McapReader> file_;     // of a stored one
   std::size_t most_bytes_in_memory_ = 0;
   bool is_small_ = true;  // as far as is known
   TraceBytes kept_;       // what was read of it so far

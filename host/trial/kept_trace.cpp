@@ -1,46 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/kept_trace.hpp"
 
-#include <utility>
-
 namespace dmrp::host {
 
 namespace fs = std::filesystem;
 
 KeptTrace::KeptTrace(const fs::path& recorded, const fs::path& scratch, std::size_t most_bytes_in_memory)
-    : recorded_(recorded), scratch_(scratch), most_bytes_in_memory_(most_bytes_in_memory) {
+    : scratch_(scratch), most_bytes_in_memory_(most_bytes_in_memory) {
   // all at once: what is not used takes no memory, and growing would take it twice
   memory_.reserve(most_bytes_in_memory_);
-  if (is_recorded()) file_.emplace(recorded_);
+  if (!recorded.empty()) file_.emplace(recorded);
 }
 
 void KeptTrace::write(std::int64_t t_ns, std::span<const std::uint8_t> record) {
-  if (is_in_memory_ && record.size() > most_bytes_in_memory_ - memory_.size()) {
-    if (!is_recorded()) move_to_scratch();
-    core::TraceBytes().swap(memory_);
-    is_in_memory_ = false;
-  }
-  if (is_in_memory_) memory_.insert(memory_.end(), record.begin(), record.end());
   if (file_) file_->write(t_ns, record);
+  if (!spool_ && record.size() > most_bytes_in_memory_ - memory_.size()) move_to_spool();
+  if (spool_)
+    spool_->write(record);
+  else
+    memory_.insert(memory_.end(), record.begin(), record.end());
 }
 
-// The name goes at once: whatever happens to the process, nothing is left behind.
-void KeptTrace::move_to_scratch() {
-  file_.emplace(scratch_);
-  nameless_.emplace(scratch_);
-  fs::remove(scratch_);
+void KeptTrace::move_to_spool() {
+  spool_.emplace(scratch_);
   core::TraceRecords so_far(memory_);
-  while (const auto record = so_far.next()) file_->write(0, record->whole);
+  while (const auto record = so_far.next()) spool_->write(record->whole);
+  core::TraceBytes().swap(memory_);
 }
 
 core::TraceRecords KeptTrace::records() {
-  if (file_) file_->flush();
-  if (is_in_memory_) return core::TraceRecords(memory_);
-  return nameless_ ? std::move(*nameless_) : core::TraceRecords(recorded_);
+  if (file_) file_->flush();  // whatever metrics do
+  return spool_ ? core::TraceRecords(*spool_) : core::TraceRecords(memory_);
 }
 
 void KeptTrace::finish() {
-  if (is_recorded()) file_->finish();
+  if (file_) file_->finish();
 }
 
 }  // namespace dmrp::host

@@ -50,7 +50,7 @@ core::TraceBytes pass(core::TraceRecords& records) {
 
 }  // namespace
 
-TEST_CASE("A trace that is not recorded is read as it was written, from memory or from a file without a name") {
+TEST_CASE("A trace that is not recorded is read as it was written, from memory or from a spool") {
   const ScratchFolder folder;
   const std::size_t most_bytes_in_memory = GENERATE(std::size_t{0}, std::size_t{500'000}, std::size_t{10'000'000});
   KeptTrace kept({}, folder / "scratch", most_bytes_in_memory);
@@ -86,7 +86,7 @@ TEST_CASE("A recorded trace is read while its file waits for what metrics find")
   CHECK(events.is_whole());
 }
 
-TEST_CASE("Where no scratch file can be made, a large trace says so") {
+TEST_CASE("Where no spool can be made, a large trace says so") {
   const ScratchFolder folder;
   KeptTrace kept({}, folder / "gone" / "scratch", 0);
   CHECK_THROWS_AS(write_example(kept), std::system_error);
