@@ -7,7 +7,6 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include "core/crowd_lattice.hpp"
@@ -206,9 +205,18 @@ std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t c
   const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
   auto places = spread_on_lattice({where.lower, where.upper}, count, apart_m, stream,
                                   [&](dmrp_vec2 point) { return has_room(point, robots, taken); });
-  if (places.size() < count)
-    throw std::runtime_error("no room in region '" + where.name + "' for " + std::to_string(count) + " people, " +
-                             std::to_string(places.size()) + " at most");
+  if (places.size() < count) {
+    const auto blamed = std::find_if(flows_.begin(), flows_.end(), [&](const Flow& flow) {
+      return flow.start == FlowStart::from && flow.regions.front() == region && flow.people > 0;
+    });
+    const auto others = std::count_if(taken.begin(), taken.end(), [&](dmrp_vec2 other) {
+      return toolkit::contains(toolkit::Rectangle{where.lower, where.upper}, other);
+    });
+    throw NoRoom(static_cast<std::uint32_t>(blamed - flows_.begin()),
+                 "no room in region '" + where.name + "' for " + std::to_string(count) + " people, for " +
+                     std::to_string(places.size()) + " at most" +
+                     (others > 0 ? " beside " + std::to_string(others) + " who are there already" : ""));
+  }
   return places;
 }
 
@@ -235,7 +243,8 @@ Population::Beginning Population::place_along_flow(std::uint32_t slot, std::uint
     if (!has_room(point, robots, taken) || !geometry_->line_of_sight(on_route.point, point)) continue;
     return {point, on_route.leg};
   }
-  throw std::runtime_error("no room along flow '" + flow.name + "' for person " + std::to_string(slot));
+  throw NoRoom(slots_[slot].flow, "no room along flow '" + flow.name + "' for " + std::to_string(flow.people) +
+                                      " people, for " + std::to_string(number) + " at most");
 }
 
 // The person whom a slot has now, at the beginning.

@@ -9,6 +9,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "core/flow_routes.hpp"
@@ -19,6 +21,12 @@ namespace dmrp::core {
 
 inline constexpr double spawn_distance_to_robots_m = 1.5;  // between centres
 inline constexpr double personal_gap_m = 0.05;             // between the bodies of two who begin
+
+// Somebody of a flow found no place at t = 0.
+struct NoRoom : std::runtime_error {
+  NoRoom(std::uint32_t index, const std::string& text) : std::runtime_error(text), flow(index) {}
+  std::uint32_t flow;  // index into Scenario::flows
+};
 
 // People, each in a slot. Who reaches the last region of its flow leaves: either somebody new begins in the slot, in the
 // flow's first region, or the slot stays empty for good.
@@ -31,8 +39,7 @@ inline constexpr double personal_gap_m = 0.05;             // between the bodies
 // Recorded people come and leave with their tracks, in the slots after those of the flows.
 class Population {
  public:
-  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws std::runtime_error if there is no room for
-  // everybody.
+  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws NoRoom if there is none for everybody.
   Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes,
              std::uint64_t seed, std::span<const dmrp_vec2> robots);
 

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
-#include <dmrp/toolkit/random.hpp>
-#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "core/crowd_lattice.hpp"
+#include "core/flow_routes.hpp"
 #include "core/planning_grid.hpp"
 #include "core/population.hpp"
 #include "core/robot_draw.hpp"
@@ -43,8 +44,8 @@ class WorldCheck {
         scenario_(file.scenario),
         radius_m_(experiment.robot.radius_m),
         needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
-        geometry_(scenario_),
-        planning_(core::build_planning_grid(geometry_, experiment.simulation.grid_resolution_m, radius_m_,
+        geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
+        planning_(core::build_planning_grid(*geometry_, experiment.simulation.grid_resolution_m, radius_m_,
                                             experiment.simulation.planning_margin_m)) {}
 
   const core::PlanningGrid& planning_grid() const { return planning_; }
@@ -55,6 +56,7 @@ class WorldCheck {
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
     if (core::walker_count(scenario_) > 0) check_flows();
     check_tracks();
+    for (const RecordingPlace& recording : file_.recordings) check_seen(recording);
     const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
     if (scenario_.robots.size() > 1 && experiment_.simulation.grid_resolution_m < safe_cell_m)
       warn(file_.size,
@@ -73,11 +75,11 @@ class WorldCheck {
 
   // A pose must stand on the cell that planners know it by.
   void check_place(std::size_t robot, const char* verb, const char* noun, dmrp_vec2 point) const {
-    if (!geometry_.inside_world(point))
+    if (!geometry_->inside_world(point))
       fail_robot(robot, fmt::format("{} outside the world, at ({}, {})", verb, point.x, point.y));
-    const core::NearestShape nearest = geometry_.nearest(point);
-    const std::string shape(geometry_.shape_name(nearest.shape));
-    const bool border = nearest.shape == geometry_.border();
+    const core::NearestShape nearest = geometry_->nearest(point);
+    const std::string shape(geometry_->shape_name(nearest.shape));
+    const bool border = nearest.shape == geometry_->border();
     const std::string name = border ? shape : "'" + shape + "'";
     if (nearest.clearance_m < radius_m_)
       fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m)", verb,
@@ -91,8 +93,8 @@ class WorldCheck {
       fail_robot(robot,
                  fmt::format("has its {} ({}, {}) on a planning cell that is not free (centre ({}, {}), clearance "
                              "{:.2f} m, needs {:.2f} m)",
-                             noun, point.x, point.y, center.x, center.y, geometry_.clearance(center), needed_m_));
-    if (!geometry_.sweep_is_free(center, point, radius_m_))
+                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m_));
+    if (!geometry_->sweep_is_free(center, point, radius_m_))
       fail_robot(robot,
                  fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
   }
@@ -151,11 +153,10 @@ class WorldCheck {
   // Broad people need more room than the grid on which all find their way leaves them.
   void check_flows() const {
     const core::PlanningGrid walking = core::build_planning_grid(
-        geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
+        *geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
-      if (scenario_.flows[i].start == core::FlowStart::from) check_room(i);
+    check_room();
   }
 
   // Where somebody is at a row of a recording.
@@ -168,28 +169,55 @@ class WorldCheck {
           throw InputError(fmt::format("{}:{}:1: person {} is {}, at ({}, {})", place.shown_path, place.lines[row],
                                        place.id, where, point.x, point.y));
         };
-        if (!geometry_.inside_world(point)) fail("outside the world");
-        const core::NearestShape nearest = geometry_.nearest(point);
-        if (nearest.clearance_m == 0.0 && nearest.shape != geometry_.border())
-          fail(fmt::format("inside '{}'", geometry_.shape_name(nearest.shape)));
+        if (!geometry_->inside_world(point)) fail("outside the world");
+        const core::NearestShape nearest = geometry_->nearest(point);
+        if (nearest.clearance_m == 0.0 && nearest.shape != geometry_->border())
+          fail(fmt::format("inside '{}'", geometry_->shape_name(nearest.shape)));
       }
   }
 
-  // For all who begin in the first region of this flow, in every repetition: the lattice lies elsewhere each time, and
-  // so do robots that are drawn. One is enough where there is room to spare and robots start where they always do.
-  void check_room(std::size_t index) const {
-    const std::uint32_t first = scenario_.flows[index].regions.front();
-    std::size_t people = 0;
-    for (const core::Flow& flow : scenario_.flows)
-      if (flow.start == core::FlowStart::from && flow.regions.front() == first) people += flow.people;
-    const std::size_t with_spare = people + people / 4;
+  // Times of a recording may be anywhere; but somebody should be there during the trial.
+  void check_seen(const RecordingPlace& recording) {
+    const core::SimulationSettings& simulation = experiment_.simulation;
+    const double limit_s =
+        experiment_.time_limit_set ? 1e-9 * static_cast<double>(simulation.time_limit_ns) : scenario_.time_limit_s;
+    double first_s = std::numeric_limits<double>::infinity();
+    double last_s = -first_s;
+    for (std::size_t i = recording.first; i < recording.end; ++i) {
+      const double from_s = 1e-9 * static_cast<double>(scenario_.tracks[i].points.front().t_ns);
+      const double to_s = 1e-9 * static_cast<double>(scenario_.tracks[i].points.back().t_ns);
+      if (to_s >= 0.0 && from_s <= limit_s) return;
+      first_s = std::min(first_s, from_s);
+      last_s = std::max(last_s, to_s);
+    }
+    warn(recording.position,
+         fmt::format(
+             "nobody of '{}' is there during the trial, from 0 to {:.10g} s: its rows are of {:.10g} to {:.10g} s",
+             recording.shown_path, limit_s, first_s, last_s));
+  }
+
+  // For all who are there at t = 0, in every repetition: they begin elsewhere each time, and so do robots that are drawn.
+  // One is enough where there is room to spare and robots start where they always do.
+  void check_room() const {
+    const core::FlowRoutes routes = core::find_flow_routes(scenario_, core::build_walking_grid(*geometry_));
+    core::Scenario with_spare = scenario_;
+    for (core::Flow& flow : with_spare.flows) flow.people += flow.people / 4;
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
       const std::uint64_t seed = world_seed(experiment_, scenario_.name, repetition);
       const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
-      if (const std::size_t places = places_in(first, people, seed, starts); places < people)
-        file_.document->fail(file_.flows[index], fmt::format("no room in region '{}' for {} people, for {} at most",
-                                                             scenario_.regions[first].name, people, places));
-      if (most_drawn_ == 0 && places_in(first, with_spare, seed, starts) == with_spare) return;
+      if (const auto none = missing_room(scenario_, routes, seed, starts))
+        file_.document->fail(file_.flows[none->flow], none->what());
+      if (most_drawn_ == 0 && !missing_room(with_spare, routes, seed, starts)) return;
+    }
+  }
+
+  std::optional<core::NoRoom> missing_room(const core::Scenario& scenario, const core::FlowRoutes& routes,
+                                           std::uint64_t seed, const std::vector<dmrp_vec2>& starts) const {
+    try {
+      const core::Population population(scenario, geometry_, routes, seed, starts);
+      return std::nullopt;
+    } catch (const core::NoRoom& none) {
+      return none;
     }
   }
 
@@ -201,23 +229,6 @@ class WorldCheck {
       for (const core::RobotTask& task : core::draw_robots(planning_, most_drawn_, seed))
         starts.push_back({task.start.x, task.start.y});
     return starts;
-  }
-
-  // How many of `people` find one, as core::Population spreads them.
-  std::size_t places_in(std::uint32_t index, std::size_t people, std::uint64_t seed,
-                        const std::vector<dmrp_vec2>& starts) const {
-    const core::Region& region = scenario_.regions[index];
-    const double radius_m = scenario_.people.radius_m;
-    const auto has_room = [&](dmrp_vec2 point) {
-      return std::none_of(
-                 starts.begin(), starts.end(),
-                 [&](dmrp_vec2 start) { return toolkit::distance(start, point) < core::spawn_distance_to_robots_m; }) &&
-             geometry_.disc_is_free(point, radius_m);
-    };
-    toolkit::Stream stream(seed, "population.from", index);
-    return core::spread_on_lattice({region.lower, region.upper}, people, 2.0 * radius_m + core::personal_gap_m, stream,
-                                   has_room)
-        .size();
   }
 
   void check_flow(const core::PlanningGrid& walking, std::size_t index) const {
@@ -245,7 +256,7 @@ class WorldCheck {
   const core::Scenario& scenario_;
   double radius_m_;
   double needed_m_;
-  core::StaticGeometry geometry_;
+  std::shared_ptr<const core::StaticGeometry> geometry_;
   core::PlanningGrid planning_;
 };
 
