@@ -94,8 +94,8 @@ class Run {
   }
 
   void replan() {
-    const std::vector<dmrp_vec2> next = dispatcher_.next_positions(settings_.planning_latency_ns);
-    const InForce in_force = {plan_.view(), next};
+    const std::vector<OnTheWay> ways = dispatcher_.on_the_way(settings_.planning_latency_ns);
+    const InForce in_force = {plan_.view(), ways};
     plan(&in_force);
   }
 
