@@ -31,7 +31,10 @@ class Run {
   dmrp_trial_end run() {
     if (has_robots()) {
       plan(nullptr);
-      if (!plan_.exists() && !coming_plan_) return end_without_plan();
+      if (!plan_.exists() && !coming_plan_) {
+        record({});  // for the call
+        return end_without_plan();
+      }
     }
     record({});
 
