@@ -150,13 +150,11 @@ class WorldCheck {
     return cells;
   }
 
-  // Broad people need more room than the grid on which all find their way leaves them.
   void check_flows() const {
-    const core::PlanningGrid walking = core::build_planning_grid(
-        *geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
+    const core::PlanningGrid walking = core::build_walking_grid(*geometry_, scenario_.people.radius_m);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
-    check_room();
+    check_room(walking);
   }
 
   // Where somebody is at a row of a recording.
@@ -198,8 +196,8 @@ class WorldCheck {
 
   // For all who are there at t = 0, in every repetition: they begin elsewhere each time, and so do robots that are drawn.
   // One is enough where there is room to spare and robots start where they always do.
-  void check_room() const {
-    const core::FlowRoutes routes = core::find_flow_routes(scenario_, core::build_walking_grid(*geometry_));
+  void check_room(const core::PlanningGrid& walking) const {
+    const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
     core::Scenario with_spare = scenario_;
     for (core::Flow& flow : with_spare.flows) flow.people += flow.people / 4;
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {

@@ -2,7 +2,6 @@
 #include "way_finding.hpp"
 
 #include <algorithm>
-#include <dmrp/toolkit/grid_line.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -47,16 +46,21 @@ void WayFinder::copy(const dmrp_grid& grid) {
   own.edges = edges_.data();
   own.clearance = clearance_.data();
   grid_ = toolkit::GridView(own);
+  sight_.start(grid_);
 }
 
 dmrp_vec2 WayFinder::direction(std::size_t slot, const Person& person) {
-  if (slot >= ways_.size()) ways_.resize(slot + 1);
+  if (slot >= ways_.size()) {
+    ways_.resize(slot + 1);
+    patches_.resize(slot + 1);
+  }
   Way& way = ways_[slot];
   const std::uint32_t cell = grid_.index_of(person.position);
-  if (way.person_id != person.id || way.cell != cell || cell == toolkit::no_cell || way.target != person.target)
-    way = find_way(person, cell);
+  if (way.person_id != person.id || way.cell != cell || cell == toolkit::no_cell || way.line.to != person.target)
+    find_way(slot, person, cell);
   if (way.field != nullptr) {
-    const dmrp_vec2 along = along_field(*way.field, person.position, cell);
+    const dmrp_vec2 along =
+        way.has_patch ? patches_[slot].direction(person.position) : along_field(*way.field, person.position, cell);
     if (along != dmrp_vec2{0.0, 0.0}) return along;
   }
   return toolkit::normalized(person.target - person.position);
@@ -72,13 +76,19 @@ dmrp_vec2 WayFinder::along_field(const toolkit::NavigationField& field, dmrp_vec
   return toolkit::normalized(along + onward_weight * field.direction(beside));
 }
 
-WayFinder::Way WayFinder::find_way(const Person& person, std::uint32_t cell) {
-  Way way = {person.id, cell, person.target, nullptr};
-  if (toolkit::line_is_free(grid_, person.position, person.target)) return way;
+void WayFinder::find_way(std::size_t slot, const Person& person, std::uint32_t cell) {
+  Way& way = ways_[slot];
+  way.person_id = person.id;
+  way.cell = cell;
+  way.has_patch = false;
+  way.field = nullptr;
+  if (sight_.is_free(person.position, person.target, way.line)) return;
   const toolkit::NavigationField& field = field_to_target_of(person);
   const bool cut_off = cell != toolkit::no_cell && grid_.free(cell) && !field.reachable(cell);
-  if (!cut_off) way.field = &field;
-  return way;
+  if (cut_off) return;
+  way.field = &field;
+  way.has_patch = cell != toolkit::no_cell && field.has_patch(cell);
+  if (way.has_patch) patches_[slot] = field.patch(cell);
 }
 
 const toolkit::NavigationField& WayFinder::field_to_target_of(const Person& person) {

@@ -10,6 +10,8 @@
 #include <dmrp/toolkit/navigation_field.hpp>
 #include <vector>
 
+#include "crowd/line_of_sight.hpp"
+
 namespace dmrp::pedestrians {
 
 // Shares one navigation field among all who walk to the same place; it is computed when somebody first needs it. Fields
@@ -37,22 +39,25 @@ class WayFinder {
   struct Way {
     std::uint64_t person_id = 0;
     std::uint32_t cell = toolkit::no_cell;
-    dmrp_vec2 target = {0.0, 0.0};
+    bool has_patch = false;                           // of the field, in patches_
     const toolkit::NavigationField* field = nullptr;  // null: straight
+    LineOfSight line;                                 // to the target
   };
 
   dmrp_vec2 along_field(const toolkit::NavigationField& field, dmrp_vec2 position, std::uint32_t cell) const;
   bool is_known(const dmrp_grid& grid) const;
   void copy(const dmrp_grid& grid);
-  Way find_way(const Person& person, std::uint32_t cell);
+  void find_way(std::size_t slot, const Person& person, std::uint32_t cell);
   const toolkit::NavigationField& field_to_target_of(const Person& person);
 
   toolkit::GridView grid_;  // of the arrays below
+  Sight sight_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> edges_;
   std::vector<float> clearance_;
-  std::deque<Place> places_;  // never move
-  std::vector<Way> ways_;     // by slot
+  std::deque<Place> places_;                              // never move
+  std::vector<Way> ways_;                                 // by slot
+  std::vector<toolkit::NavigationField::Patch> patches_;  // likewise; apart, as most walk straight
 };
 
 }  // namespace dmrp::pedestrians

@@ -47,26 +47,24 @@ Status Orca::start(const World& world, std::uint64_t seed) {
 }
 
 Status Orca::step(const Crowd& crowd, Vec2* velocities) {
-  gather(crowd);
-  grid_.build(bodies_);
+  walkers_.gather(crowd, robot_awareness, grid_, [&](std::uint32_t slot, const Person& person) {
+    return leanings_.lean(slot, person, ways_.direction(slot, person));
+  });
 
   const double step_s = seconds(crowd.dt_ns);
-  for (const Body& body : grid_.by_place()) {
-    if (body.slot == no_slot) continue;
-    const std::uint32_t slot = body.slot;
-    const Person& person = crowd.people[slot];
+  for (const auto& [person, way, slot] : walkers_.by_place()) {
     const double max_speed = speed_cap_factor * person.desired_speed;
     planes_.clear();
     walls_.append_half_planes(person.position, person.velocity, person.radius_m, max_speed, time_horizon_obst, planes_);
     const std::size_t wall_planes = planes_.size();
 
-    const std::size_t neighbor_count = find_neighbors(slot, crowd.people);
+    const std::size_t neighbor_count = find_neighbors(slot, person.position, crowd.people);
     for (std::size_t i = 0; i < neighbor_count; ++i) {
       const HalfPlane plane = permitted_beside(*neighbors_[i].body, person, step_s);
       // most planes hold every velocity within the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
-    velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(slot, person, step_s));
+    velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(way, person, step_s));
   }
   return Status::ok;
 }
@@ -78,18 +76,7 @@ HalfPlane Orca::permitted_beside(const Body& other, const Person& person, double
   return give_way(escape(met, horizon_s, step_s), person.velocity, even_share * other.weight);
 }
 
-void Orca::gather(const Crowd& crowd) {
-  bodies_.clear();
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
-    const Person& person = crowd.people[slot];
-    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
-  }
-  if (robot_awareness > 0.0)
-    for (const Agent& robot : crowd.robots)
-      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
-}
-
-std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people) {
+std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people) {
   const auto most = static_cast<std::size_t>(max_neighbors);
   const auto id = [&](const Body* body) {
     return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
@@ -100,7 +87,7 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
   };
 
   std::size_t count = 0;
-  for (const NearBody& found : grid_.near(people[slot].position, neighbor_distance)) {
+  for (const NearBody& found : grid_.near(position, neighbor_distance)) {
     if (found.body->slot == slot || !(found.squared_distance > 0.0)) continue;
     if (count < most) {
       ++count;
@@ -114,10 +101,10 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, const Span<Person>& people)
   return count;
 }
 
-Vec2 Orca::preferred_velocity(std::uint32_t slot, const Person& person, double step_s) {
+Vec2 Orca::preferred_velocity(Vec2 way, const Person& person, double step_s) {
   const double to_target_m = toolkit::distance(person.position, person.target);
   const double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
-  return speed * leanings_.lean(slot, person, ways_.direction(slot, person));
+  return speed * way;
 }
 
 }  // namespace dmrp::pedestrians

@@ -10,6 +10,7 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/walkers.hpp"
 #include "crowd/way_finding.hpp"
 #include "orca/half_plane.hpp"
 #include "orca/linear_program.hpp"
@@ -36,17 +37,17 @@ class Orca final : public PedestrianModel {
   Status step(const Crowd& crowd, Vec2* velocities) override;
 
  private:
-  void gather(const Crowd& crowd);
-  std::size_t find_neighbors(std::uint32_t slot, const Span<Person>& people);  // how many there are
+  // How many there are.
+  std::size_t find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people);
   HalfPlane permitted_beside(const Body& other, const Person& person, double step_s) const;
-  Vec2 preferred_velocity(std::uint32_t slot, const Person& person, double step_s);
+  static Vec2 preferred_velocity(Vec2 way, const Person& person, double step_s);
 
   WayFinder ways_;
   Leanings leanings_;
   NeighborGrid grid_;
   WallObstacles walls_;
   VelocityProgram program_;
-  std::vector<Body> bodies_;
+  Walkers walkers_;
   std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
   std::vector<HalfPlane> planes_;
 };

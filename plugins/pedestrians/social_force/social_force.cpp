@@ -57,16 +57,14 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
 }
 
 Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
-  gather(crowd);
-  neighbors_.build(bodies_);
+  walkers_.gather(crowd, robot_awareness, neighbors_,
+                  [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
-  for (const Body& body : neighbors_.by_place()) {
-    if (body.slot == no_slot) continue;
-    const std::uint32_t slot = body.slot;
-    const Person& person = crowd.people[slot];
-    Vec2 velocity = person.velocity + dt * acceleration(slot, crowd.people);
+  for (const Walker& walker : walkers_.by_place()) {
+    const Person& person = walker.person;
+    Vec2 velocity = person.velocity + dt * acceleration(walker, crowd.people);
     if (motion_noise > 0.0) {
       toolkit::Stream chance(seed_, "pedestrian.motion", person.id, crowd.t_ns);
       const double deviation = motion_noise * std::sqrt(dt);
@@ -75,30 +73,18 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
     }
     const double speed = toolkit::norm(velocity);
     const double cap = speed_cap_factor * person.desired_speed;
-    velocities[slot] = speed > cap ? velocity * (cap / speed) : velocity;
+    velocities[walker.slot] = speed > cap ? velocity * (cap / speed) : velocity;
   }
   return Status::ok;
 }
 
-void SocialForce::gather(const Crowd& crowd) {
-  bodies_.clear();
-  for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
-    const Person& person = crowd.people[slot];
-    bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
-  }
-  if (robot_awareness > 0.0)
-    for (const Agent& robot : crowd.robots)
-      bodies_.push_back({toolkit::position(robot.pose), robot.velocity, robot.radius_m, robot_awareness, no_slot});
-}
-
-Vec2 SocialForce::acceleration(std::uint32_t slot, const Span<Person>& people) {
-  const Person& person = people[slot];
-  const Vec2 way = ways_.direction(slot, person);
+Vec2 SocialForce::acceleration(const Walker& walker, const Span<Person>& people) {
+  const auto& [person, way, slot] = walker;
   double speed = person.desired_speed;
   const Vec2 others = from_others(slot, person, way, speed);
   const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + others + from_group(slot, people, desired) + from_walls(person);
+  return drive + others + from_group(walker, people, desired) + from_walls(person);
 }
 
 // How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
@@ -132,10 +118,11 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way
 
 // Who walks in a group slows down for those out of sight behind, closes up where the group has drawn apart, and leaves
 // the others elbow-room.
-Vec2 SocialForce::from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const {
+Vec2 SocialForce::from_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const {
+  const auto& [person, way, slot] = walker;
+  if (person.group == 0) return {0.0, 0.0};
   const Span<std::uint32_t> members = groups_.members(slot);
   if (members.size() < 2) return {0.0, 0.0};
-  const Person& person = people[slot];
   Vec2 center = {0.0, 0.0};
   Vec2 elbow_room = {0.0, 0.0};
   for (const std::uint32_t member : members) {

@@ -8,6 +8,7 @@
 
 #include "crowd/groups.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
 #include "social_force/forces.hpp"
@@ -52,11 +53,10 @@ class SocialForce final : public PedestrianModel {
   Status step(const Crowd& crowd, Vec2* velocities) override;
 
  private:
-  void gather(const Crowd& crowd);
-  Vec2 acceleration(std::uint32_t slot, const Span<Person>& people);
+  Vec2 acceleration(const Walker& walker, const Span<Person>& people);
   double keeping_off(double gap_m) const;
   Vec2 from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed);
-  Vec2 from_group(std::uint32_t slot, const Span<Person>& people, Vec2 desired) const;
+  Vec2 from_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const;
   Vec2 from_walls(const Person& person);
 
   InteractionShape shape_ = {};
@@ -65,7 +65,7 @@ class SocialForce final : public PedestrianModel {
   Groups groups_;
   NeighborGrid neighbors_;
   WallGrid walls_;
-  std::vector<Body> bodies_;
+  Walkers walkers_;
   std::vector<WallPoint> wall_points_;
 };
 

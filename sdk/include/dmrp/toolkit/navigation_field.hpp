@@ -99,12 +99,46 @@ class NavigationField {
     if (grid_.index_of(point) != own) return normalized(grid_.center(own) - point);
     const Rectangle* target = touching_target(own);
     if (target != nullptr) return normalized(closest_point(*target, point) - point);
-    const Corners corners = corners_around(point, own);
-    dmrp_vec2 sum = {0.0, 0.0};
-    for (std::size_t i = 0; i < 4; ++i)
-      if (corners.cells[i] != no_cell) sum += corners.weights[i] * directions_[corners.cells[i]];
-    // Where ways part, neighbours may pull apart: then the point's own cell decides.
-    return norm(sum) > 0.1 ? normalized(sum) : directions_[own];
+    return patch(own).direction(point);
+  }
+
+  // What direction() makes of a cell and those around it: a copy for those who ask often on their way through one cell,
+  // as the field of a large world lies in no cache.
+  struct Patch {
+    dmrp_vec2 center;  // of the cell
+    double resolution_m;
+    std::array<dmrp_vec2, 9> directions;  // by rows, the cell's own in the middle; zero where it is not joined
+
+    // As the field's own, for a point in the cell.
+    dmrp_vec2 direction(dmrp_vec2 point) const {
+      const dmrp_vec2 offset = (point - center) / resolution_m;
+      const std::size_t across = offset.x < 0.0 ? 3 : 5;
+      const std::size_t up = offset.y < 0.0 ? 1 : 7;
+      const double far_x = std::abs(offset.x);
+      const double far_y = std::abs(offset.y);
+      dmrp_vec2 sum = {0.0, 0.0};
+      sum += (1.0 - far_x) * (1.0 - far_y) * directions[4];
+      sum += far_x * (1.0 - far_y) * directions[across];
+      sum += (1.0 - far_x) * far_y * directions[up];
+      sum += far_x * far_y * directions[across + up - 4];
+      // Where ways part, neighbours may pull apart: then the point's own cell decides.
+      return norm(sum) > 0.1 ? normalized(sum) : directions[4];
+    }
+  };
+
+  // Whether direction() follows from the cell's patch at every point of it: it can be reached and touches no target.
+  bool has_patch(std::uint32_t cell) const { return reachable(cell) && touching_target(cell) == nullptr; }
+
+  Patch patch(std::uint32_t cell) const {
+    Patch patch = {grid_.center(cell), grid_.resolution_m(), {}};
+    patch.directions[4] = directions_[cell];
+    for (std::size_t d = 0; d < strides_.size(); ++d) {
+      // an edge always leads to a cell in the grid; the direction is zero in one that cannot be reached
+      if (grid_.edge(cell, static_cast<int>(d)))
+        patch.directions[static_cast<std::size_t>(4 + direction_dx[d] + 3 * direction_dy[d])] =
+            directions_[cell + strides_[d]];
+    }
+    return patch;
   }
 
  private:
