@@ -4,18 +4,18 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const HEIGHT = 210;
-  const MARGIN = {top: 20, right: 12, bottom: 42, left: 46};
+  const BODY = 148; // px, the height between the axis and the top of the grid
+  const UNIT = 12; // px, room for y's unit
+  const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
   // An empty plot: {svg, x, y}, the axes' scales. `x`, `y`: (pixels) => scale, y's from the bottom up.
   // titles: {all, x, y_unit}; lines: where the grid has them, by default at the ticks.
   function frame(holder, width, {x, y}, titles, lines) {
     dmrp.elements.fill(holder);
-    const scales = {
-      x: x([MARGIN.left, width - MARGIN.right]),
-      y: y([HEIGHT - MARGIN.bottom, MARGIN.top]),
-    };
-    const svg = dmrp.plots.frame(holder, width, HEIGHT, titles.all);
+    const top = MARGIN.top + (titles.y_unit ? UNIT : 0);
+    const bottom = top + BODY;
+    const scales = {x: x([MARGIN.left, width - MARGIN.right]), y: y([bottom, top])};
+    const svg = dmrp.plots.frame(holder, width, bottom + MARGIN.bottom, titles.all);
     svg
       .append('g')
       .attr('class', 'grid')
@@ -27,14 +27,14 @@ window.dmrp = window.dmrp || {};
       .attr('x2', width - MARGIN.right)
       .attr('y1', scales.y)
       .attr('y2', scales.y);
-    dmrp.plots.axis_bottom(svg, scales.x, HEIGHT - MARGIN.bottom, titles.x);
+    dmrp.plots.axis_bottom(svg, scales.x, bottom, titles.x);
     const left = dmrp.plots.axis_left(svg, scales.y, MARGIN.left);
     if (titles.y_unit)
       left
         .append('text')
         .attr('class', 'title')
         .attr('x', -8)
-        .attr('y', MARGIN.top - 11)
+        .attr('y', top - 11)
         .attr('text-anchor', 'end')
         .text(titles.y_unit);
     return {svg, ...scales};
