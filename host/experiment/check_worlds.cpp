@@ -5,17 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/first_places.hpp"
 #include "core/flow_routes.hpp"
 #include "core/planning_grid.hpp"
 #include "core/population.hpp"
 #include "core/robot_draw.hpp"
 #include "core/static_geometry.hpp"
+#include "core/walking_groups.hpp"
 #include "host/input_error.hpp"
 
 namespace dmrp::host {
@@ -24,6 +28,7 @@ namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
 constexpr double most_cells = 1 << 24;
+constexpr int group_attempts = 32;
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;
@@ -155,6 +160,7 @@ class WorldCheck {
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
     check_room(walking);
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(i);
   }
 
   // Where somebody is at a row of a recording.
@@ -217,6 +223,22 @@ class WorldCheck {
     } catch (const core::NoRoom& none) {
       return none;
     }
+  }
+
+  // A group that begins anew stands in the first region together.
+  void check_groups(std::size_t index) const {
+    const core::Flow& flow = scenario_.flows[index];
+    const std::uint32_t size = std::min(flow.group_size, flow.people);
+    if (size < 2 || !flow.respawn) return;
+    const core::Region& region = scenario_.regions[flow.regions.front()];
+    const core::StandingRoom room = {*geometry_, scenario_.people.radius_m, {}, {}};
+    for (const double heading : {0.0, 0.5 * toolkit::pi})
+      for (int attempt = 0; attempt < group_attempts; ++attempt) {
+        toolkit::Stream stream(experiment_.seed, "check.groups", index, attempt);
+        if (core::draw_places(room, {region.lower, region.upper}, heading, size, stream)) return;
+      }
+    file_.document->fail(file_.flows[index], fmt::format("flow '{}': no room in region '{}' for a group of {}",
+                                                         flow.name, region.name, size));
   }
 
   // Where nobody begins near: the starts of robots that take part, or would under another number.

@@ -34,7 +34,7 @@ const std::vector<std::string> circle_keys = {"name", "center_m", "radius_m", "h
 const std::vector<std::string> polygon_keys = {"name", "vertices_m", "height_m"};
 const std::vector<std::string> robot_keys = {"name", "start", "goal", "goals"};
 const std::vector<std::string> region_keys = {"name", "lower_m", "upper_m"};
-const std::vector<std::string> flow_keys = {"name", "from", "via", "to", "people", "start", "respawn"};
+const std::vector<std::string> flow_keys = {"name", "from", "via", "to", "people", "start", "respawn", "group_size"};
 
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
@@ -199,6 +199,14 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
   return static_cast<std::uint32_t>(found - names.begin());
 }
 
+// With nobody in the flow there are no groups either.
+std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
+  const auto size = static_cast<std::uint32_t>(value.integer(1, most_people));
+  if (flow.people > 0 && size > flow.people)
+    value.fail(fmt::format("'group_size' must be at most 'people', {}, not {}", flow.people, size));
+  return size;
+}
+
 void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
   const auto first_own = static_cast<std::uint32_t>(out.scenario.regions.size() - regions.size());  // after tiles'
   const auto region_of = [&](const TomlValue& value) { return first_own + region_index(value, regions); };
@@ -225,6 +233,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
       flow.start = core::FlowStart::from;
     if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
+    if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
   }
