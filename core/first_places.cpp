@@ -175,8 +175,9 @@ std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes&
     }
     const auto places = places_along_flow(flow, group, routes.legs[group.flow], room_now(), seed);
     if (places.empty())
-      throw NoRoom(group.flow, "no room along flow '" + flow.name + "' for " + std::to_string(flow.people) +
-                                   " people, for " + std::to_string(placed_along[group.flow]) + " at most");
+      throw NoRoom(group.flow, "no room along flow '" + flow.name + "' for " + std::to_string(flow.people) + " people" +
+                                   (group.size > 1 ? " in groups of " + std::to_string(group.size) : "") + ", for " +
+                                   std::to_string(placed_along[group.flow]) + " at most");
     for (const FirstPlace& place : places) {
       out.push_back(place);
       taken.push_back(place.position);

@@ -268,9 +268,9 @@ TEST_CASE("mistakes in a scenario file") {
        "45:1: [people] needs speed_min <= speed_mean <= speed_max, not 3, 1.2, 2"},
       {"people = 2", "people = 2\ngroup_size = 0", "45:14: 'group_size' must be at least 1, not 0"},
       {"people = 2", "people = 2\ngroup_size = 3", "45:14: 'group_size' must be at most 'people', 2, not 3"},
-      {"people = 2", "people = 2\ngroup_size = 1.5", "45:14: 'group_size' must be an integer, not a number"},
-      {"people = 2", "people = 2\ngroups = 2",
-       "45:1: unknown key 'groups' in [[flow]]"},
+      {"people = 2", "people = 2\ngroup_size = 1.5", "45:14: 'group_size' must be an integer, not a float"},
+      {"people = 2", "people = 2\ngroupsize = 2",
+       "45:1: unknown key 'groupsize' in [[flow]] (did you mean 'group_size'?)"},
       {"people = 2", "people = 2\n[[recording]]\nfile = \"crowd.csv\"\ngroup_size = 2",
        "47:1: unknown key 'group_size' in [[recording]] (it is a key of [[flow]])"},
       // the world itself
@@ -306,7 +306,7 @@ TEST_CASE("mistakes in a scenario file") {
       {"upper_m = [1.5, 3.0]\n\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n\n[[flow]]",
        "upper_m = [0.7, 1.6]\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n[[flow]]\n"
        "group_size = 2",
-       "37:1: flow 'across': no room in region 'west' for a group of 2"},
+       "38:1: flow 'across': no room in region 'west' for a group of 2"},
   };
   for (const Mistake& mistake : mistakes) {
     INFO(mistake.to);
