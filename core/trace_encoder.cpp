@@ -117,17 +117,19 @@ void put_call(ByteWriter& out, const dmrp_call& call) {
 
 template <class WriteBody>
 void TraceEncoder::record(TraceRecordKind kind, WriteBody&& write_body) {
-  const std::size_t begin = bytes_.size();
-  ByteWriter out(bytes_);
+  record_.clear();
+  ByteWriter out(record_);
   out.put(std::uint32_t{0});
   out.put(kind);
   write_body(out);
 
-  const std::size_t body_bytes = bytes_.size() - begin - trace_record_prefix_bytes;
-  if (body_bytes > std::numeric_limits<std::uint32_t>::max()) throw TraceError(begin, "a record of more than 4 GB");
+  const std::size_t body_bytes = record_.size() - trace_record_prefix_bytes;
+  if (body_bytes > std::numeric_limits<std::uint32_t>::max())
+    throw TraceError(written_bytes_, "a record of more than 4 GB");
   const auto length = static_cast<std::uint32_t>(body_bytes);
-  std::memcpy(bytes_.data() + begin, &length, sizeof(length));
-  if (sink_) sink_(now_ns_, std::span<const std::uint8_t>(bytes_).subspan(begin));
+  std::memcpy(record_.data(), &length, sizeof(length));
+  written_bytes_ += record_.size();
+  sink_(now_ns_, record_);
 }
 
 TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)

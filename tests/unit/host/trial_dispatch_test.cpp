@@ -13,11 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "../core/trace_in_memory.hpp"
 #include "core/trace_reader.hpp"
 #include "host/trial/run_trial.hpp"
 
 using namespace dmrp::host;
 namespace core = dmrp::core;
+namespace test = dmrp::test;
 namespace toolkit = dmrp::toolkit;
 
 namespace {
@@ -71,8 +73,8 @@ struct Stage {
     CallGuard guard{note};
     const VariantWorld variant(experiment, experiment.scenarios[0]);
     InstancePool pool(experiment.libraries, guard, [](auto, const auto&, const auto&) {});
-    trace = std::make_unique<core::TraceEncoder>(variant.view.world());
-    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, pool, *trace);
+    trace = std::make_unique<test::TraceInMemory>(variant.view.world());
+    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, pool, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending.succeeded;
   }
@@ -92,7 +94,7 @@ struct Stage {
   }
 
   Experiment experiment;
-  std::unique_ptr<core::TraceEncoder> trace;
+  std::unique_ptr<test::TraceInMemory> trace;
   std::unique_ptr<core::TraceReader> reader;
 };
 

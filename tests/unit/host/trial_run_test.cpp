@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "../core/trace_in_memory.hpp"
 #include "core/trace_reader.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 
 using namespace dmrp::host;
 namespace core = dmrp::core;
+namespace test = dmrp::test;
 
 namespace {
 
@@ -62,8 +64,8 @@ struct Stage {
   }
 
   TrialEnding run() {
-    trace = std::make_unique<core::TraceEncoder>(variant->view.world());
-    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, *trace);
+    trace = std::make_unique<test::TraceInMemory>(variant->view.world());
+    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending;
   }
@@ -78,7 +80,7 @@ struct Stage {
   Combination combination;
   std::unique_ptr<VariantWorld> variant;
   std::unique_ptr<InstancePool> pool;
-  std::unique_ptr<core::TraceEncoder> trace;
+  std::unique_ptr<test::TraceInMemory> trace;
   std::unique_ptr<core::TraceReader> reader;
 };
 
@@ -294,7 +296,7 @@ TEST_CASE("a metric that is silent about a declared value is at fault") {
 
 TEST_CASE("a trace that was cut short is not measured") {
   Stage stage;
-  core::TraceEncoder cut(stage.variant->view.world());
+  const test::TraceInMemory cut(stage.variant->view.world());
   stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// kept_trace.hpp: where a trial's trace is between the trial and its metrics.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "core/trace_file.hpp"
+#include "core/trace_records.hpp"
+
+namespace dmrp::host {
+
+// A small trace stays in memory; a large one is in a file alone, so that crowds and long trials take no more memory
+// than others: the recorded one, or one without a name, which is gone with its process.
+//
+//   KeptTrace kept(file, scratch);
+//   TraceEncoder trace(world, [&](std::int64_t t_ns, auto record) { kept.write(t_ns, record); }, kept.foxglove());
+//   ...
+//   TraceReader reader(kept.records(), TraceExtent::samples);
+class KeptTrace {
+ public:
+  // `recorded`: the file that is wanted, with what there is to look at; empty for none. `scratch`: a path in a folder
+  // with room for a large trace that is not recorded. Throws std::system_error, as write() does.
+  KeptTrace(const std::filesystem::path& recorded, const std::filesystem::path& scratch,
+            std::size_t most_bytes_in_memory = core::TraceRecords::small_trace_bytes);
+  KeptTrace(const KeptTrace&) = delete;
+  KeptTrace& operator=(const KeptTrace&) = delete;
+
+  void write(std::int64_t t_ns, std::span<const std::uint8_t> record);
+  core::FoxgloveChannels* foxglove() { return is_recorded() ? &file_->foxglove() : nullptr; }
+  bool is_recorded() const { return !recorded_.empty(); }
+
+  // What was written so far, to be read once; nothing more is written but to foxglove(). It outlives the reading.
+  core::TraceRecords records();
+
+  // Ends the recorded file, if any.
+  void finish();
+
+ private:
+  void move_to_scratch();
+
+  std::filesystem::path recorded_;
+  std::filesystem::path scratch_;
+  std::size_t most_bytes_in_memory_;
+  core::TraceBytes memory_;                     // all of it, as long as
+  bool is_in_memory_ = true;                    // ... this is true
+  std::optional<core::TraceFileWriter> file_;   // recorded or scratch
+  std::optional<core::TraceRecords> nameless_;  // reads scratch
+};
+
+}  // namespace dmrp::host
