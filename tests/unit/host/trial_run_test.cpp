@@ -180,12 +180,21 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   CHECK_FALSE(stage.run().succeeded);
   CHECK(stage.reader->end()->ending == DMRP_ENDING_NO_PLAN);
   CHECK(stage.reader->first_plan() == nullptr);
-  CHECK(stage.reader->sample_count() == 0);
+  CHECK(stage.reader->sample_count() == 1);
   REQUIRE(stage.reader->plans().size() == 1);
   CHECK(stage.reader->plans()[0].plan.status == (does == "timeout" ? DMRP_TIMEOUT : DMRP_NO_SOLUTION));
   const MetricResult result = stage.measured();
   CHECK(result.index == 3);
   CHECK(system_of(result, "samples") == 0.0);
+  // who is there for the calls sees the one that gave no plan
+  stage.experiment.metrics[0].info.channels = DMRP_CHANNEL_CALLS;
+  CHECK(system_of(stage.measured(), "samples") == 1.0);
+  stage.reader->rewind();
+  const dmrp_sample* sample = stage.reader->next_sample();
+  REQUIRE(sample->call_count == 1);
+  CHECK(sample->calls->kind == DMRP_CALL_PLAN);
+  CHECK(sample->calls->status == stage.reader->plans()[0].plan.status);
+  CHECK(sample->calls->duration_ns == stage.reader->plans()[0].plan.planning_ns);
 }
 
 TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {
