@@ -11,8 +11,8 @@ namespace {
 
 constexpr double neighbour_reach_m = 0.25;  // found anew after every 0.2 s or so of walking
 constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
-constexpr int pushing_sweeps = 20;
-constexpr int stopping_sweeps = 30;
+constexpr int pushing_sweeps = 200;         // a dozen do in a jam, but for few steps
+constexpr int stopping_sweeps = 100;
 
 struct Wall {
   dmrp_vec2 inward;

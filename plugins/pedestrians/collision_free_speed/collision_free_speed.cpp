@@ -62,50 +62,53 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
 
   const double step_s = seconds(crowd.dt_ns);
   right_of_way_.update(crowd.people, step_s);
-  for (const auto& [person, way, slot] : walkers_.by_place()) {
-    look_around(slot, person, crowd.people);
-    const Vec2 along = direction(way, person);
-    velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
+  for (const Walker& walker : walkers_.by_place()) {
+    look_around(walker, crowd.people);
+    const Vec2 along = direction(walker);
+    velocities[walker.slot] = kept_off_walls(speed_along(along, walker, step_s) * along, walker.person, step_s);
   }
   return Status::ok;
 }
 
 // All who are turned away from or who may be in the way, and the walls.
-void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, const Span<Person>& people) {
+void CollisionFreeSpeed::look_around(const Walker& walker, const Span<Person>& people) {
+  const Person& person = walker.person;
   near_.clear();
   const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
-    if (other->slot == slot || !(squared_distance > 0.0)) continue;
+    if (other->slot == walker.slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight, right_of_way_.holds_over(slot, *other, people)});
+                     other->weight, right_of_way_.holds_over(walker.slot, *other, people)});
   }
   walls_.nearest_points(person.position, wall_points_);
 }
 
 // Where to go, turned away from bodies and walls; a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person) {
-  Vec2 sum = way;
+Vec2 CollisionFreeSpeed::direction(const Walker& walker) {
+  Vec2 sum = walker.way;
   for (const Near& other : near_) {
     if (other.gives_way || other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
     sum -= other.apart * (influence / (other.gap_m + other.reach_m));
   }
   sum += push_of_walls(wall_points_, wall_range, [&](double distance_m) {
-    return repulsion(wall_strength, wall_range, distance_m - person.radius_m);
+    return repulsion(wall_strength, wall_range, distance_m - walker.person.radius_m);
   });
   return toolkit::normalized(sum);
 }
 
-double CollisionFreeSpeed::speed_along(Vec2 direction, const Person& person, double step_s) const {
+double CollisionFreeSpeed::speed_along(Vec2 direction, const Walker& walker, double step_s) const {
+  const Person& person = walker.person;
+  const bool goes_on = toolkit::dot(direction, walker.way) > 0.0;
   const double to_target_m = toolkit::distance(person.position, person.target);
   double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
-  for (const Near& other : near_)
-    if (is_in_the_way(direction, other.apart, other.reach_m)) {
-      const double permitted = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
-      speed = other.gives_way ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
-    }
+  for (const Near& other : near_) {
+    if (!is_in_the_way(direction, other.apart, other.reach_m)) continue;
+    const double permitted = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
+    speed = other.gives_way && goes_on ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
+  }
   return speed;
 }
 

@@ -53,9 +53,9 @@ class CollisionFreeSpeed final : public PedestrianModel {
     bool gives_way;  // is not turned away from
   };
 
-  void look_around(std::uint32_t slot, const Person& person, const Span<Person>& people);
-  Vec2 direction(Vec2 way, const Person& person);
-  double speed_along(Vec2 direction, const Person& person, double step_s) const;
+  void look_around(const Walker& walker, const Span<Person>& people);
+  Vec2 direction(const Walker& walker);
+  double speed_along(Vec2 direction, const Walker& walker, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
 
   double neighbor_reach_m_ = 0.0;  // beyond this gap nobody is turned away from
