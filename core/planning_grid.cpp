@@ -84,8 +84,8 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
   return grid;
 }
 
-PlanningGrid build_walking_grid(const StaticGeometry& geometry) {
-  return build_planning_grid(geometry, walking_resolution_m, walking_radius_m, 0.0);
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m) {
+  return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
 }
 
 }  // namespace dmrp::core

@@ -29,9 +29,8 @@ struct PlanningGrid {
 // sampling every 0.05 m could step over a corner.
 PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resolution_m, double radius_m, double margin_m);
 
-// The grid on which people find their way.
+// The grid on which people of this radius find their way.
 inline constexpr double walking_resolution_m = 0.25;
-inline constexpr double walking_radius_m = 0.3;
-PlanningGrid build_walking_grid(const StaticGeometry& geometry);
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m);
 
 }  // namespace dmrp::core

@@ -6,68 +6,16 @@
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
-#include <map>
-#include <stdexcept>
-#include <string>
 
-#include "core/crowd_lattice.hpp"
+#include "core/first_places.hpp"
 
 namespace dmrp::core {
 namespace {
 
 using toolkit::Stream;
 
-constexpr double lane_half_width_m = 1.5;  // how far aside of the route people begin
-constexpr int tries_along_flow = 64;
-constexpr int tries_anywhere = 2000;
 constexpr int tries_in_region = 32;
 constexpr std::int64_t retry_period_ns = 500'000'000;
-
-dmrp_vec2 draw_in(Stream& stream, dmrp_vec2 lower, dmrp_vec2 upper) {
-  const double x = stream.uniform(lower.x, upper.x);
-  return {x, stream.uniform(lower.y, upper.y)};
-}
-
-// A place on a route of several legs.
-struct RoutePlace {
-  dmrp_vec2 point{};
-  double heading = 0.0;
-  std::uint32_t leg = 0;
-};
-
-RoutePlace place_on(const std::vector<Route>& legs, double fraction) {
-  double left_m = 0.0;
-  for (const Route& leg : legs) left_m += toolkit::length(leg);
-  left_m *= fraction;
-  for (std::uint32_t i = 0;; ++i) {
-    const std::vector<double> arcs = toolkit::arc_lengths(legs[i]);
-    if (left_m <= arcs.back() || i + 1 == legs.size())
-      return {toolkit::point_at(legs[i], arcs, left_m), toolkit::heading_at(legs[i], arcs, left_m, 0.0), i};
-    left_m -= arcs.back();
-  }
-}
-
-// A region and how many people begin in it.
-struct RegionCrowd {
-  std::uint32_t region = 0;
-  std::size_t people = 0;
-};
-
-// The smallest first: where regions overlap, it has the least room to evade.
-std::vector<RegionCrowd> crowds_by_region(const std::vector<Flow>& flows, const std::vector<Region>& regions) {
-  std::map<std::uint32_t, std::size_t> people;
-  for (const Flow& flow : flows)
-    if (flow.start == FlowStart::from) people[flow.regions.front()] += flow.people;
-  std::vector<RegionCrowd> crowds;
-  for (const auto& [region, count] : people) crowds.push_back({region, count});
-  const auto area = [&](const RegionCrowd& crowd) {
-    const dmrp_vec2 extent = regions[crowd.region].upper - regions[crowd.region].lower;
-    return extent.x * extent.y;
-  };
-  std::stable_sort(crowds.begin(), crowds.end(),
-                   [&](const RegionCrowd& one, const RegionCrowd& two) { return area(one) < area(two); });
-  return crowds;
-}
 
 }  // namespace
 
@@ -81,31 +29,23 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       tracks_(scenario.tracks),
       world_{scenario.lower, scenario.upper},
       slots_(walker_count(scenario)) {
-  std::map<std::uint32_t, std::vector<dmrp_vec2>> places;
-  std::vector<dmrp_vec2> taken;
-  for (const Track& track : tracks_)
-    if (is_on_track(track, 0)) taken.push_back(position_on(track, 0));
-  for (const RegionCrowd& crowd : crowds_by_region(flows_, regions_)) {
-    std::vector<dmrp_vec2>& found = places[crowd.region];
-    found = places_in(crowd.region, crowd.people, robots, taken);
-    taken.insert(taken.end(), found.begin(), found.end());
+  for (const std::vector<Route>& legs : routes.legs) {
+    std::vector<LegHeadings>& headings = headings_.emplace_back();
+    for (const Route& leg : legs) {
+      const std::vector<double> arcs = toolkit::arc_lengths(leg);
+      headings.push_back({toolkit::heading_at(leg, arcs, 0.0, 0.0), toolkit::heading_at(leg, arcs, arcs.back(), 0.0)});
+    }
   }
-  std::uint32_t slot = 0;
-  for (std::uint32_t flow = 0; flow < flows_.size(); ++flow) {
-    for (std::uint32_t number = 0; number < flows_[flow].people; ++number, ++slot) {
-      Slot& own = slots_[slot];
-      own.flow = flow;
-      Beginning beginning;
-      if (flows_[flow].start == FlowStart::from) {
-        auto& left = places[flows_[flow].regions.front()];
-        beginning.position = left.back();
-        left.pop_back();
-      } else {
-        beginning = place_along_flow(slot, number, routes.legs[flow], robots, taken);
-        taken.push_back(beginning.position);
-      }
-      own.leg = beginning.leg;
-      people_.push_back(person_at(slot, beginning.position));
+  std::vector<dmrp_vec2> recorded;
+  for (const Track& track : tracks_)
+    if (is_on_track(track, 0)) recorded.push_back(position_on(track, 0));
+  const auto places = first_places(scenario, routes, {*geometry_, settings_.radius_m, robots, recorded}, seed);
+  for (const WalkingGroup& who : deal_groups(flows_)) {
+    group_ids_ = std::max(group_ids_, who.id);
+    groups_.push_back({who, who.size});
+    for (std::uint32_t slot = who.first_slot; slot < who.first_slot + who.size; ++slot) {
+      slots_[slot] = {static_cast<std::uint32_t>(groups_.size() - 1), places[slot].leg};
+      people_.push_back(person_at(slot, places[slot].position));
       slot_of_.push_back(slot);
     }
   }
@@ -122,14 +62,16 @@ void Population::advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
   let_come(t_ns);
   for (std::size_t place = 0; place < people_.size() && !is_recorded(place); ++place) {
     Slot& own = slots_[slot_of_[place]];
+    Group& group = groups_[own.group];
     const bool arrived = has_arrived(place);
     if (arrived && !is_on_last_leg(own)) {
       ++own.leg;
       set_target(people_[place], slot_of_[place]);
-    } else if ((arrived || own.tries > 0) && t_ns >= own.next_try_ns) {
-      try_to_begin_anew(place, t_ns, robots);
+    } else if ((arrived || group.tries > 0) && group.who.size == 1 && t_ns >= group.next_try_ns) {
+      try_to_begin_anew(group, t_ns, robots);
     }
   }
+  let_groups_begin_anew(t_ns, robots);
 }
 
 bool Population::has_arrived(std::size_t place) const {
@@ -138,7 +80,7 @@ bool Population::has_arrived(std::size_t place) const {
 }
 
 bool Population::is_on_last_leg(const Slot& slot) const {
-  return slot.leg + 2 == flows_[slot.flow].regions.size();
+  return slot.leg + 2 == flow_of(slot).regions.size();
 }
 
 std::optional<dmrp_vec2> Population::position_on_track(std::size_t place, std::int64_t t_ns) const {
@@ -147,8 +89,10 @@ std::optional<dmrp_vec2> Population::position_on_track(std::size_t place, std::i
 }
 
 bool Population::is_over(std::int64_t t_ns) const {
-  return people_.empty() && std::none_of(tracks_.begin(), tracks_.end(),
-                                         [&](const Track& track) { return track.points.front().t_ns > t_ns; });
+  return people_.empty() &&
+         std::none_of(flows_.begin(), flows_.end(), [](const Flow& flow) { return flow.respawn && flow.people > 0; }) &&
+         std::none_of(tracks_.begin(), tracks_.end(),
+                      [&](const Track& track) { return track.points.front().t_ns > t_ns; });
 }
 
 // Recorded people who are not there yet.
@@ -156,10 +100,19 @@ void Population::let_come(std::int64_t t_ns) {
   for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
     if (!is_on_track(tracks_[i], t_ns)) continue;
     const auto slot = static_cast<std::uint32_t>(slots_.size()) + i;
-    const auto after = std::lower_bound(slot_of_.begin(), slot_of_.end(), slot);
-    if (after != slot_of_.end() && *after == slot) continue;
-    people_.insert(people_.begin() + (after - slot_of_.begin()), recorded_person_at(slot, t_ns));
-    slot_of_.insert(after, slot);
+    if (!std::binary_search(slot_of_.begin(), slot_of_.end(), slot)) put(slot, recorded_person_at(slot, t_ns));
+  }
+}
+
+// In place of whoever has the slot.
+void Population::put(std::uint32_t slot, const dmrp_person& person) {
+  const auto at = std::lower_bound(slot_of_.begin(), slot_of_.end(), slot);
+  const auto place = people_.begin() + (at - slot_of_.begin());
+  if (at != slot_of_.end() && *at == slot) {
+    *place = person;
+  } else {
+    people_.insert(place, person);
+    slot_of_.insert(at, slot);
   }
 }
 
@@ -181,15 +134,22 @@ dmrp_person Population::recorded_person_at(std::uint32_t slot, std::int64_t t_ns
   return person;
 }
 
-// For good.
+// Who walks alone and is to begin anew does not leave before there is room for it.
+bool Population::leaves(std::size_t place, std::int64_t t_ns) const {
+  const std::uint32_t slot = slot_of_[place];
+  if (is_recorded(place)) return !is_on_track(track_of(slot), t_ns);
+  const Slot& own = slots_[slot];
+  return is_on_last_leg(own) && (!flow_of(own).respawn || groups_[own.group].who.size > 1) && has_arrived(place);
+}
+
 void Population::let_leave(std::int64_t t_ns) {
   std::size_t kept = 0;
   for (std::size_t place = 0; place < people_.size(); ++place) {
     const std::uint32_t slot = slot_of_[place];
-    const bool leaves = is_recorded(place)
-                            ? !is_on_track(track_of(slot), t_ns)
-                            : !flows_[slots_[slot].flow].respawn && is_on_last_leg(slots_[slot]) && has_arrived(place);
-    if (leaves) continue;
+    if (leaves(place, t_ns)) {
+      if (!is_recorded(place)) --groups_[slots_[slot].group].present;
+      continue;
+    }
     people_[kept] = people_[place];
     slot_of_[kept] = slot;
     ++kept;
@@ -198,109 +158,82 @@ void Population::let_leave(std::int64_t t_ns) {
   slot_of_.resize(kept);
 }
 
-// Places for all who begin in a region, in an order that says nothing.
-std::vector<dmrp_vec2> Population::places_in(std::uint32_t region, std::size_t count, std::span<const dmrp_vec2> robots,
-                                             std::span<const dmrp_vec2> taken) const {
-  const Region& where = regions_[region];
-  Stream stream(seed_, "population.from", region);
-  const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
-  auto places = spread_on_lattice({where.lower, where.upper}, count, apart_m, stream,
-                                  [&](dmrp_vec2 point) { return has_room(point, robots, taken); });
-  if (places.size() < count)
-    throw std::runtime_error("no room in region '" + where.name + "' for " + std::to_string(count) + " people, " +
-                             std::to_string(places.size()) + " at most");
-  return places;
-}
-
-// Evenly along the whole route, each somewhere in a stretch of its own and somewhere aside of it.
-Population::Beginning Population::place_along_flow(std::uint32_t slot, std::uint32_t number,
-                                                   const std::vector<Route>& legs, std::span<const dmrp_vec2> robots,
-                                                   std::span<const dmrp_vec2> taken) const {
-  const Flow& flow = flows_[slots_[slot].flow];
-  Stream stream(seed_, "population.begin", slot);
-  for (int tries = 0; tries < tries_along_flow; ++tries) {
-    const double fraction = (number + stream.uniform()) / flow.people;
-    const double aside_m = stream.uniform(-lane_half_width_m, lane_half_width_m);
-    const RoutePlace on_route = place_on(legs, fraction);
-    const dmrp_vec2 left = toolkit::perpendicular(toolkit::from_angle(on_route.heading));
-    const dmrp_vec2 point = on_route.point + aside_m * left;
-    // not beyond a wall
-    if (!has_room(point, robots, taken) || !geometry_->line_of_sight(on_route.point, point)) continue;
-    return {point, on_route.leg};
-  }
-  for (int tries = 0; tries < tries_anywhere; ++tries) {
-    const RoutePlace on_route = place_on(legs, stream.uniform());
-    const dmrp_vec2 reach = {4.0 * lane_half_width_m, 4.0 * lane_half_width_m};
-    const dmrp_vec2 point = draw_in(stream, on_route.point - reach, on_route.point + reach);
-    if (!has_room(point, robots, taken) || !geometry_->line_of_sight(on_route.point, point)) continue;
-    return {point, on_route.leg};
-  }
-  throw std::runtime_error("no room along flow '" + flow.name + "' for person " + std::to_string(slot));
-}
-
-// The person whom a slot has now, at the beginning.
+// The person whom a slot has now, at the beginning. A group walks at one speed.
 dmrp_person Population::person_at(std::uint32_t slot, dmrp_vec2 position) const {
-  const Slot& own = slots_[slot];
+  const Group& group = groups_[slots_[slot].group];
   dmrp_person person{};
-  person.id = slot + own.predecessors * (slots_.size() + tracks_.size());
+  person.id = slot + group.predecessors * (slots_.size() + tracks_.size());
+  if (group.who.id != 0) person.group = static_cast<std::uint32_t>(group.who.id + group.predecessors * group_ids_);
   person.position = position;
   person.radius_m = settings_.radius_m;
-  Stream speeds(seed_, "population.speed", slot, own.predecessors);
+  Stream speeds(seed_, "population.speed", group.who.first_slot, group.predecessors);
   person.desired_speed =
       speeds.truncated_normal(settings_.speed_mean, settings_.speed_sd, settings_.speed_min, settings_.speed_max);
   set_target(person, slot);
   return person;
 }
 
-// Somewhere free in the region that the leg leads to; in its middle where nothing free was found.
+// Somewhere free in the region that the leg leads to, beside those of the companions; in its middle where nothing free
+// was found.
 void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
   const Slot& own = slots_[slot];
-  const std::uint32_t index = flows_[own.flow].regions[own.leg + 1];
+  const Group& group = groups_[own.group];
+  const std::uint32_t index = flow_of(own).regions[own.leg + 1];
   const Region& region = regions_[index];
-  Stream stream(seed_, "population.target", slot, own.predecessors, own.leg);
-  dmrp_vec2 target = draw_in(stream, region.lower, region.upper);
+  const toolkit::Rectangle area = {region.lower, region.upper};
+  const auto offsets = formation(group.who.size, widest_row(group.who.size), 2.0 * settings_.radius_m + group_gap_m,
+                                 headings_[group.who.flow][own.leg].at_end);
+  const toolkit::Rectangle middles = middles_in(area, offsets);
+  const auto is_free = [&](dmrp_vec2 middle) {
+    return std::all_of(offsets.begin(), offsets.end(), [&](dmrp_vec2 offset) {
+      return geometry_->disc_is_free(toolkit::closest_point(area, middle + offset), settings_.radius_m);
+    });
+  };
+  Stream stream(seed_, "population.target", group.who.first_slot, group.predecessors, own.leg);
+  dmrp_vec2 middle = draw_in(middles, stream);
   int tries = 1;
-  for (; tries < tries_in_region && !geometry_->disc_is_free(target, settings_.radius_m); ++tries)
-    target = draw_in(stream, region.lower, region.upper);
-  if (tries == tries_in_region) target = 0.5 * (region.lower + region.upper);
+  for (; tries < tries_in_region && !is_free(middle); ++tries) middle = draw_in(middles, stream);
+  if (tries == tries_in_region) middle = 0.5 * (region.lower + region.upper);
 
-  person.target = target;
+  person.target = toolkit::closest_point(area, middle + offsets[slot - group.who.first_slot]);
   person.target_id = index;
   person.area_lower = region.lower;
   person.area_upper = region.upper;
 }
 
-// Until there is room in the first region, the old person stays and walks on to its target.
-void Population::try_to_begin_anew(std::size_t place, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
-  const std::uint32_t slot = slot_of_[place];
-  Slot& own = slots_[slot];
-  const Region& first = regions_[flows_[own.flow].regions.front()];
-  std::vector<dmrp_vec2> others;
-  for (std::size_t other = 0; other < people_.size(); ++other)
-    if (other != place) others.push_back(people_[other].position);
-  Stream stream(seed_, "population.anew", slot, own.predecessors, own.tries);
-  for (int tries = 0; tries < tries_in_region; ++tries) {
-    const dmrp_vec2 point = draw_in(stream, first.lower, first.upper);
-    if (!has_room(point, robots, others)) continue;
-    ++own.predecessors;
-    own.leg = 0;
-    own.tries = 0;
-    own.next_try_ns = 0;
-    people_[place] = person_at(slot, point);
-    return;
-  }
-  ++own.tries;
-  own.next_try_ns = t_ns + retry_period_ns;
+void Population::let_groups_begin_anew(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+  for (Group& group : groups_)
+    if (group.who.size > 1 && group.present == 0 && flows_[group.who.flow].respawn && t_ns >= group.next_try_ns)
+      try_to_begin_anew(group, t_ns, robots);
 }
 
-// Clear of shapes, robots and other people.
-bool Population::has_room(dmrp_vec2 point, std::span<const dmrp_vec2> robots, std::span<const dmrp_vec2> taken) const {
-  for (const dmrp_vec2 robot : robots)
-    if (toolkit::distance(robot, point) < spawn_distance_to_robots_m) return false;
-  const double apart_m = 2.0 * settings_.radius_m + personal_gap_m;
-  for (const dmrp_vec2 other : taken)
-    if (toolkit::distance(other, point) < apart_m) return false;
-  return geometry_->disc_is_free(point, settings_.radius_m);
+// In the first region, side by side if that can be. Until there is room, whoever walked alone stays and walks on to its
+// target; a group waits outside.
+void Population::try_to_begin_anew(Group& group, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+  const WalkingGroup& who = group.who;
+  const Region& region = regions_[flows_[who.flow].regions.front()];
+  const toolkit::Rectangle area = {region.lower, region.upper};
+  std::vector<dmrp_vec2> others;
+  for (std::size_t other = 0; other < people_.size(); ++other)
+    if (is_recorded(other) || slots_[slot_of_[other]].group != slots_[who.first_slot].group)
+      others.push_back(people_[other].position);
+  const StandingRoom room = {*geometry_, settings_.radius_m, robots, others};
+  Stream stream(seed_, "population.anew", who.first_slot, group.predecessors, group.tries);
+  const auto places = draw_places(room, area, headings_[who.flow].front().at_beginning, who.size, stream);
+  if (!places) {
+    ++group.tries;
+    group.next_try_ns = t_ns + retry_period_ns;
+    return;
+  }
+  group.present = who.size;
+  ++group.predecessors;
+  group.tries = 0;
+  group.next_try_ns = 0;
+  for (std::uint32_t member = 0; member < who.size; ++member) {
+    const std::uint32_t slot = who.first_slot + member;
+    slots_[slot].leg = 0;
+    put(slot, person_at(slot, (*places)[member]));
+  }
 }
 
 }  // namespace dmrp::core

@@ -47,7 +47,8 @@ struct Flow {
   std::vector<std::uint32_t> regions;  // indices into Scenario::regions: from, via..., to; at least two
   std::uint32_t people = 0;            // at t = 0
   FlowStart start = FlowStart::along;
-  bool respawn = true;  // somebody new begins in the first region for everybody who leaves
+  bool respawn = true;           // somebody new begins in the first region for everybody who leaves
+  std::uint32_t group_size = 1;  // so many walk together; the last group is smaller where people don't divide by it
 };
 
 // Bodies and walking speeds of people: normal, truncated.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double neighbour_reach_m = 0.25;  // found anew after every 0.2 s or so of walking
 constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
-constexpr int sweeps = 30;
+constexpr int pushing_sweeps = 20;
+constexpr int stopping_sweeps = 30;
 
 struct Wall {
   dmrp_vec2 inward;
@@ -31,6 +32,22 @@ dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
   return distance_m > 0.0 ? (a - b) / distance_m : dmrp_vec2{1.0, 0.0};
 }
 
+using Bearing = SolidBody::Bearing;
+
+// How far it may get in this step, pushed or not.
+double reach_of(const SolidBody& body) {
+  const double own_m = toolkit::norm(body.displacement);
+  return body.bearing == Bearing::gives_way ? std::max(own_m, pushed_at_most_m) : own_m;
+}
+
+// Moves it on, no further than it may get.
+void push_on(SolidBody& body, dmrp_vec2 push) {
+  const double at_most_m = reach_of(body);
+  body.displacement += push;
+  const double length_m = toolkit::norm(body.displacement);
+  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
+}
+
 }  // namespace
 
 SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry) : geometry_(std::move(geometry)) {}
@@ -38,19 +55,18 @@ SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry) : geome
 void SolidMotion::resolve(std::span<SolidBody> bodies) {
   find_neighbours(bodies);
   collect_constraints(bodies);
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    if (relax(bodies)) return;
+  for (int sweep = 0; sweep < pushing_sweeps; ++sweep)
+    if (hold(bodies, true)) return;
+  for (int sweep = 0; sweep < stopping_sweeps; ++sweep)
+    if (hold(bodies, false)) return;
   stop_violators(bodies);
 }
 
 bool SolidMotion::neighbours_are_fresh(std::span<const SolidBody> bodies) const {
   if (bodies.size() != found_at_.size()) return false;
-  const double squared_reach = reach_m_ * reach_m_;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const dmrp_vec2 moved = bodies[i].position - found_at_[i];
-    if (bodies[i].radius_m != found_radii_m_[i] || toolkit::squared_norm(moved) > squared_reach ||
-        toolkit::squared_norm(moved + bodies[i].displacement) > squared_reach)
-      return false;
+    const double moved_m = toolkit::distance(bodies[i].position, found_at_[i]);
+    if (bodies[i].radius_m != found_radii_m_[i] || moved_m + reach_of(bodies[i]) > reach_m_) return false;
   }
   return true;
 }
@@ -59,7 +75,7 @@ void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
   if (neighbours_are_fresh(bodies)) return;
 
   double furthest_m = 0.0;
-  for (const SolidBody& body : bodies) furthest_m = std::max(furthest_m, toolkit::norm(body.displacement));
+  for (const SolidBody& body : bodies) furthest_m = std::max(furthest_m, reach_of(body));
   reach_m_ = neighbour_reach_m + furthest_m;
   found_at_.clear();
   found_radii_m_.clear();
@@ -86,20 +102,17 @@ void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
 void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
                             double gap_m) {
   const double allowed_m = std::max(0.0, gap_m + solid_depth_m);
-  double possible_m = toolkit::norm(bodies[a].displacement);
-  if (b != no_body) possible_m += toolkit::norm(bodies[b].displacement);
-  // displacements only ever get shorter
-  if (possible_m > allowed_m) constraints_.push_back({a, b, normal, allowed_m});
+  if (reach_of(bodies[a]) + (b == no_body ? 0.0 : reach_of(bodies[b])) > allowed_m)
+    constraints_.push_back({a, b, normal, allowed_m});
 }
 
-// Beside somebody who does not yield; `normal`: from there.
-void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint32_t yielding, std::uint32_t other,
+// Beside somebody unstoppable; `normal`: from there.
+void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
                                    dmrp_vec2 normal, double gap_m) {
-  if (!bodies[yielding].yields) return;
+  if (bodies[stoppable].bearing == Bearing::unstoppable) return;
   const double comes_m = toolkit::dot(bodies[other].displacement, normal);
   const double allowed_m = std::max(0.0, std::max(0.0, gap_m + solid_depth_m) - comes_m);
-  if (toolkit::norm(bodies[yielding].displacement) > allowed_m)
-    constraints_.push_back({yielding, no_body, normal, allowed_m});
+  if (reach_of(bodies[stoppable]) > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
 }
 
 // A half-plane that holds one convex body apart from another on their line of nearest points holds them apart for any
@@ -107,12 +120,12 @@ void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint3
 void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
   constraints_.clear();
   for (const auto& [body, shape] : shape_neighbours_) {
-    if (!bodies[body].yields) continue;
+    if (bodies[body].bearing == Bearing::unstoppable) continue;
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
     constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].yields) continue;
+    if (bodies[i].bearing == Bearing::unstoppable) continue;
     for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
       constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
   }
@@ -120,30 +133,37 @@ void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
     const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
     const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
     const double gap_m = distance_m - bodies[a].radius_m - bodies[b].radius_m;
-    if (!bodies[b].yields)
+    if (bodies[b].bearing == Bearing::unstoppable)
       constrain_beside(bodies, a, b, normal, gap_m);
-    else if (!bodies[a].yields)
+    else if (bodies[a].bearing == Bearing::unstoppable)
       constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
     else
       constrain(bodies, a, b, normal, gap_m);
   }
 }
 
-// One pass over all constraints; whether all of them held. Who approaches loses approach; who recedes makes room.
-bool SolidMotion::relax(std::span<SolidBody> bodies) const {
+// One pass over all constraints; whether all of them held.
+bool SolidMotion::hold(std::span<SolidBody> bodies, bool pushing) const {
   bool all_held = true;
   for (const Constraint& constraint : constraints_) {
-    const double a_speed = -toolkit::dot(bodies[constraint.a].displacement, constraint.normal);
-    const double b_speed =
-        constraint.b == no_body ? 0.0 : toolkit::dot(bodies[constraint.b].displacement, constraint.normal);
-    if (a_speed + b_speed <= constraint.allowed_m + tolerance_m) continue;
+    SolidBody& a = bodies[constraint.a];
+    SolidBody* b = constraint.b == no_body ? nullptr : &bodies[constraint.b];
+    const double a_comes_m = -toolkit::dot(a.displacement, constraint.normal);
+    const double b_comes_m = b == nullptr ? 0.0 : toolkit::dot(b->displacement, constraint.normal);
+    const double excess_m = a_comes_m + b_comes_m - constraint.allowed_m;
+    if (excess_m <= tolerance_m) continue;
     all_held = false;
-    const double room_m = constraint.allowed_m - std::min(a_speed, 0.0) - std::min(b_speed, 0.0);
-    const double approach_m = std::max(a_speed, 0.0) + std::max(b_speed, 0.0);
+    if (pushing && b != nullptr && a.bearing == Bearing::gives_way && b->bearing == Bearing::gives_way) {
+      push_on(a, constraint.normal * (0.5 * excess_m));
+      push_on(*b, constraint.normal * (-0.5 * excess_m));
+      continue;
+    }
+    // who approaches loses approach; who recedes makes room
+    const double room_m = constraint.allowed_m - std::min(a_comes_m, 0.0) - std::min(b_comes_m, 0.0);
+    const double approach_m = std::max(a_comes_m, 0.0) + std::max(b_comes_m, 0.0);
     const double lost_share = 1.0 - room_m / approach_m;
-    bodies[constraint.a].displacement += constraint.normal * (lost_share * std::max(a_speed, 0.0));
-    if (constraint.b != no_body)
-      bodies[constraint.b].displacement -= constraint.normal * (lost_share * std::max(b_speed, 0.0));
+    a.displacement += constraint.normal * (lost_share * std::max(a_comes_m, 0.0));
+    if (b != nullptr) b->displacement -= constraint.normal * (lost_share * std::max(b_comes_m, 0.0));
   }
   return all_held;
 }

@@ -47,7 +47,7 @@ std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec
 
 FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
   if (walker_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
-  return find_flow_routes(scenario, build_walking_grid(geometry));
+  return find_flow_routes(scenario, build_walking_grid(geometry, scenario.people.radius_m));
 }
 
 bool is_at_goal(const RobotState& robot, const dmrp_goal& goal) {
@@ -202,7 +202,8 @@ void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
   for (std::size_t i = 0; i < population_.people().size(); ++i) {
     const dmrp_person& person = population_.people()[i];
-    bodies_.push_back({person.position, person.radius_m, {}, !population_.is_recorded(i)});
+    const auto bearing = population_.is_recorded(i) ? SolidBody::Bearing::unstoppable : SolidBody::Bearing::gives_way;
+    bodies_.push_back({person.position, person.radius_m, {}, bearing});
   }
 }
 

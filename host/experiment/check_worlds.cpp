@@ -5,16 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "core/crowd_lattice.hpp"
+#include "core/first_places.hpp"
 #include "core/planning_grid.hpp"
-#include "core/population.hpp"
 #include "core/robot_draw.hpp"
 #include "core/static_geometry.hpp"
+#include "core/walking_groups.hpp"
 #include "host/input_error.hpp"
 
 namespace dmrp::host {
@@ -23,6 +24,7 @@ namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
 constexpr double most_cells = 1 << 24;
+constexpr int group_attempts = 32;
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;
@@ -148,14 +150,12 @@ class WorldCheck {
     return cells;
   }
 
-  // Broad people need more room than the grid on which all find their way leaves them.
   void check_flows() const {
-    const core::PlanningGrid walking = core::build_planning_grid(
-        geometry_, core::walking_resolution_m, std::max(core::walking_radius_m, scenario_.people.radius_m), 0.0);
+    const core::PlanningGrid walking = core::build_walking_grid(geometry_, scenario_.people.radius_m);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
-      if (scenario_.flows[i].start == core::FlowStart::from) check_room(i);
+    for (const core::RegionCrowd& crowd : core::crowds_by_region(scenario_)) check_room(crowd);
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(i);
   }
 
   // Where somebody is at a row of a recording.
@@ -175,22 +175,45 @@ class WorldCheck {
       }
   }
 
-  // For all who begin in the first region of this flow, in every repetition: the lattice lies elsewhere each time, and
-  // so do robots that are drawn. One is enough where there is room to spare and robots start where they always do.
-  void check_room(std::size_t index) const {
-    const std::uint32_t first = scenario_.flows[index].regions.front();
-    std::size_t people = 0;
-    for (const core::Flow& flow : scenario_.flows)
-      if (flow.start == core::FlowStart::from && flow.regions.front() == first) people += flow.people;
-    const std::size_t with_spare = people + people / 4;
+  // For all who begin in a region, in every repetition: the lattice lies elsewhere each time, and so do robots that are
+  // drawn. One is enough where there is room to spare and robots start where they always do.
+  void check_room(const core::RegionCrowd& crowd) const {
+    core::RegionCrowd with_spare = crowd;
+    const auto quarter = static_cast<std::ptrdiff_t>(crowd.group_sizes.size() / 4);
+    with_spare.group_sizes.insert(with_spare.group_sizes.end(), crowd.group_sizes.begin(),
+                                  crowd.group_sizes.begin() + quarter);
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
       const std::uint64_t seed = world_seed(experiment_, scenario_.name, repetition);
       const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
-      if (const std::size_t places = places_in(first, people, seed, starts); places < people)
-        file_.document->fail(file_.flows[index], fmt::format("no room in region '{}' for {} people, for {} at most",
-                                                             scenario_.regions[first].name, people, places));
-      if (most_drawn_ == 0 && places_in(first, with_spare, seed, starts) == with_spare) return;
+      if (const std::size_t places = places_for(crowd, seed, starts); places < crowd.people())
+        file_.document->fail(flow_from(crowd.region),
+                             fmt::format("no room in region '{}' for {} people, for {} at most",
+                                         scenario_.regions[crowd.region].name, crowd.people(), places));
+      if (most_drawn_ == 0 && places_for(with_spare, seed, starts) == with_spare.people()) return;
     }
+  }
+
+  SourcePosition flow_from(std::uint32_t region) const {
+    std::size_t flow = 0;
+    while (scenario_.flows[flow].start != core::FlowStart::from || scenario_.flows[flow].regions.front() != region)
+      ++flow;
+    return file_.flows[flow];
+  }
+
+  // A group that begins anew stands in the first region together.
+  void check_groups(std::size_t index) const {
+    const core::Flow& flow = scenario_.flows[index];
+    const std::uint32_t size = std::min(flow.group_size, flow.people);
+    if (size < 2 || !flow.respawn) return;
+    const core::Region& region = scenario_.regions[flow.regions.front()];
+    const core::StandingRoom room = {geometry_, scenario_.people.radius_m, {}, {}};
+    for (const double heading : {0.0, 0.5 * toolkit::pi})
+      for (int attempt = 0; attempt < group_attempts; ++attempt) {
+        toolkit::Stream stream(experiment_.seed, "check.groups", index, attempt);
+        if (core::draw_places(room, {region.lower, region.upper}, heading, size, stream)) return;
+      }
+    file_.document->fail(file_.flows[index], fmt::format("flow '{}': no room in region '{}' for a group of {}",
+                                                         flow.name, region.name, size));
   }
 
   // Where nobody begins near: the starts of robots that take part, or would under another number.
@@ -203,21 +226,14 @@ class WorldCheck {
     return starts;
   }
 
-  // How many of `people` find one, as core::Population spreads them.
-  std::size_t places_in(std::uint32_t index, std::size_t people, std::uint64_t seed,
-                        const std::vector<dmrp_vec2>& starts) const {
-    const core::Region& region = scenario_.regions[index];
-    const double radius_m = scenario_.people.radius_m;
-    const auto has_room = [&](dmrp_vec2 point) {
-      return std::none_of(
-                 starts.begin(), starts.end(),
-                 [&](dmrp_vec2 start) { return toolkit::distance(start, point) < core::spawn_distance_to_robots_m; }) &&
-             geometry_.disc_is_free(point, radius_m);
-    };
-    toolkit::Stream stream(seed, "population.from", index);
-    return core::spread_on_lattice({region.lower, region.upper}, people, 2.0 * radius_m + core::personal_gap_m, stream,
-                                   has_room)
-        .size();
+  // How many find one, as core::Population spreads them.
+  std::size_t places_for(const core::RegionCrowd& crowd, std::uint64_t seed,
+                         const std::vector<dmrp_vec2>& starts) const {
+    std::size_t count = 0;
+    for (const auto& group :
+         core::places_in_region(scenario_, crowd, {geometry_, scenario_.people.radius_m, starts, {}}, seed))
+      count += group.size();
+    return count;
   }
 
   void check_flow(const core::PlanningGrid& walking, std::size_t index) const {

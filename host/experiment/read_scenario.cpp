@@ -185,12 +185,20 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
   return static_cast<std::uint32_t>(found - names.begin());
 }
 
+// With nobody in the flow there are no groups either.
+std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
+  const auto size = static_cast<std::uint32_t>(value.integer(1, most_people));
+  if (flow.people > 0 && size > flow.people)
+    value.fail(fmt::format("'group_size' must be at most 'people', {}, not {}", flow.people, size));
+  return size;
+}
+
 void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
   const auto first_own = static_cast<std::uint32_t>(out.scenario.regions.size() - regions.size());  // after tiles'
   const auto region_of = [&](const TomlValue& value) { return first_own + region_index(value, regions); };
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("flow")) {
-    table.allow_only({"name", "from", "via", "to", "people", "start", "respawn"});
+    table.allow_only({"name", "from", "via", "to", "people", "start", "respawn", "group_size"});
     core::Flow flow;
     const TomlValue name = table.need("name");
     flow.name = name.line();
@@ -204,6 +212,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
       flow.start = core::FlowStart::from;
     if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
+    if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
   }

@@ -38,7 +38,7 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       geometry(std::make_shared<core::StaticGeometry>(scenario)),
       planning_grid(core::build_planning_grid(*geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
                                               simulation.planning_margin_m)),
-      walking_grid(core::build_walking_grid(*geometry)),
+      walking_grid(core::build_walking_grid(*geometry, scenario.people.radius_m)),
       routes(core::find_flow_routes(scenario, walking_grid)),
       view(scenario, experiment.robot, simulation, *geometry, planning_grid, walking_grid,
            nanoseconds(experiment.limits.step_time_s)) {}

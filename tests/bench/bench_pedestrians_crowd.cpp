@@ -50,7 +50,7 @@ core::Scenario furnished_square(std::uint32_t people) {
 }
 
 core::WorldView view_of(const core::Scenario& scenario, const core::StaticGeometry& geometry) {
-  const core::PlanningGrid walking_grid = core::build_walking_grid(geometry);
+  const core::PlanningGrid walking_grid = core::build_walking_grid(geometry, scenario.people.radius_m);
   return {scenario, {}, {}, geometry, walking_grid, walking_grid, 0};
 }
 
@@ -90,7 +90,7 @@ void CrossingCrowd::place_people(const Square& square, std::uint64_t seed) {
         chance.truncated_normal(settings.speed_mean, settings.speed_sd, settings.speed_min, settings.speed_max);
     send_to(person, static_cast<std::uint32_t>(person.id % 4));
     people_.push_back(person);
-    bodies_.push_back({at, settings.radius_m, {}});
+    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::Bearing::gives_way});
   }
 }
 

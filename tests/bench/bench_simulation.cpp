@@ -99,7 +99,7 @@ double real_time_factor(const Setup& setup) {
   const core::RobotSettings robot;
   const core::SimulationSettings settings;
   const auto geometry = std::make_shared<const core::StaticGeometry>(scenario);
-  const core::PlanningGrid walking_grid = core::build_walking_grid(*geometry);
+  const core::PlanningGrid walking_grid = core::build_walking_grid(*geometry, scenario.people.radius_m);
   const core::FlowRoutes routes = core::find_flow_routes(scenario, walking_grid);
   core::World world(scenario, robot, settings, geometry, routes, 1);
   Walkers walkers(setup, *geometry, walking_grid);

@@ -57,6 +57,7 @@ expect_mistake "people without a model" '/pedestrian_model/d;/pedestrian\.social
 expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$robot.*inside 'pillar'"
 expect_mistake "start too near to a wall" '' 's/^start = \[0.5, 2.5/start = [2.4, 3.6/' "$robot.*pillar.*clearance"
 expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
+expect_mistake "groups larger than their flow" '' 's/^people = .*/&\ngroup_size = 99/' "scenario\.toml:[0-9]+:[0-9]+: 'group_size' must be at most 'people', 2, not 99"
 expect_mistake "misspelt key of the scenario" '' 's/^size_m = \[8/siez_m = [8/' "scenario\.toml:[0-9]+:[0-9]+: .*'siez_m'.*did you mean 'size_m'"
 expect_mistake "more robots than there is room for" 's/^use = "crossing"/&\nrobots = 60/' '' "$line.*holds at most [0-9]+ robots.*not 60"
 expect_mistake "nobody there" 's/^use = "crossing"/&\nrobots = 0/' 's/^people = .*/people = 0/' "$line.*without robots nobody is there"

@@ -63,10 +63,10 @@ for people in 10 20 40 60 80 120 160; do
     "$((4 * people)) people walk round a ring of 160 m2" 70 3
 done
 
-# test 16: 1 m wide (the narrowest that the walking grid knows a way through), 24 m along the middle:
+# test 16: 0.8 m wide, as the corridor of Seyfried et al. (2005), 24 m along the middle:
 # 96 sin(pi / 48) (outer + inner) / 2
 for people in 1 2 3 4 6 8 10 12; do
   density=$(awk -v n="$people" 'BEGIN { printf "%.4g", 4 * n / 24 }')
-  ring 3.3225 4.3225 "$people" "16_single_file/ring_$density" "RiMEA 16: $density people/m" \
+  ring 3.4225 4.2225 "$people" "16_single_file/ring_$density" "RiMEA 16: $density people/m" \
     "$((4 * people)) people walk in a line round a ring of 24 m" 70 7
 done

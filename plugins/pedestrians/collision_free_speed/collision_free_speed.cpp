@@ -20,12 +20,9 @@ constexpr double negligible_influence = 1e-4;
 constexpr double broadest_radius_m = 0.5;
 constexpr double longest_step_m = 0.1;
 
-// Who is slower than this share of their wish and has somebody nearer than this is wedged in; they give way for moments
-// of this length, in this share of all moments.
-constexpr double wedged_speed_share = 0.1;
-constexpr double wedged_gap_m = 0.02;
-constexpr std::int64_t giving_way_ns = 1'000'000'000;
-constexpr double giving_way_share = 0.25;
+// Who has got on more slowly than this share of their wish, on average over the last seconds, is held up.
+constexpr double held_up_speed_share = 0.1;
+constexpr double held_up_s = 2.0;
 
 // The cells of the grid, m.
 constexpr double neighbor_cell_m = 1.0;
@@ -33,6 +30,13 @@ constexpr double neighbor_cell_m = 1.0;
 // The gap at which an influence has become negligible.
 double fading_gap(double strength, double range_m) {
   return range_m * std::log(std::max(strength / negligible_influence, 1.0));
+}
+
+// Whether one has less far to go than the other.
+bool goes_before(const Person& one, const Person& other) {
+  const double one_m = toolkit::distance(one.position, one.target);
+  const double other_m = toolkit::distance(other.position, other.target);
+  return one_m < other_m || (one_m == other_m && one.id < other.id);
 }
 
 }  // namespace
@@ -49,8 +53,8 @@ Descriptor CollisionFreeSpeed::describe() {
 
 Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
-  seed_ = seed;
   leanings_.start(seed);
+  progress_.clear();
   ways_.start(world.walking_grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = broadest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
@@ -65,32 +69,35 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
 
   const double step_s = seconds(crowd.dt_ns);
   for (const auto& [person, way, slot] : walkers_.by_place()) {
-    look_around(slot, person);
-    const Vec2 along = direction(way, person, crowd.t_ns);
+    look_around(slot, person, is_held_up(slot, person, step_s), crowd.people);
+    const Vec2 along = direction(way, person);
     velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
   }
   return Status::ok;
 }
 
-// All who are turned away from or who may be in the way, and the walls.
-void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person) {
+// All who are turned away from or who may be in the way, and the walls. Who is held up is turned aside only by those who
+// have less far to go: else people who are in each other's way at a door would turn each other back for ever.
+void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, bool held_up,
+                                     const Span<Person>& people) {
   near_.clear();
   const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
     if (other->slot == slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
+    const bool turns_aside = !held_up || other->slot == no_slot || !goes_before(person, people[other->slot]);
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight});
+                     other->weight, turns_aside});
   }
   walls_.nearest_points(person.position, wall_points_);
 }
 
 // Where to go, turned away from bodies and walls; a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person, std::int64_t t_ns) {
-  Vec2 sum = gives_way(person, t_ns) ? -way : way;
+Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person) {
+  Vec2 sum = way;
   for (const Near& other : near_) {
-    if (other.gap_m > neighbor_reach_m_) continue;
+    if (!other.turns_aside || other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
     sum -= other.apart * (influence / (other.gap_m + other.reach_m));
   }
@@ -100,15 +107,12 @@ Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person, std::int64_t 
   return toolkit::normalized(sum);
 }
 
-// Whether somebody who is wedged in steps back for a moment. Without it people who touch each other in an arch round a
-// door would stand there for ever: each is held by the two beside and by those who press from behind.
-bool CollisionFreeSpeed::gives_way(const Person& person, std::int64_t t_ns) const {
-  if (toolkit::norm(person.velocity) > wedged_speed_share * person.desired_speed) return false;
-  const bool touches =
-      std::any_of(near_.begin(), near_.end(), [](const Near& other) { return other.gap_m < wedged_gap_m; });
-  if (!touches) return false;
-  toolkit::Stream chance(seed_, "pedestrian.patience", person.id, t_ns / giving_way_ns);
-  return chance.uniform() < giving_way_share;
+bool CollisionFreeSpeed::is_held_up(std::uint32_t slot, const Person& person, double step_s) {
+  if (slot >= progress_.size()) progress_.resize(slot + 1);
+  Progress& progress = progress_[slot];
+  if (progress.person_id != person.id || !progress.known) progress = {true, person.id, {person.desired_speed, 0.0}};
+  progress.velocity += (person.velocity - progress.velocity) * std::min(step_s / held_up_s, 1.0);
+  return toolkit::norm(progress.velocity) < held_up_speed_share * person.desired_speed;
 }
 
 double CollisionFreeSpeed::speed_along(Vec2 direction, const Person& person, double step_s) const {

@@ -49,18 +49,26 @@ class CollisionFreeSpeed final : public PedestrianModel {
     double gap_m;
     double reach_m;  // sum of the radii
     double weight;
+    bool turns_aside;  // the direction minds it
   };
 
-  void look_around(std::uint32_t slot, const Person& person);
-  Vec2 direction(Vec2 way, const Person& person, std::int64_t t_ns);
-  bool gives_way(const Person& person, std::int64_t t_ns) const;
+  // How somebody got on of late.
+  struct Progress {
+    bool known = false;
+    std::uint64_t person_id = 0;
+    Vec2 velocity = {0.0, 0.0};  // mean, the older the less
+  };
+
+  bool is_held_up(std::uint32_t slot, const Person& person, double step_s);
+  void look_around(std::uint32_t slot, const Person& person, bool held_up, const Span<Person>& people);
+  Vec2 direction(Vec2 way, const Person& person);
   double speed_along(Vec2 direction, const Person& person, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
 
-  std::uint64_t seed_ = 0;
   double neighbor_reach_m_ = 0.0;  // beyond this gap nobody is turned away from
   WayFinder ways_;
   Leanings leanings_;
+  std::vector<Progress> progress_;  // by slot
   NeighborGrid neighbors_;
   WallGrid walls_;
   Walkers walkers_;

@@ -15,8 +15,8 @@ typedef struct dmrp_crowd {
   uint32_t person_count;
   int64_t t_ns;
   int64_t dt_ns;
-  // All who are there, ordered by slot. A person is known by its id: whoever leaves for good gives up the slot, and all
-  // after it move up; where somebody new takes the slot, the place has a new id and the others keep theirs.
+  // All who are there, ordered by slot. A person is known by its id: whoever leaves gives up the place, and all after it
+  // move up; somebody new who takes the slot, at once or later, has a new id, and the others keep theirs.
   const dmrp_person* people;
   const dmrp_agent* robots;  // all robots, as kind DMRP_AGENT_ROBOT, ordered by index
   uint32_t person_stride;

@@ -8,7 +8,7 @@
 // A person. Array element.
 typedef struct dmrp_person {
   uint64_t id;         // stable; a respawned person has a new one
-  uint32_t group;      // people of one group walk together; 0: alone
+  uint32_t group;      // people of one group walk together; 0: alone; respawned people are a new group
   uint32_t target_id;  // people with the same id walk to the same place: a key for cached navigation fields
   dmrp_vec2 position;  // m
   dmrp_vec2 velocity;  // m/s, as the world let it happen in the last step

@@ -40,7 +40,7 @@ typedef struct dmrp_world {
   uint32_t segment_count;
   int32_t self;                    // index of the robot that this local controller drives; -1 for the other kinds
   const dmrp_grid* planning_grid;  // cells of the global planners; free for every robot of the trial
-  const dmrp_grid* walking_grid;   // finer cells for the way-finding of people; free for a disc of 0.3 m
+  const dmrp_grid* walking_grid;   // finer cells for the way-finding of people; free for the scenario's people
 } dmrp_world;
 
 DMRP_ASSERT_SIZE(dmrp_shape, 56);

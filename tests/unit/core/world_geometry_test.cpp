@@ -204,12 +204,15 @@ TEST_CASE("a gap of exactly the size needed is open") {
 
 TEST_CASE("people's cells are finer and need no margin") {
   const StaticGeometry geometry(empty_scenario(2, 1));
-  const PlanningGrid grid = build_walking_grid(geometry);
+  const PlanningGrid grid = build_walking_grid(geometry, 0.3);
   CHECK(grid.width == 8);
   CHECK(grid.height == 4);
   const dmrp_grid sdk_grid = grid.view();
   CHECK_FALSE(GridView(sdk_grid).free(Cell{0, 0}));  // 0.125 m from the border
   CHECK(GridView(sdk_grid).free(Cell{1, 1}));        // 0.375 m
+  // slender people get through where others don't
+  CHECK(build_walking_grid(geometry, 0.1).free[0] == 1);
+  CHECK(build_walking_grid(geometry, 0.38).free[grid.width + 1] == 0);
 }
 
 TEST_CASE("the route of a flow goes around what is in its way") {
@@ -218,7 +221,7 @@ TEST_CASE("the route of a flow goes around what is in its way") {
   scenario.regions = {{"west", {1, 1}, {3, 3}}, {"east", {17, 1}, {19, 3}}};
   scenario.flows = {{"across", {0, 1, 0}, 4}};
   const StaticGeometry geometry(scenario);
-  const FlowRoutes routes = find_flow_routes(scenario, build_walking_grid(geometry));
+  const FlowRoutes routes = find_flow_routes(scenario, build_walking_grid(geometry, 0.3));
   REQUIRE(routes.legs.size() == 1);
   REQUIRE(routes.legs[0].size() == 2);
   const Route& there = routes.legs[0][0];

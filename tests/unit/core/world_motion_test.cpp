@@ -36,6 +36,16 @@ std::vector<dmrp_vec2> standing(const World& world) {
   return std::vector<dmrp_vec2>(world.people().size());
 }
 
+// Lets one person go straight there while all others stand.
+void walk_to(World& world, std::size_t person, dmrp_vec2 place) {
+  for (int i = 0; i < 2000; ++i) {
+    const dmrp_vec2 way = place - world.people()[person].position;
+    std::vector<dmrp_vec2> velocities = standing(world);
+    velocities[person] = toolkit::norm(way) < 0.02 ? way / 0.02 : toolkit::normalized(way);
+    world.step(velocities);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a quarter of a circle ends where geometry says") {
@@ -156,7 +166,7 @@ TEST_CASE("along a wall only the part of a motion that leads into it is lost") {
   CHECK(after.pose.theta == before.pose.theta);
 }
 
-TEST_CASE("nobody is pushed: not by robots, not by people") {
+TEST_CASE("a robot is pushed by nobody and pushes nobody") {
   Scenario scenario = empty_scenario(20, 20);
   scenario.robots = {robot({5, 5, 0}, dmrp_vec2{18, 5}), robot({8, 5, 0}, dmrp_vec2{18, 5})};
   add_people(scenario, 1);
@@ -176,6 +186,36 @@ TEST_CASE("nobody is pushed: not by robots, not by people") {
   CHECK(world.robots()[1].pose.x == 8.0);
   CHECK(world.robots()[1].pose.y == 5.0);
   CHECK(toolkit::distance(world.people()[0].position, {8.0, 5.0}) == Approx(0.55).margin(0.002));
+
+  // the first robot drives at the person from the other side
+  const dmrp_vec2 before = world.people()[0].position;
+  for (int i = 0; i < 300; ++i) world.step(standing(world));
+  CHECK(world.people()[0].position == before);
+}
+
+TEST_CASE("people push people, each bearing half, but never into a robot or a wall") {
+  Scenario scenario = empty_scenario(20, 20);
+  scenario.robots = {robot({12, 5, 0}, dmrp_vec2{18, 5})};
+  add_people(scenario, 2);
+  World world = make_world(scenario);
+  walk_to(world, 0, {8.0, 5.0});
+  walk_to(world, 1, {9.0, 5.0});
+
+  // who stands is met after 0.4 m and goes along at half the speed from then on
+  const std::vector<dmrp_vec2> eastward = {{1.0, 0.0}, {0.0, 0.0}};
+  for (int i = 0; i < 100; ++i) world.step(eastward);
+  CHECK(world.people()[1].velocity.x == Approx(0.5));
+  CHECK(world.people()[0].velocity.x == Approx(0.5));
+  CHECK(world.people()[1].position.x == Approx(9.8).margin(0.01));
+  for (int i = 0; i < 300; ++i) world.step(eastward);
+  CHECK(world.people()[1].position.x == Approx(12.0 - 0.55).margin(0.005));
+  CHECK(world.robots()[0].pose.x == 12.0);
+
+  walk_to(world, 1, {12.0, 0.6});
+  walk_to(world, 0, {12.0, 1.6});
+  for (int i = 0; i < 300; ++i) world.step(std::vector<dmrp_vec2>{{0.0, -1.0}, {0.0, 0.0}});
+  CHECK(world.people()[1].position.y == Approx(0.3).margin(0.002));
+  CHECK(world.people()[0].position.y == Approx(0.9).margin(0.004));
 }
 
 TEST_CASE("two who drive at each other meet in the middle") {

@@ -501,7 +501,7 @@ TEST_CASE("a world shown to plugins has everything, also as a copy of a copy") {
   scenario.robots[0].name = "anna";
   const StaticGeometry geometry(scenario);
   const PlanningGrid planning = build_planning_grid(geometry, 1.0, 0.25, 0.1);
-  const PlanningGrid walking = build_walking_grid(geometry);
+  const PlanningGrid walking = build_walking_grid(geometry, 0.3);
   std::unique_ptr<WorldView> copy;
   {
     const WorldView view(scenario, RobotSettings{}, SimulationSettings{}, geometry, planning, walking, 5);

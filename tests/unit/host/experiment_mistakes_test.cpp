@@ -251,6 +251,13 @@ TEST_CASE("mistakes in a scenario file") {
       {"people = 2", "people = -2", "44:10: 'people' must be at least 0, not -2"},
       {"people = 2", "people = 2\n[people]\nspeed_min = 3",
        "45:1: [people] needs speed_min <= speed_mean <= speed_max, not 3, 1.2, 2"},
+      {"people = 2", "people = 2\ngroup_size = 0", "45:14: 'group_size' must be at least 1, not 0"},
+      {"people = 2", "people = 2\ngroup_size = 3", "45:14: 'group_size' must be at most 'people', 2, not 3"},
+      {"people = 2", "people = 2\ngroup_size = 1.5", "45:14: 'group_size' must be an integer, not a number"},
+      {"people = 2", "people = 2\ngroups = 2",
+       "45:1: unknown key 'groups' in [[flow]] (there: name, from, via, to, people, start, respawn, group_size)"},
+      {"people = 2", "people = 2\n[[recording]]\nfile = \"crowd.csv\"\ngroup_size = 2",
+       "47:1: unknown key 'group_size' in [[recording]]"},
       // the world itself
       {"start = [0.5, 0.5]", "start = [5.0, 4.0]",
        "21:1: robot 1 starts inside 'wall' (clearance 0.00 m, needs 0.35 m)"},
@@ -281,6 +288,10 @@ TEST_CASE("mistakes in a scenario file") {
        "[[box]]\nname = \"c\"\ncenter_m = [1.2, 0.95]\nsize_m = [2.2, 0.1]\n"
        "[[box]]\nname = \"d\"\ncenter_m = [0.15, 2.0]\nsize_m = [0.3, 2.2]\n[[flow]]",
        "56:1: flow 'across': nobody can walk from 'west' to 'east'"},
+      {"upper_m = [1.5, 3.0]\n\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n\n[[flow]]",
+       "upper_m = [0.7, 1.6]\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n[[flow]]\n"
+       "group_size = 2",
+       "37:1: flow 'across': no room in region 'west' for a group of 2"},
   };
   for (const Mistake& mistake : mistakes) {
     INFO(mistake.to);

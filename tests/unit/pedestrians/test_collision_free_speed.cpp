@@ -184,6 +184,16 @@ TEST_CASE("CFS: who is blind to robots walks as though there were none") {
   }
 }
 
+TEST_CASE("CFS: two at a door who are in each other's way do not turn each other back for ever") {
+  // each stands where the other would pass, as two of the 1,000 did at the end of RiMEA's test 9
+  const WalkingWorld world({10.0, 6.0}, {{{0.0, 2.0}, {4.0, 3.0}}, {{5.0, 2.0}, {10.0, 3.0}}});
+  Walk walk(world, cfs);
+  walk.people = {person(1, {4.205, 3.236}, {4.508, 2.044}), person(2, {4.820, 3.236}, {4.303, 2.167})};
+  for (dmrp_person& each : walk.people) each.radius_m = 0.2;
+  const auto is_through = [&] { return walk.people[0].position.y < 2.6 && walk.people[1].position.y < 2.6; };
+  CHECK(walk.until(20.0, is_through));
+}
+
 TEST_CASE("CFS: the same seed gives the same walk, whatever the instance did before") {
   const WalkingWorld world({20.0, 20.0}, {{{5.0, 5.0}, {7.0, 6.0}}});
   const WalkingWorld another({10.0, 10.0}, {});

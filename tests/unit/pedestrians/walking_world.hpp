@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A small world for pedestrian models: boxes for walls, a walking grid, people who walk to their targets, and bodies
-// that are solid in the way that the host's world keeps them solid.
+// that lose the part of a motion that leads deeper into another. (The host's world lets people push each other.)
 #pragma once
 
 #include <cstdint>
