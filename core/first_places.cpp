@@ -5,11 +5,11 @@
 #include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "core/crowd_lattice.hpp"
@@ -57,7 +57,7 @@ std::optional<std::vector<FirstPlace>> places_beside(const RoutePlace& on_route,
 }
 
 // Evenly along the whole route, each group somewhere in a stretch of its own and somewhere aside of it: side by side
-// where that can be, else in narrower rows.
+// where that can be, else in narrower rows. Empty where there is no room.
 std::vector<FirstPlace> places_along_flow(const Flow& flow, const WalkingGroup& group, const std::vector<Route>& legs,
                                           const StandingRoom& room, std::uint64_t seed) {
   Stream stream(seed, "population.begin", group.first_slot);
@@ -77,17 +77,18 @@ std::vector<FirstPlace> places_along_flow(const Flow& flow, const WalkingGroup& 
       const dmrp_vec2 point = draw_in({on_route.point - reach, on_route.point + reach}, stream);
       if (auto places = places_beside(on_route, point, group.size, abreast, room)) return *std::move(places);
     }
-  throw std::runtime_error(
-      "no room along flow '" + flow.name + "' for " +
-      (group.size > 1 ? "a group of " + std::to_string(group.size) : "person " + std::to_string(group.first_slot)));
+  return {};
 }
 
-}  // namespace
+// The people who start in a region, of all flows.
+struct RegionCrowd {
+  std::uint32_t region = 0;
+  std::uint32_t first_flow = 0;
+  std::vector<std::uint32_t> group_sizes;  // in order of slots
+  bool rows_along_x = false;               // of companions: across the first flow's way
+};
 
-std::size_t RegionCrowd::people() const {
-  return std::accumulate(group_sizes.begin(), group_sizes.end(), std::size_t{0});
-}
-
+// The smallest region first.
 std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario) {
   std::map<std::uint32_t, RegionCrowd> by_region;
   for (const WalkingGroup& group : deal_groups(scenario.flows)) {
@@ -97,7 +98,7 @@ std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario) {
     const auto [at, is_new] = by_region.try_emplace(first);
     if (is_new) {
       const dmrp_vec2 way = middle_of(scenario.regions[flow.regions[1]]) - middle_of(scenario.regions[first]);
-      at->second = {first, {}, std::abs(way.y) > std::abs(way.x)};
+      at->second = {first, group.flow, {}, std::abs(way.y) > std::abs(way.x)};
     }
     at->second.group_sizes.push_back(group.size);
   }
@@ -112,6 +113,7 @@ std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario) {
   return crowds;
 }
 
+// Parallel to the crowd's group_sizes; for fewer groups where there is no room for more.
 std::vector<std::vector<dmrp_vec2>> places_in_region(const Scenario& scenario, const RegionCrowd& crowd,
                                                      const StandingRoom& room, std::uint64_t seed) {
   const toolkit::Rectangle where = {scenario.regions[crowd.region].lower, scenario.regions[crowd.region].upper};
@@ -129,6 +131,22 @@ std::vector<std::vector<dmrp_vec2>> places_in_region(const Scenario& scenario, c
   return places;
 }
 
+void refuse_if_too_few(const Scenario& scenario, const RegionCrowd& crowd, std::size_t found,
+                       const std::vector<dmrp_vec2>& taken) {
+  const std::size_t people = std::accumulate(crowd.group_sizes.begin(), crowd.group_sizes.end(), std::size_t{0});
+  if (found == people) return;
+  const Region& region = scenario.regions[crowd.region];
+  const auto others = std::count_if(taken.begin(), taken.end(), [&](dmrp_vec2 other) {
+    return toolkit::contains(toolkit::Rectangle{region.lower, region.upper}, other);
+  });
+  throw NoRoom(crowd.first_flow,
+               "no room in region '" + region.name + "' for " + std::to_string(people) + " people, for " +
+                   std::to_string(found) + " at most" +
+                   (others > 0 ? " beside " + std::to_string(others) + " who are there already" : ""));
+}
+
+}  // namespace
+
 std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes& routes, const StandingRoom& room,
                                      std::uint64_t seed) {
   std::vector<dmrp_vec2> taken(room.taken.begin(), room.taken.end());
@@ -142,11 +160,10 @@ std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes&
     const auto& places = by_region[crowd.region].of_groups = places_in_region(scenario, crowd, room_now(), seed);
     std::size_t found = 0;
     for (const auto& group : places) found += group.size();
-    if (found < crowd.people())
-      throw std::runtime_error("no room in region '" + scenario.regions[crowd.region].name + "' for " +
-                               std::to_string(crowd.people()) + " people, " + std::to_string(found) + " at most");
+    refuse_if_too_few(scenario, crowd, found, taken);
     for (const auto& group : places) taken.insert(taken.end(), group.begin(), group.end());
   }
+  std::vector<std::size_t> placed_along(scenario.flows.size());
   std::vector<FirstPlace> out;
   for (const WalkingGroup& group : deal_groups(scenario.flows)) {
     const Flow& flow = scenario.flows[group.flow];
@@ -156,10 +173,16 @@ std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes&
       ++places.used;
       continue;
     }
-    for (const FirstPlace& place : places_along_flow(flow, group, routes.legs[group.flow], room_now(), seed)) {
+    const auto places = places_along_flow(flow, group, routes.legs[group.flow], room_now(), seed);
+    if (places.empty())
+      throw NoRoom(group.flow, "no room along flow '" + flow.name + "' for " + std::to_string(flow.people) + " people" +
+                                   (group.size > 1 ? " in groups of " + std::to_string(group.size) : "") + ", for " +
+                                   std::to_string(placed_along[group.flow]) + " at most");
+    for (const FirstPlace& place : places) {
       out.push_back(place);
       taken.push_back(place.position);
     }
+    placed_along[group.flow] += places.size();
   }
   return out;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "core/flow_routes.hpp"
@@ -17,27 +19,18 @@ struct FirstPlace {
   std::uint32_t leg = 0;
 };
 
-// By slot. `room`: without the people who are to be placed. Each group's draws are of a stream of its own; those who
-// start in a region share one. Throws std::runtime_error if there is no room for everybody.
-std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes& routes, const StandingRoom& room,
-                                     std::uint64_t seed);
-
-// The people who start in a region, of all flows.
-struct RegionCrowd {
-  std::uint32_t region = 0;
-  std::vector<std::uint32_t> group_sizes;  // in order of slots
-  bool rows_along_x = false;               // of companions: across the first flow's way
-
-  std::size_t people() const;
+// Somebody of a flow found no place.
+struct NoRoom : std::runtime_error {
+  NoRoom(std::uint32_t index, const std::string& text) : std::runtime_error(text), flow(index) {}
+  std::uint32_t flow;  // index into Scenario::flows
 };
 
-// The smallest region first: where regions overlap, it has the least room to evade.
-std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario);
-
-// Places for them, parallel to group_sizes; for fewer groups where there is no room for more. People who are all alone
-// stand on a jittered hexagonal lattice as wide as the region permits, for densities that people drawn one by one do not
-// reach; where there are groups, on one in which companions are near.
-std::vector<std::vector<dmrp_vec2>> places_in_region(const Scenario& scenario, const RegionCrowd& crowd,
-                                                     const StandingRoom& room, std::uint64_t seed);
+// By slot. `room`: without the people who are to be placed. Each group's draws are of a stream of its own; those who
+// start in a region share one, the smallest region first: where regions overlap, it has the least room to evade. There
+// people who are all alone stand on a jittered hexagonal lattice as wide as the region permits, for densities that
+// people drawn one by one do not reach; where there are groups, on one in which companions are near. Throws NoRoom if
+// there is none for everybody.
+std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes& routes, const StandingRoom& room,
+                                     std::uint64_t seed);
 
 }  // namespace dmrp::core

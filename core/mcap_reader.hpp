@@ -3,19 +3,67 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
 #include <span>
-#include <string_view>
+#include <string>
+#include <vector>
 
 #include "mcap.hpp"
+#include "trace_bytes.hpp"
 
 namespace dmrp::core {
 
-using McapMessageSink = std::function<void(std::int64_t log_time_ns, std::span<const std::uint8_t> message)>;
+struct McapMessage {
+  std::int64_t log_time_ns = 0;
+  std::span<const std::uint8_t> data;
+};
 
-// Goes through `file`, the bytes of a file, and hands out the messages whose channel is called `topic`. Returns whether
-// the file is whole: one that was cut short ends with its last whole chunk. Throws TraceError where it is damaged.
-// Takes chunks that are not compressed or by zstd.
-bool read_mcap(std::span<const std::uint8_t> file, std::string_view topic, const McapMessageSink& sink);
+// Holds one chunk of the file at a time. Takes chunks that are not compressed or by zstd.
+//
+//   McapReader file(path, "robots");
+//   while (const auto message = file.next()) ...
+class McapReader {
+ public:
+  // Throws std::system_error where the file cannot be opened.
+  McapReader(const std::filesystem::path& path, std::string topic);
+
+  // The next message whose channel is called `topic`, valid until the next call; none after the last. A file that was
+  // cut short ends with its last whole chunk. Throws TraceError where the file is damaged, and std::system_error.
+  std::optional<McapMessage> next();
+
+  // The next message is the first again.
+  void rewind();
+
+  // Once there was no next message: whether the file was not cut short.
+  bool is_whole() const { return is_whole_; }
+
+ private:
+  void begin();
+  bool magic_follows();
+  void read(std::vector<std::uint8_t>& bytes, std::uint64_t count);
+  void skip_to(std::uint64_t position);
+  bool read_record();
+  void open_chunk(ByteCursor in);
+  std::optional<McapMessage> next_in_chunk();
+  void take_channel(ByteCursor in);
+  std::optional<McapMessage> take_message(ByteCursor in) const;
+
+  std::filesystem::path path_;
+  std::string topic_;
+  std::ifstream file_;
+  std::uint64_t size_ = 0;      // of the file, when its reading began
+  std::uint64_t position_ = 0;  // in the file
+  bool begun_ = false;
+  bool ended_ = false;
+  bool is_whole_ = false;
+  std::set<std::uint16_t> channels_;  // of the topic
+  McapOpcode opcode_{};               // of the last record outside chunks ...
+  std::vector<std::uint8_t> record_;  // ... and its body
+  std::vector<std::uint8_t> chunk_;   // decompressed
+  std::size_t chunk_position_ = 0;
+};
 
 }  // namespace dmrp::core

@@ -29,8 +29,7 @@ namespace dmrp::core {
 // Recorded people come and leave with their tracks, in the slots after those of the flows.
 class Population {
  public:
-  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws std::runtime_error if there is no room for
-  // everybody.
+  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws NoRoom if there is none for everybody.
   Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes,
              std::uint64_t seed, std::span<const dmrp_vec2> robots);
 

@@ -19,6 +19,7 @@
 namespace dmrp::core {
 
 inline constexpr std::uint32_t trace_format_version = 1;
+inline constexpr const char* trace_topic = "dmrp/trace";  // of a file's channel
 
 enum class TraceRecordKind : std::uint8_t {
   world = 1,

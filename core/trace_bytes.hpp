@@ -46,14 +46,15 @@ class ByteWriter {
   TraceBytes& bytes_;
 };
 
-// Reads bytes [position, end) of a trace; throws TraceError rather than read beyond.
+// Reads bytes one after the other; throws TraceError rather than read beyond. `origin`: where they begin in what they
+// are a part of, for the error.
 class ByteCursor {
  public:
-  ByteCursor(std::span<const std::uint8_t> bytes, std::size_t position, std::size_t end)
-      : bytes_(bytes), position_(position), end_(end) {}
+  explicit ByteCursor(std::span<const std::uint8_t> bytes, std::size_t origin = 0) : rest_(bytes), position_(origin) {}
 
-  std::size_t position() const { return position_; }
-  bool at_end() const { return position_ == end_; }
+  std::size_t position() const { return position_; }  // from the beginning of what the bytes are a part of
+  bool at_end() const { return rest_.empty(); }
+  std::span<const std::uint8_t> rest() const { return rest_; }
 
   template <TraceValue Value>
   Value take() {
@@ -65,8 +66,21 @@ class ByteCursor {
   template <TraceValue Value>
   void take_array(Value* values, std::size_t count) {
     require(count, sizeof(Value));
-    if (count > 0) std::memcpy(values, bytes_.data() + position_, count * sizeof(Value));
-    position_ += count * sizeof(Value);
+    if (count > 0) std::memcpy(values, rest_.data(), count * sizeof(Value));
+    skip(count * sizeof(Value));
+  }
+
+  std::span<const std::uint8_t> take_bytes(std::uint64_t count) {
+    require(count, 1);
+    const auto taken = rest_.first(count);
+    skip(count);
+    return taken;
+  }
+
+  // The next bytes, to be read by themselves.
+  ByteCursor part(std::uint64_t count) {
+    const std::size_t begin = position_;
+    return ByteCursor(take_bytes(count), begin);
   }
 
   // A count of elements of which each takes `element_bytes` or more: what follows has room for them, so that a damaged
@@ -78,22 +92,24 @@ class ByteCursor {
   }
 
   std::string_view take_text() {
-    const std::uint32_t size = take_count(1);
-    const auto* begin = reinterpret_cast<const char*>(bytes_.data() + position_);
-    position_ += size;
-    return {begin, size};
+    const auto bytes = take_bytes(take<std::uint32_t>());
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw TraceError(position_, what); }
 
-  void require(std::size_t count, std::size_t element_bytes) const {
-    if (count > (end_ - position_) / element_bytes) fail("the record ends too early");
+  void require(std::uint64_t count, std::size_t element_bytes) const {
+    if (count > rest_.size() / element_bytes) fail("the record ends too early");
   }
 
  private:
-  std::span<const std::uint8_t> bytes_;
+  void skip(std::size_t count) {
+    rest_ = rest_.subspan(count);
+    position_ += count;
+  }
+
+  std::span<const std::uint8_t> rest_;
   std::size_t position_;
-  std::size_t end_;
 };
 
 }  // namespace dmrp::core

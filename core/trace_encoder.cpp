@@ -106,6 +106,14 @@ void put_path(ByteWriter& out, const dmrp_path& path) {
   }
 }
 
+// Elements that lie in the trace as they do in memory: all at once, unless their owner knows more of them than we do.
+template <class Element>
+void put_elements(ByteWriter& out, const Element* elements, std::uint32_t count, std::uint32_t stride) {
+  out.put(count);
+  if (stride == sizeof(Element)) return out.put_array(elements, count);
+  for (std::uint32_t i = 0; i < count; ++i) out.put(*DMRP_AT(Element, elements, stride, i));
+}
+
 void put_call(ByteWriter& out, const dmrp_call& call) {
   out.put(call.kind);
   out.put(call.robot);
@@ -117,17 +125,19 @@ void put_call(ByteWriter& out, const dmrp_call& call) {
 
 template <class WriteBody>
 void TraceEncoder::record(TraceRecordKind kind, WriteBody&& write_body) {
-  const std::size_t begin = bytes_.size();
-  ByteWriter out(bytes_);
+  record_.clear();
+  ByteWriter out(record_);
   out.put(std::uint32_t{0});
   out.put(kind);
   write_body(out);
 
-  const std::size_t body_bytes = bytes_.size() - begin - trace_record_prefix_bytes;
-  if (body_bytes > std::numeric_limits<std::uint32_t>::max()) throw TraceError(begin, "a record of more than 4 GB");
+  const std::size_t body_bytes = record_.size() - trace_record_prefix_bytes;
+  if (body_bytes > std::numeric_limits<std::uint32_t>::max())
+    throw TraceError(written_bytes_, "a record of more than 4 GB");
   const auto length = static_cast<std::uint32_t>(body_bytes);
-  std::memcpy(bytes_.data() + begin, &length, sizeof(length));
-  if (sink_) sink_(now_ns_, std::span<const std::uint8_t>(bytes_).subspan(begin));
+  std::memcpy(record_.data(), &length, sizeof(length));
+  written_bytes_ += record_.size();
+  sink_(now_ns_, record_);
 }
 
 TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)
@@ -170,15 +180,9 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
     out.put(sample.dt_ns);
     out.put(sample.control_tick);
     out.put(sample.plan ? sample.plan->revision : std::uint64_t{0});
-    out.put(sample.robot_count);
-    for (std::uint32_t i = 0; i < sample.robot_count; ++i)
-      out.put(*DMRP_AT(dmrp_robot_sample, sample.robots, sample.robot_stride, i));
-    out.put(sample.person_count);
-    for (std::uint32_t i = 0; i < sample.person_count; ++i)
-      out.put(*DMRP_AT(dmrp_person, sample.people, sample.person_stride, i));
-    out.put(sample.contact_count);
-    for (std::uint32_t i = 0; i < sample.contact_count; ++i)
-      out.put(*DMRP_AT(dmrp_contact, sample.contacts, sample.contact_stride, i));
+    put_elements(out, sample.robots, sample.robot_count, sample.robot_stride);
+    put_elements(out, sample.people, sample.person_count, sample.person_stride);
+    put_elements(out, sample.contacts, sample.contact_count, sample.contact_stride);
     out.put(sample.call_count);
     for (std::uint32_t i = 0; i < sample.call_count; ++i)
       put_call(out, *DMRP_AT(dmrp_call, sample.calls, sample.call_stride, i));

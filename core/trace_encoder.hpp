@@ -15,20 +15,19 @@
 
 namespace dmrp::core {
 
-// Keeps the trace in memory and hands every record, once it is whole, to a sink as well (a file, say). What there is to
-// look at goes to the Foxglove channels, if any.
+// Hands every record, once it is whole, to a sink (a file, say) and keeps none. What there is to look at goes to the
+// Foxglove channels, if any.
 //
-//   TraceEncoder trace(world);
+//   TraceEncoder trace(world, sink);
 //   trace.plan(plan, conflicts);
 //   for (...) trace.sample(sample);
 //   trace.end(end, "all robots arrived");
-//   TraceReader reader(trace.bytes());
 class TraceEncoder {
  public:
   // `t_ns` is the simulated time at which the record was made.
   using RecordSink = std::function<void(std::int64_t t_ns, std::span<const std::uint8_t> record)>;
 
-  explicit TraceEncoder(const dmrp_world& world, RecordSink sink = {}, FoxgloveChannels* foxglove = nullptr);
+  explicit TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove = nullptr);
 
   // A call of the planner and what it gave. One that gave no plan has no paths. `conflicts`: what the plan validator
   // counted between robots (of uncoordinated planners only; others' plans have none).
@@ -47,13 +46,14 @@ class TraceEncoder {
   // The last record. `reason` is for people.
   void end(const dmrp_trial_end& end, std::string_view reason = {});
 
-  const TraceBytes& bytes() const { return bytes_; }
+  std::size_t written_bytes() const { return written_bytes_; }  // of all records
 
  private:
   template <class WriteBody>
   void record(TraceRecordKind kind, WriteBody&& write_body);
 
-  TraceBytes bytes_;
+  TraceBytes record_;  // being written
+  std::size_t written_bytes_ = 0;
   RecordSink sink_;
   FoxgloveChannels* foxglove_;
   std::int64_t now_ns_ = 0;  // of the last sample

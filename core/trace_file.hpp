@@ -36,8 +36,4 @@ class TraceFileWriter {
   FoxgloveChannels foxglove_;
 };
 
-// The trace in a file; one that was cut short ends with its last whole chunk. Throws std::system_error where the file
-// cannot be read, TraceError where it is damaged.
-TraceBytes read_trace_file(const std::filesystem::path& path);
-
 }  // namespace dmrp::core

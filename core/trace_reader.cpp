@@ -257,85 +257,108 @@ void take_calls(ByteCursor& in, std::vector<dmrp_call>& calls) {
 
 }  // namespace
 
-TraceReader::TraceReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
-  ByteCursor in(bytes_, 0, bytes_.size());
-  do {
-    const std::size_t begin = in.position();
-    const std::uint32_t body_bytes = in.take<std::uint32_t>();
-    const auto kind = in.take<TraceRecordKind>();
-    const std::size_t body_begin = in.position();
-    if (body_bytes > bytes_.size() - body_begin) throw TraceError(begin, "the last record is cut off");
-    if ((kind == TraceRecordKind::world) != (begin == 0))
+TraceReader::TraceReader(TraceRecords records, TraceExtent extent) : records_(std::move(records)), extent_(extent) {
+  bool is_first = true;
+  while (const auto record = records_.next()) {
+    const std::size_t begin = record->offset - trace_record_prefix_bytes;
+    if ((record->kind == TraceRecordKind::world) != is_first)
       throw TraceError(begin, "the world must come first, and once");
     if (ended_) throw TraceError(begin, "a record after the end");
-    read_record(kind, body_begin, body_begin + body_bytes);
-    in = ByteCursor(bytes_, body_begin + body_bytes, bytes_.size());
-  } while (!in.at_end());
+    read_record(*record);
+    is_first = false;
+  }
+  if (is_first) throw TraceError(0, "nothing is in it");
+  rewind();
 }
 
-void TraceReader::read_record(TraceRecordKind kind, std::size_t body_begin, std::size_t body_end) {
-  ByteCursor in(bytes_, body_begin, body_end);
-  switch (kind) {
+void TraceReader::read_record(const TraceRecord& record) {
+  ByteCursor in(record.body, record.offset);
+  switch (record.kind) {
     case TraceRecordKind::world:
       if (const auto version = in.take<std::uint32_t>(); version != trace_format_version)
-        throw TraceError(body_begin,
+        throw TraceError(record.offset,
                          "format version " + std::to_string(version) + ", not " + std::to_string(trace_format_version));
       world_ = take_world(in, storage_);
       break;
-    case TraceRecordKind::plan: {
-      const TracePlan made = take_plan(in, storage_, world_.robot_count);
-      if (made.plan.path_count > 0 && plan_of_revision(made.plan.revision)) in.fail("a second plan of this revision");
-      plans_.push_back(made);
+    case TraceRecordKind::plan:
+      read_plan(in);
       break;
-    }
     case TraceRecordKind::sample:
-      read_sample(body_begin, body_end);
-      sample_offsets_.push_back({body_begin, body_end});
-      return;
-    case TraceRecordKind::scan: {
-      TraceScan& scan = scans_.emplace_back();
-      scan.t_ns = in.take<std::int64_t>();
-      scan.robot = in.take<std::uint32_t>();
-      if (scan.robot >= world_.robot_count) in.fail("a scan of an unknown robot");
-      scan.angle_min = in.take<double>();
-      scan.angle_increment = in.take<double>();
-      scan.range_min = in.take<double>();
-      scan.range_max = in.take<double>();
-      const std::uint32_t count = in.take_count(sizeof(float));
-      scan.ranges = {take_stored<float>(in, storage_, count), count};
+      read_sample(in);
+      ++sample_count_;
       break;
-    }
-    case TraceRecordKind::trajectory: {
-      TraceTrajectory& trajectory = trajectories_.emplace_back();
-      trajectory.t_ns = in.take<std::int64_t>();
-      trajectory.source = in.take<TraceSource>();
-      trajectory.role = in.take<std::uint32_t>();
-      trajectory.step_ns = in.take<std::int64_t>();
-      const std::uint32_t count = in.take_count(sizeof(dmrp_pose));
-      trajectory.poses = {take_stored<dmrp_pose>(in, storage_, count), count};
+    case TraceRecordKind::scan:
+      read_scan(in);
       break;
-    }
-    case TraceRecordKind::note: {
-      TraceNote& note = notes_.emplace_back();
-      note.t_ns = in.take<std::int64_t>();
-      note.source = in.take<TraceSource>();
-      note.text = in.take_text();
+    case TraceRecordKind::trajectory:
+      read_trajectory(in);
       break;
-    }
+    case TraceRecordKind::note:
+      read_note(in);
+      break;
     case TraceRecordKind::end:
       end_ = take_end(in, storage_, world_.robot_count);
-      reason_ = in.take_text();
+      reason_ = take_stored_text(in, storage_);
       ended_ = true;
       break;
     default:
-      throw TraceError(body_begin - 1, "a record of unknown kind");
+      throw TraceError(record.offset - 1, "a record of unknown kind");
   }
   if (!in.at_end()) in.fail("the record is longer than what it holds");
 }
+void TraceReader::read_plan(ByteCursor& in) {
+  const TracePlan made = take_plan(in, storage_, world_.robot_count);
+  if (made.plan.path_count > 0 && plan_of_revision(made.plan.revision)) in.fail("a second plan of this revision");
+  plans_.push_back(made);
+}
+
+void TraceReader::read_scan(ByteCursor& in) {
+  TraceScan scan;
+  scan.t_ns = in.take<std::int64_t>();
+  scan.robot = in.take<std::uint32_t>();
+  if (scan.robot >= world_.robot_count) in.fail("a scan of an unknown robot");
+  scan.angle_min = in.take<double>();
+  scan.angle_increment = in.take<double>();
+  scan.range_min = in.take<double>();
+  scan.range_max = in.take<double>();
+  const std::uint32_t count = in.take_count(sizeof(float));
+  if (extent_ == TraceExtent::samples) {
+    in.take_bytes(count * sizeof(float));
+  } else {
+    scan.ranges = {take_stored<float>(in, storage_, count), count};
+    scans_.push_back(scan);
+  }
+}
+
+void TraceReader::read_trajectory(ByteCursor& in) {
+  TraceTrajectory trajectory;
+  trajectory.t_ns = in.take<std::int64_t>();
+  trajectory.source = in.take<TraceSource>();
+  trajectory.role = in.take<std::uint32_t>();
+  trajectory.step_ns = in.take<std::int64_t>();
+  const std::uint32_t count = in.take_count(sizeof(dmrp_pose));
+  if (extent_ != TraceExtent::everything) {
+    in.take_bytes(count * sizeof(dmrp_pose));
+  } else {
+    trajectory.poses = {take_stored<dmrp_pose>(in, storage_, count), count};
+    trajectories_.push_back(trajectory);
+  }
+}
+
+void TraceReader::read_note(ByteCursor& in) {
+  TraceNote note;
+  note.t_ns = in.take<std::int64_t>();
+  note.source = in.take<TraceSource>();
+  if (extent_ != TraceExtent::everything) {
+    in.take_text();
+  } else {
+    note.text = take_stored_text(in, storage_);
+    notes_.push_back(note);
+  }
+}
 
 // Decodes into sample_, over the sample before.
-void TraceReader::read_sample(std::size_t body_begin, std::size_t body_end) {
-  ByteCursor in(bytes_, body_begin, body_end);
+void TraceReader::read_sample(ByteCursor& in) {
   sample_ = {};
   sample_.struct_size = sizeof(dmrp_sample);
   sample_.t_ns = in.take<std::int64_t>();
@@ -354,7 +377,6 @@ void TraceReader::read_sample(std::size_t body_begin, std::size_t body_end) {
   take_calls(in, calls_);
   for (const dmrp_call& call : calls_)
     if (call.kind == DMRP_CALL_CONTROL && call.robot >= world_.robot_count) in.fail("a call for an unknown robot");
-  if (!in.at_end()) in.fail("the record is longer than what it holds");
 
   sample_.robots = robots_.data();
   sample_.robot_count = static_cast<std::uint32_t>(robots_.size());
@@ -371,10 +393,13 @@ void TraceReader::read_sample(std::size_t body_begin, std::size_t body_end) {
 }
 
 const dmrp_sample* TraceReader::next_sample() {
-  if (next_sample_ == sample_offsets_.size()) return nullptr;
-  const SampleOffset& offset = sample_offsets_[next_sample_++];
-  read_sample(offset.body_begin, offset.body_end);
-  return &sample_;
+  while (const auto record = records_.next()) {
+    if (record->kind != TraceRecordKind::sample) continue;
+    ByteCursor in(record->body, record->offset);
+    read_sample(in);
+    return &sample_;
+  }
+  return nullptr;
 }
 
 const dmrp_plan* TraceReader::first_plan() const {

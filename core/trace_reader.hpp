@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "trace.hpp"
+#include "trace_bytes.hpp"
+#include "trace_records.hpp"
 
 namespace dmrp::core {
 
@@ -45,11 +47,13 @@ struct TraceNote {
   std::int64_t t_ns = 0;
   std::string_view text;
 };
+// What of a trace stays at hand beside world, plans and end. Samples never do.
+enum class TraceExtent { samples, with_scans, everything };
 
-// The constructor checks the whole trace and throws TraceError; after it nothing fails. A trace without an end record
-// is whole as far as it goes (records are never cut).
+// The constructor checks the whole trace and throws TraceError; after it nothing fails, unless a file that is being
+// read changes. A trace without an end record is whole as far as it goes (records are never cut).
 //
-//   TraceReader trace(bytes);
+//   TraceReader trace(TraceRecords(path), TraceExtent::samples);
 //   metric.begin(trace.first_plan());
 //   while (const dmrp_sample* sample = trace.next_sample()) metric.observe(*sample);
 //   metric.finish(*trace.end());
@@ -58,8 +62,10 @@ struct TraceNote {
 // World, plans, end, scans, trajectories and notes keep their addresses and live as long as the reader.
 class TraceReader {
  public:
-  // `bytes` must outlive the reader.
-  explicit TraceReader(std::span<const std::uint8_t> bytes);
+  explicit TraceReader(TraceRecords records, TraceExtent extent = TraceExtent::everything);
+
+  // `bytes`, a whole trace in memory, outlive the reader.
+  explicit TraceReader(std::span<const std::uint8_t> bytes) : TraceReader(TraceRecords(bytes)) {}
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
 
@@ -68,9 +74,9 @@ class TraceReader {
   const std::deque<TracePlan>& plans() const { return plans_; }
   const dmrp_plan* first_plan() const;  // the first one with paths; null if there is none
 
-  std::size_t sample_count() const { return sample_offsets_.size(); }
+  std::size_t sample_count() const { return sample_count_; }
   const dmrp_sample* next_sample();  // null after the last; valid until the next call
-  void rewind() { next_sample_ = 0; }
+  void rewind() { records_.rewind(); }
 
   const dmrp_trial_end* end() const { return ended_ ? &end_ : nullptr; }  // null where the trial was cut short
   std::string_view reason() const { return reason_; }
@@ -80,11 +86,16 @@ class TraceReader {
   const std::vector<TraceNote>& notes() const { return notes_; }
 
  private:
-  void read_record(TraceRecordKind kind, std::size_t body_begin, std::size_t body_end);
-  void read_sample(std::size_t body_begin, std::size_t body_end);
+  void read_record(const TraceRecord& record);
+  void read_plan(ByteCursor& in);
+  void read_sample(ByteCursor& in);
+  void read_scan(ByteCursor& in);
+  void read_trajectory(ByteCursor& in);
+  void read_note(ByteCursor& in);
   const dmrp_plan* plan_of_revision(std::uint64_t revision) const;
 
-  std::span<const std::uint8_t> bytes_;
+  TraceRecords records_;
+  TraceExtent extent_;
   std::pmr::monotonic_buffer_resource storage_;  // of everything that lives as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
@@ -95,12 +106,7 @@ class TraceReader {
   bool ended_ = false;
   std::string_view reason_;
 
-  struct SampleOffset {
-    std::size_t body_begin;
-    std::size_t body_end;
-  };
-  std::vector<SampleOffset> sample_offsets_;
-  std::size_t next_sample_ = 0;
+  std::size_t sample_count_ = 0;
   dmrp_sample sample_{};
   std::vector<dmrp_robot_sample> robots_;
   std::vector<dmrp_person> people_;

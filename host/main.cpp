@@ -95,10 +95,28 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--seed", options.seed, "for planners that draw")->type_name("N")->capture_default_str();
+  command->add_option("--seed", options.seed, "for robots that are drawn and planners that draw")
+      ->type_name("N")
+      ->capture_default_str();
   command->add_option("--paths", options.paths, "writes the paths, CSV agent,t,x,y in cells, y from the top")
       ->type_name("FILE");
   command->add_flag("--json", options.json, "the figures as JSON");
+  return command;
+}
+
+CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
+  CLI::App* command = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
+  command->add_option("scenario", options.scenario, "a shipped one, or a path to scenario.toml")->required();
+  command->add_option("--agents", options.agents, "robots to draw for the seed, as plan does, in place of those listed")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  command->add_option("--planner", options.planner, "plan with this global planner")->type_name("ID");
+  command->add_option("--plugin", options.plugins, "another plugin library")->type_name("LIB.so");
+  command->add_option("--set", options.settings, "a parameter of the planner")->type_name("KEY=VALUE");
+  command->add_option("--seed", options.seed, "for robots that are drawn and planners that draw")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--svg", options.svg, "where to (default: standard output)")->type_name("FILE");
   return command;
 }
 
@@ -153,12 +171,7 @@ int run_main(int argc, char** argv) {
   plugins->add_flag("--markdown", markdown, "as a reference page")->excludes(as_json);
 
   DrawOptions draw;
-  CLI::App* drawing = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
-  drawing->add_option("scenario", draw.scenario, "a shipped one, or a path to scenario.toml")->required();
-  drawing->add_option("--planner", draw.planner, "plan with this global planner")->type_name("ID");
-  drawing->add_option("--plugin", draw.plugins, "another plugin library")->type_name("LIB.so");
-  drawing->add_option("--set", draw.settings, "a parameter of the planner")->type_name("KEY=VALUE");
-  drawing->add_option("--svg", draw.svg, "where to (default: standard output)")->type_name("FILE");
+  CLI::App* drawing = add_draw(app, draw);
 
   EvaluateOptions evaluate;
   CLI::App* evaluating = add_evaluate(app, evaluate);

@@ -20,6 +20,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_exact = 8;
 constexpr std::uint64_t draws = 5'000;
 constexpr std::uint32_t resamples = 1'000;
+constexpr double equal_within = 1e-12;  // means of products are rounded, of one block zero
 
 using Ranks = std::vector<std::int64_t>;
 
@@ -60,15 +61,36 @@ double exact_p(const Ranks& x, Ranks y) {
   return static_cast<double>(as_far) / static_cast<double>(orders);
 }
 
-double drawn_p(const Ranks& x, Ranks y, std::uint64_t seed) {
-  const std::int64_t observed = std::abs(product(x, y));
+// Both in order of blocks. All orders within blocks have the mean product that the blocks' own means have.
+double drawn_p(const std::vector<Ranks>& x, std::vector<Ranks> y, std::uint64_t seed) {
+  const auto product_of_all = [&] {
+    std::int64_t sum = 0;
+    for (std::size_t block = 0; block < x.size(); ++block) sum += product(x[block], y[block]);
+    return static_cast<double>(sum);
+  };
+  double mean = 0.0;
+  for (std::size_t block = 0; block < x.size(); ++block)
+    mean += static_cast<double>(std::accumulate(x[block].begin(), x[block].end(), std::int64_t{0})) *
+            static_cast<double>(std::accumulate(y[block].begin(), y[block].end(), std::int64_t{0})) /
+            static_cast<double>(x[block].size());
+  const double observed = std::abs(product_of_all() - mean);
+  const double as_good_as = observed - equal_within * (observed + std::abs(mean));
   toolkit::Stream random(seed, "statistics.rank_correlation");
   std::uint64_t as_far = 1;
   for (std::uint64_t draw = 0; draw < draws; ++draw) {
-    random.shuffle(y);
-    if (std::abs(product(x, y)) >= observed) ++as_far;
+    for (Ranks& of_block : y) random.shuffle(of_block);
+    if (std::abs(product_of_all() - mean) >= as_good_as) ++as_far;
   }
   return static_cast<double>(as_far) / static_cast<double>(draws + 1);
+}
+
+std::vector<Ranks> by_block(const Ranks& ranks, std::span<const std::uint32_t> block) {
+  if (block.empty()) return {ranks};
+  std::map<std::uint32_t, Ranks> found;
+  for (std::size_t i = 0; i < ranks.size(); ++i) found[block[i]].push_back(ranks[i]);
+  std::vector<Ranks> blocks;
+  for (auto& [id, of_block] : found) blocks.push_back(std::move(of_block));
+  return blocks;
 }
 
 // Values as places in the order of the distinct ones: ranks of a resample follow by counting.
@@ -152,7 +174,8 @@ double spearman(std::span<const double> x, std::span<const double> y) {
 }
 
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
-                                 std::span<const std::uint64_t> cluster, std::uint64_t seed) {
+                                 std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block,
+                                 std::uint64_t seed) {
   RankCorrelation result{
       static_cast<std::uint32_t>(x.size()), undefined, {undefined, undefined}, undefined, true, undefined};
   if (x.size() < 2) return result;
@@ -161,8 +184,9 @@ RankCorrelation rank_correlation(std::span<const double> x, std::span<const doub
   const Ranks ranks_y = centered_ranks(y);
   result.rho = correlation(ranks_x, ranks_y);
   if (std::isnan(result.rho)) return result;
-  result.exact = x.size() <= most_exact;
-  result.p = result.exact ? exact_p(ranks_x, ranks_y) : drawn_p(ranks_x, ranks_y, seed);
+  const std::vector<Ranks> blocks_x = by_block(ranks_x, block);
+  result.exact = x.size() <= most_exact && blocks_x.size() == 1;
+  result.p = result.exact ? exact_p(ranks_x, ranks_y) : drawn_p(blocks_x, by_block(ranks_y, block), seed);
   result.interval = bootstrap(x, y, cluster, seed);
   return result;
 }

@@ -42,6 +42,8 @@ int plugins_command(const std::vector<std::string>& libraries, PluginsFormat for
 
 struct DrawOptions {
   std::string scenario;
+  std::uint32_t agents = 0;  // to draw, in place of the scenario's; 0: none
+  std::uint64_t seed = 1;
   std::string planner;                // id; empty: no plan
   std::vector<std::string> plugins;   // libraries beside those of the plugin path
   std::vector<std::string> settings;  // key=value for the planner

@@ -20,7 +20,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
 #include "host/plugins/call_note.hpp"
 #include "host/trial/measure.hpp"
@@ -76,9 +75,7 @@ class Measurer {
     const StoredTrial& trial = trials_[index];
     channel_.send({{"at", {index, nullptr}}});
     try {
-      const core::TraceBytes bytes = core::read_trace_file(trial.trace);
-      if (bytes.empty()) throw core::TraceError(0, "nothing is in it");
-      core::TraceReader reader(bytes);
+      core::TraceReader reader(core::TraceRecords(trial.trace), core::TraceExtent::samples);
       if (!reader.end()) throw std::runtime_error("was cut short: it has no end");
       for (std::uint32_t i = first_metric; i < evaluation_.metrics.size(); ++i) {
         channel_.send({{"at", {index, i}}});

@@ -8,11 +8,15 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
-#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/first_places.hpp"
+#include "core/flow_routes.hpp"
 #include "core/planning_grid.hpp"
+#include "core/population.hpp"
 #include "core/robot_draw.hpp"
 #include "core/static_geometry.hpp"
 #include "core/walking_groups.hpp"
@@ -45,8 +49,8 @@ class WorldCheck {
         scenario_(file.scenario),
         radius_m_(experiment.robot.radius_m),
         needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
-        geometry_(scenario_),
-        planning_(core::build_planning_grid(geometry_, experiment.simulation.grid_resolution_m, radius_m_,
+        geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
+        planning_(core::build_planning_grid(*geometry_, experiment.simulation.grid_resolution_m, radius_m_,
                                             experiment.simulation.planning_margin_m)) {}
 
   const core::PlanningGrid& planning_grid() const { return planning_; }
@@ -57,6 +61,7 @@ class WorldCheck {
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
     if (core::walker_count(scenario_) > 0) check_flows();
     check_tracks();
+    for (const RecordingPlace& recording : file_.recordings) check_seen(recording);
     const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
     if (scenario_.robots.size() > 1 && experiment_.simulation.grid_resolution_m < safe_cell_m)
       warn(file_.size,
@@ -75,11 +80,11 @@ class WorldCheck {
 
   // A pose must stand on the cell that planners know it by.
   void check_place(std::size_t robot, const char* verb, const char* noun, dmrp_vec2 point) const {
-    if (!geometry_.inside_world(point))
+    if (!geometry_->inside_world(point))
       fail_robot(robot, fmt::format("{} outside the world, at ({}, {})", verb, point.x, point.y));
-    const core::NearestShape nearest = geometry_.nearest(point);
-    const std::string shape(geometry_.shape_name(nearest.shape));
-    const bool border = nearest.shape == geometry_.border();
+    const core::NearestShape nearest = geometry_->nearest(point);
+    const std::string shape(geometry_->shape_name(nearest.shape));
+    const bool border = nearest.shape == geometry_->border();
     const std::string name = border ? shape : "'" + shape + "'";
     if (nearest.clearance_m < radius_m_)
       fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m)", verb,
@@ -93,8 +98,8 @@ class WorldCheck {
       fail_robot(robot,
                  fmt::format("has its {} ({}, {}) on a planning cell that is not free (centre ({}, {}), clearance "
                              "{:.2f} m, needs {:.2f} m)",
-                             noun, point.x, point.y, center.x, center.y, geometry_.clearance(center), needed_m_));
-    if (!geometry_.sweep_is_free(center, point, radius_m_))
+                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m_));
+    if (!geometry_->sweep_is_free(center, point, radius_m_))
       fail_robot(robot,
                  fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
   }
@@ -151,10 +156,10 @@ class WorldCheck {
   }
 
   void check_flows() const {
-    const core::PlanningGrid walking = core::build_walking_grid(geometry_, scenario_.people.radius_m);
+    const core::PlanningGrid walking = core::build_walking_grid(*geometry_, scenario_.people.radius_m);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
-    for (const core::RegionCrowd& crowd : core::crowds_by_region(scenario_)) check_room(crowd);
+    check_room(walking);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(i);
   }
 
@@ -168,36 +173,56 @@ class WorldCheck {
           throw InputError(fmt::format("{}:{}:1: person {} is {}, at ({}, {})", place.shown_path, place.lines[row],
                                        place.id, where, point.x, point.y));
         };
-        if (!geometry_.inside_world(point)) fail("outside the world");
-        const core::NearestShape nearest = geometry_.nearest(point);
-        if (nearest.clearance_m == 0.0 && nearest.shape != geometry_.border())
-          fail(fmt::format("inside '{}'", geometry_.shape_name(nearest.shape)));
+        if (!geometry_->inside_world(point)) fail("outside the world");
+        const core::NearestShape nearest = geometry_->nearest(point);
+        if (nearest.clearance_m == 0.0 && nearest.shape != geometry_->border())
+          fail(fmt::format("inside '{}'", geometry_->shape_name(nearest.shape)));
       }
   }
 
-  // For all who begin in a region, in every repetition: the lattice lies elsewhere each time, and so do robots that are
-  // drawn. One is enough where there is room to spare and robots start where they always do.
-  void check_room(const core::RegionCrowd& crowd) const {
-    core::RegionCrowd with_spare = crowd;
-    const auto quarter = static_cast<std::ptrdiff_t>(crowd.group_sizes.size() / 4);
-    with_spare.group_sizes.insert(with_spare.group_sizes.end(), crowd.group_sizes.begin(),
-                                  crowd.group_sizes.begin() + quarter);
+  // Times of a recording may be anywhere; but somebody should be there during the trial.
+  void check_seen(const RecordingPlace& recording) {
+    const core::SimulationSettings& simulation = experiment_.simulation;
+    const double limit_s =
+        experiment_.time_limit_set ? 1e-9 * static_cast<double>(simulation.time_limit_ns) : scenario_.time_limit_s;
+    double first_s = std::numeric_limits<double>::infinity();
+    double last_s = -first_s;
+    for (std::size_t i = recording.first; i < recording.end; ++i) {
+      const double from_s = 1e-9 * static_cast<double>(scenario_.tracks[i].points.front().t_ns);
+      const double to_s = 1e-9 * static_cast<double>(scenario_.tracks[i].points.back().t_ns);
+      if (to_s >= 0.0 && from_s <= limit_s) return;
+      first_s = std::min(first_s, from_s);
+      last_s = std::max(last_s, to_s);
+    }
+    warn(recording.position,
+         fmt::format(
+             "nobody of '{}' is there during the trial, from 0 to {:.10g} s: its rows are of {:.10g} to {:.10g} s",
+             recording.shown_path, limit_s, first_s, last_s));
+  }
+
+  // For all who are there at t = 0, in every repetition: they begin elsewhere each time, and so do robots that are drawn.
+  // One is enough where there is room to spare and robots start where they always do.
+  void check_room(const core::PlanningGrid& walking) const {
+    const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
+    core::Scenario with_spare = scenario_;
+    for (core::Flow& flow : with_spare.flows) flow.people += flow.people / 4;
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
       const std::uint64_t seed = world_seed(experiment_, scenario_.name, repetition);
       const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
-      if (const std::size_t places = places_for(crowd, seed, starts); places < crowd.people())
-        file_.document->fail(flow_from(crowd.region),
-                             fmt::format("no room in region '{}' for {} people, for {} at most",
-                                         scenario_.regions[crowd.region].name, crowd.people(), places));
-      if (most_drawn_ == 0 && places_for(with_spare, seed, starts) == with_spare.people()) return;
+      if (const auto none = missing_room(scenario_, routes, seed, starts))
+        file_.document->fail(file_.flows[none->flow], none->what());
+      if (most_drawn_ == 0 && !missing_room(with_spare, routes, seed, starts)) return;
     }
   }
 
-  SourcePosition flow_from(std::uint32_t region) const {
-    std::size_t flow = 0;
-    while (scenario_.flows[flow].start != core::FlowStart::from || scenario_.flows[flow].regions.front() != region)
-      ++flow;
-    return file_.flows[flow];
+  std::optional<core::NoRoom> missing_room(const core::Scenario& scenario, const core::FlowRoutes& routes,
+                                           std::uint64_t seed, const std::vector<dmrp_vec2>& starts) const {
+    try {
+      const core::Population population(scenario, geometry_, routes, seed, starts);
+      return std::nullopt;
+    } catch (const core::NoRoom& none) {
+      return none;
+    }
   }
 
   // A group that begins anew stands in the first region together.
@@ -206,7 +231,7 @@ class WorldCheck {
     const std::uint32_t size = std::min(flow.group_size, flow.people);
     if (size < 2 || !flow.respawn) return;
     const core::Region& region = scenario_.regions[flow.regions.front()];
-    const core::StandingRoom room = {geometry_, scenario_.people.radius_m, {}, {}};
+    const core::StandingRoom room = {*geometry_, scenario_.people.radius_m, {}, {}};
     for (const double heading : {0.0, 0.5 * toolkit::pi})
       for (int attempt = 0; attempt < group_attempts; ++attempt) {
         toolkit::Stream stream(experiment_.seed, "check.groups", index, attempt);
@@ -224,16 +249,6 @@ class WorldCheck {
       for (const core::RobotTask& task : core::draw_robots(planning_, most_drawn_, seed))
         starts.push_back({task.start.x, task.start.y});
     return starts;
-  }
-
-  // How many find one, as core::Population spreads them.
-  std::size_t places_for(const core::RegionCrowd& crowd, std::uint64_t seed,
-                         const std::vector<dmrp_vec2>& starts) const {
-    std::size_t count = 0;
-    for (const auto& group :
-         core::places_in_region(scenario_, crowd, {geometry_, scenario_.people.radius_m, starts, {}}, seed))
-      count += group.size();
-    return count;
   }
 
   void check_flow(const core::PlanningGrid& walking, std::size_t index) const {
@@ -261,7 +276,7 @@ class WorldCheck {
   const core::Scenario& scenario_;
   double radius_m_;
   double needed_m_;
-  core::StaticGeometry geometry_;
+  std::shared_ptr<const core::StaticGeometry> geometry_;
   core::PlanningGrid planning_;
 };
 

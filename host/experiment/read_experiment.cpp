@@ -25,6 +25,20 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t most_robots = 10'000;
 
+const std::vector<std::string> header_keys = {"name", "seed", "trials", "plugins"};
+const std::vector<std::string> scenario_keys = {"use", "robots", "tasks"};
+const std::vector<std::string> plugin_keys = {"use", "label", "params_file", "params", "sweep"};
+
+std::vector<TomlKeys> keys_of_tables(const TomlTable& root) {
+  std::vector<TomlKeys> tables = settings_keys(root);
+  tables.push_back({"[experiment]", header_keys});
+  tables.push_back({"[[scenario]]", scenario_keys});
+  for (const std::uint32_t kind :
+       {DMRP_KIND_GLOBAL_PLANNER, DMRP_KIND_LOCAL_CONTROLLER, DMRP_KIND_PEDESTRIAN_MODEL, DMRP_KIND_METRIC})
+    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_keys});
+  return tables;
+}
+
 class Reader {
  public:
   // `trials` > 0 replaces the file's number.
@@ -32,6 +46,7 @@ class Reader {
       : trials_(trials), source_(source), document_(file.string(), read(file)) {
     experiment_.file = fs::canonical(file);
     experiment_.text = text_;
+    document_.know(keys_of_tables(document_.root()));
   }
 
   Experiment take() {
@@ -77,7 +92,7 @@ class Reader {
           entry.fail_at_key(fmt::format("unknown key '{}'{}", entry.key(), meant));
       root.fail("the file needs [experiment]");
     }
-    header->allow_only({"name", "seed", "trials", "plugins"});
+    header->allow_only(header_keys);
     experiment_.name = experiment_.file.stem().string();
     if (const auto name = header->find("name")) {
       experiment_.name = name->line();
@@ -143,7 +158,7 @@ class Reader {
 
   void read_scenarios(const TomlTable& root) {
     for (const TomlTable& table : root.tables("scenario")) {
-      table.allow_only({"use", "robots", "tasks"});
+      table.allow_only(scenario_keys);
       const TomlValue use = table.need("use");
       const fs::path file = find_scenario(use.text(), base());
       if (file.empty()) fail_missing_scenario(use);
@@ -246,7 +261,7 @@ class Reader {
 
   void read_uses(const TomlTable& root, std::uint32_t kind, std::vector<PluginUse>& uses) {
     for (const TomlTable& table : root.tables(kind_name(kind))) {
-      table.allow_only({"use", "label", "params_file", "params", "sweep"});
+      table.allow_only(plugin_keys);
       const TomlValue use = table.need("use");
       const auto [library, info] = find_plugin(use, kind);
       check_extensions(use, *info);

@@ -89,7 +89,7 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
                                 ScenarioFile& out) {
   const auto table = root.find_table("map");
   if (!table) return std::nullopt;
-  table->allow_only({"file", "cell_m", "unknown"});
+  table->allow_only(map_keys);
   const TomlValue name = table->need("file");
   out.size = name.position();
   const fs::path map_file = named_file(name, file, {".map", ".yaml", ".yml"}, out);
@@ -102,7 +102,7 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
 void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const fs::path& file,
                 const std::string& shown_path, ScenarioFile& out) {
   constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-  table.allow_only({"scen", "count"});
+  table.allow_only(tasks_keys);
   const TomlValue name = table.need("scen");
   if (!map) name.fail("'scen' needs a [map] of MovingAI that its tasks are for");
   const fs::path tasks_file = named_file(name, file, {".scen"}, out);

@@ -5,11 +5,15 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/cell_map.hpp"
 #include "host/experiment/read_scenario.hpp"
 
 namespace dmrp::host {
+
+inline const std::vector<std::string> map_keys = {"file", "cell_m", "unknown"};  // of [map]
+inline const std::vector<std::string> tasks_keys = {"scen", "count"};            // of [robots]
 
 // A MovingAI map, whose cells tasks count in; its lower left corner is the world's.
 struct TaskMap {

@@ -84,22 +84,27 @@ class Recording {
              fmt::format("the first line must be 'time,id,x,y': '{}' should be '{}'", fields[i].text, columns[i]));
   }
 
-  double number(const Field& field, std::size_t index, double maximum) const {
+  // Whether all of the field is such a number.
+  template <class Number>
+  static bool parse(std::string_view text, Number& value) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end;
+  }
+
+  double number(const Field& field, std::size_t index, double farthest) const {
     double value = 0.0;
-    const char* const end = field.text.data() + field.text.size();
-    const auto read = std::from_chars(field.text.data(), end, value);
-    if (read.ec != std::errc() || read.ptr != end || !(std::abs(value) <= maximum))
+    if (!parse(field.text, value) || !(std::abs(value) <= farthest))
       fail(field.column,
-           fmt::format("'{}' must be a number of at most {}, not '{}'", columns[index], maximum, field.text));
+           fmt::format("'{0}' must be a number from -{1} to {1}, not '{2}'", columns[index], farthest, field.text));
     return value;
   }
 
   std::uint64_t id(const Field& field) const {
     std::uint64_t value = 0;
-    const char* const end = field.text.data() + field.text.size();
-    const auto read = std::from_chars(field.text.data(), end, value);
-    if (read.ec != std::errc() || read.ptr != end)
-      fail(field.column, fmt::format("'id' must be a whole number, not '{}'", field.text));
+    if (!parse(field.text, value))
+      fail(field.column, fmt::format("'id' must be a whole number of at least 0, not '{}'", field.text));
     return value;
   }
 
@@ -111,7 +116,10 @@ class Recording {
       out.tracks.push_back({shown_path_, std::to_string(person->first), {}});
     }
     auto& points = out.scenario.tracks[person->second].points;
-    if (!points.empty() && t_ns <= points.back().t_ns)
+    if (!points.empty() && t_ns == points.back().t_ns)
+      fail(fields[0].column, fmt::format("person {} has two rows at {} s, line {} is the first", person->first,
+                                         fields[0].text, out.tracks[person->second].lines.back()));
+    if (!points.empty() && t_ns < points.back().t_ns)
       fail(fields[0].column, fmt::format("the rows of person {} must be in order of time: {} s comes after {} s",
                                          person->first, fields[0].text, static_cast<double>(points.back().t_ns) / 1e9));
     const double x = number(fields[2], 2, longest_side_m);
@@ -129,7 +137,7 @@ class Recording {
 
 void read_recordings(const TomlTable& root, const fs::path& file, const std::string& shown_path, ScenarioFile& out) {
   for (const TomlTable& table : root.tables("recording")) {
-    table.allow_only({"file"});
+    table.allow_only(recording_keys);
     const TomlValue name = table.need("file");
     const fs::path recording = (file.parent_path() / name.line()).lexically_normal();
     if (std::error_code ignored; !fs::is_regular_file(recording, ignored))
@@ -137,7 +145,9 @@ void read_recordings(const TomlTable& root, const fs::path& file, const std::str
     const std::string shown = (fs::path(shown_path).parent_path() / name.text()).lexically_normal().string();
     out.files.push_back(recording);
     const std::string text = read_file(recording, shown);
+    const std::size_t first = out.scenario.tracks.size();
     Recording(text, shown).read(out);
+    out.recordings.push_back({name.position(), shown, first, out.scenario.tracks.size()});
   }
 }
 

@@ -8,10 +8,13 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/experiment/read_scenario.hpp"
 
 namespace dmrp::host {
+
+inline const std::vector<std::string> recording_keys = {"file"};
 
 // Reads all of them into the scenario's tracks, in the order in which people first appear in the files. `file`,
 // `shown_path`: of scenario.toml.

@@ -26,6 +26,16 @@ constexpr double farthest_m = 1e6;  // of a coordinate
 constexpr double longest_s = 1e6;
 constexpr std::int64_t most_people = 10'000;  // of a flow
 
+const std::vector<std::string> root_keys = {"scenario", "map",    "box",    "circle", "polygon", "robot",
+                                            "robots",   "people", "region", "flow",   "tiles",   "recording"};
+const std::vector<std::string> header_keys = {"name", "title", "description", "size_m", "origin_m", "time_limit_s"};
+const std::vector<std::string> box_keys = {"name", "center_m", "size_m", "angle_rad", "height_m"};
+const std::vector<std::string> circle_keys = {"name", "center_m", "radius_m", "height_m"};
+const std::vector<std::string> polygon_keys = {"name", "vertices_m", "height_m"};
+const std::vector<std::string> robot_keys = {"name", "start", "goal", "goals"};
+const std::vector<std::string> region_keys = {"name", "lower_m", "upper_m"};
+const std::vector<std::string> flow_keys = {"name", "from", "via", "to", "people", "start", "respawn", "group_size"};
+
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
   for (const TomlValue& element : value.array()) out.push_back(element.number(-farthest_m, farthest_m));
@@ -65,7 +75,7 @@ void refuse_twice(const TomlValue& name, const char* what, const std::vector<std
 }
 
 core::Shape read_box(const TomlTable& table) {
-  table.allow_only({"name", "center_m", "size_m", "angle_rad", "height_m"});
+  table.allow_only(box_keys);
   core::Shape shape;
   const dmrp_vec2 center = point(table.need("center_m"));
   const dmrp_vec2 extent = size(table.need("size_m"));
@@ -80,7 +90,7 @@ core::Shape read_box(const TomlTable& table) {
 }
 
 core::Shape read_circle(const TomlTable& table) {
-  table.allow_only({"name", "center_m", "radius_m", "height_m"});
+  table.allow_only(circle_keys);
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
   shape.center = point(table.need("center_m"));
@@ -89,7 +99,7 @@ core::Shape read_circle(const TomlTable& table) {
 }
 
 core::Shape read_polygon(const TomlTable& table) {
-  table.allow_only({"name", "vertices_m", "height_m"});
+  table.allow_only(polygon_keys);
   core::Shape shape;
   const TomlValue vertices = table.need("vertices_m");
   for (const TomlValue& vertex : vertices.array()) shape.vertices.push_back(point(vertex));
@@ -126,7 +136,7 @@ std::vector<dmrp_pose> read_goals(const TomlTable& robot) {
 void read_robots(const TomlTable& root, ScenarioFile& out) {
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("robot")) {
-    table.allow_only({"name", "start", "goal", "goals"});
+    table.allow_only(robot_keys);
     core::RobotTask task;
     if (const auto name = table.find("name")) {
       task.name = name->line();
@@ -142,17 +152,21 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
   }
 }
 
-void read_people(const TomlTable& root, core::PeopleSettings& people) {
-  const auto table = root.find_table("people");
-  if (!table) return;
+std::vector<TomlTable::KeyReader> people_readers(core::PeopleSettings& people) {
   const auto read_positive = [](double& to, double maximum) {
     return [&to, maximum](const TomlValue& value) { to = positive(value, maximum); };
   };
-  table->read({{"radius_m", read_positive(people.radius_m, 10.0)},
-               {"speed_mean", read_positive(people.speed_mean, 100.0)},
-               {"speed_sd", [&](const TomlValue& value) { people.speed_sd = value.number(0.0, 100.0); }},
-               {"speed_min", read_positive(people.speed_min, 100.0)},
-               {"speed_max", read_positive(people.speed_max, 100.0)}});
+  return {{"radius_m", read_positive(people.radius_m, 10.0)},
+          {"speed_mean", read_positive(people.speed_mean, 100.0)},
+          {"speed_sd", [&people](const TomlValue& value) { people.speed_sd = value.number(0.0, 100.0); }},
+          {"speed_min", read_positive(people.speed_min, 100.0)},
+          {"speed_max", read_positive(people.speed_max, 100.0)}};
+}
+
+void read_people(const TomlTable& root, core::PeopleSettings& people) {
+  const auto table = root.find_table("people");
+  if (!table) return;
+  table->read(people_readers(people));
   if (people.speed_min > people.speed_mean || people.speed_mean > people.speed_max)
     table->fail(fmt::format("[people] needs speed_min <= speed_mean <= speed_max, not {}, {}, {}", people.speed_min,
                             people.speed_mean, people.speed_max));
@@ -161,7 +175,7 @@ void read_people(const TomlTable& root, core::PeopleSettings& people) {
 std::vector<std::string> read_regions(const TomlTable& root, ScenarioFile& out) {
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("region")) {
-    table.allow_only({"name", "lower_m", "upper_m"});
+    table.allow_only(region_keys);
     core::Region region;
     const TomlValue name = table.need("name");
     region.name = name.line();
@@ -198,16 +212,23 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
   const auto region_of = [&](const TomlValue& value) { return first_own + region_index(value, regions); };
   std::vector<std::string> names;
   for (const TomlTable& table : root.tables("flow")) {
-    table.allow_only({"name", "from", "via", "to", "people", "start", "respawn", "group_size"});
+    table.allow_only(flow_keys);
     core::Flow flow;
     const TomlValue name = table.need("name");
     flow.name = name.line();
     refuse_twice(name, "flows", names);
     names.push_back(flow.name);
     flow.regions.push_back(region_of(table.need("from")));
+    const auto lead_to = [&](const TomlValue& region) {
+      const std::uint32_t next = region_of(region);
+      if (next == flow.regions.back())
+        region.fail(
+            fmt::format("flow '{}' leads from region '{}' to itself: nobody would walk", flow.name, region.text()));
+      flow.regions.push_back(next);
+    };
     if (const auto via = table.find("via"))
-      for (const TomlValue& region : via->array()) flow.regions.push_back(region_of(region));
-    flow.regions.push_back(region_of(table.need("to")));
+      for (const TomlValue& region : via->array()) lead_to(region);
+    lead_to(table.need("to"));
     flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, most_people));
     if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
       flow.start = core::FlowStart::from;
@@ -222,7 +243,7 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   core::Scenario& scenario = out.scenario;
   const auto header = root.find_table("scenario");
   if (!header) root.fail("the file needs [scenario]");
-  header->allow_only({"name", "title", "description", "size_m", "origin_m", "time_limit_s"});
+  header->allow_only(header_keys);
   const TomlValue name = header->need("name");
   scenario.name = name.line();
   const std::string folder = file.parent_path().filename().string();
@@ -247,14 +268,31 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, longest_s);
 }
 
+std::vector<TomlKeys> keys_of_tables() {
+  core::PeopleSettings unused;
+  return {{"[scenario]", header_keys},
+          {"[map]", map_keys},
+          {"[tiles]", tiles_keys},
+          {"[[box]]", box_keys},
+          {"[[circle]]", circle_keys},
+          {"[[polygon]]", polygon_keys},
+          {"[[robot]]", robot_keys},
+          {"[robots]", tasks_keys},
+          {"[people]", TomlTable::keys_of(people_readers(unused))},
+          {"[[region]]", region_keys},
+          {"[[flow]]", flow_keys},
+          {"[[recording]]", recording_keys}};
+}
+
 }  // namespace
 
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;
-  out.document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
+  const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
+  document->know(keys_of_tables());
+  out.document = document;
   const TomlTable root = out.document->root();
-  root.allow_only({"scenario", "map", "box", "circle", "polygon", "robot", "robots", "people", "region", "flow",
-                   "tiles", "recording"});
+  root.allow_only(root_keys);
   read_header(root, file, out);
   const auto map = read_map(root, file, shown_path, out);
   read_tiles(root, file, out);

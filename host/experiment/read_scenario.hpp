@@ -22,6 +22,14 @@ struct TrackPlace {
   std::vector<std::size_t> lines;  // parallel to the track's points
 };
 
+// A [[recording]]: the tracks from `first` up to before `end`.
+struct RecordingPlace {
+  SourcePosition position;
+  std::string shown_path;
+  std::size_t first = 0;
+  std::size_t end = 0;
+};
+
 struct ScenarioFile {
   core::Scenario scenario;
   std::vector<std::filesystem::path> files;  // that it is made of beside scenario.toml, absolute: a map, tasks
@@ -31,6 +39,7 @@ struct ScenarioFile {
   std::vector<SourcePosition> regions;  // likewise
   std::vector<SourcePosition> flows;
   std::vector<TrackPlace> tracks;
+  std::vector<RecordingPlace> recordings;
 };
 
 // Reads and checks the file, `file` being its absolute path, by itself: not yet against a robot. `shown_path`: as

@@ -12,4 +12,7 @@ namespace dmrp::host {
 // What root.read() calls for these tables. Both arguments outlive the readers.
 std::vector<TomlTable::KeyReader> settings_readers(const TomlTable& root, Experiment& experiment);
 
+// The keys of these tables and of those in them. `root`: of any document.
+std::vector<TomlKeys> settings_keys(const TomlTable& root);
+
 }  // namespace dmrp::host

@@ -61,7 +61,7 @@ ScenarioFile read_tile(const TomlValue& of, const fs::path& file) {
 void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) {
   const auto table = root.find_table("tiles");
   if (!table) return;
-  table->allow_only({"of", "columns", "rows"});
+  table->allow_only(tiles_keys);
   if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
   const TomlValue of = table->need("of");
   const auto columns = table->need("columns").integer(1, most_tiles);

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "host/experiment/read_scenario.hpp"
 
 namespace dmrp::host {
+
+inline const std::vector<std::string> tiles_keys = {"of", "columns", "rows"};
 
 // Reads [tiles] into the scenario: its size, and in every tile the shapes, regions and flows of the scenario that it
 // names, so that people grow with the area; neither its robots nor the border between tiles. `file`: scenario.toml.

@@ -22,12 +22,6 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-// Messages quote what the file says, and it may say line breaks.
-std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
-  return text;
-}
-
 }  // namespace
 
 TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : shown_path_(std::move(shown_path)) {
@@ -40,6 +34,13 @@ TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : show
 
 TomlDocument::~TomlDocument() = default;
 
+std::vector<std::string> TomlDocument::tables_with(const std::string& key) const {
+  std::vector<std::string> titles;
+  for (const TomlKeys& table : tables_)
+    if (std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end()) titles.push_back(table.title);
+  return titles;
+}
+
 TomlTable TomlDocument::root() const {
   return {*this, *table_, ""};
 }
@@ -49,7 +50,7 @@ std::string TomlDocument::place(SourcePosition at) const {
 }
 
 void TomlDocument::fail(SourcePosition at, const std::string& text) const {
-  throw InputError(one_line(place(at) + ": " + text));
+  throw InputError(place(at) + ": " + text);
 }
 
 SourcePosition TomlValue::position() const {
@@ -166,13 +167,21 @@ void TomlTable::fail(const std::string& text) const {
 void TomlTable::refuse_key(const TomlValue& entry, const std::vector<std::string>& known,
                            const std::string& whose) const {
   const std::string in = whose.empty() && !title_.empty() ? " in " + title_ : whose;
-  document_->fail(entry.key_position(),
-                  fmt::format("unknown key '{}'{}{}", entry.key(), in, did_you_mean(entry.key(), known)));
+  std::vector<std::string> others = document_->tables_with(entry.key());
+  others.erase(std::remove(others.begin(), others.end(), title_), others.end());
+  const std::string meant =
+      others.empty() ? did_you_mean(entry.key(), known) : fmt::format(" (it is a key of {})", join_names(others));
+  document_->fail(entry.key_position(), fmt::format("unknown key '{}'{}{}", entry.key(), in, meant));
+}
+
+std::vector<std::string> TomlTable::keys_of(const std::vector<KeyReader>& readers) {
+  std::vector<std::string> keys;
+  for (const KeyReader& reader : readers) keys.push_back(reader.first);
+  return keys;
 }
 
 void TomlTable::read(const std::vector<KeyReader>& readers) const {
-  std::vector<std::string> known;
-  for (const KeyReader& reader : readers) known.push_back(reader.first);
+  const std::vector<std::string> known = keys_of(readers);
   for (const TomlValue& entry : entries()) {
     const auto found = std::find(known.begin(), known.end(), entry.key());
     if (found == known.end()) refuse_key(entry, known, "");

@@ -29,6 +29,12 @@ struct SourcePosition {
 
 class TomlTable;
 
+// What keys a table of the format has; `title`: as messages call it, "[robot]".
+struct TomlKeys {
+  std::string title;
+  std::vector<std::string> keys;
+};
+
 class TomlDocument {
  public:
   // `shown_path`: the file as the user wrote it.
@@ -37,6 +43,10 @@ class TomlDocument {
   TomlDocument(const TomlDocument&) = delete;
   TomlDocument& operator=(const TomlDocument&) = delete;
 
+  // All tables of the format, so that messages about an unknown key can say where it belongs.
+  void know(std::vector<TomlKeys> tables) { tables_ = std::move(tables); }
+  std::vector<std::string> tables_with(const std::string& key) const;  // their titles
+
   TomlTable root() const;
   [[noreturn]] void fail(SourcePosition at, const std::string& text) const;
   std::string place(SourcePosition at) const;  // "file:line:column"
@@ -44,6 +54,7 @@ class TomlDocument {
  private:
   std::string shown_path_;
   std::unique_ptr<const toml::v3::table> table_;
+  std::vector<TomlKeys> tables_;
 };
 
 // A value of the document. The accessors say what was expected when it is something else.
@@ -94,6 +105,7 @@ class TomlTable {
   // Reads every key in the order of the file, so that the first mistake is the one told; refuses other keys.
   using KeyReader = std::pair<std::string, std::function<void(const TomlValue&)>>;
   void read(const std::vector<KeyReader>& readers) const;
+  static std::vector<std::string> keys_of(const std::vector<KeyReader>& readers);
 
   // Refuses the first key that is none of these. `whose`: "" or " for org.example.planner", for the message.
   void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;

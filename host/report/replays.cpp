@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
 #include "host/report/page_packing.hpp"
 #include "host/report/replay_choice.hpp"
@@ -36,8 +35,7 @@ class ReplayPacker {
     if (smallest_share_ && *smallest_share_ * static_cast<double>(trace_bytes) > static_cast<double>(room_))
       return no_room;
     try {
-      const core::TraceBytes bytes = core::read_trace_file(file);
-      core::TraceReader trace(bytes);
+      core::TraceReader trace(core::TraceRecords(file), core::TraceExtent::with_scans);
       packed = base64(gzip(replay_json(trace, trial)));
     } catch (const std::runtime_error&) {
       return "the trace cannot be read";

@@ -112,7 +112,8 @@ std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const
     if (!metric) continue;
     const bool counts =
         std::find(counts_failures.begin(), counts_failures.end(), compared.metric) != counts_failures.end();
-    const std::vector<BySeed> values = values_by_seed(frame, facts, {*metric, counts, compared.censored});
+    const std::vector<BySeed> values =
+        values_by_seed(frame, facts, {*metric, counts, compared.censored, compared.both_succeeded});
     for (const Varied varied : {Varied::global_planner, Varied::local_controller, Varied::pedestrian_model})
       for (std::size_t a = 0; a < values.size(); ++a)
         for (std::size_t b = a + 1; b < values.size(); ++b) {

@@ -35,7 +35,8 @@ struct PairedComparison {
   double p_holm;  // over all comparisons of the metric in that scenario with the same choice varied
 };
 
-// The metrics that the layout names, in its order; pairs without a common seed are left out.
+// The metrics that the layout names, in its order; combinations without a common seed, in which both succeeded where that
+// is asked for, are left out.
 std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const ExperimentFacts& facts,
                                                  const ReportLayout& layout,
                                                  std::span<const std::string> counts_failures);

@@ -32,14 +32,16 @@ core::RankCorrelation correlate(const ReportFrame& frame, const Stratum& stratum
   std::vector<double> xs;
   std::vector<double> ys;
   std::vector<std::uint64_t> seeds;
+  std::vector<std::uint32_t> controllers;  // by their combination: all else is the stratum's
   for (const std::size_t trial : stratum.trials) {
     const auto& values = frame.values[trial];
     if (!values[x] || !values[y]) continue;
     xs.push_back(*values[x]);
     ys.push_back(*values[y]);
     seeds.push_back(frame.trials[trial].seed);
+    controllers.push_back(static_cast<std::uint32_t>(frame.combination_of[trial]));
   }
-  return core::rank_correlation(xs, ys, seeds);
+  return core::rank_correlation(xs, ys, seeds, controllers);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct StratumCorrelation {
   CombinationLabels stratum;  // without a controller: its trials are those of all of them
   std::size_t x;              // metrics
   std::size_t y;
-  core::RankCorrelation correlation;  // over the trials in which both are defined
+  core::RankCorrelation correlation;  // over the trials in which both are defined, those of one controller exchangeable
 };
 
 std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes);

@@ -30,9 +30,13 @@ ComparedMetric parse_comparison(const Json& json) {
       throw std::runtime_error("'test' must be \"signed_rank\" or \"sign_flip\"");
     else if (key == "censored")
       value.get_to(compared.censored);
+    else if (key == "both_succeeded")
+      value.get_to(compared.both_succeeded);
     else
       throw std::runtime_error("unknown key '" + key + "' of a comparison");
   }
+  if (compared.censored && compared.both_succeeded)
+    throw std::runtime_error("a comparison is either 'censored' or of those that 'both_succeeded'");
   if (compared.metric.empty()) throw std::runtime_error("a comparison without 'metric'");
   return compared;
 }

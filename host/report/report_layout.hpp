@@ -19,6 +19,8 @@ struct ComparedMetric {
   std::string metric;
   PairedTest test = PairedTest::signed_rank;
   bool censored = false;  // a time: where it is undefined, the trial's time limit counts
+  bool both_succeeded =
+      false;  // means something of trials that succeeded only: pairs in which one did not are left out
 };
 
 // x against each of y, within each scenario and planner.

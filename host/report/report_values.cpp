@@ -13,6 +13,7 @@ std::optional<double> counted_value(const ReportFrame& frame, const ExperimentFa
                                     std::size_t trial) {
   const TrialRecord& record = frame.trials[trial];
   if (record.outcome == trial_outcome::skipped) return std::nullopt;
+  if (rule.successes_only && record.outcome != trial_outcome::succeeded) return std::nullopt;
   if (const std::optional<double>& value = frame.values[trial][rule.metric]) return value;
   if (rule.counts_failures && record.outcome == trial_outcome::fault) return 0.0;
   if (rule.censored && record.robots > 0) return time_limit_s(facts, frame.combinations[frame.combination_of[trial]]);

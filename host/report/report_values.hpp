@@ -17,6 +17,7 @@ struct CountedValue {
   std::size_t metric = 0;        // index
   bool counts_failures = false;  // a trial that ended in a fault counts with 0 (SummaryLayout)
   bool censored = false;         // a time: whoever has none counts with the time limit
+  bool successes_only = false;   // other trials count with nothing
 };
 
 // The time limit of a trial's scenario; none where the manifest does not know it.

@@ -45,7 +45,7 @@ Annotations::Annotations(core::TraceEncoder* trace, core::TraceSource source) : 
 }
 
 bool Annotations::wanted() const {
-  return trace_ && trace_->bytes().size() < most_trace_bytes;
+  return trace_ && trace_->written_bytes() < most_trace_bytes;
 }
 
 void Annotations::trajectory(std::uint32_t role, const dmrp_pose* poses, std::uint32_t count, std::int64_t step_ns) {

@@ -4,10 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <utility>
 
 namespace dmrp::host {
+
+namespace {
+
+// At its end after its last time.
+dmrp_vec2 position_at(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
+  const auto after = std::find_if(path.begin(), path.end(), [&](const dmrp_waypoint& w) { return w.t_ns > t_ns; });
+  if (after == path.begin()) return toolkit::position(path.front());
+  const dmrp_vec2 from = toolkit::position(*(after - 1));
+  if (after == path.end()) return from;
+  const double share =
+      static_cast<double>(t_ns - (after - 1)->t_ns) / static_cast<double>(after->t_ns - (after - 1)->t_ns);
+  return from + share * (toolkit::position(*after) - from);
+}
+
+}  // namespace
 
 Dispatcher::Dispatcher(const VariantWorld& variant, const core::World& world)
     : variant_(variant),
@@ -118,21 +134,37 @@ Guidance Dispatcher::guidance(std::uint32_t robot) const {
   return guidance;
 }
 
-std::vector<dmrp_vec2> Dispatcher::next_positions(std::int64_t later_ns) const {
-  std::vector<dmrp_vec2> positions;
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
+std::vector<OnTheWay> Dispatcher::on_the_way(std::int64_t later_ns) const {
+  std::vector<OnTheWay> ways;
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) {
     const auto& path = courses_[i].path;
+    const dmrp_vec2 position = toolkit::position(world_.robots()[i].pose);
     if (path.empty() || world_.robots()[i].state == DMRP_ROBOT_FAILED) {
-      positions.push_back(toolkit::position(world_.robots()[i].pose));
+      ways.push_back({position, position, position});
       continue;
     }
     std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
+    OnTheWay way;
+    way.next = toolkit::position(path[next]);
+    way.then = later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns);
     const std::int64_t until_ns = path[next].t_ns + later_ns;
     while (next + 1 < path.size() && path[next + 1].t_ns <= until_ns) ++next;
-    positions.push_back(toolkit::position(path[next]));
+    way.next_then = toolkit::position(path[next]);
+    ways.push_back(way);
   }
-  return positions;
+  return ways;
+}
+
+// When the robot should have been where it has come to.
+std::int64_t Dispatcher::time_on_path_ns(std::uint32_t robot) const {
+  const auto& path = courses_[robot].path;
+  const std::uint32_t passed = progress_[robot].waypoint();
+  if (!progress_[robot].has_begun() || passed + 1 == path.size()) return path[passed].t_ns;
+  const std::vector<double> arcs = toolkit::arc_lengths(path);
+  const double share = (progress_[robot].progress_m() - arcs[passed]) / (arcs[passed + 1] - arcs[passed]);
+  const auto leg_ns = static_cast<double>(path[passed + 1].t_ns - path[passed].t_ns);
+  return path[passed].t_ns + std::llround(std::clamp(share, 0.0, 1.0) * leg_ns);
 }
 
 }  // namespace dmrp::host

@@ -53,8 +53,8 @@ class Dispatcher {
   // After direct().
   Guidance guidance(std::uint32_t robot) const;
 
-  // Where each robot goes next, or, by the times of its path, this much later.
-  std::vector<dmrp_vec2> next_positions(std::int64_t later_ns) const;
+  // Where each robot is on its path, now and this much later.
+  std::vector<OnTheWay> on_the_way(std::int64_t later_ns) const;
 
   std::span<const core::PathProgress> progress() const { return progress_; }
   std::span<const double> gained_m() const { return gained_m_; }
@@ -73,6 +73,7 @@ class Dispatcher {
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
   bool ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const;
   void find_stages(Course& course) const;
+  std::int64_t time_on_path_ns(std::uint32_t robot) const;
   void release();
   void send_on(std::uint32_t robot);
 

@@ -78,9 +78,11 @@ MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInf
   const dmrp_metric_trial trial = {sizeof(trial), 0, trace.first_plan()};
   metric.call("begin", 0, call_budget_ns, [&] { return table.begin(metric.self(), &trial); });
 
+  // where planning failed nothing moved: the sample is there for the planner's call
+  const bool shown = trace.end()->ending != DMRP_ENDING_NO_PLAN || (info.channels & DMRP_CHANNEL_CALLS) != 0;
   trace.rewind();
   std::int64_t step = 0;
-  while (const dmrp_sample* sample = trace.next_sample())
+  while (const dmrp_sample* sample = shown ? trace.next_sample() : nullptr)
     metric.call("observe", step++, call_budget_ns, [&] { return table.observe(metric.self(), sample); });
 
   Collected collected = {info, trace.world().robot_count, {index, {}, {}}, {}};

@@ -47,14 +47,21 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
 // False where robots cannot be put on distinct cells.
 bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
                   const InForce* in_force, StagedProblem& problem) {
-  std::vector<toolkit::SnapRequest> requests;
-  for (std::size_t i = 0; i < world.robots().size(); ++i)
-    requests.push_back(
-        {toolkit::position(world.robots()[i].pose), in_force ? grid.index_of(in_force->next[i]) : toolkit::no_cell});
   // a robot that touches something may still leave it
   const auto can_move = [&](dmrp_vec2 from, dmrp_vec2 to) {
     return variant.geometry->sweep_is_free(from, to, std::min(radius_m, variant.geometry->clearance(from)));
   };
+  std::vector<toolkit::SnapRequest> requests;
+  for (std::size_t i = 0; i < world.robots().size(); ++i) {
+    const dmrp_vec2 position = toolkit::position(world.robots()[i].pose);
+    if (!in_force) {
+      requests.push_back({position, toolkit::no_cell});
+      continue;
+    }
+    // who cannot get back to its path straight will hardly be where that says
+    const OnTheWay& way = in_force->robots[i];
+    requests.push_back({can_move(position, way.next) ? way.then : position, grid.index_of(way.next_then)});
+  }
   const auto cells =
       toolkit::snap_to_cells(grid, requests, snap_reach_cells * variant.planning_grid.resolution_m, can_move);
   if (!cells) return false;

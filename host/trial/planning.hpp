@@ -59,14 +59,21 @@ struct StagedProblem {
   dmrp_planning_problem c{};
 };
 
+// A robot on its path: now, and when a plan that is made now takes effect, by the times of the path.
+struct OnTheWay {
+  dmrp_vec2 next{};       // the waypoint that it goes to
+  dmrp_vec2 then{};       // where it will be; where it is, if the plan takes effect at once
+  dmrp_vec2 next_then{};  // where it will go next
+};
+
 // What holds while a plan is made that is not the first.
 struct InForce {
   const dmrp_plan& plan;
-  std::span<const dmrp_vec2> next;  // where each robot goes next
+  std::span<const OnTheWay> robots;
 };
 
-// The problem for the robots where they are now, `in_force` being nullptr for the first plan. False where they cannot
-// be put on distinct cells.
+// The problem for the robots where they are now, or will be when the plan takes effect; `in_force` being nullptr for
+// the first plan. False where they cannot be put on distinct cells.
 bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem);
 

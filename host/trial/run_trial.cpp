@@ -31,7 +31,10 @@ class Run {
   dmrp_trial_end run() {
     if (has_robots()) {
       plan(nullptr);
-      if (!plan_.exists() && !coming_plan_) return end_without_plan();
+      if (!plan_.exists() && !coming_plan_) {
+        record({});  // for the call
+        return end_without_plan();
+      }
     }
     record({});
 
@@ -94,8 +97,8 @@ class Run {
   }
 
   void replan() {
-    const std::vector<dmrp_vec2> next = dispatcher_.next_positions(settings_.planning_latency_ns);
-    const InForce in_force = {plan_.view(), next};
+    const std::vector<OnTheWay> ways = dispatcher_.on_the_way(settings_.planning_latency_ns);
+    const InForce in_force = {plan_.view(), ways};
     plan(&in_force);
   }
 

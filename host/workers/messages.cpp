@@ -15,7 +15,7 @@ namespace dmrp::host {
   }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricEvent, metric, from_ns, to_ns, robots, text)
-DMRP_FIELDS(Job, trial, trace_file, keep_trace_of_success, skip_metrics, known_events)
+DMRP_FIELDS(Job, trial, trace_file, scratch_file, keep_trace_of_success, skip_metrics, known_events)
 DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
 DMRP_FIELDS(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
 

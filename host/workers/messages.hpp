@@ -27,7 +27,8 @@ inline constexpr int out_of_memory_exit = 86;
 
 struct Job {
   std::uint64_t trial = 0;
-  std::string trace_file;  // "" for none
+  std::string trace_file;    // "" for none
+  std::string scratch_file;  // where a large trace goes until it has been measured
   bool keep_trace_of_success = true;
   std::vector<std::uint32_t> skip_metrics;  // that killed a worker before, or were measured before another one did
   std::vector<MetricEvent> known_events;    // that these gave, for the trace

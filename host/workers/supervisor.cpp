@@ -154,9 +154,10 @@ class Supervisor {
     job.skip_metrics = trial.skip_metrics;
     job.known_events = trial.record.events;
     job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
+    const fs::path directory = fs::absolute(settings_.run_directory);
     if (experiment_.traces != RecordTraces::none)
-      job.trace_file =
-          fs::absolute(settings_.run_directory / "traces" / fmt::format("trial_{:06}.mcap", trial.record.id)).string();
+      job.trace_file = (directory / "traces" / fmt::format("trial_{:06}.mcap", trial.record.id)).string();
+    job.scratch_file = (directory / fmt::format("trial_{:06}.scratch", trial.record.id)).string();
     return job;
   }
 

@@ -12,9 +12,9 @@
 #include <optional>
 
 #include "core/trace_encoder.hpp"
-#include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
 #include "host/experiment/digest.hpp"
+#include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 #include "host/workers/line_channel.hpp"
@@ -78,14 +78,10 @@ class Worker {
       own = std::make_unique<VariantWorld>(experiment_, scenario, shared, seed);
     const VariantWorld& world = own ? *own : shared;
 
-    std::optional<core::TraceFileWriter> file;
-    if (!job.trace_file.empty()) file.emplace(job.trace_file);
+    KeptTrace kept(job.trace_file, job.scratch_file);
     core::TraceEncoder trace(
-        world.view.world(),
-        [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
-          if (file) file->write(t_ns, record);
-        },
-        file ? &file->foxglove() : nullptr);
+        world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { kept.write(t_ns, record); },
+        kept.foxglove());
 
     guard_.reset_stopped();
     TrialDone done;
@@ -93,31 +89,31 @@ class Worker {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
       done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
       done.sim_time_s = ending.sim_time_s;
-      if (file) file->flush();  // whatever metrics do
     } catch (const PluginFault& fault) {
       done.outcome = trial_outcome::fault;
-      if (file) file->finish();
+      kept.finish();
       report(fault);
       pool_.clear();
     }
-    std::vector<MetricEvent> events = job.known_events;
     if (done.outcome != trial_outcome::fault) {
-      measure_all(trace.bytes(), seed, job, events);
-      if (file) finish(*file, std::move(events));
+      std::vector<MetricEvent> events = job.known_events;
+      measure_all(kept, seed, job, events);
+      finish(kept, std::move(events));
     }
     done.repeatable = !guard_.stopped();
-    if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && file)
+    if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && kept.is_recorded())
       std::filesystem::remove(job.trace_file);
     if (own) pool_.clear();  // instances may look at their world until they go
     channel_.send(typed("done", done));
   }
 
-  static void finish(core::TraceFileWriter& file, std::vector<MetricEvent> events) {
+  static void finish(KeptTrace& kept, std::vector<MetricEvent> events) {
     std::stable_sort(events.begin(), events.end(),
                      [](const MetricEvent& a, const MetricEvent& b) { return a.from_ns < b.from_ns; });
-    for (const MetricEvent& event : events)
-      file.foxglove().mark({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
-    file.finish();
+    if (core::FoxgloveChannels* const foxglove = kept.foxglove())
+      for (const MetricEvent& event : events)
+        foxglove->mark({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
+    kept.finish();
   }
 
   void report(const PluginFault& fault) {
@@ -128,9 +124,8 @@ class Worker {
     if (fault.fatal()) _exit(1);
   }
 
-  void measure_all(const core::TraceBytes& bytes, std::uint64_t seed, const Job& job,
-                   std::vector<MetricEvent>& events) {
-    core::TraceReader reader(bytes);
+  void measure_all(KeptTrace& kept, std::uint64_t seed, const Job& job, std::vector<MetricEvent>& events) {
+    core::TraceReader reader(kept.records(), core::TraceExtent::samples);
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
       if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
       channel_.send({{"type", "measuring"}, {"index", i}});

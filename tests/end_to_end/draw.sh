@@ -9,6 +9,22 @@ expect_status 0 "$host" draw mall --planner dmrp.planner.cbs --svg "$scratch/mal
 expect_status 0 "$host" draw mall
 grep -q '^<svg' "$scratch/stdout" || fail "no picture on standard output"
 
+# robots that are drawn are those that plan draws for the same seed
+starts() { sed -nE 's/.*<circle cx="([0-9.]+)" cy="([0-9.]+)"[^>]* class="robot".*/\1,\2/p' "$1"; }
+relative() { awk -F, -v scale="$1" 'NR == 1 { x = $1; y = $2 } { print ($1 - x) / scale, ($2 - y) / scale }'; }
+expect_status 0 "$host" draw mall --agents 6 --seed 3 --planner dmrp.planner.cbs --svg "$scratch/six.svg"
+(($(grep -c 'class="path"' "$scratch/six.svg") >= 6)) || fail "the picture should show six paths"
+expect_status 0 "$host" draw mall --agents 6 --seed 3 --svg "$scratch/again.svg"
+expect_status 0 "$host" draw mall --agents 6 --seed 4 --svg "$scratch/other.svg"
+[[ $(starts "$scratch/six.svg") == "$(starts "$scratch/again.svg")" ]] || fail "the same seed should draw the same robots"
+[[ $(starts "$scratch/six.svg") != "$(starts "$scratch/other.svg")" ]] || fail "another seed should draw others"
+expect_status 0 "$host" plan --scenario mall --agents 6 --seed 3 --planner dmrp.planner.cbs --paths "$scratch/six.csv"
+[[ $(starts "$scratch/six.svg" | wc -l) == 6 && $(starts "$scratch/six.svg" | relative 20) == \
+  "$(awk -F, '$2 == 0 { print $3 "," $4 }' "$scratch/six.csv" | relative 1)" ]] || # 20 px a cell of 1 m
+  fail "plan should draw the same robots: $(starts "$scratch/six.svg") $(grep ',0,' "$scratch/six.csv")"
+expect_status 2 "$host" draw mall --agents 5000
+[[ $(cat "$scratch/stderr") == "--agents 5000: scenario 'mall' holds at most "* ]] || fail "$(cat "$scratch/stderr")"
+
 expect_status 2 "$host" draw mal
 [[ $(cat "$scratch/stderr") == *"no scenario 'mal'"*"did you mean 'mall'?"* ]] || fail "$(cat "$scratch/stderr")"
 expect_status 2 "$host" draw mall --planner dmrp.planner.cbz --svg "$scratch/none.svg"

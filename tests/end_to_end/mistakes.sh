@@ -63,6 +63,9 @@ expect_mistake "more robots than there is room for" 's/^use = "crossing"/&\nrobo
 expect_mistake "nobody there" 's/^use = "crossing"/&\nrobots = 0/' 's/^people = .*/people = 0/' "$line.*without robots nobody is there"
 expect_mistake "a recording that is not there" '' '$a[[recording]]\nfile = "none.csv"' "scenario\.toml:[0-9]+:[0-9]+: no file 'none.csv'"
 expect_mistake "no room for a crowd" '' 's/^people = .*/people = 99\nstart = "from"/' "scenario\.toml:[0-9]+:[0-9]+: no room in region 'lower right' for 99 people"
+expect_mistake "no room along a way" '' 's/^people = .*/people = 200/' "scenario\.toml:[0-9]+:[0-9]+: no room along flow 'up and down the right side' for 200 people, for [0-9]+ at most\$"
+expect_mistake "a flow that leads nowhere" '' 's/^to = .*/to = "lower right"/' "scenario\.toml:[0-9]+:[0-9]+: flow 'up and down the right side' leads from region 'lower right' to itself"
+expect_mistake "a key of another table" '$a[simulation]\nactuation_latency_s = 0.1' '' "$line.*unknown key 'actuation_latency_s' in \[simulation\] \(it is a key of \[robot\]\)"
 expect_mistake "latency out of range" '$a[robot]\nactuation_latency_s = -1' '' "$line'actuation_latency_s' must be at least 0"
 
 rm experiment.toml

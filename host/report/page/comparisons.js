@@ -136,14 +136,14 @@ window.dmrp = window.dmrp || {};
     const metric = dmrp.labels.metric(data, chosen.metric);
     const test = TESTS[rows[0].test];
     const empty = rows.filter((row) => row.pairs === 0).length;
-    const censored = (data.layouts.report.comparisons || []).some(
-      (one) => one.metric === chosen.metric && one.censored
-    );
+    const declared = (data.layouts.report.comparisons || []).filter((one) => one.metric === chosen.metric);
+    const censored = declared.some((one) => one.censored);
+    const successes = declared.some((one) => one.both_succeeded);
     return (
       `${dmrp.labels.metric_with_unit(data, chosen.metric)}, ${dmrp.labels.direction_words(metric.direction)}; ` +
       `${test ? `${test.name}, two-sided` : rows[0].test}. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, over all ` +
       'comparisons of the metric in the scenario between the same kind. Effect: matched-pairs rank-biserial correlation, ' +
-      '\u22121 to 1. Pairs: seeds that both have.' +
+      `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both have'}.` +
       (censored ? ' A trial that was not completed counts with the time limit.' : '') +
       (empty > 0 ? ` ${dmrp.numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '')
     );

@@ -4,8 +4,6 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const HEIGHT = 190;
-  const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
   // Somewhat after the last arrival, since nothing changes from there to the time limit.
   function last_of_interest(rows) {
@@ -14,29 +12,16 @@ window.dmrp = window.dmrp || {};
   }
 
   function draw_panel(data, rows, until, title, holder, width) {
-    dmrp.elements.fill(holder);
-    const x = d3
-      .scaleLinear()
-      .domain([0, until])
-      .range([MARGIN.left, width - MARGIN.right]);
-    const y = d3
-      .scaleLinear()
-      .domain([0, 1])
-      .range([HEIGHT - MARGIN.bottom, MARGIN.top]);
-    const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
-    svg
-      .append('g')
-      .attr('class', 'grid')
-      .selectAll('line')
-      .data([0.5, 1])
-      .enter()
-      .append('line')
-      .attr('x1', MARGIN.left)
-      .attr('x2', width - MARGIN.right)
-      .attr('y1', y)
-      .attr('y2', y);
-    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, 'time (s)');
-    dmrp.plots.axis_left(svg, y, MARGIN.left);
+    const {svg, x, y} = dmrp.small_plots.frame(
+      holder,
+      width,
+      {
+        x: (pixels) => d3.scaleLinear().domain([0, until]).range(pixels),
+        y: (pixels) => d3.scaleLinear().domain([0, 1]).range(pixels),
+      },
+      {all: title, x: 'time (s)'},
+      [0.5, 1]
+    );
     const line = d3
       .line()
       .x((step) => x(step[0]))
@@ -136,6 +121,7 @@ window.dmrp = window.dmrp || {};
   }
 
   function show_variants(data, rows, variants, holder) {
+    dmrp.elements.fill(holder);
     const keys = variants.map((variant) => variant.key);
     const seen = dmrp.labels
       .strata(data)
@@ -145,22 +131,13 @@ window.dmrp = window.dmrp || {};
         rows: rows.filter((row) => stratum.combinations.includes(row.combination) && (row.steps || []).length > 0),
       }))
       .filter((one) => one.rows.length > 0);
-    dmrp.elements.fill(holder);
-    if (seen.length > 0)
-      holder.append(element('p', {class: 'axis-note'}, 'Upwards: share of robots that have arrived'));
-    const panels = dmrp.plots.panels(
-      holder,
-      seen.map((one) => one.stratum.title),
-      dmrp.plots.SMALL_PANELS
-    );
-    seen.forEach((one, i) => {
+    const draw = (one, plot, width) => {
       const until = last_of_interest(
         seen.filter((other) => other.stratum.variant === one.stratum.variant).flatMap((other) => other.rows)
       );
-      dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
-        draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width)
-      );
-    });
+      draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width);
+    };
+    if (seen.length > 0) dmrp.small_plots.panels(holder, 'share of robots that have arrived', seen, draw);
     holder.append(table(data, rows, variants));
   }
 

@@ -5,8 +5,6 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const HEIGHT = 200;
-  const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
   // What the layout says of a metric's coordinate: {metric, coordinate, coordinate_unit}.
   function layout_of(data, metric) {
@@ -71,35 +69,24 @@ window.dmrp = window.dmrp || {};
     }
   }
 
-  function draw_panel(data, curves, extents, title, holder, width) {
-    dmrp.elements.fill(holder);
-    const x = d3
-      .scaleLinear()
-      .domain(d3.extent(extents.coordinates))
-      .range([MARGIN.left, width - MARGIN.right]);
-    const y = dmrp.plots.linear(extents.values, [HEIGHT - MARGIN.bottom, MARGIN.top], {zero: true});
-    const svg = dmrp.plots.frame(holder, width, HEIGHT, title);
-    svg
-      .append('g')
-      .attr('class', 'grid')
-      .selectAll('line')
-      .data(y.ticks(4))
-      .enter()
-      .append('line')
-      .attr('x1', MARGIN.left)
-      .attr('x2', width - MARGIN.right)
-      .attr('y1', y)
-      .attr('y2', y);
-    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, extents.title);
-    dmrp.plots.axis_left(svg, y, MARGIN.left);
-    for (const curve of curves) draw_curve(svg, curve, series_of(data, curve), x, y);
+  function draw_panel(data, metric, one, extents, holder, width) {
+    const {svg, x, y} = dmrp.small_plots.frame(
+      holder,
+      width,
+      {
+        x: (pixels) => d3.scaleLinear().domain(d3.extent(extents.coordinates)).range(pixels),
+        y: (pixels) => dmrp.plots.linear(extents.values, pixels, {zero: true}),
+      },
+      {
+        all: `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`,
+        x: extents.title,
+        y_unit: dmrp.labels.metric_unit(data, metric),
+      }
+    );
+    for (const curve of one.curves) draw_curve(svg, curve, series_of(data, curve), x, y);
   }
 
   function show_metric(data, metric, holder, note) {
-    dmrp.elements.fill(
-      holder,
-      element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, metric)}`)
-    );
     const found = data.curves.filter((curve) => curve.metric === metric && has_values(curve));
     const seen = dmrp.labels
       .strata(data)
@@ -113,22 +100,8 @@ window.dmrp = window.dmrp || {};
         data,
         found.filter((curve) => stratum.variant.combinations.includes(curve.combination))
       );
-    const panels = dmrp.plots.panels(
-      holder,
-      seen.map((one) => one.stratum.title),
-      dmrp.plots.SMALL_PANELS
-    );
-    seen.forEach((one, i) =>
-      dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
-        draw_panel(
-          data,
-          one.curves,
-          extents(one.stratum),
-          `${dmrp.labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`,
-          plot,
-          width
-        )
-      )
+    dmrp.small_plots.panels(holder, dmrp.labels.metric_with_unit(data, metric), seen, (one, plot, width) =>
+      draw_panel(data, metric, one, extents(one.stratum), plot, width)
     );
     const about = dmrp.labels.metric(data, metric);
     dmrp.elements.fill(note, about ? `${about.description} (${dmrp.labels.direction_words(about.direction)}).` : '');

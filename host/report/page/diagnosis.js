@@ -5,8 +5,6 @@ window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';
   const element = (...all) => dmrp.elements.element(...all);
-  const HEIGHT = 200;
-  const MARGIN = {top: 8, right: 10, bottom: 42, left: 46};
 
   // Rows of data.trials in which both are defined.
   function points_of(data, stratum, chosen) {
@@ -41,24 +39,13 @@ window.dmrp = window.dmrp || {};
   }
 
   function draw_panel(data, trials, chosen, domains, holder, width, detail) {
-    dmrp.elements.fill(holder);
-    const x = dmrp.plots.linear(domains.x, [MARGIN.left, width - MARGIN.right]);
-    const y = dmrp.plots.linear(domains.y, [HEIGHT - MARGIN.bottom, MARGIN.top]);
     const titles = {x: dmrp.labels.metric_with_unit(data, chosen.x), y: dmrp.labels.metric_with_unit(data, chosen.y)};
-    const svg = dmrp.plots.frame(holder, width, HEIGHT, `${titles.y} against ${titles.x}`);
-    svg
-      .append('g')
-      .attr('class', 'grid')
-      .selectAll('line')
-      .data(y.ticks(4))
-      .enter()
-      .append('line')
-      .attr('x1', MARGIN.left)
-      .attr('x2', width - MARGIN.right)
-      .attr('y1', y)
-      .attr('y2', y);
-    dmrp.plots.axis_bottom(svg, x, HEIGHT - MARGIN.bottom, titles.x);
-    dmrp.plots.axis_left(svg, y, MARGIN.left);
+    const {svg, x, y} = dmrp.small_plots.frame(
+      holder,
+      width,
+      {x: (pixels) => dmrp.plots.linear(domains.x, pixels), y: (pixels) => dmrp.plots.linear(domains.y, pixels)},
+      {all: `${titles.y} against ${titles.x}`, x: titles.x, y_unit: dmrp.labels.metric_unit(data, chosen.y)}
+    );
     const points = trials.map((row) => {
       const at = {x: x(data.values[chosen.x][row]), y: y(data.values[chosen.y][row])};
       return {...at, row, node: dmrp.trial_points.draw_mark(svg, data, row, at.x, at.y)};
@@ -96,8 +83,9 @@ window.dmrp = window.dmrp || {};
     if (pairs.length === 0) return null;
     const title = ([x, y]) => `${dmrp.labels.metric_title(data, x)}, ${dmrp.labels.metric_title(data, y)}`;
     const note =
-      'Spearman\u2019s ρ over the trials in which both are defined; 95 % intervals over seeds, p by permutation. ' +
-      'Ties: the share of trials that share a value with another.';
+      'Spearman\u2019s ρ over the trials in which both are defined, of all controllers together; 95 % intervals over ' +
+      'seeds. p by permutation within each controller: controllers that differ in both make ρ large, but not p small. ' +
+      'Ties: the share of pairs of trials that are equal in one of the two.';
     return dmrp.elements.titled_table(
       'title-correlations',
       'Rank correlations',
@@ -154,7 +142,11 @@ window.dmrp = window.dmrp || {};
       dmrp.elements.fill(holder);
       dmrp.elements.fill(detail);
       const seen = strata
-        .map((stratum) => ({stratum, trials: points_of(data, stratum, chosen)}))
+        .map((stratum) => ({
+          stratum,
+          trials: points_of(data, stratum, chosen),
+          line: correlation_words(correlation_of(data, stratum, chosen.x, chosen.y)),
+        }))
         .filter((one) => one.trials.length > 0);
       if (seen.length === 0) {
         dmrp.elements.fill(holder, element('p', {class: 'note'}, 'In no trial are both defined.'));
@@ -164,23 +156,10 @@ window.dmrp = window.dmrp || {};
         seen
           .filter((one) => one.stratum.variant === variant)
           .flatMap((one) => one.trials.map((i) => data.values[name][i]));
-      dmrp.elements.fill(
-        holder,
-        element('p', {class: 'axis-note'}, `Upwards: ${dmrp.labels.metric_with_unit(data, chosen.y)}`)
-      );
-      const panels = dmrp.plots.panels(
-        holder,
-        seen.map((one) => one.stratum.title),
-        dmrp.plots.SMALL_PANELS
-      );
-      seen.forEach((one, i) => {
+      dmrp.small_plots.panels(holder, dmrp.labels.metric_with_unit(data, chosen.y), seen, (one, plot, width) => {
         const {variant} = one.stratum;
         const domains = {x: values(chosen.x, variant), y: values(chosen.y, variant)};
-        const words = correlation_words(correlation_of(data, one.stratum, chosen.x, chosen.y));
-        panels[i].insertBefore(element('p', {class: 'figure-line'}, words), panels[i].querySelector('.plot'));
-        dmrp.plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
-          draw_panel(data, one.trials, chosen, domains, plot, width, detail)
-        );
+        draw_panel(data, one.trials, chosen, domains, plot, width, detail);
       });
     };
     const choose = (key) => (value) => {

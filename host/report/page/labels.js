@@ -100,8 +100,12 @@ window.dmrp = window.dmrp || {};
       .join(' ');
   }
 
+  function metric_unit(data, name) {
+    return dmrp.numbers.unit((metric(data, name) || {unit: ''}).unit);
+  }
+
   function metric_with_unit(data, name) {
-    const unit = dmrp.numbers.unit((metric(data, name) || {unit: ''}).unit);
+    const unit = metric_unit(data, name);
     return metric_title(data, name) + (unit ? ` (${unit})` : '');
   }
 
@@ -146,6 +150,7 @@ window.dmrp = window.dmrp || {};
     trial,
     metric,
     metric_title,
+    metric_unit,
     metric_with_unit,
     direction_words,
     measured_metrics,

@@ -18,30 +18,21 @@ Descriptor Neighbours::describe() {
 }
 
 void Neighbours::begin(const dmrp_plan*) {
-  active_.begin(world().robots().size());
-  times_.assign(world().robots().size(), {});
+  near_.begin(world().robots().size());
 }
 
 void Neighbours::observe(const Sample& sample) {
-  active_.observe(sample);
   const double squared_radius = radius_m * radius_m;
-  for (std::size_t robot = 0; robot < times_.size(); ++robot) {
-    if (!active_.in_step(robot)) continue;
-    const Vec2 position = toolkit::position(sample.robots[robot].pose);
+  near_.observe(sample, [&](Vec2 position) {
     std::int64_t near = -1;  // but for itself
     for (const RobotSample& other : sample.robots)
       near += toolkit::squared_distance(position, toolkit::position(other.pose)) <= squared_radius;
-    times_[robot].active_ns += sample.dt_ns;
-    times_[robot].neighbour_ns += near * sample.dt_ns;
-  }
+    return near;
+  });
 }
 
 void Neighbours::finish(const TrialEnd&, MetricSink& sink) {
-  give_mean(sink, "neighbours", values_of(times_, [](const Times& times) {
-              return times.active_ns > 0
-                         ? static_cast<double>(times.neighbour_ns) / static_cast<double>(times.active_ns)
-                         : undefined;
-            }));
+  give_mean(sink, "neighbours", near_.means());
 }
 
 }  // namespace dmrp::metrics

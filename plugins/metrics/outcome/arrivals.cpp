@@ -25,8 +25,10 @@ Descriptor Arrivals::describe() {
              "sum over robots of the time of final arrival; undefined unless all arrive")
       .value("makespan", "s", lower, Subjects::system,
              "maximum over robots of the time of final arrival, as completion_time; undefined unless all arrive")
-      .value("throughput", "1/s", higher, Subjects::system_and_robots,
-             "goals that the robot reached (each of a tour counts) / mission time; system: sum over robots");
+      .value(
+          "throughput", "1/s", higher, Subjects::system_and_robots,
+          "goals that the robot reached (each of a tour counts) / mission time, 0 if planning failed; system: sum over "
+          "robots");
 }
 
 void Arrivals::begin(const dmrp_plan*) {
@@ -45,7 +47,7 @@ void Arrivals::finish(const TrialEnd& end, MetricSink& sink) {
     const bool at_goal = arrival_ns >= 0;
     const std::uint32_t goals = at_goal ? world().robots()[robot].goal_count : goal_index_[robot];
     arrived.push_back(at_goal ? 1.0 : 0.0);
-    throughput.push_back(end.t_ns > 0 ? goals / in_seconds(end.t_ns) : undefined);
+    throughput.push_back(goals > 0 ? goals / in_seconds(end.t_ns) : 0.0);  // no time, where planning failed
     sum_ns += arrival_ns;
     last_ns = std::max(last_ns, arrival_ns);
   }

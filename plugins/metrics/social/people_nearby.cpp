@@ -4,7 +4,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "../measure/describe_metric.hpp"
-#include "../measure/sums.hpp"
+#include "../measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 
@@ -20,33 +20,21 @@ Descriptor PeopleNearby::describe() {
 }
 
 void PeopleNearby::begin(const dmrp_plan*) {
-  active_.begin(world().robots().size());
-  times_.assign(world().robots().size(), {});
+  near_.begin(world().robots().size());
 }
 
 void PeopleNearby::observe(const Sample& sample) {
-  active_.observe(sample);
   const double squared_radius = radius_m * radius_m;
-  for (std::size_t robot = 0; robot < times_.size(); ++robot) {
-    if (!active_.in_step(robot)) continue;
-    const Vec2 position = toolkit::position(sample.robots[robot].pose);
-    std::int64_t people = 0;
+  near_.observe(sample, [&](Vec2 position) {
+    std::int64_t near = 0;
     for (const Person& person : sample.people)
-      people += toolkit::squared_distance(position, person.position) <= squared_radius;
-    times_[robot].active_ns += sample.dt_ns;
-    times_[robot].person_ns += people * sample.dt_ns;
-  }
+      near += toolkit::squared_distance(position, person.position) <= squared_radius;
+    return near;
+  });
 }
 
 void PeopleNearby::finish(const TrialEnd&, MetricSink& sink) {
-  std::vector<double> means;
-  for (std::size_t robot = 0; robot < times_.size(); ++robot) {
-    const Times& times = times_[robot];
-    means.push_back(times.active_ns > 0 ? static_cast<double>(times.person_ns) / static_cast<double>(times.active_ns)
-                                        : undefined);
-    sink.robot("people_nearby", robot, means.back());
-  }
-  sink.system("people_nearby", mean_of_defined(means));
+  give_mean(sink, "people_nearby", near_.means());
 }
 
 }  // namespace dmrp::metrics

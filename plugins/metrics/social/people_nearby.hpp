@@ -2,11 +2,9 @@
 // people_nearby.hpp: how many people a robot has around it on its way: how dense the crowd was that it met.
 #pragma once
 
-#include <cstdint>
 #include <dmrp/plugin.hpp>
-#include <vector>
 
-#include "../measure/active_steps.hpp"
+#include "../measure/mean_count.hpp"
 
 namespace dmrp::metrics {
 
@@ -21,14 +19,7 @@ class PeopleNearby final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // Time while active, and the same with every person nearby counted: integers, so exact.
-  struct Times {
-    std::int64_t active_ns = 0;
-    std::int64_t person_ns = 0;
-  };
-
-  ActiveSteps active_;
-  std::vector<Times> times_;  // a robot
+  MeanCount near_;
 };
 
 }  // namespace dmrp::metrics

@@ -20,9 +20,9 @@ constexpr double negligible_influence = 1e-4;
 constexpr double broadest_radius_m = 0.5;
 constexpr double longest_step_m = 0.1;
 
-// Who has got on more slowly than this share of their wish, on average over the last seconds, is held up.
-constexpr double held_up_speed_share = 0.1;
-constexpr double held_up_s = 2.0;
+// Who is held up goes on at up to this speed where only people who have farther to go are in the way, m/s: the world
+// lets people push each other, which opens an arch round a door.
+constexpr double shuffling_speed = 0.3;
 
 // The cells of the grid, m.
 constexpr double neighbor_cell_m = 1.0;
@@ -30,13 +30,6 @@ constexpr double neighbor_cell_m = 1.0;
 // The gap at which an influence has become negligible.
 double fading_gap(double strength, double range_m) {
   return range_m * std::log(std::max(strength / negligible_influence, 1.0));
-}
-
-// Whether one has less far to go than the other.
-bool goes_before(const Person& one, const Person& other) {
-  const double one_m = toolkit::distance(one.position, one.target);
-  const double other_m = toolkit::distance(other.position, other.target);
-  return one_m < other_m || (one_m == other_m && one.id < other.id);
 }
 
 }  // namespace
@@ -54,7 +47,7 @@ Descriptor CollisionFreeSpeed::describe() {
 Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   leanings_.start(seed);
-  progress_.clear();
+  right_of_way_.start();
   ways_.start(world.walking_grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = broadest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
@@ -68,27 +61,25 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
   });
 
   const double step_s = seconds(crowd.dt_ns);
+  right_of_way_.update(crowd.people, step_s);
   for (const auto& [person, way, slot] : walkers_.by_place()) {
-    look_around(slot, person, is_held_up(slot, person, step_s), crowd.people);
+    look_around(slot, person, crowd.people);
     const Vec2 along = direction(way, person);
     velocities[slot] = kept_off_walls(speed_along(along, person, step_s) * along, person, step_s);
   }
   return Status::ok;
 }
 
-// All who are turned away from or who may be in the way, and the walls. Who is held up is turned aside only by those who
-// have less far to go: else people who are in each other's way at a door would turn each other back for ever.
-void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, bool held_up,
-                                     const Span<Person>& people) {
+// All who are turned away from or who may be in the way, and the walls.
+void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, const Span<Person>& people) {
   near_.clear();
   const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
     if (other->slot == slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
-    const bool turns_aside = !held_up || other->slot == no_slot || !goes_before(person, people[other->slot]);
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight, turns_aside});
+                     other->weight, right_of_way_.holds_over(slot, *other, people)});
   }
   walls_.nearest_points(person.position, wall_points_);
 }
@@ -97,7 +88,7 @@ void CollisionFreeSpeed::look_around(std::uint32_t slot, const Person& person, b
 Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person) {
   Vec2 sum = way;
   for (const Near& other : near_) {
-    if (!other.turns_aside || other.gap_m > neighbor_reach_m_) continue;
+    if (other.gives_way || other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
     sum -= other.apart * (influence / (other.gap_m + other.reach_m));
   }
@@ -107,20 +98,14 @@ Vec2 CollisionFreeSpeed::direction(Vec2 way, const Person& person) {
   return toolkit::normalized(sum);
 }
 
-bool CollisionFreeSpeed::is_held_up(std::uint32_t slot, const Person& person, double step_s) {
-  if (slot >= progress_.size()) progress_.resize(slot + 1);
-  Progress& progress = progress_[slot];
-  if (progress.person_id != person.id || !progress.known) progress = {true, person.id, {person.desired_speed, 0.0}};
-  progress.velocity += (person.velocity - progress.velocity) * std::min(step_s / held_up_s, 1.0);
-  return toolkit::norm(progress.velocity) < held_up_speed_share * person.desired_speed;
-}
-
 double CollisionFreeSpeed::speed_along(Vec2 direction, const Person& person, double step_s) const {
   const double to_target_m = toolkit::distance(person.position, person.target);
   double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
   for (const Near& other : near_)
-    if (is_in_the_way(direction, other.apart, other.reach_m))
-      speed = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
+    if (is_in_the_way(direction, other.apart, other.reach_m)) {
+      const double permitted = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
+      speed = other.gives_way ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
+    }
   return speed;
 }
 

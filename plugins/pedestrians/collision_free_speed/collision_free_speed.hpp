@@ -9,6 +9,7 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
@@ -49,18 +50,10 @@ class CollisionFreeSpeed final : public PedestrianModel {
     double gap_m;
     double reach_m;  // sum of the radii
     double weight;
-    bool turns_aside;  // the direction minds it
+    bool gives_way;  // is not turned away from
   };
 
-  // How somebody got on of late.
-  struct Progress {
-    bool known = false;
-    std::uint64_t person_id = 0;
-    Vec2 velocity = {0.0, 0.0};  // mean, the older the less
-  };
-
-  bool is_held_up(std::uint32_t slot, const Person& person, double step_s);
-  void look_around(std::uint32_t slot, const Person& person, bool held_up, const Span<Person>& people);
+  void look_around(std::uint32_t slot, const Person& person, const Span<Person>& people);
   Vec2 direction(Vec2 way, const Person& person);
   double speed_along(Vec2 direction, const Person& person, double step_s) const;
   Vec2 kept_off_walls(Vec2 velocity, const Person& person, double step_s) const;
@@ -68,7 +61,7 @@ class CollisionFreeSpeed final : public PedestrianModel {
   double neighbor_reach_m_ = 0.0;  // beyond this gap nobody is turned away from
   WayFinder ways_;
   Leanings leanings_;
-  std::vector<Progress> progress_;  // by slot
+  RightOfWay right_of_way_;
   NeighborGrid neighbors_;
   WallGrid walls_;
   Walkers walkers_;

@@ -51,6 +51,7 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
   seed_ = seed;
   ways_.start(world.walking_grid());
   groups_.start();
+  right_of_way_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
@@ -62,6 +63,7 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
+  right_of_way_.update(crowd.people, dt);
   for (const Walker& walker : walkers_.by_place()) {
     const Person& person = walker.person;
     Vec2 velocity = person.velocity + dt * acceleration(walker, crowd.people);
@@ -81,7 +83,7 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
 Vec2 SocialForce::acceleration(const Walker& walker, const Span<Person>& people) {
   const auto& [person, way, slot] = walker;
   double speed = person.desired_speed;
-  const Vec2 others = from_others(slot, person, way, speed);
+  const Vec2 others = from_others(walker, people, speed);
   const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
   return drive + others + from_group(walker, people, desired) + from_walls(person);
@@ -95,7 +97,8 @@ double SocialForce::keeping_off(double gap_m) const {
 }
 
 // Lowers `speed` to what those ahead permit.
-Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed) {
+Vec2 SocialForce::from_others(const Walker& walker, const Span<Person>& people, double& speed) {
+  const auto& [person, way, slot] = walker;
   Vec2 sum = {0.0, 0.0};
   for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
     const Body& other = *body;
@@ -107,7 +110,8 @@ Vec2 SocialForce::from_others(std::uint32_t slot, const Person& person, Vec2 way
     const double gap_m = distance_m - reach_m;
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
     const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
-    sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
+    if (!right_of_way_.holds_over(slot, other, people))
+      sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
 
     const double following_s = other.weight * time_gap;
     if (gap_m < speed * following_s)

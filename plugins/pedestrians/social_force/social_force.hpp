@@ -8,6 +8,7 @@
 
 #include "crowd/groups.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
@@ -55,7 +56,7 @@ class SocialForce final : public PedestrianModel {
  private:
   Vec2 acceleration(const Walker& walker, const Span<Person>& people);
   double keeping_off(double gap_m) const;
-  Vec2 from_others(std::uint32_t slot, const Person& person, Vec2 way, double& speed);
+  Vec2 from_others(const Walker& walker, const Span<Person>& people, double& speed);
   Vec2 from_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const;
   Vec2 from_walls(const Person& person);
 
@@ -63,6 +64,7 @@ class SocialForce final : public PedestrianModel {
   std::uint64_t seed_ = 0;
   WayFinder ways_;
   Groups groups_;
+  RightOfWay right_of_way_;
   NeighborGrid neighbors_;
   WallGrid walls_;
   Walkers walkers_;

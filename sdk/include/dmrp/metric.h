@@ -162,7 +162,8 @@ typedef struct dmrp_metric {
   // [step]
   int32_t (*begin)(dmrp_instance* self, const dmrp_metric_trial* trial);
 
-  // In order of time. Not called when planning failed. A trial without robots has samples of people alone.
+  // In order of time. A trial without robots has samples of people alone. Where planning failed nothing moves: only
+  // metrics of DMRP_CHANNEL_CALLS are called then, once, with the state at t = 0, no plan, and the call that gave none.
   // [step]
   int32_t (*observe)(dmrp_instance* self, const dmrp_sample* sample);
 

@@ -19,12 +19,16 @@ typedef struct dmrp_agent {
 } dmrp_agent;
 
 // Made by the host for one call of step().
+//
+// Where the experiment gives robots odometry noise, `pose` is where the robot believes to be and `velocity` what it read;
+// agents, lidar and costmap then lie about the believed pose, as in a robot's own map. Goal and path lie where they are;
+// progress, arrival and metrics are by the true pose.
 typedef struct dmrp_observation {
   uint32_t struct_size;
-  uint32_t robot;  // index; always world.self
-  int64_t t_ns;    // simulated time
-  int64_t dt_ns;   // the control period
-  dmrp_pose pose;
+  uint32_t robot;       // index; always world.self
+  int64_t t_ns;         // simulated time
+  int64_t dt_ns;        // the control period
+  dmrp_pose pose;       // believed
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
   // The current goal; under dispatch = "waypoint" the waypoint on the way there that was handed over, with the goal's

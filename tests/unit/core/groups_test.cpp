@@ -206,7 +206,7 @@ TEST_CASE("a region too small for its groups is told") {
   scenario = empty_scenario(6, 1);
   scenario.regions = {{"west", {0.5, 0.3}, {1, 0.7}}, {"east", {5, 0.3}, {5.5, 0.7}}};
   scenario.flows = {{"crowd", {0, 1}, 20, FlowStart::along, true, 10}};
-  CHECK_THROWS_WITH(world_of(scenario), Catch::Contains("no room along flow 'crowd' for a group of 10"));
+  CHECK_THROWS_WITH(world_of(scenario), Catch::Contains("no room along flow 'crowd' for 20 people in groups of 10"));
 }
 
 TEST_CASE("a group's crowd at the beginning is the same however many robots take part") {

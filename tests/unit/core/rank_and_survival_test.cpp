@@ -74,6 +74,21 @@ TEST_CASE("a rank correlation's p counts the orders", "[statistics]") {
     CHECK(found.p < 0.01 + 0.004);
     CHECK(found.p > 0.001);
     CHECK(rank_correlation(x, y, each_its_own(9)).p == found.p);
+    CHECK(rank_correlation(x, y, each_its_own(9), std::vector<std::uint32_t>(9, 4)).p == found.p);
+  }
+  SECTION("within blocks, whose differences alone are no evidence") {
+    const std::vector<double> x{1, 2, 3, 11, 12, 13};
+    const std::vector<double> y{3, 1, 2, 13, 11, 12};
+    const std::vector<std::uint32_t> block{0, 0, 0, 1, 1, 1};
+    const RankCorrelation found = rank_correlation(x, y, each_its_own(6), block);
+    CHECK(found.rho == Approx(1.0 - 6.0 * 12.0 / 210.0));  // of all six
+    CHECK_FALSE(found.exact);
+    // products of a block's centered ranks: -1 here; of its six orders 2, 1, 1, -1, -1, -2. Of the 36 sums of two, 18
+    // are at least as far from 0 as -2
+    CHECK(found.p == Approx(0.5).margin(0.03));
+    CHECK(rank_correlation(x, y, each_its_own(6)).p < 0.2);
+    // a block of one has no other order
+    CHECK(rank_correlation(x, y, each_its_own(6), std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}).p == 1.0);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/trace_encoder.hpp"
@@ -135,12 +136,19 @@ struct ExampleSample {
 };
 
 // A whole trial of `samples` steps: a second plan comes after half of them.
-inline core::TraceBytes example_trace(std::int64_t samples, core::TraceEncoder::RecordSink sink = {},
+inline core::TraceBytes example_trace(std::int64_t samples, const core::TraceEncoder::RecordSink& sink = {},
                                       core::FoxgloveChannels* foxglove = nullptr) {
   const ExampleWorld example;
   const ExamplePlan first(1);
   const ExamplePlan second(2);
-  core::TraceEncoder trace(example.world, std::move(sink), foxglove);
+  core::TraceBytes bytes;
+  core::TraceEncoder trace(
+      example.world,
+      [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
+        bytes.insert(bytes.end(), record.begin(), record.end());
+        if (sink) sink(t_ns, record);
+      },
+      foxglove);
   trace.plan(first.plan, 3);
   for (std::int64_t k = 0; k < samples; ++k) {
     if (k == samples / 2) {
@@ -165,7 +173,7 @@ inline core::TraceBytes example_trace(std::int64_t samples, core::TraceEncoder::
   const dmrp_trial_end end{sizeof(dmrp_trial_end), DMRP_ENDING_TIME_LIMIT, samples * 20'000'000, robots.data(), 2,
                            sizeof(dmrp_robot_end)};
   trace.end(end, "time limit");
-  return trace.bytes();
+  return bytes;
 }
 
 }  // namespace dmrp::test

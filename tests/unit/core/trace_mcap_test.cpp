@@ -11,11 +11,13 @@
 #include <iterator>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/mcap_reader.hpp"
 #include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
+#include "core/trace_spool.hpp"
 #include "trace_example.hpp"
 
 using namespace dmrp::core;
@@ -55,6 +57,17 @@ TraceBytes write_example(const ScratchFile& file, std::int64_t samples, bool fin
   return trace;
 }
 
+// All of it, however much of it is kept in memory.
+TraceBytes read_trace(const std::filesystem::path& path, std::size_t most_bytes_in_memory) {
+  TraceRecords records(path, most_bytes_in_memory);
+  TraceBytes trace;
+  while (const auto record = records.next()) trace.insert(trace.end(), record->whole.begin(), record->whole.end());
+  return trace;
+}
+TraceBytes read_trace(const std::filesystem::path& path) {
+  return read_trace(path, TraceRecords::small_trace_bytes);
+}
+
 template <class Value>
 Value value_at(const TraceBytes& bytes, std::size_t offset) {
   Value value;
@@ -81,7 +94,73 @@ TEST_CASE("a trace comes back from its file", "[mcap]") {
   const ScratchFile file;
   const std::int64_t samples = GENERATE(std::int64_t{0}, std::int64_t{3}, many_samples);
   const TraceBytes trace = write_example(file, samples);
-  CHECK(read_trace_file(file.path()) == trace);
+  CHECK(read_trace(file.path()) == trace);
+}
+
+TEST_CASE("a trace that stays in its file is read as often as wanted", "[mcap]") {
+  const ScratchFile file;
+  const TraceBytes trace = write_example(file, many_samples);
+  const std::size_t most_bytes_in_memory = GENERATE(std::size_t{0}, std::size_t{100'000}, std::size_t{100'000'000});
+  TraceReader in_memory(trace);
+  TraceReader in_file(TraceRecords(file.path(), most_bytes_in_memory), TraceExtent::samples);
+  REQUIRE(in_file.end());
+  CHECK(in_file.reason() == "time limit");
+  CHECK(in_file.plans().size() == 3);
+  CHECK(in_file.sample_count() == many_samples);
+  CHECK(in_file.notes().empty());
+  CHECK(in_file.scans().empty());
+  CHECK(in_file.trajectories().empty());
+  for (int round = 0; round < 10; ++round) in_file.next_sample();
+  in_file.rewind();
+  for (int pass = 0; pass < 2; ++pass) {
+    in_memory.rewind();
+    bool equal = true;
+    while (const dmrp_sample* expected = in_memory.next_sample()) {
+      const dmrp_sample* sample = in_file.next_sample();
+      REQUIRE(sample);
+      equal = equal && sample->t_ns == expected->t_ns && sample->plan->revision == expected->plan->revision &&
+              std::memcmp(sample->people, expected->people, 2 * sizeof(dmrp_person)) == 0;
+    }
+    CHECK(equal);
+    CHECK(in_file.next_sample() == nullptr);
+    CHECK(in_file.next_sample() == nullptr);
+    in_file.rewind();
+  }
+}
+
+TEST_CASE("a spool gives records back, whatever changes from one to the next", "[mcap]") {
+  const ScratchFile file;
+  TraceSpool spool(file.path());
+  CHECK_FALSE(std::filesystem::exists(file.path()));
+  dmrp::toolkit::Stream random(1, "spool");
+  std::vector<TraceBytes> written;
+  std::size_t bytes = 0;
+  for (int k = 0; k < 3000; ++k) {
+    // as another one before, longer or shorter, with some bytes changed; sometimes of more than one mask
+    const auto kind = static_cast<std::uint8_t>(1 + random.below(7));
+    TraceBytes record = written.empty() ? TraceBytes() : written[random.below(written.size())];
+    record.resize(trace_record_prefix_bytes + random.below(random.below(10) == 0 ? 20'000 : 300));
+    for (std::uint64_t changes = random.below(8); changes > 0; --changes)
+      record[random.below(record.size())] = static_cast<std::uint8_t>(random.below(256));
+    const auto length = static_cast<std::uint32_t>(record.size() - trace_record_prefix_bytes);
+    std::memcpy(record.data(), &length, sizeof(length));
+    record[sizeof(length)] = kind;
+    spool.write(record);
+    bytes += record.size();
+    written.push_back(std::move(record));
+  }
+  CHECK(bytes > 3'000'000);
+  for (int pass = 0; pass < 2; ++pass) {
+    spool.rewind();
+    std::size_t equal = 0;
+    for (const TraceBytes& expected : written) {
+      const auto record = spool.next();
+      REQUIRE(record);
+      equal += std::equal(record->begin(), record->end(), expected.begin(), expected.end()) ? 1U : 0U;
+    }
+    CHECK(equal == written.size());
+    CHECK_FALSE(spool.next());
+  }
 }
 
 TEST_CASE("a trace without its end can be read up to the last whole chunk", "[mcap]") {
@@ -90,7 +169,7 @@ TEST_CASE("a trace without its end can be read up to the last whole chunk", "[mc
   const TraceBytes whole = file.bytes();
   for (const std::size_t length : {whole.size(), whole.size() - 1, whole.size() / 2}) {
     file.replace(TraceBytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
-    const TraceBytes part = read_trace_file(file.path());
+    const TraceBytes part = read_trace(file.path());
     CHECK(part.size() > 900'000);
     REQUIRE(part.size() < trace.size());
     CHECK(std::equal(part.begin(), part.end(), trace.begin()));
@@ -111,9 +190,9 @@ TEST_CASE("a damaged file is refused", "[mcap]") {
     bytes[bytes.size() / 3] ^= 0x10;
   }
   file.replace(bytes);
-  CHECK_THROWS_AS(read_trace_file(file.path()), TraceError);
+  CHECK_THROWS_AS(read_trace(file.path()), TraceError);
   std::filesystem::remove(file.path());
-  CHECK_THROWS_AS(read_trace_file(file.path()), std::system_error);
+  CHECK_THROWS_AS(read_trace(file.path()), std::system_error);
 }
 
 TEST_CASE("whatever byte is wrong, a file is read or refused", "[mcap]") {
@@ -128,9 +207,8 @@ TEST_CASE("whatever byte is wrong, a file is read or refused", "[mcap]") {
     damaged[random.below(summary_begin(whole))] ^= static_cast<std::uint8_t>(1 + random.below(255));
     TraceBytes found;
     try {
-      read_mcap(damaged, "dmrp/trace", [&](std::int64_t, std::span<const std::uint8_t> record) {
-        found.insert(found.end(), record.begin(), record.end());
-      });
+      file.replace(damaged);
+      found = read_trace(file.path());
       if (found != trace) {
         ++other;
         CHECK(found.empty());  // the one chunk's opcode or length was hit, so that it was not seen
@@ -156,11 +234,12 @@ TEST_CASE("several channels share a file, each read by its topic", "[mcap]") {
   writer.finish();
 
   using Message = std::tuple<std::int64_t, std::string>;
-  const auto messages = [&](std::string_view topic) {
+  const auto messages = [&](const char* topic) {
     std::vector<Message> found;
-    CHECK(read_mcap(file.bytes(), topic, [&](std::int64_t t_ns, std::span<const std::uint8_t> message) {
-      found.emplace_back(t_ns, std::string(message.begin(), message.end()));
-    }));
+    McapReader reader(file.path(), topic);
+    while (const auto message = reader.next())
+      found.emplace_back(message->log_time_ns, std::string(message->data.begin(), message->data.end()));
+    CHECK(reader.is_whole());
     return found;
   };
   CHECK(messages("first") == std::vector<Message>{{10, "a"}, {15, ""}});
@@ -214,13 +293,14 @@ TEST_CASE("what there is to look at stands beside the trace", "[mcap]") {
   }
   std::vector<std::string> seen;
   std::vector<std::int64_t> times;
-  const auto read = [&](std::string_view topic) {
+  const auto read = [&](const char* topic) {
     seen.clear();
     times.clear();
-    read_mcap(file.bytes(), topic, [&](std::int64_t t_ns, std::span<const std::uint8_t> message) {
-      times.push_back(t_ns);
-      seen.emplace_back(message.begin(), message.end());
-    });
+    McapReader reader(file.path(), topic);
+    while (const auto message = reader.next()) {
+      times.push_back(message->log_time_ns);
+      seen.emplace_back(message->data.begin(), message->data.end());
+    }
     return seen.size();
   };
   const auto has = [&](std::size_t message, const char* part) {

@@ -5,15 +5,15 @@
 
 #include "core/trace_reader.hpp"
 #include "trace_example.hpp"
-
+#include "trace_in_memory.hpp"
 using dmrp::core::TraceBytes;
-using dmrp::core::TraceEncoder;
 using dmrp::core::TraceError;
 using dmrp::core::TraceReader;
 using dmrp::test::example_trace;
 using dmrp::test::ExamplePlan;
 using dmrp::test::ExampleSample;
 using dmrp::test::ExampleWorld;
+using dmrp::test::TraceInMemory;
 
 namespace {
 
@@ -240,10 +240,10 @@ TEST_CASE("the encoder walks arrays by their owner's stride", "[trace]") {
   sample.robot_stride = sizeof(Grown);
 
   const ExampleWorld example;
-  TraceEncoder from_grown(example.world);
-  from_grown.sample(sample);
-  TraceEncoder from_plain(example.world);
-  from_plain.sample(plain.sample);
+  TraceInMemory from_grown(example.world);
+  from_grown->sample(sample);
+  TraceInMemory from_plain(example.world);
+  from_plain->sample(plain.sample);
   CHECK(from_grown.bytes() == from_plain.bytes());
 }
 
@@ -262,10 +262,10 @@ TEST_CASE("the sink gets the records that make up the trace", "[trace]") {
 TEST_CASE("a trial cut short is a trace without an end", "[trace]") {
   const ExampleWorld example;
   const ExamplePlan plan(1);
-  TraceEncoder encoder(example.world);
+  TraceInMemory encoder(example.world);
   CHECK(TraceReader(encoder.bytes()).first_plan() == nullptr);
-  encoder.plan(plan.plan);
-  encoder.sample(ExampleSample(0, &plan.plan).sample);
+  encoder->plan(plan.plan);
+  encoder->sample(ExampleSample(0, &plan.plan).sample);
   TraceReader trace(encoder.bytes());
   CHECK(trace.end() == nullptr);
   CHECK(trace.sample_count() == 1);
@@ -274,34 +274,34 @@ TEST_CASE("a trial cut short is a trace without an end", "[trace]") {
 TEST_CASE("what contradicts itself is refused", "[trace]") {
   const ExampleWorld example;
   const ExamplePlan plan(1);
-  TraceEncoder encoder(example.world);
+  TraceInMemory encoder(example.world);
 
   SECTION("a sample under a plan that is not there") {
-    encoder.sample(ExampleSample(0, &plan.plan).sample);
+    encoder->sample(ExampleSample(0, &plan.plan).sample);
   }
   SECTION("two plans of one revision") {
-    encoder.plan(plan.plan);
-    encoder.plan(plan.plan);
+    encoder->plan(plan.plan);
+    encoder->plan(plan.plan);
   }
   SECTION("a sample of fewer robots") {
     ExampleSample sample(0, nullptr);
     sample.sample.robot_count = 1;
-    encoder.sample(sample.sample);
+    encoder->sample(sample.sample);
   }
   SECTION("a contact with a person who is not there") {
     ExampleSample sample(0, nullptr);
     sample.contacts[1].b = 2;
-    encoder.sample(sample.sample);
+    encoder->sample(sample.sample);
   }
   SECTION("a plan of fewer paths") {
     dmrp_plan fewer = plan.plan;
     fewer.path_count = 1;
-    encoder.plan(fewer);
+    encoder->plan(fewer);
   }
   SECTION("a record after the end") {
-    encoder.end({sizeof(dmrp_trial_end), DMRP_ENDING_NO_PLAN, 0, std::array<dmrp_robot_end, 2>{}.data(), 2,
-                 sizeof(dmrp_robot_end)});
-    encoder.note({}, "too late");
+    encoder->end({sizeof(dmrp_trial_end), DMRP_ENDING_NO_PLAN, 0, std::array<dmrp_robot_end, 2>{}.data(), 2,
+                  sizeof(dmrp_robot_end)});
+    encoder->note({}, "too late");
   }
   CHECK_THROWS_AS(TraceReader(encoder.bytes()), TraceError);
 }

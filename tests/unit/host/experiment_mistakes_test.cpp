@@ -87,6 +87,18 @@ TEST_CASE("mistakes in an experiment file") {
       {"scenario.toml\"", "scenario.toml\"\nrobots = [1, 1]", "experiment.toml:9:14: scenario 'hall/1' is there twice"},
       {"scenario.toml\"", "scenario.toml\"\nrobot = 1",
        "experiment.toml:9:1: unknown key 'robot' in [[scenario]] (did you mean 'robots'?)"},
+      // keys of other tables
+      {"[[scenario]]", "[simulation]\nactuation_latency_s = 0.1\n[[scenario]]",
+       "experiment.toml:8:1: unknown key 'actuation_latency_s' in [simulation] (it is a key of [robot])"},
+      {"[[scenario]]", "[robot]\nplanning_latency_s = 0.1\n[[scenario]]",
+       "experiment.toml:8:1: unknown key 'planning_latency_s' in [robot] (it is a key of [simulation])"},
+      {"[[scenario]]", "[robot]\nradius_m = 0.3\n[[scenario]]",
+       "experiment.toml:8:1: unknown key 'radius_m' in [robot] (it is a key of [robot.footprint])"},
+      {"seed = 7", "lidar = 7", "experiment.toml:3:1: unknown key 'lidar' in [experiment] (it is a key of [robot])"},
+      {"weight = 1.5", "v_max = 1.5",
+       "experiment.toml:12:12: unknown key 'v_max' for test.planner (it is a key of [robot])"},
+      {"[experiment]", "trials = 2\n[experiment]",
+       "experiment.toml:1:1: unknown key 'trials' (it is a key of [experiment])"},
       // plugins
       {"use = \"test.planner\"\n", "", "experiment.toml:10:1: [[global_planner]] needs 'use'"},
       {"\"test.planner\"", "\"test.planer\"",
@@ -233,6 +245,9 @@ TEST_CASE("mistakes in a scenario file") {
       {"name = \"pillar\"", "name = \"wall\"", "13:8: there are two shapes 'wall'"},
       {"radius_m = 0.3", "radius_m = 0", "15:12: 'radius_m' must be positive, not 0"},
       {"radius_m = 0.3", "radius = 0.3", "15:1: unknown key 'radius' in [[circle]] (did you mean 'radius_m'?)"},
+      {"radius_m = 0.3", "size_m = [0.3, 0.3]",
+       "15:1: unknown key 'size_m' in [[circle]] (it is a key of [scenario], [[box]])"},
+      {"people = 2", "speed_mean = 1.4", "44:1: unknown key 'speed_mean' in [[flow]] (it is a key of [people])"},
       {"[[1.0, 6.0], [1.5, 7.0], [2.0, 6.0]]", "[[1.0, 6.0], [1.5, 7.0]]",
        "19:14: 'vertices_m' must have at least 3 points"},
       {"[[1.0, 6.0], [1.5, 7.0], [2.0, 6.0]]", "[[1.0, 6.0], [1.5, 7.0], [2.0, 8.0]]",
@@ -253,11 +268,11 @@ TEST_CASE("mistakes in a scenario file") {
        "45:1: [people] needs speed_min <= speed_mean <= speed_max, not 3, 1.2, 2"},
       {"people = 2", "people = 2\ngroup_size = 0", "45:14: 'group_size' must be at least 1, not 0"},
       {"people = 2", "people = 2\ngroup_size = 3", "45:14: 'group_size' must be at most 'people', 2, not 3"},
-      {"people = 2", "people = 2\ngroup_size = 1.5", "45:14: 'group_size' must be an integer, not a number"},
-      {"people = 2", "people = 2\ngroups = 2",
-       "45:1: unknown key 'groups' in [[flow]] (there: name, from, via, to, people, start, respawn, group_size)"},
+      {"people = 2", "people = 2\ngroup_size = 1.5", "45:14: 'group_size' must be an integer, not a float"},
+      {"people = 2", "people = 2\ngroupsize = 2",
+       "45:1: unknown key 'groupsize' in [[flow]] (did you mean 'group_size'?)"},
       {"people = 2", "people = 2\n[[recording]]\nfile = \"crowd.csv\"\ngroup_size = 2",
-       "47:1: unknown key 'group_size' in [[recording]]"},
+       "47:1: unknown key 'group_size' in [[recording]] (it is a key of [[flow]])"},
       // the world itself
       {"start = [0.5, 0.5]", "start = [5.0, 4.0]",
        "21:1: robot 1 starts inside 'wall' (clearance 0.00 m, needs 0.35 m)"},
@@ -291,7 +306,7 @@ TEST_CASE("mistakes in a scenario file") {
       {"upper_m = [1.5, 3.0]\n\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n\n[[flow]]",
        "upper_m = [0.7, 1.6]\n[[region]]\nname = \"east\"\nlower_m = [8.0, 1.0]\nupper_m = [9.5, 3.0]\n[[flow]]\n"
        "group_size = 2",
-       "37:1: flow 'across': no room in region 'west' for a group of 2"},
+       "38:1: flow 'across': no room in region 'west' for a group of 2"},
   };
   for (const Mistake& mistake : mistakes) {
     INFO(mistake.to);

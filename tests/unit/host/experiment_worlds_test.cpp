@@ -165,13 +165,18 @@ columns = 3
 [[flow]]
 name = "nobody"
 from = "end"
-to = "end"
+to = "corner"
 people = 0
 
 [[region]]
 name = "end"
 lower_m = [128.0, 1.0]
 upper_m = [129.0, 2.0]
+
+[[region]]
+name = "corner"
+lower_m = [128.0, 4.0]
+upper_m = [129.0, 5.0]
 )");
   const Experiment e = load(with(with_robots("robots = 5"), "./hall/", "./row/"));
   const core::Scenario& row = e.scenarios[0].scenario;
@@ -247,13 +252,90 @@ TEST_CASE("mistakes in a recording") {
   mistake("time,person,x,y\n", "1:6: the first line must be 'time,id,x,y': 'person' should be 'id'");
   mistake("time,id,x\n", "1:1: a row has 4 values, time,id,x,y, not 3");
   mistake("time,id,x,y\n0,1,2,3,4\n", "2:1: a row has 4 values, time,id,x,y, not 5");
-  mistake("time,id,x,y\n0,1,2,north\n", "2:7: 'y' must be a number of at most 10000, not 'north'");
-  mistake("time,id,x,y\n0,1.5,2,3\n", "2:3: 'id' must be a whole number, not '1.5'");
-  mistake("time,id,x,y\n0,1,nan,3\n", "2:5: 'x' must be a number of at most 10000, not 'nan'");
+  mistake("time,id,x,y\n0,1,2,north\n", "2:7: 'y' must be a number from -10000 to 10000, not 'north'");
+  mistake("time,id,x,y\n0,1.5,2,3\n", "2:3: 'id' must be a whole number of at least 0, not '1.5'");
+  mistake("time,id,x,y\n0,-1,2,3\n", "2:3: 'id' must be a whole number of at least 0, not '-1'");
+  mistake("time,id,x,y\n0,1,nan,3\n", "2:5: 'x' must be a number from -10000 to 10000, not 'nan'");
+  mistake("time,id,x,y\n0,1,+-2,3\n", "2:5: 'x' must be a number from -10000 to 10000, not '+-2'");
+  mistake("time,id,x,y\n-2e6,1,2,3\n", "2:1: 'time' must be a number from -1000000 to 1000000, not '-2e6'");
+  mistake("time,id,x,y\n,1,2,3\n", "2:1: 'time' must be a number from -1000000 to 1000000, not ''");
+  mistake("time,id,x,y\n0,1,2\r3,4\n", "2:5: 'x' must be a number from -10000 to 10000, not '2 3'");
+  mistake("time;id;x;y\n", "1:1: a row has 4 values, time,id,x,y, not 1");
+  mistake("time,id,x,y\n0.5,1,2,3\n0.50000000001,1,2,3\n",
+          "3:1: person 1 has two rows at 0.50000000001 s, line 2 is the first");
   mistake("time,id,x,y\n1,1,2,3\n0.5,2,2,3\n0.5,1,2,3\n",
           "4:1: the rows of person 1 must be in order of time: 0.5 s comes after 1 s");
+  mistake("time,id,x,y\n+1,+1,2,+3\n+0.5,1,2,3\n",
+          "3:1: the rows of person 1 must be in order of time: +0.5 s comes after 1 s");
   mistake("time,id,x,y\n0,1,2,3\n1,1,12,3\n", "3:1: person 1 is outside the world, at (12, 3)");
   mistake("time,id,x,y\n0,1,5,4\n", "2:1: person 1 is inside 'wall', at (5, 4)");
+}
+
+TEST_CASE("a recording of which nobody is ever there gets a warning") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
+  const auto warnings = [](const std::string& csv, const std::string& settings) {
+    write_file("hall/crowd.csv", "time,id,x,y\n" + csv);
+    return load(experiment_text + settings).warnings;
+  };
+  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
+        std::vector<std::string>{"hall/scenario.toml:46:8: nobody of 'hall/crowd.csv' is there during the trial, from "
+                                 "0 to 180 s: its rows are of -20 to 200 s"});
+  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "[simulation]\ntime_limit_s = 200\n").empty());
+  CHECK(warnings("2,1,1,1\n", "[simulation]\ntime_limit_s = 1.5\n").size() == 1);
+  CHECK(warnings("-1,1,1,1\n0,1,2,1\n", "").empty());
+  CHECK(warnings("-1,1,1,1\n190,1,2,1\n", "").empty());
+}
+
+TEST_CASE("a flow leads from region to region") {
+  const ExperimentFolder folder;
+  const std::string to = "hall/scenario.toml:43:6: ";
+  CHECK(message_of_scenario("to = \"east\"", "to = \"west\"") ==
+        to + "flow 'across' leads from region 'west' to itself: nobody would walk");
+  CHECK(message_of_scenario("to = \"east\"", "via = [\"west\"]\nto = \"east\"") ==
+        "hall/scenario.toml:43:8: flow 'across' leads from region 'west' to itself: nobody would walk");
+  CHECK(message_of_scenario("to = \"east\"", "via = [\"east\"]\nto = \"west\"") == "no error");  // there and back
+}
+
+TEST_CASE("people who have to be somewhere at t = 0 need room there") {
+  const ExperimentFolder folder;
+  std::string text = scenario_text;
+  const auto begin = text.find("[[robot]]");
+  text.erase(begin, text.find("[[region]]") - begin);
+  const auto hall_with = [&](const std::string& flow, const std::string& more) {
+    write_file("hall/scenario.toml", with(text, "people = 2", flow) + more);
+    return message_of(experiment_text);
+  };
+  // in the 1 m x 2 m of 'west' there is room for two or three people 0.65 m apart
+  const std::string few = "people = 3\nstart = \"from\"";
+  CHECK(hall_with(few, "") == "no error");
+  write_file("hall/crowd.csv", "time,id,x,y\n0,1,0.8,1.3\n0,2,1.2,2\n0,3,0.8,2.7\n");
+  const std::string recording = "[[recording]]\nfile = \"crowd.csv\"\n";
+  CHECK_THAT(hall_with(few, recording), Catch::StartsWith("hall/scenario.toml:31:1: no room in region 'west' for 3 "
+                                                          "people, for ") &&
+                                            Catch::EndsWith(" at most beside 3 who are there already"));
+  write_file("hall/crowd.csv", "time,id,x,y\n1,1,0.8,1.3\n1,2,1.2,2\n1,3,0.8,2.7\n");  // they come later
+  CHECK(hall_with(few, recording) == "no error");
+
+  const std::string overlapping = R"([[region]]
+name = "south west"
+lower_m = [0.5, 1.0]
+upper_m = [1.5, 2.9]
+
+[[flow]]
+name = "too"
+from = "south west"
+to = "east"
+people = 3
+start = "from"
+)";
+  CHECK_THAT(hall_with("people = 1\nstart = \"from\"", overlapping), Catch::StartsWith("no error"));
+  CHECK_THAT(hall_with("people = 4\nstart = \"from\"", overlapping),
+             Catch::StartsWith("hall/scenario.toml:31:1: no room in region 'west' for 4 people, for ") &&
+                 Catch::EndsWith(" at most beside 3 who are there already"));
+
+  CHECK_THAT(hall_with("people = 200", ""),
+             Catch::Matches("hall/scenario.toml:31:1: no room along flow 'across' for 200 people, for [0-9]+ at most"));
 }
 
 TEST_CASE("flows that start in their first region and leave for good") {

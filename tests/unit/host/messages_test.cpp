@@ -55,10 +55,11 @@ struct Pair {
 }  // namespace
 
 TEST_CASE("messages keep all their fields") {
-  const Job job =
-      through_text(Job{1ull << 40, "traces/trial_000007.mcap", false, {2, 5}, {{"sto", 1, 2, {3}, "near"}}});
+  const Job job = through_text(
+      Job{1ull << 40, "traces/trial_000007.mcap", "trial_000007.scratch", false, {2, 5}, {{"sto", 1, 2, {3}, "near"}}});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
+  CHECK(job.scratch_file == "trial_000007.scratch");
   CHECK_FALSE(job.keep_trace_of_success);
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
   REQUIRE(job.known_events.size() == 1);

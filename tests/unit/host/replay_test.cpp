@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "../core/trace_example.hpp"
+#include "../core/trace_in_memory.hpp"
 #include "core/trace_file.hpp"
 #include "core/trace_reader.hpp"
 #include "host/report/page_packing.hpp"
@@ -123,7 +124,7 @@ TEST_CASE("A replay tells the plan in force, the states, and the curves up to th
 
 TEST_CASE("Without a plan there are no samples: the robots stand at their starts") {
   const test::ExampleWorld world;
-  core::TraceEncoder trace(world.world);
+  test::TraceInMemory trace(world.world);
   const json replay = replay_of(trace.bytes());
   CHECK(replay["times"] == json::array({0}));
   CHECK(replay["plan"] == json{0, -1});
@@ -147,12 +148,12 @@ TEST_CASE("People have a track each from entering to leaving") {
 
 TEST_CASE("Headings go on past pi, the shorter way round") {
   const test::ExampleWorld world;
-  core::TraceEncoder trace(world.world);
+  test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 4; ++k) {
     test::ExampleSample at(5 * k, nullptr);
     at.sample.contact_count = 0;
     at.robots[0].pose.theta = std::remainder(3.0 + 0.2 * static_cast<double>(k), 2.0 * std::acos(-1.0));
-    trace.sample(at.sample);
+    trace->sample(at.sample);
   }
   const json replay = replay_of(trace.bytes());
   CHECK(summed(replay["robots"][0]["theta"]) == std::vector<std::int64_t>{3000, 3200, 3400, 3600});
@@ -163,12 +164,12 @@ TEST_CASE("Headings go on past pi, the shorter way round") {
 
 TEST_CASE("Scans come along in centimetres, at most 180 beams each") {
   const test::ExampleWorld world;
-  core::TraceEncoder trace(world.world);
+  test::TraceInMemory trace(world.world);
   std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
   for (std::int64_t k = 0; k <= 10; ++k) {  // every 20 ms; scans at 0 and at 200 ms, of the second robot
     test::ExampleSample at(k, nullptr);
     at.sample.contact_count = 0;
-    trace.sample(at.sample);
+    trace->sample(at.sample);
     if (k % 10 != 0) continue;
     ranges[0] = 1.0F + 0.1F * static_cast<float>(k);
     ranges[1] = 7.0F;  // between two of the kept beams
@@ -181,7 +182,7 @@ TEST_CASE("Scans come along in centimetres, at most 180 beams each") {
     scan.angle_increment = 0.01;
     scan.range_max = 10.0;
     scan.ranges = ranges.data();
-    trace.scan(1, scan);
+    trace->scan(1, scan);
   }
   const json replay = replay_of(trace.bytes());
   CHECK_FALSE(replay["robots"][0].contains("scans"));
@@ -225,13 +226,13 @@ TEST_CASE("Contacts are events with fault and depth; metrics' events come along"
 
 TEST_CASE("A contact that lasts is one event") {
   const test::ExampleWorld world;
-  core::TraceEncoder trace(world.world);
+  test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 5; ++k) {
     test::ExampleSample at(k, nullptr);
     at.contacts[0] = {
         DMRP_CONTACT_ROBOT, k == 0 ? DMRP_CONTACT_BEGINS : 0U, 0, 1, 0.002 + 0.001 * static_cast<double>(k), {1, 1}};
     at.sample.contact_count = 1;
-    trace.sample(at.sample);
+    trace->sample(at.sample);
   }
   const json contacts = replay_of(trace.bytes())["contacts"];
   REQUIRE(contacts.size() == 1);

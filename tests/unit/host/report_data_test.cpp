@@ -214,6 +214,17 @@ TEST_CASE("trials are compared by seed", "[report]") {
     CHECK(comparison(data, "done")["mean_difference"] == -1.0);
     CHECK(comparison(data, "time")["mean_difference"] == 140.0);
   }
+  SECTION("what means something of successes only is compared where both succeeded") {
+    ReportLayouts layouts = example_layouts();
+    layouts.report.comparisons = {{"speed", PairedTest::signed_rank, false, true}};
+    const auto compared = [&](const std::vector<TrialRecord>& trials) {
+      return json::parse(report_data_json(example_run(trials), layouts, {}))["comparisons"];
+    };
+    const json found = compared(trials_of({{"A", {40.0, std::nullopt, 60.0}}, {"B", {50.0, 50.0, std::nullopt}}}));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0]["pairs"] == 1);
+    CHECK(compared(trials_of({{"A", {40.0, std::nullopt}}, {"B", {std::nullopt, 50.0}}})).empty());
+  }
   SECTION("Holm's correction runs over the planners of one scenario") {
     const json data = data_of(
         trials_of({{"A", {10.0, 10.0, 10.0, 10.0}}, {"B", {11.0, 12.0, 13.0, 14.0}}, {"C", {11.0, 12.0, 13.0, 14.0}}}));
@@ -245,6 +256,21 @@ TEST_CASE("correlations stay within a scenario and planner", "[report]") {
       CHECK(one["rho"].is_null());  // all succeeded
       CHECK(one["ties_share"] == 1.0);
     }
+}
+
+TEST_CASE("a correlation's p does not count differences between controllers", "[report]") {
+  std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 41.0, 42.0, 50.0, 51.0, 52.0}}});
+  const double speeds[] = {1.3, 1.1, 1.2, 2.3, 2.1, 2.2};  // the second controller is fast and late, each is neither
+  for (std::size_t i = 0; i < 6; ++i) {
+    trials[i].values[4].value = speeds[i];
+    if (i >= 3) trials[i].local_controller = "other";
+  }
+  const json data = data_of(trials);
+  REQUIRE(data["correlations"].size() == 2);
+  CHECK(data["correlations"][0]["y"] == "time");
+  CHECK(data["correlations"][0]["n"] == 6);
+  CHECK(data["correlations"][0]["rho"] == Approx(1.0 - 6.0 * 12.0 / 210.0));
+  CHECK(data["correlations"][0]["p"] == Approx(0.5).margin(0.03));
 }
 
 TEST_CASE("curves have a point for each threshold", "[report]") {
@@ -300,6 +326,10 @@ TEST_CASE("layouts of reports are checked", "[report]") {
                     "a.json: a comparison without 'metric'");
   CHECK_THROWS_WITH(parse_report_layout("{\"comparisons\": [{\"metric\": \"x\", \"test\": \"t\"}]}", "a.json"),
                     "a.json: 'test' must be \"signed_rank\" or \"sign_flip\"");
+  CHECK_THROWS_WITH(
+      parse_report_layout("{\"comparisons\": [{\"metric\": \"x\", \"censored\": true, \"both_succeeded\": true}]}",
+                          "a.json"),
+      "a.json: a comparison is either 'censored' or of those that 'both_succeeded'");
   const ReportLayout shipped = read_report_layout(DMRP_REPORT_LAYOUT);
   CHECK(shipped.comparisons.size() >= 3);
   CHECK(shipped.diagnosis.y.size() == 4);

@@ -13,11 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "../core/trace_in_memory.hpp"
 #include "core/trace_reader.hpp"
 #include "host/trial/run_trial.hpp"
 
 using namespace dmrp::host;
 namespace core = dmrp::core;
+namespace test = dmrp::test;
 namespace toolkit = dmrp::toolkit;
 
 namespace {
@@ -71,8 +73,8 @@ struct Stage {
     CallGuard guard{note};
     const VariantWorld variant(experiment, experiment.scenarios[0]);
     InstancePool pool(experiment.libraries, guard, [](auto, const auto&, const auto&) {});
-    trace = std::make_unique<core::TraceEncoder>(variant.view.world());
-    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, pool, *trace);
+    trace = std::make_unique<test::TraceInMemory>(variant.view.world());
+    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, pool, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending.succeeded;
   }
@@ -92,7 +94,7 @@ struct Stage {
   }
 
   Experiment experiment;
-  std::unique_ptr<core::TraceEncoder> trace;
+  std::unique_ptr<test::TraceInMemory> trace;
   std::unique_ptr<core::TraceReader> reader;
 };
 
@@ -238,6 +240,36 @@ TEST_CASE("a plan takes effect when its latency is over: until the first robots 
       CHECK(sample->plan->revision == static_cast<std::uint64_t>(in_force));
     }
   }
+}
+
+TEST_CASE("a plan that takes effect later begins where the robot will be, also behind a corner") {
+  core::Scenario corridor = lanes({7.5});
+  corridor.upper = {8.0, 8.0};
+  corridor.time_limit_s = 90.0;
+  corridor.shapes.push_back({"block", core::Shape::Kind::polygon, {}, 0.0, {{0, 1}, {7, 1}, {7, 8}, {0, 8}}, 2.0});
+  corridor.robots[0] = {"r0", {0.5, 0.5, 0.0}, {{7.5, 7.5, any_heading}}};
+  Stage stage(corridor);
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.cbs")};
+  stage.experiment.simulation.replan.period_ns = 8 * second_ns;
+  stage.experiment.simulation.planning_latency_ns = 6 * second_ns;
+  CHECK(stage.run());
+  const auto& plans = stage.reader->plans();
+  REQUIRE(plans.size() >= 3);
+  std::size_t next = 1;
+  bool round_corner = false;
+  dmrp_vec2 asked_at{};
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    if (next == plans.size()) break;
+    const dmrp_vec2 position = toolkit::position(robot_of(*sample, 0).pose);
+    if (sample->t_ns == plans[next].made_at_ns) asked_at = position;
+    if (sample->t_ns < plans[next].plan.from_ns) continue;
+    const dmrp_vec2 first = toolkit::position(plans[next].plan.paths->waypoints[0]);
+    CHECK(toolkit::distance(first, position) < 1.5);
+    if (asked_at.x < 6.5 && first.y > 1.0) round_corner = true;
+    ++next;
+  }
+  CHECK(round_corner);
 }
 
 TEST_CASE("a robot that strays is planned anew from where it is") {

@@ -154,7 +154,7 @@ class SinkMetric final : public dmrp::Metric {
     planned_ = plan != nullptr;
   }
   void observe(const dmrp::Sample& sample) override {
-    expect(sample.plan != nullptr && planned_, "samples have a plan");
+    expect((sample.plan != nullptr) == planned_, "samples have the plan that there is");
     expect(sample.dt_ns == (samples_ == 0 ? 0 : world()->step_ns), "dt");
     expect(sample.t_ns == samples_ * world()->step_ns, "a sample a step");
     ++samples_;

@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "../core/trace_in_memory.hpp"
 #include "core/trace_reader.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 
 using namespace dmrp::host;
 namespace core = dmrp::core;
+namespace test = dmrp::test;
 
 namespace {
 
@@ -62,8 +64,8 @@ struct Stage {
   }
 
   TrialEnding run() {
-    trace = std::make_unique<core::TraceEncoder>(variant->view.world());
-    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, *trace);
+    trace = std::make_unique<test::TraceInMemory>(variant->view.world());
+    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending;
   }
@@ -78,7 +80,7 @@ struct Stage {
   Combination combination;
   std::unique_ptr<VariantWorld> variant;
   std::unique_ptr<InstancePool> pool;
-  std::unique_ptr<core::TraceEncoder> trace;
+  std::unique_ptr<test::TraceInMemory> trace;
   std::unique_ptr<core::TraceReader> reader;
 };
 
@@ -178,12 +180,21 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   CHECK_FALSE(stage.run().succeeded);
   CHECK(stage.reader->end()->ending == DMRP_ENDING_NO_PLAN);
   CHECK(stage.reader->first_plan() == nullptr);
-  CHECK(stage.reader->sample_count() == 0);
+  CHECK(stage.reader->sample_count() == 1);
   REQUIRE(stage.reader->plans().size() == 1);
   CHECK(stage.reader->plans()[0].plan.status == (does == "timeout" ? DMRP_TIMEOUT : DMRP_NO_SOLUTION));
   const MetricResult result = stage.measured();
   CHECK(result.index == 3);
   CHECK(system_of(result, "samples") == 0.0);
+  // who is there for the calls sees the one that gave no plan
+  stage.experiment.metrics[0].info.channels = DMRP_CHANNEL_CALLS;
+  CHECK(system_of(stage.measured(), "samples") == 1.0);
+  stage.reader->rewind();
+  const dmrp_sample* sample = stage.reader->next_sample();
+  REQUIRE(sample->call_count == 1);
+  CHECK(sample->calls->kind == DMRP_CALL_PLAN);
+  CHECK(sample->calls->status == stage.reader->plans()[0].plan.status);
+  CHECK(sample->calls->duration_ns == stage.reader->plans()[0].plan.planning_ns);
 }
 
 TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {
@@ -285,7 +296,7 @@ TEST_CASE("a metric that is silent about a declared value is at fault") {
 
 TEST_CASE("a trace that was cut short is not measured") {
   Stage stage;
-  core::TraceEncoder cut(stage.variant->view.world());
+  const test::TraceInMemory cut(stage.variant->view.world());
   stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
 }

@@ -153,8 +153,8 @@ TEST_CASE("the metrics give the values that results are read by, each once") {
 TEST_CASE("a trial without a plan has a value for every name, and 0 only where nothing happening is an answer") {
   SyntheticTrial trial(3);
   trial.end(0.0, {never, never, never});  // no plan, no sample
-  const std::set<std::string> zero = {"isr",     "csr",           "spl",          "shortest_length",
-                                      "success", "trial_success", "safe_success", "mission_time"};
+  const std::set<std::string> zero = {"isr",           "csr",          "spl",          "shortest_length", "success",
+                                      "trial_success", "safe_success", "mission_time", "throughput"};
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
     const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name comes
     CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));

@@ -14,24 +14,6 @@ namespace {
 
 const std::string cfs = "dmrp.pedestrian.collision_free_speed";
 
-void walk_for(Walk& walk, double duration_s) {
-  walk.until(duration_s, [] { return false; });
-}
-
-// How near somebody who walks east comes to a robot in their way.
-double passing_distance(double awareness, const dmrp_agent& in_the_way) {
-  const WalkingWorld world({24.0, 10.0}, {});
-  Walk walk(world, cfs, {{"robot_awareness", awareness}});
-  walk.people = {person(1, {2.0, 5.0}, {22.0, 5.0})};
-  walk.robots = {in_the_way};
-  double nearest = 100.0;
-  walk.until(30.0, [&] {
-    nearest = std::min(nearest, distance(walk.people[0].position, dmrp::toolkit::position(walk.robots[0].pose)));
-    return arrived(walk.people[0]);
-  });
-  return nearest;
-}
-
 }  // namespace
 
 TEST_CASE("CFS: the speed is the gap over the time gap, between none and the wish") {
@@ -151,12 +133,12 @@ TEST_CASE("CFS: nobody walks into a wall, however fast and whatever lies behind 
 
 TEST_CASE("CFS: robots are minded as much as the awareness says") {
   const dmrp_agent parked = robot(0, {12.0, 5.1});
-  const double aware = passing_distance(1.0, parked);
-  const double half_aware = passing_distance(0.5, parked);
+  const double aware = passing_distance(cfs, {{"robot_awareness", 1.0}}, parked);
+  const double half_aware = passing_distance(cfs, {{"robot_awareness", 0.5}}, parked);
   CHECK(aware >= 0.55);
   CHECK(half_aware >= 0.55);
   CHECK(half_aware < aware);
-  CHECK(passing_distance(0.0, parked) < 0.55);  // stopped by the solid robot alone
+  CHECK(passing_distance(cfs, {{"robot_awareness", 0.0}}, parked) < 0.55);  // stopped by the solid robot alone
 }
 
 TEST_CASE("CFS: with half the awareness people leave a robot half the time gap") {

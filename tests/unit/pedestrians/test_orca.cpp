@@ -14,20 +14,6 @@ namespace {
 
 const std::string orca = "dmrp.pedestrian.orca";
 
-// How near somebody who walks east comes to a robot in their way.
-double passing_distance(double awareness, const dmrp_agent& in_the_way) {
-  const WalkingWorld world({24.0, 10.0}, {});
-  Walk walk(world, orca, {{"robot_awareness", awareness}});
-  walk.people = {person(1, {2.0, 5.0}, {22.0, 5.0})};
-  walk.robots = {in_the_way};
-  double nearest = 100.0;
-  walk.until(25.0, [&] {
-    nearest = std::min(nearest, distance(walk.people[0].position, dmrp::toolkit::position(walk.robots[0].pose)));
-    return arrived(walk.people[0]);
-  });
-  return nearest;
-}
-
 }  // namespace
 
 TEST_CASE("ORCA: somebody alone walks to the target at the desired speed and stops there") {
@@ -87,11 +73,11 @@ TEST_CASE("ORCA: people walk round a box to a target behind it, in touch with it
 
 TEST_CASE("ORCA: robots are minded as much as the awareness says") {
   const dmrp_agent parked = robot(0, {12.0, 5.1});
-  CHECK(passing_distance(1.0, parked) >= 0.55 - 1e-6);
-  CHECK(passing_distance(0.5, parked) >= 0.55 - 0.001);
-  CHECK(passing_distance(0.0, parked) < 0.55);  // stopped by the solid robot alone
+  CHECK(passing_distance(orca, {{"robot_awareness", 1.0}}, parked) >= 0.55 - 1e-6);
+  CHECK(passing_distance(orca, {{"robot_awareness", 0.5}}, parked) >= 0.55 - 0.001);
+  CHECK(passing_distance(orca, {{"robot_awareness", 0.0}}, parked) < 0.55);  // stopped by the solid robot alone
   const dmrp_agent oncoming = robot(0, {22.0, 5.1}, {-0.5, 0.0});
-  CHECK(passing_distance(1.0, oncoming) >= 0.55 - 1e-6);
+  CHECK(passing_distance(orca, {{"robot_awareness", 1.0}}, oncoming) >= 0.55 - 1e-6);
 }
 
 TEST_CASE("ORCA: the less people are aware of robots, the later they turn aside") {

@@ -15,24 +15,6 @@ namespace {
 
 const std::string social_force = "dmrp.pedestrian.social_force";
 
-void walk_for(Walk& walk, double duration_s) {
-  walk.until(duration_s, [] { return false; });
-}
-
-// How near somebody who walks east comes to a robot in their way.
-double passing_distance(ParamOverrides params, const dmrp_agent& in_the_way) {
-  const WalkingWorld world({24.0, 10.0}, {});
-  Walk walk(world, social_force, std::move(params));
-  walk.people = {person(1, {2.0, 5.0}, {22.0, 5.0})};
-  walk.robots = {in_the_way};
-  double nearest = 100.0;
-  REQUIRE(walk.until(40.0, [&] {
-    nearest = std::min(nearest, distance(walk.people[0].position, dmrp::toolkit::position(walk.robots[0].pose)));
-    return arrived(walk.people[0]);
-  }));
-  return nearest;
-}
-
 }  // namespace
 
 TEST_CASE("somebody alone takes up the desired speed with the relaxation time over its weight") {
@@ -146,13 +128,13 @@ TEST_CASE("a wall made of pieces pushes like one made in one") {
 
 TEST_CASE("robots are minded as much as the awareness says") {
   const dmrp_agent parked = robot(0, {12.0, 5.1});
-  const double aware = passing_distance({}, parked);
-  const double half_aware = passing_distance({{"robot_awareness", 0.5}}, parked);
-  const double unaware = passing_distance({{"robot_awareness", 0.0}}, parked);
+  const double aware = passing_distance(social_force, {}, parked);
+  const double half_aware = passing_distance(social_force, {{"robot_awareness", 0.5}}, parked);
+  const double unaware = passing_distance(social_force, {{"robot_awareness", 0.0}}, parked);
   CHECK(aware >= 0.6);  // the bodies touch at 0.55 m
   CHECK(half_aware < aware);
   CHECK(unaware < 0.552);  // stopped by the solid robot alone
-  CHECK(passing_distance({}, robot(0, {12.0, 5.1}, {0.0, 0.0}, 0.5)) >= aware + 0.2);
+  CHECK(passing_distance(social_force, {}, robot(0, {12.0, 5.1}, {0.0, 0.0}, 0.5)) >= aware + 0.2);
 }
 
 TEST_CASE("who is blind to robots walks as though there were none") {

@@ -8,6 +8,7 @@
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
+#include <utility>
 
 namespace dmrp::test {
 
@@ -185,6 +186,23 @@ void Walk::step() {
     r.pose.y += step_s * r.velocity.y;
   }
   ++step_;
+}
+
+void walk_for(Walk& walk, double duration_s) {
+  walk.until(duration_s, [] { return false; });
+}
+
+double passing_distance(const std::string& model, ParamOverrides params, const dmrp_agent& in_the_way) {
+  const WalkingWorld world({24.0, 10.0}, {});
+  Walk walk(world, model, std::move(params));
+  walk.people = {person(1, {2.0, 5.0}, {22.0, 5.0})};
+  walk.robots = {in_the_way};
+  double nearest = 100.0;
+  REQUIRE(walk.until(40.0, [&] {
+    nearest = std::min(nearest, toolkit::distance(walk.people[0].position, toolkit::position(walk.robots[0].pose)));
+    return arrived(walk.people[0]);
+  }));
+  return nearest;
 }
 
 void Walk::keep_solid() {

@@ -95,4 +95,9 @@ class Walk {
   int64_t step_ = 0;
 };
 
+void walk_for(Walk& walk, double duration_s);
+
+// How near, between centres, somebody who walks 20 m east comes to a robot in the way; fails the test who never arrives.
+double passing_distance(const std::string& model, ParamOverrides params, const dmrp_agent& in_the_way);
+
 }  // namespace dmrp::test

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// mean_count.hpp: the mean over a robot's active time of what is counted about it: who is near. Sums of whole numbers,
+// so exact.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <vector>
+
+#include "active_steps.hpp"
+
+namespace dmrp::metrics {
+
+class MeanCount {
+ public:
+  void begin(std::size_t robot_count) {
+    active_.begin(robot_count);
+    times_.assign(robot_count, {});
+  }
+
+  // count(position): an integer, asked for every robot that was active in the step.
+  template <class Count>
+  void observe(const Sample& sample, Count&& count) {
+    active_.observe(sample);
+    for (std::size_t robot = 0; robot < times_.size(); ++robot) {
+      if (!active_.in_step(robot)) continue;
+      const std::int64_t counted = count(toolkit::position(sample.robots[robot].pose));
+      times_[robot].active_ns += sample.dt_ns;
+      times_[robot].counted_ns += counted * sample.dt_ns;
+    }
+  }
+
+  // By robot; undefined for one that was never active.
+  std::vector<double> means() const {
+    std::vector<double> means;
+    for (const Times& times : times_)
+      means.push_back(times.active_ns > 0 ? static_cast<double>(times.counted_ns) / static_cast<double>(times.active_ns)
+                                          : undefined);
+    return means;
+  }
+
+ private:
+  struct Times {
+    std::int64_t active_ns = 0;
+    std::int64_t counted_ns = 0;  // the same with everything counted
+  };
+
+  ActiveSteps active_;
+  std::vector<Times> times_;
+};
+
+}  // namespace dmrp::metrics

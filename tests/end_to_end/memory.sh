@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# A crowd's trial takes no more memory the longer it is: run and measured under a limit that its samples alone exceed.
+# Called as: memory.sh DMRP_HOST CHECK_VALUES [SANITIZERS]
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+check_values=$2
+[[ -z ${3:-} ]] || exit 0  # there are no limits under sanitizers
+
+# 1,000 people for 30 s, 112 bytes each at every step: 168 MB, which a growing array doubles and more
+limit_mb=240
+cat >"$scratch/crowd.toml" <<END
+[scenario]
+name = "crowd"
+title = "Crowd"
+description = "many people on their way"
+size_m = [120.0, 60.0]
+time_limit_s = 30.0
+
+[[region]]
+name = "west"
+lower_m = [1.0, 1.0]
+upper_m = [70.0, 59.0]
+
+[[region]]
+name = "east"
+lower_m = [115.0, 1.0]
+upper_m = [119.0, 59.0]
+
+[[flow]]
+name = "all"
+from = "west"
+to = "east"
+people = 1000
+start = "from"
+END
+for traces in all none; do
+  cat >"$scratch/$traces.toml" <<END
+[experiment]
+name = "crowd"
+seed = 1
+trials = 1
+plugins = ["libdmrp_pedestrians.so", "libdmrp_metrics.so"]
+
+[[scenario]]
+use = "crowd.toml"
+
+[[pedestrian_model]]
+use = "dmrp.pedestrian.collision_free_speed"
+
+[[metric]]
+use = "dmrp.metric.pedestrian_progress"
+
+[[metric]]
+use = "dmrp.metric.arrivals"
+
+[record]
+traces = "$traces"
+
+[limits]
+memory_mb = $limit_mb
+END
+  run=$scratch/$traces
+  expect_status 0 "$host" "$scratch/$traces.toml" --quiet --out "$run"
+  [[ $(query "$run" "SELECT group_concat(outcome) FROM trial") == succeeded ]] || fail "the trial should come to its end"
+  ls "$run" | grep -q scratch && fail "a scratch file was left: $(ls "$run")"
+done
+cmp -s <(values_of "$scratch/all") <(values_of "$scratch/none") || fail "values depend on whether a trace is recorded"
+[[ $(query "$scratch/all" "SELECT count(*) FROM value WHERE metric = 'pedestrian_progress'") == 31 ]] ||
+  fail "there should be a value a second"
+
+# measured again, under the same limit
+expect_status 0 "$host" evaluate "$scratch/all" --csv "$scratch/values.csv"
+"$check_values" "$scratch/all" "$scratch/values.csv" || fail "values of the stored trace differ"
