@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/toolkit/grid_line.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
 #include "crowd/groups.hpp"
+#include "crowd/line_of_sight.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
 #include "walking_world.hpp"
@@ -72,6 +75,102 @@ TEST_CASE("the wall grid finds the walls that a search through all finds") {
       ++next;
     }
     CHECK(next == found.size());
+  }
+}
+
+// A grid with a free mask alone.
+struct MaskGrid {
+  std::vector<std::uint8_t> free;
+  dmrp::toolkit::GridView view;
+
+  MaskGrid(std::uint32_t width, std::uint32_t height, double blocked_share, std::uint32_t block, Stream& chance)
+      : free(std::size_t{width} * height, 1) {
+    const auto size = static_cast<double>(free.size());
+    for (double left = blocked_share * size; left > 0.0; left -= block * block) {
+      const auto column = static_cast<std::uint32_t>(chance.uniform(0.0, width));
+      const auto row = static_cast<std::uint32_t>(chance.uniform(0.0, height));
+      for (std::uint32_t r = row; r < std::min(row + block, height); ++r)
+        for (std::uint32_t c = column; c < std::min(column + block, width); ++c) free[std::size_t{r} * width + c] = 0;
+    }
+    dmrp_grid grid{};
+    grid.width = width;
+    grid.height = height;
+    grid.resolution_m = 0.25;
+    grid.origin = {-3.0, 1.0};
+    grid.free = free.data();
+    view = dmrp::toolkit::GridView(grid);
+  }
+};
+
+TEST_CASE("who walks on sees what a look along the whole line shows") {
+  Stream chance(1, "sight");
+  const std::uint32_t block = GENERATE(1, 2, 5);
+  const double share = GENERATE(0.01, 0.05, 0.2);
+  const MaskGrid grid(120, 90, share, block, chance);
+  Sight sight;
+  sight.start(grid.view);
+
+  // half of the places are corners and middles of cells
+  const auto anywhere = [&] {
+    dmrp_vec2 at = {chance.uniform(-3.5, 27.5), chance.uniform(0.5, 24.0)};
+    if (chance.uniform() < 0.5) at = {0.125 * std::round(8.0 * at.x), 0.125 * std::round(8.0 * at.y)};
+    return at;
+  };
+  int seen = 0;
+  int kept = 0;
+  for (int walker = 0; walker < 150; ++walker) {
+    dmrp_vec2 at = anywhere();
+    const dmrp_vec2 to = anywhere();
+    const double stray_m = chance.uniform(0.0, 0.1);
+    LineOfSight line;
+    for (int step = 0; step < 60; ++step) {
+      const dmrp_vec2 last = line.witness;
+      const bool is_free = sight.is_free(at, to, line);
+      REQUIRE(is_free == dmrp::toolkit::line_is_free(grid.view, at, to));
+      seen += is_free;
+      kept += step > 0 && line.witness == last;
+      if (dmrp::toolkit::distance(at, to) > 0.2) at += 0.2 * dmrp::toolkit::normalized(to - at);
+      at += {chance.uniform(-stray_m, stray_m), chance.uniform(-stray_m, stray_m)};
+    }
+  }
+  CHECK(seen > 100);
+  CHECK(seen < 8900);
+  CHECK(kept > 1000);  // what it is for
+}
+
+TEST_CASE("walkers are the people by place, with their ways, and robots are none") {
+  NeighborGrid grid;
+  grid.start({0.0, 0.0}, {20.0, 20.0}, 1.0);
+  std::vector<dmrp_person> people;
+  Stream chance(1, "walkers");
+  for (std::uint64_t id = 0; id < 50; ++id)
+    people.push_back(dmrp::test::person(id, {chance.uniform(0.0, 20.0), chance.uniform(0.0, 20.0)}, {1.0, 1.0}));
+  const dmrp_agent robots[] = {dmrp::test::robot(1, {5.0, 5.0}), dmrp::test::robot(2, {15.0, 5.0})};
+  dmrp_crowd crowd{};
+  crowd.person_count = 50;
+  crowd.people = people.data();
+  crowd.person_stride = sizeof(dmrp_person);
+  crowd.robot_count = 2;
+  crowd.robots = robots;
+  crowd.robot_stride = sizeof(dmrp_agent);
+
+  const double awareness = GENERATE(0.0, 0.5);
+  Walkers walkers;
+  walkers.gather(dmrp::Crowd(crowd), awareness, grid, [](std::uint32_t slot, const dmrp_person& person) {
+    return dmrp_vec2{static_cast<double>(slot), person.position.x};
+  });
+  CHECK(grid.by_place().size() == (awareness > 0.0 ? 52 : 50));
+  REQUIRE(walkers.by_place().size() == 50);
+  auto walker = walkers.by_place().begin();
+  for (const Body& body : grid.by_place()) {
+    if (body.slot == no_slot) {
+      CHECK(body.weight == awareness);
+      continue;
+    }
+    REQUIRE(walker->slot == body.slot);
+    CHECK(walker->person.id == body.slot);
+    CHECK(walker->way == dmrp_vec2{static_cast<double>(body.slot), body.position.x});
+    ++walker;
   }
 }
 
