@@ -47,7 +47,7 @@ Descriptor CollisionFreeSpeed::describe() {
 Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   leanings_.start(seed);
-  right_of_way_.start();
+  walkers_.start();
   ways_.start(world.walking_grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = broadest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
@@ -61,7 +61,6 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
   });
 
   const double step_s = seconds(crowd.dt_ns);
-  right_of_way_.update(crowd.people, step_s);
   for (const Walker& walker : walkers_.by_place()) {
     look_around(walker, crowd.people);
     const Vec2 along = direction(walker);
@@ -80,7 +79,7 @@ void CollisionFreeSpeed::look_around(const Walker& walker, const Span<Person>& p
     if (other->slot == walker.slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight, right_of_way_.holds_over(walker.slot, *other, people)});
+                     other->weight, walkers_.right_of_way().holds_over(walker.slot, *other, people)});
   }
   walls_.nearest_points(person.position, wall_points_);
 }

@@ -9,7 +9,6 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
-#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
@@ -61,7 +60,6 @@ class CollisionFreeSpeed final : public PedestrianModel {
   double neighbor_reach_m_ = 0.0;  // beyond this gap nobody is turned away from
   WayFinder ways_;
   Leanings leanings_;
-  RightOfWay right_of_way_;
   NeighborGrid neighbors_;
   WallGrid walls_;
   Walkers walkers_;

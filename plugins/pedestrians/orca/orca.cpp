@@ -39,7 +39,7 @@ Descriptor Orca::describe() {
 
 Status Orca::start(const World& world, std::uint64_t seed) {
   leanings_.start(seed);
-  right_of_way_.start();
+  walkers_.start();
   ways_.start(world.walking_grid());
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
@@ -53,7 +53,6 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
   });
 
   const double step_s = seconds(crowd.dt_ns);
-  right_of_way_.update(crowd.people, step_s);
   for (const auto& [person, way, slot] : walkers_.by_place()) {
     const double max_speed = speed_cap_factor * person.desired_speed;
     planes_.clear();
@@ -63,7 +62,7 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
     const std::size_t neighbor_count = find_neighbors(slot, person.position, crowd.people);
     for (std::size_t i = 0; i < neighbor_count; ++i) {
       const Body& other = *neighbors_[i].body;
-      if (right_of_way_.holds_over(slot, other, crowd.people)) continue;
+      if (walkers_.right_of_way().holds_over(slot, other, crowd.people)) continue;
       const HalfPlane plane = permitted_beside(other, person, step_s);
       // most planes hold every velocity within the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);

@@ -10,7 +10,6 @@
 
 #include "crowd/leanings.hpp"
 #include "crowd/neighbor_grid.hpp"
-#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/way_finding.hpp"
 #include "orca/half_plane.hpp"
@@ -45,7 +44,6 @@ class Orca final : public PedestrianModel {
 
   WayFinder ways_;
   Leanings leanings_;
-  RightOfWay right_of_way_;
   NeighborGrid grid_;
   WallObstacles walls_;
   VelocityProgram program_;

@@ -51,7 +51,7 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
   seed_ = seed;
   ways_.start(world.walking_grid());
   groups_.start();
-  right_of_way_.start();
+  walkers_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
@@ -63,7 +63,6 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
-  right_of_way_.update(crowd.people, dt);
   for (const Walker& walker : walkers_.by_place()) {
     const Person& person = walker.person;
     Vec2 velocity = person.velocity + dt * acceleration(walker, crowd.people);
@@ -110,7 +109,7 @@ Vec2 SocialForce::from_others(const Walker& walker, const Span<Person>& people, 
     const double gap_m = distance_m - reach_m;
     const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
     const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
-    if (!right_of_way_.holds_over(slot, other, people))
+    if (!walkers_.right_of_way().holds_over(slot, other, people))
       sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
 
     const double following_s = other.weight * time_gap;

@@ -8,7 +8,6 @@
 
 #include "crowd/groups.hpp"
 #include "crowd/neighbor_grid.hpp"
-#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
@@ -64,7 +63,6 @@ class SocialForce final : public PedestrianModel {
   std::uint64_t seed_ = 0;
   WayFinder ways_;
   Groups groups_;
-  RightOfWay right_of_way_;
   NeighborGrid neighbors_;
   WallGrid walls_;
   Walkers walkers_;
