@@ -11,6 +11,7 @@
 #include "crowd/groups.hpp"
 #include "crowd/line_of_sight.hpp"
 #include "crowd/neighbor_grid.hpp"
+#include "crowd/right_of_way.hpp"
 #include "crowd/walkers.hpp"
 #include "crowd/wall_grid.hpp"
 #include "crowd/way_finding.hpp"
@@ -231,4 +232,43 @@ TEST_CASE("groups are those with the same number, whatever their slots") {
   people[3].group = 3;
   CHECK(members(3) == std::vector<std::uint32_t>{2, 3});
   CHECK(members(0) == std::vector<std::uint32_t>{0, 5});
+}
+
+TEST_CASE("who gets on by nothing for seconds need not mind those before them who have farther to go") {
+  RightOfWay right_of_way;
+  right_of_way.start();
+  // 0 leaves after a while; 1 stands before 2, who has farther to go; 3 walks west all the time, 4 turns back half-way
+  std::vector<dmrp_person> people;
+  for (const double x : {0.0, 5.0, 4.4, 20.0, 30.0})
+    people.push_back(dmrp::test::person(people.size() + 10, {x, 2.0}, {x, 2.0}));
+  people[1].target = {0.0, 2.0};
+  people[2].target = {40.0, 2.0};
+  const auto pass = [&](double duration_s, dmrp_vec2 way_of_last) {
+    for (int step = 0; step < 50 * duration_s; ++step) {
+      right_of_way.begin_step();
+      for (dmrp_person& each : people) {
+        const dmrp_vec2 way = each.id == 14 ? way_of_last : dmrp_vec2{each.id == 12 ? 1.0 : -1.0, 0.0};
+        each.velocity = each.id >= 13 ? each.desired_speed * way : dmrp_vec2{0.0, 0.0};
+        right_of_way.note(each, way, 0.02);
+      }
+    }
+  };
+  const auto holds = [&](std::uint32_t slot, std::uint32_t over) {
+    const Body body = {people[over].position, {0.0, 0.0}, 0.3, 1.0, over};
+    return right_of_way.holds_over(slot, body, {people.data(), people.size()});
+  };
+
+  pass(5.0, {1.0, 0.0});
+  CHECK_FALSE(holds(1, 2));  // held up for too short a time
+  people.erase(people.begin());
+  for (int tenth = 0; tenth < 150; ++tenth) {
+    pass(0.1, tenth < 75 ? dmrp_vec2{1.0, 0.0} : dmrp_vec2{-1.0, 0.0});
+    CHECK_FALSE(holds(2, 0));  // both get on, whichever way that is
+    CHECK_FALSE(holds(3, 0));
+  }
+  CHECK(holds(0, 1));
+  CHECK_FALSE(holds(1, 0));  // has farther to go
+  CHECK_FALSE(holds(0, 2));  // who is behind
+  const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, 1.0, no_slot};
+  CHECK_FALSE(right_of_way.holds_over(0, robot, {people.data(), people.size()}));
 }
