@@ -19,7 +19,7 @@ namespace dmrp::core {
 // that a body that presses on is in contact.
 inline constexpr double solid_depth_m = 0.0015;
 
-// How far others push somebody in a step.
+// How far others push somebody in a step: 1 m/s at the default of 0.02 s.
 inline constexpr double pushed_at_most_m = 0.02;
 
 // A disc and where it is about to go in this step.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <memory>
@@ -159,8 +159,9 @@ class WorldCheck {
     const core::PlanningGrid walking = core::build_walking_grid(*geometry_, scenario_.people.radius_m);
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) check_flow(walking, i);
-    check_room(walking);
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(i);
+    const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
+    check_room(routes);
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(routes, i);
   }
 
   // Where somebody is at a row of a recording.
@@ -202,8 +203,7 @@ class WorldCheck {
 
   // For all who are there at t = 0, in every repetition: they begin elsewhere each time, and so do robots that are drawn.
   // One is enough where there is room to spare and robots start where they always do.
-  void check_room(const core::PlanningGrid& walking) const {
-    const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
+  void check_room(const core::FlowRoutes& routes) const {
     core::Scenario with_spare = scenario_;
     for (core::Flow& flow : with_spare.flows) flow.people += flow.people / 4;
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
@@ -225,18 +225,19 @@ class WorldCheck {
     }
   }
 
-  // A group that begins anew stands in the first region together.
-  void check_groups(std::size_t index) const {
+  // A group that begins anew stands in the first region together, across its way.
+  void check_groups(const core::FlowRoutes& routes, std::size_t index) const {
     const core::Flow& flow = scenario_.flows[index];
     const std::uint32_t size = std::min(flow.group_size, flow.people);
     if (size < 2 || !flow.respawn) return;
+    const core::Route& first_leg = routes.legs[index].front();
+    const double heading = toolkit::heading_at(first_leg, toolkit::arc_lengths(first_leg), 0.0, 0.0);
     const core::Region& region = scenario_.regions[flow.regions.front()];
     const core::StandingRoom room = {*geometry_, scenario_.people.radius_m, {}, {}};
-    for (const double heading : {0.0, 0.5 * toolkit::pi})
-      for (int attempt = 0; attempt < group_attempts; ++attempt) {
-        toolkit::Stream stream(experiment_.seed, "check.groups", index, attempt);
-        if (core::draw_places(room, {region.lower, region.upper}, heading, size, stream)) return;
-      }
+    for (int attempt = 0; attempt < group_attempts; ++attempt) {
+      toolkit::Stream stream(experiment_.seed, "check.groups", index, attempt);
+      if (core::draw_places(room, {region.lower, region.upper}, heading, size, stream)) return;
+    }
     file_.document->fail(file_.flows[index], fmt::format("flow '{}': no room in region '{}' for a group of {}",
                                                          flow.name, region.name, size));
   }

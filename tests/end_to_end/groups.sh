@@ -24,3 +24,45 @@ grep -q ',group_intrusions,' "$scratch/values.csv" || fail "nothing was measured
 
 expect_status 0 "$host" "$run/effective.toml" --quiet --out "$scratch/again"
 [[ $(values_of "$run") == "$(values_of "$scratch/again")" ]] || fail "effective.toml gives other groups"
+
+# Where the way leads off at 45 degrees, a pair stands across that: 0.62 m each way are room enough, a strip of 0.1 m is none.
+diagonal() {
+  cat >"$scratch/diagonal.toml" <<TOML
+[scenario]
+name = "diagonal"
+title = "Diagonal"
+description = "a pair from corner to corner"
+size_m = [20.0, 20.0]
+time_limit_s = 30.0
+[[region]]
+name = "from"
+lower_m = [3.0, 3.0]
+upper_m = $1
+[[region]]
+name = "to"
+lower_m = [16.0, 16.0]
+upper_m = [17.0, 17.0]
+[[flow]]
+name = "pair"
+from = "from"
+to = "to"
+people = 2
+group_size = 2
+TOML
+  cat >"$scratch/diagonal_experiment.toml" <<TOML
+[experiment]
+name = "diagonal"
+seed = 1
+trials = 1
+plugins = ["libdmrp_pedestrians.so", "libdmrp_metrics.so"]
+[[scenario]]
+use = "./diagonal.toml"
+[[pedestrian_model]]
+use = "dmrp.pedestrian.orca"
+TOML
+}
+diagonal "[3.62, 3.62]"
+expect_status 0 "$host" validate "$scratch/diagonal_experiment.toml"
+diagonal "[3.85, 3.1]"
+expect_status 2 "$host" validate "$scratch/diagonal_experiment.toml"
+grep -q "no room in region 'from' for a group of 2" "$scratch/stderr" || fail "the strip is room for no pair"

@@ -7,8 +7,8 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Who gets on more slowly than this share of their wish, on average over about so long, is held up. Stop-and-go waves of a dense
-// crowd are faster.
+// Who gets on more slowly than this share of their wish, in a mean that forgets with this time constant, is held up: who stops
+// dead is so after 17 s. Stop-and-go waves of a dense crowd are faster.
 constexpr double held_up_speed_share = 0.03;
 constexpr double held_up_s = 5.0;
 
