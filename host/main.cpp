@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "host/commands/commands.hpp"
-#include "host/input_error.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/plugins/library.hpp"
-#include "host/version.hpp"
+#include "host/program/version.hpp"
 #include "host/workers/worker.hpp"
 
 namespace {

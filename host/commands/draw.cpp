@@ -6,14 +6,14 @@
 #include <dmrp/toolkit/svg.hpp>
 #include <memory>
 
-#include "core/robot_task.hpp"
-#include "core/world.hpp"
+#include "core/scene/robot_task.hpp"
+#include "core/world/world.hpp"
 #include "host/commands/commands.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/experiment/read_scenario.hpp"
-#include "host/input_error.hpp"
+#include "host/files/atomic_file.hpp"
 #include "host/plugins/library.hpp"
-#include "host/results/atomic_file.hpp"
+#include "host/scenario/read_scenario.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/variant_world.hpp"

@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "host/commands/commands.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/evaluate/evaluation.hpp"
 #include "host/evaluate/measure_process.hpp"
-#include "host/input_error.hpp"
-#include "host/results/atomic_file.hpp"
+#include "host/files/atomic_file.hpp"
 #include "host/results/csv.hpp"
 #include "host/results/database.hpp"
 

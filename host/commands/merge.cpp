@@ -11,14 +11,14 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/run_directory.hpp"
 #include "host/commands/run_results.hpp"
-#include "host/executable.hpp"
-#include "host/experiment/read_file.hpp"
-#include "host/input_error.hpp"
-#include "host/results/atomic_file.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
+#include "host/program/executable.hpp"
+#include "host/program/version.hpp"
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
-#include "host/version.hpp"
 
 namespace dmrp::host {
 

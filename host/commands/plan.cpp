@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "host/commands/commands.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/input_error.hpp"
+#include "host/files/atomic_file.hpp"
 #include "host/plan/plan_figures.hpp"
 #include "host/plan/plan_task.hpp"
 #include "host/plan/planner_process.hpp"
-#include "host/results/atomic_file.hpp"
 
 namespace dmrp::host {
 

@@ -7,9 +7,9 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/plugins_markdown.hpp"
-#include "host/experiment/toml_text.hpp"
-#include "host/input_error.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/plugins/library.hpp"
+#include "host/plugins/parameter_text.hpp"
 
 namespace dmrp::host {
 

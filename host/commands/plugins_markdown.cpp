@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/experiment/toml_text.hpp"
+#include "host/plugins/parameter_text.hpp"
 
 namespace dmrp::host {
 

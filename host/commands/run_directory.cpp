@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-#include "host/input_error.hpp"
+#include "host/errors/input_error.hpp"
 
 namespace dmrp::host {
 

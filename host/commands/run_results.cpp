@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "host/files/atomic_file.hpp"
 #include "host/report/write_report.hpp"
-#include "host/results/atomic_file.hpp"
-#include "host/results/closing_line.hpp"
-#include "host/results/summary_table.hpp"
 #include "host/results/trials_csv.hpp"
+#include "host/terminal/closing_line.hpp"
 #include "host/terminal/progress.hpp"
+#include "host/terminal/summary_table.hpp"
 
 namespace dmrp::host {
 

@@ -8,16 +8,16 @@
 #include <optional>
 #include <system_error>
 
+#include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/experiment/nearest_name.hpp"
-#include "host/experiment/read_file.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/experiment/read_settings.hpp"
-#include "host/experiment/toml_document.hpp"
-#include "host/input_error.hpp"
+#include "host/files/read_file.hpp"
+#include "host/files/sha256.hpp"
+#include "host/program/version.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/sha256.hpp"
-#include "host/version.hpp"
+#include "host/toml/nearest_name.hpp"
+#include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 

@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/trace_reader.hpp"
+#include "core/trace/trace_reader.hpp"
 #include "host/plugins/call_note.hpp"
 #include "host/trial/measure.hpp"
 #include "host/workers/line_channel.hpp"

@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/planning_grid.hpp"
-#include "core/robot_draw.hpp"
-#include "core/static_geometry.hpp"
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/random_tasks.hpp"
+#include "core/scene/static_geometry.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
-#include "host/experiment/nearest_name.hpp"
 #include "host/experiment/read_parameters.hpp"
-#include "host/experiment/read_scenario.hpp"
-#include "host/input_error.hpp"
+#include "host/scenario/find_scenario.hpp"
+#include "host/scenario/read_scenario.hpp"
+#include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
 

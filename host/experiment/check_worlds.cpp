@@ -13,14 +13,14 @@
 #include <optional>
 #include <vector>
 
-#include "core/first_places.hpp"
-#include "core/flow_routes.hpp"
-#include "core/planning_grid.hpp"
-#include "core/population.hpp"
-#include "core/robot_draw.hpp"
-#include "core/static_geometry.hpp"
-#include "core/walking_groups.hpp"
-#include "host/input_error.hpp"
+#include "core/people/first_places.hpp"
+#include "core/people/flow_routes.hpp"
+#include "core/people/population.hpp"
+#include "core/people/walking_groups.hpp"
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/random_tasks.hpp"
+#include "core/scene/static_geometry.hpp"
+#include "host/errors/input_error.hpp"
 
 namespace dmrp::host {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/read_scenario.hpp"
+#include "host/scenario/read_scenario.hpp"
 
 namespace dmrp::host {
 

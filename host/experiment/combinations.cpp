@@ -41,4 +41,10 @@ std::uint64_t world_seed(const Experiment& experiment, const std::string& scenar
   return toolkit::Stream(experiment.seed, "trial", scenario, repetition).next_u64() >> 1;
 }
 
+std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
+  const auto all = combinations(experiment);
+  const TrialId id = trial_id(trial, all.size());
+  return world_seed(experiment, experiment.scenarios[all[id.combination].scenario].scenario.name, id.repetition);
+}
+
 }  // namespace dmrp::host

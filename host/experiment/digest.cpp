@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/experiment/digest.hpp"
 
-#include "host/results/sha256.hpp"
+#include "host/files/sha256.hpp"
 
 namespace dmrp::host {
 

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/toml_text.hpp"
+#include "host/plugins/parameter_text.hpp"
+#include "host/toml/toml_text.hpp"
 
 namespace dmrp::host {
 

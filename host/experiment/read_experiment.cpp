@@ -6,16 +6,17 @@
 #include <fstream>
 #include <sstream>
 
+#include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/nearest_name.hpp"
-#include "host/experiment/read_file.hpp"
 #include "host/experiment/read_parameters.hpp"
-#include "host/experiment/read_scenario.hpp"
 #include "host/experiment/read_settings.hpp"
-#include "host/experiment/toml_document.hpp"
-#include "host/input_error.hpp"
-#include "host/trial/offered_extensions.hpp"
+#include "host/files/read_file.hpp"
+#include "host/plugins/offered_extensions.hpp"
+#include "host/scenario/find_scenario.hpp"
+#include "host/scenario/read_scenario.hpp"
+#include "host/toml/nearest_name.hpp"
+#include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/executable.hpp"
-#include "host/experiment/nearest_name.hpp"
-#include "host/experiment/read_file.hpp"
+#include "host/files/read_file.hpp"
+#include "host/program/executable.hpp"
+#include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/toml_document.hpp"
+#include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 

@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "core/world_view.hpp"
+#include "core/scene/world_view.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/experiment/movingai.hpp"
+#include "host/maps/movingai.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/variant_world.hpp"
 

@@ -7,7 +7,7 @@
 #include <dmrp/pedestrian_model.h>
 
 #include "host/plugins/parameter_table.hpp"
-#include "host/version.hpp"
+#include "host/program/version.hpp"
 
 namespace dmrp::host {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "host/experiment/experiment.hpp"
 #include "host/plugins/call_guard.hpp"
 #include "host/plugins/library.hpp"
+#include "host/plugins/plugin_use.hpp"
 
 namespace dmrp::host {
 

@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "host/executable.hpp"
 #include "host/plugins/library.hpp"
-#include "host/version.hpp"
+#include "host/program/executable.hpp"
+#include "host/program/version.hpp"
 
 namespace dmrp::host {
 

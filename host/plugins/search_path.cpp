@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "host/executable.hpp"
 #include "host/plugins/library.hpp"
+#include "host/program/executable.hpp"
 
 namespace dmrp::host {
 

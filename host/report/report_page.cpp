@@ -5,8 +5,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "host/experiment/read_file.hpp"
-#include "host/input_error.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/files/read_file.hpp"
 
 namespace dmrp::host {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "host/executable.hpp"
-#include "host/input_error.hpp"
-#include "host/report/replays.hpp"
-#include "host/report/report_data.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/files/atomic_file.hpp"
+#include "host/program/executable.hpp"
+#include "host/report/data/report_data.hpp"
+#include "host/report/replay/replays.hpp"
 #include "host/report/report_page.hpp"
-#include "host/results/atomic_file.hpp"
 
 namespace dmrp::host {
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "host/results/sha256.hpp"
+#include "host/files/sha256.hpp"
 
 namespace dmrp::host {
 namespace {

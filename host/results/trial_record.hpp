@@ -40,6 +40,13 @@ struct MetricEvent {
   std::string text;
 };
 
+// What one metric says of a trial.
+struct MetricResult {
+  std::uint32_t index = 0;  // of Experiment::metrics
+  std::vector<MetricValue> values;
+  std::vector<MetricEvent> events;
+};
+
 struct FaultRecord {
   std::string kind;  // fault_kind
   std::string plugin;

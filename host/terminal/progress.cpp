@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "host/plugins/call_guard.hpp"
-#include "host/results/display_width.hpp"
+#include "host/terminal/display_width.hpp"
 
 namespace dmrp::host {
 

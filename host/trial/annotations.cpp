@@ -35,7 +35,7 @@ Annotations& self_of(const dmrp_annotate* annotate) {
 
 }  // namespace
 
-Annotations::Annotations(core::TraceEncoder* trace, core::TraceSource source) : trace_(trace), source_(source) {
+Annotations::Annotations(core::TraceEncoder* trace, core::AnnotationSource source) : trace_(trace), source_(source) {
   extension_.struct_size = sizeof(extension_);
   extension_.context = this;
   extension_.wanted = [](const dmrp_annotate* self) -> std::int32_t { return self_of(self).wanted() ? 1 : 0; };

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "core/trace_encoder.hpp"
+#include "core/trace/trace_encoder.hpp"
 
 namespace dmrp::host {
 
@@ -14,7 +14,7 @@ namespace dmrp::host {
 class Annotations {
  public:
   // `trace` outlives it; nullptr where no annotations are kept.
-  Annotations(core::TraceEncoder* trace, core::TraceSource source);
+  Annotations(core::TraceEncoder* trace, core::AnnotationSource source);
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
 
@@ -26,7 +26,7 @@ class Annotations {
   void note(const char* text);
 
   core::TraceEncoder* trace_;
-  core::TraceSource source_;
+  core::AnnotationSource source_;
   dmrp_annotate extension_{};
 };
 

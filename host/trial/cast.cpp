@@ -8,7 +8,7 @@
 #include <cstring>
 #include <dmrp/toolkit/random.hpp>
 
-#include "core/robot_task.hpp"
+#include "core/scene/robot_task.hpp"
 
 namespace dmrp::host {
 
@@ -68,7 +68,7 @@ void Cast::start_pedestrian_model(const Combination& combination, InstancePool& 
 }
 
 // The instance outlives the trial.
-void Cast::offer(Instance& instance, core::TraceSource source, const std::shared_ptr<RobotSensors>& sensors) {
+void Cast::offer(Instance& instance, core::AnnotationSource source, const std::shared_ptr<RobotSensors>& sensors) {
   annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, source));
   instance.offer([annotations = std::weak_ptr(annotations_.back()),
                   sensors = std::weak_ptr(sensors)](const char* id) -> const void* {

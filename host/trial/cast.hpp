@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "core/lidar.hpp"
-#include "core/world.hpp"
+#include "core/sensors/lidar.hpp"
+#include "core/world/world.hpp"
 #include "host/trial/annotations.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
@@ -57,7 +57,7 @@ class Cast {
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
 
   // Gives an instance the annotations besides the robot's sensors, if any.
-  void offer(Instance& instance, core::TraceSource source, const std::shared_ptr<RobotSensors>& sensors);
+  void offer(Instance& instance, core::AnnotationSource source, const std::shared_ptr<RobotSensors>& sensors);
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
 
   const Experiment& experiment_;

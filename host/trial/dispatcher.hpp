@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "core/action_dependencies.hpp"
-#include "core/progress.hpp"
-#include "core/world.hpp"
+#include "core/execution/action_dependencies.hpp"
+#include "core/execution/progress.hpp"
+#include "core/world/world.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/variant_world.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/instance_pool.hpp"
 
-#include "host/version.hpp"
+#include "host/program/version.hpp"
 
 namespace dmrp::host {
 

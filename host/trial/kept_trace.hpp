@@ -7,9 +7,9 @@
 #include <optional>
 #include <span>
 
-#include "core/trace_file.hpp"
-#include "core/trace_records.hpp"
-#include "core/trace_spool.hpp"
+#include "core/trace/trace_file.hpp"
+#include "core/trace/trace_records.hpp"
+#include "core/trace/trace_spool.hpp"
 
 namespace dmrp::host {
 

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "core/trace_reader.hpp"
+#include "core/trace/trace_reader.hpp"
+#include "host/results/trial_record.hpp"
 #include "host/trial/instance_pool.hpp"
-#include "host/workers/messages.hpp"
 
 namespace dmrp::host {
 

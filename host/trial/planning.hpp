@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world.hpp"
+#include "core/world/world.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/trial/plan_validator.hpp"
 #include "host/trial/variant_world.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/robot_sensors.hpp"
 
-#include "core/sensing.hpp"
-#include "core/sensor_noise.hpp"
+#include "core/sensors/sensor_noise.hpp"
+#include "core/sensors/visibility.hpp"
 
 namespace dmrp::host {
 

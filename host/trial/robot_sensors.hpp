@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "core/costmap.hpp"
-#include "core/lidar.hpp"
-#include "core/obstacle_clusters.hpp"
-#include "core/odometry.hpp"
-#include "core/world.hpp"
+#include "core/sensors/costmap.hpp"
+#include "core/sensors/lidar.hpp"
+#include "core/sensors/obstacle_clusters.hpp"
+#include "core/sensors/odometry.hpp"
+#include "core/world/world.hpp"
 
 namespace dmrp::host {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/ending.hpp"
-#include "core/replanning.hpp"
-#include "core/world.hpp"
+#include "core/execution/ending.hpp"
+#include "core/execution/replanning.hpp"
+#include "core/world/world.hpp"
 #include "host/trial/cast.hpp"
 #include "host/trial/dispatcher.hpp"
 

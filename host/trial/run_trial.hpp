@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/trace_encoder.hpp"
+#include "core/trace/trace_encoder.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/variant_world.hpp"

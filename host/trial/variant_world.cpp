@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "core/robot_draw.hpp"
+#include "core/scene/random_tasks.hpp"
 
 namespace dmrp::host {
 

@@ -5,11 +5,11 @@
 
 #include <memory>
 
-#include "core/flow_routes.hpp"
-#include "core/planning_grid.hpp"
-#include "core/settings.hpp"
-#include "core/static_geometry.hpp"
-#include "core/world_view.hpp"
+#include "core/people/flow_routes.hpp"
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/settings.hpp"
+#include "core/scene/static_geometry.hpp"
+#include "core/scene/world_view.hpp"
 #include "host/experiment/experiment.hpp"
 
 namespace dmrp::host {

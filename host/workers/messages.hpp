@@ -41,12 +41,6 @@ struct TrialDone {
   double sim_time_s = 0.0;
 };
 
-struct MetricResult {
-  std::uint32_t index = 0;  // of Experiment::metrics
-  std::vector<MetricValue> values;
-  std::vector<MetricEvent> events;
-};
-
 void to_json(nlohmann::json& json, const Job& job);
 void from_json(const nlohmann::json& json, Job& job);
 void to_json(nlohmann::json& json, const TrialDone& done);

@@ -18,8 +18,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "host/errors/input_error.hpp"
 #include "host/experiment/digest.hpp"
-#include "host/input_error.hpp"
 #include "host/plugins/call_guard.hpp"
 #include "host/plugins/plugin_fault.hpp"
 #include "host/workers/messages.hpp"
@@ -340,12 +340,6 @@ RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_
                     const SupervisorSettings& settings, const std::function<void(TrialRecord&&)>& on_trial,
                     const std::function<void()>& on_idle) {
   return Supervisor(experiment, trials, settings, on_trial).run(on_idle);
-}
-
-std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
-  const auto all = combinations(experiment);
-  const TrialId id = trial_id(trial, all.size());
-  return world_seed(experiment, experiment.scenarios[all[id.combination].scenario].scenario.name, id.repetition);
 }
 
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {

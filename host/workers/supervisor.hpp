@@ -33,7 +33,4 @@ RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_
 // The record of a trial before anything is known of it: its place in the experiment.
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial);
 
-// The world_seed() of a trial.
-std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);
-
 }  // namespace dmrp::host

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/trace_encoder.hpp"
-#include "core/trace_reader.hpp"
+#include "core/trace/trace_encoder.hpp"
+#include "core/trace/trace_reader.hpp"
 #include "host/experiment/digest.hpp"
 #include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
@@ -20,7 +20,6 @@
 #include "host/workers/line_channel.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/resource_limits.hpp"
-#include "host/workers/supervisor.hpp"
 #include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "host/executable.hpp"
+#include "host/program/executable.hpp"
 
 namespace dmrp::host {
 

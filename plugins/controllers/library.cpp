@@ -2,11 +2,11 @@
 // The local controllers of dmrp, as one plugin library.
 #include <dmrp/plugin.hpp>
 
-#include "dwa/dwa.hpp"
-#include "e3mop/e3mop.hpp"
-#include "mpc/mpc.hpp"
-#include "pure_pursuit/pure_pursuit.hpp"
-#include "teb/teb.hpp"
+#include "controllers/dwa/dwa.hpp"
+#include "controllers/e3mop/e3mop.hpp"
+#include "controllers/mpc/mpc.hpp"
+#include "controllers/pure_pursuit/pure_pursuit.hpp"
+#include "controllers/teb/teb.hpp"
 
 DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa, dmrp::controllers::Teb, dmrp::controllers::Mpc,
              dmrp::controllers::E3mop)

@@ -20,11 +20,11 @@
 #include <string>
 #include <vector>
 
-#include "bench_controllers_allocations.hpp"
-#include "bench_controllers_trial.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/plugins/call_guard.hpp"
 #include "host/workers/supervisor.hpp"
+#include "tests/bench/bench_controllers_allocations.hpp"
+#include "tests/bench/bench_controllers_trial.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_controllers_allocations.hpp"
+#include "tests/bench/bench_controllers_allocations.hpp"
 
 #include <cerrno>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_controllers_tape.hpp"
+#include "tests/bench/bench_controllers_tape.hpp"
 
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_controllers_trial.hpp"
+#include "tests/bench/bench_controllers_trial.hpp"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -10,12 +10,12 @@
 #include <memory>
 #include <stdexcept>
 
-#include "bench_controllers_allocations.hpp"
-#include "core/ending.hpp"
-#include "core/progress.hpp"
-#include "core/world.hpp"
+#include "core/execution/ending.hpp"
+#include "core/execution/progress.hpp"
+#include "core/world/world.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
+#include "tests/bench/bench_controllers_allocations.hpp"
 
 namespace dmrp::bench {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench_controllers_tape.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/variant_world.hpp"
+#include "tests/bench/bench_controllers_tape.hpp"
 
 namespace dmrp::bench {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "bench_pedestrians_crowd.hpp"
-#include "bench_rows.hpp"
+#include "tests/bench/bench_pedestrians_crowd.hpp"
+#include "tests/bench/bench_rows.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_pedestrians_crowd.hpp"
+#include "tests/bench/bench_pedestrians_crowd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <stdexcept>
 
-#include "core/planning_grid.hpp"
+#include "core/scene/planning_grid.hpp"
 
 namespace dmrp::bench {
 

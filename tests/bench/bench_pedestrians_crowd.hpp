@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "../unit/plugin_under_test.hpp"
-#include "core/solid_motion.hpp"
-#include "core/static_geometry.hpp"
-#include "core/world_view.hpp"
+#include "core/scene/static_geometry.hpp"
+#include "core/scene/world_view.hpp"
+#include "core/world/solid_motion.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::bench {
 

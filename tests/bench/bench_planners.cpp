@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "planner_runs.hpp"
-#include "planner_sets.hpp"
+#include "tests/bench/planner_runs.hpp"
+#include "tests/bench/planner_sets.hpp"
 
 namespace {
 

@@ -16,16 +16,16 @@
 #include <string>
 #include <vector>
 
-#include "../unit/plugin_under_test.hpp"
-#include "bench_rows.hpp"
-#include "bench_simulation_world.hpp"
-#include "core/costmap.hpp"
-#include "core/flow_routes.hpp"
-#include "core/lidar.hpp"
-#include "core/planning_grid.hpp"
-#include "core/sensing.hpp"
-#include "core/world.hpp"
-#include "core/world_view.hpp"
+#include "core/people/flow_routes.hpp"
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/world_view.hpp"
+#include "core/sensors/costmap.hpp"
+#include "core/sensors/lidar.hpp"
+#include "core/sensors/visibility.hpp"
+#include "core/world/world.hpp"
+#include "tests/bench/bench_rows.hpp"
+#include "tests/bench/bench_simulation_world.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "bench_simulation_world.hpp"
+#include "tests/bench/bench_simulation_world.hpp"
 
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "host/experiment/read_scenario.hpp"
+#include "host/scenario/find_scenario.hpp"
+#include "host/scenario/read_scenario.hpp"
 
 namespace dmrp::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/scenario.hpp"
+#include "core/scene/scenario.hpp"
 
 namespace dmrp::bench {
 

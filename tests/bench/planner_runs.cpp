@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planner_runs.hpp"
+#include "tests/bench/planner_runs.hpp"
 
 #include <sys/wait.h>
 
@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "path_check.hpp"
+#include "tests/path_check/path_check.hpp"
 
 namespace dmrp::bench {
 

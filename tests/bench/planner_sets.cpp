@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planner_sets.hpp"
+#include "tests/bench/planner_sets.hpp"
 
 namespace dmrp::bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner_runs.hpp"
+#include "tests/bench/planner_runs.hpp"
 
 namespace dmrp::bench {
 

@@ -13,7 +13,6 @@ function(dmrp_add_test name)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME area)
 
   add_executable(${name} ${test_SOURCES})
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_definitions(${name} PRIVATE DMRP_TEST_DATA="${DMRP_TEST_DATA}")
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} dmrp_build_settings Catch2::Catch2WithMain)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sample_library.hpp"
+#include "tests/conformance/sample_library.hpp"
 
 #include <dmrp/plugin.hpp>
 #include <new>

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "path_check.hpp"
+#include "tests/path_check/path_check.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 6) {

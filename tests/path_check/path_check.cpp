@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_check.hpp"
+#include "tests/path_check/path_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The judge is judged: each rule has a file that breaks it alone.
-#include "path_check.hpp"
+#include "tests/path_check/path_check.hpp"
 
 #include <unistd.h>
 

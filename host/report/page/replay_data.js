@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_data.js: unpacks a replay (host/report/replay_data.hpp says what is in it) into metres, radians, seconds.
+// replay_data.js: unpacks a replay (host/report/replay/replay_data.hpp says what is in it) into metres, radians, seconds.
 window.dmrp = window.dmrp || {};
 (function (dmrp) {
   'use strict';

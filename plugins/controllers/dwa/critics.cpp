@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "critics.hpp"
+#include "controllers/dwa/critics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "../motion/footprint_check.hpp"
-#include "oscillation.hpp"
-#include "velocity_window.hpp"
-#include "wave_front.hpp"
+#include "controllers/dwa/oscillation.hpp"
+#include "controllers/dwa/velocity_window.hpp"
+#include "controllers/dwa/wave_front.hpp"
+#include "controllers/motion/footprint_check.hpp"
 
 namespace dmrp::controllers::dwa {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dwa.hpp"
+#include "controllers/dwa/dwa.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "../motion/annotate_arc.hpp"
+#include "controllers/motion/annotate_arc.hpp"
 
 namespace dmrp::controllers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oscillation.hpp"
+#include "controllers/dwa/oscillation.hpp"
 
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>

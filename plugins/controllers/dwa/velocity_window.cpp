@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "velocity_window.hpp"
+#include "controllers/dwa/velocity_window.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "wave_front.hpp"
+#include "controllers/dwa/wave_front.hpp"
 
 #include <algorithm>
 #include <limits>

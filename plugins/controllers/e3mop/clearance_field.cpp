@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "clearance_field.hpp"
+#include "controllers/e3mop/clearance_field.hpp"
 
 #include <cmath>
 #include <dmrp/toolkit/segment.hpp>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "e3mop.hpp"
+#include "controllers/e3mop/e3mop.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <limits>
 
-#include "../motion/unicycle.hpp"
-#include "path_follower.hpp"
-#include "velocity_profile.hpp"
+#include "controllers/e3mop/path_follower.hpp"
+#include "controllers/e3mop/velocity_profile.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers {
 

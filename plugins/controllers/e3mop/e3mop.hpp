@@ -14,11 +14,11 @@
 #include <dmrp/plugin.hpp>
 #include <optional>
 
-#include "../motion/path_ahead.hpp"
-#include "../motion/stop_and_rotate.hpp"
-#include "local_plan.hpp"
-#include "path_smoother.hpp"
-#include "spline_path.hpp"
+#include "controllers/e3mop/local_plan.hpp"
+#include "controllers/e3mop/path_smoother.hpp"
+#include "controllers/e3mop/spline_path.hpp"
+#include "controllers/motion/path_ahead.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
 
 namespace dmrp::controllers {
 

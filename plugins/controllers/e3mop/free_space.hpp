@@ -5,8 +5,8 @@
 
 #include <dmrp/cpp/local_controller.hpp>
 
-#include "../motion/footprint_check.hpp"
-#include "clearance_field.hpp"
+#include "controllers/e3mop/clearance_field.hpp"
+#include "controllers/motion/footprint_check.hpp"
 
 namespace dmrp::controllers::e3mop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "goal_distances.hpp"
+#include "controllers/e3mop/goal_distances.hpp"
 
 #include <cmath>
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice.hpp"
-#include "lattice_frame.hpp"
+#include "controllers/e3mop/lattice.hpp"
+#include "controllers/e3mop/lattice_frame.hpp"
 
 namespace dmrp::controllers::e3mop {
 

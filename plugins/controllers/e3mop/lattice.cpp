@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lattice.hpp"
+#include "controllers/e3mop/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

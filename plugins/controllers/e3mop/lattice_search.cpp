@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lattice_search.hpp"
+#include "controllers/e3mop/lattice_search.hpp"
 
 #include <algorithm>
 #include <cmath>

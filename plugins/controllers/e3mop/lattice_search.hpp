@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "free_space.hpp"
-#include "goal_distances.hpp"
-#include "lattice.hpp"
-#include "lattice_frame.hpp"
+#include "controllers/e3mop/free_space.hpp"
+#include "controllers/e3mop/goal_distances.hpp"
+#include "controllers/e3mop/lattice.hpp"
+#include "controllers/e3mop/lattice_frame.hpp"
 
 namespace dmrp::controllers::e3mop {
 

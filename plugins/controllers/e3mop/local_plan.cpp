@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "local_plan.hpp"
+#include "controllers/e3mop/local_plan.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "lattice_search.hpp"
+#include "controllers/e3mop/lattice_search.hpp"
 
 namespace dmrp::controllers::e3mop {
 

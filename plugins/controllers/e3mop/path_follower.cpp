@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_follower.hpp"
+#include "controllers/e3mop/path_follower.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "../motion/unicycle.hpp"
-#include "velocity_profile.hpp"
+#include "controllers/e3mop/velocity_profile.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers::e3mop {
 

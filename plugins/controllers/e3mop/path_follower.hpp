@@ -6,7 +6,7 @@
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
-#include "spline_path.hpp"
+#include "controllers/e3mop/spline_path.hpp"
 
 namespace dmrp::controllers::e3mop {
 

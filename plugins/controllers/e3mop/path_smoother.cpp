@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_smoother.hpp"
+#include "controllers/e3mop/path_smoother.hpp"
 
 #include <algorithm>
 

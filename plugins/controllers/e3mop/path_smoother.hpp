@@ -12,8 +12,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "../motion/levenberg_marquardt.hpp"
-#include "clearance_field.hpp"
+#include "controllers/e3mop/clearance_field.hpp"
+#include "controllers/motion/levenberg_marquardt.hpp"
 
 namespace dmrp::controllers::e3mop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "spline_path.hpp"
+#include "controllers/e3mop/spline_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "../motion/banded_ldlt.hpp"
+#include "controllers/motion/banded_ldlt.hpp"
 
 namespace dmrp::controllers::e3mop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "velocity_profile.hpp"
+#include "controllers/e3mop/velocity_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

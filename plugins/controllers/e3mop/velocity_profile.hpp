@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "spline_path.hpp"
+#include "controllers/e3mop/spline_path.hpp"
 
 namespace dmrp::controllers::e3mop {
 

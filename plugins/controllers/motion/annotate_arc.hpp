@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "unicycle.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "costmap_view.hpp"
+#include "controllers/motion/costmap_view.hpp"
 
 #include <algorithm>
 

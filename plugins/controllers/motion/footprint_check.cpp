@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "footprint_check.hpp"
+#include "controllers/motion/footprint_check.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>

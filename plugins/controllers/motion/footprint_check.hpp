@@ -5,8 +5,8 @@
 
 #include <dmrp/cpp/local_controller.hpp>
 
-#include "costmap_view.hpp"
-#include "unicycle.hpp"
+#include "controllers/motion/costmap_view.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "guide.hpp"
+#include "controllers/motion/guide.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "costmap_view.hpp"
+#include "controllers/motion/costmap_view.hpp"
 
 namespace dmrp::controllers {
 

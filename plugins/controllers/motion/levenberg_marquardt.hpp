@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "banded_ldlt.hpp"
+#include "controllers/motion/banded_ldlt.hpp"
 
 namespace dmrp::controllers {
 

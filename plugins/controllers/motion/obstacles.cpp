@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "obstacles.hpp"
+#include "controllers/motion/obstacles.hpp"
 
 #include <dmrp/abi.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oscillation_detector.hpp"
+#include "controllers/motion/oscillation_detector.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_ahead.hpp"
+#include "controllers/motion/path_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>

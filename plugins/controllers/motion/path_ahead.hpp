@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "footprint_check.hpp"
-#include "path_tracker.hpp"
+#include "controllers/motion/footprint_check.hpp"
+#include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_tracker.hpp"
+#include "controllers/motion/path_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "stop_and_rotate.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
 
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "unicycle.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers {
 

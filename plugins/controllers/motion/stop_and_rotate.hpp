@@ -3,7 +3,7 @@
 #ifndef DMRP_CONTROLLERS_MOTION_STOP_AND_ROTATE_HPP
 #define DMRP_CONTROLLERS_MOTION_STOP_AND_ROTATE_HPP
 
-#include "path_tracker.hpp"
+#include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
 

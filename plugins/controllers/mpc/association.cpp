@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "association.hpp"
+#include "controllers/mpc/association.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #ifndef DMRP_CONTROLLERS_MPC_ASSOCIATION_HPP
 #define DMRP_CONTROLLERS_MPC_ASSOCIATION_HPP
 
-#include "problem.hpp"
+#include "controllers/mpc/problem.hpp"
 
 namespace dmrp::controllers::mpc {
 

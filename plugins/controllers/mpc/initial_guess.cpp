@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "initial_guess.hpp"
+#include "controllers/mpc/initial_guess.hpp"
 
 #include <algorithm>
 #include <cmath>

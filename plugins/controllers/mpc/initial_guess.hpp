@@ -5,7 +5,7 @@
 
 #include <dmrp/values.h>
 
-#include "problem.hpp"
+#include "controllers/mpc/problem.hpp"
 
 namespace dmrp::controllers::mpc {
 

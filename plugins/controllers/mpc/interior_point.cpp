@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "interior_point.hpp"
+#include "controllers/mpc/interior_point.hpp"
 
 #include <algorithm>
 #include <cmath>

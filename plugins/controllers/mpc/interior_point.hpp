@@ -10,8 +10,8 @@
 #ifndef DMRP_CONTROLLERS_MPC_INTERIOR_POINT_HPP
 #define DMRP_CONTROLLERS_MPC_INTERIOR_POINT_HPP
 
-#include "problem.hpp"
-#include "riccati.hpp"
+#include "controllers/mpc/problem.hpp"
+#include "controllers/mpc/riccati.hpp"
 
 namespace dmrp::controllers::mpc {
 

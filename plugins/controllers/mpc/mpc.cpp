@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpc.hpp"
+#include "controllers/mpc/mpc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../motion/unicycle.hpp"
+#include "controllers/motion/unicycle.hpp"
 
 namespace dmrp::controllers {
 

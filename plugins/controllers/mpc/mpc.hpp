@@ -13,12 +13,12 @@
 
 #include <dmrp/plugin.hpp>
 
-#include "../motion/guide.hpp"
-#include "../motion/path_ahead.hpp"
-#include "../motion/stop_and_rotate.hpp"
-#include "association.hpp"
-#include "initial_guess.hpp"
-#include "interior_point.hpp"
+#include "controllers/motion/guide.hpp"
+#include "controllers/motion/path_ahead.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/mpc/association.hpp"
+#include "controllers/mpc/initial_guess.hpp"
+#include "controllers/mpc/interior_point.hpp"
 
 namespace dmrp::controllers {
 

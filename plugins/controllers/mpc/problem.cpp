@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problem.hpp"
+#include "controllers/mpc/problem.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,8 +22,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "../motion/obstacles.hpp"
-#include "trajectory.hpp"
+#include "controllers/motion/obstacles.hpp"
+#include "controllers/mpc/trajectory.hpp"
 
 namespace dmrp::controllers::mpc {
 

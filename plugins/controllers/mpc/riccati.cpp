@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "riccati.hpp"
+#include "controllers/mpc/riccati.hpp"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #ifndef DMRP_CONTROLLERS_MPC_RICCATI_HPP
 #define DMRP_CONTROLLERS_MPC_RICCATI_HPP
 
-#include "problem.hpp"
+#include "controllers/mpc/problem.hpp"
 
 namespace dmrp::controllers::mpc {
 

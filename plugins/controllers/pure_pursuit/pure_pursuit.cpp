@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "pure_pursuit.hpp"
+#include "controllers/pure_pursuit/pure_pursuit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../motion/annotate_arc.hpp"
+#include "controllers/motion/annotate_arc.hpp"
 
 namespace dmrp::controllers {
 

@@ -11,9 +11,9 @@
 
 #include <dmrp/plugin.hpp>
 
-#include "../motion/footprint_check.hpp"
-#include "../motion/path_tracker.hpp"
-#include "../motion/stop_and_rotate.hpp"
+#include "controllers/motion/footprint_check.hpp"
+#include "controllers/motion/path_tracker.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
 
 namespace dmrp::controllers {
 

@@ -8,8 +8,8 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../motion/unicycle.hpp"
-#include "timed_elastic_band.hpp"
+#include "controllers/motion/unicycle.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers::teb {
 

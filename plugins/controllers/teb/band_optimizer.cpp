@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "band_optimizer.hpp"
+#include "controllers/teb/band_optimizer.hpp"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #ifndef DMRP_CONTROLLERS_TEB_BAND_OPTIMIZER_HPP
 #define DMRP_CONTROLLERS_TEB_BAND_OPTIMIZER_HPP
 
-#include "../motion/levenberg_marquardt.hpp"
-#include "band_problem.hpp"
+#include "controllers/motion/levenberg_marquardt.hpp"
+#include "controllers/teb/band_problem.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "band_problem.hpp"
+#include "controllers/teb/band_problem.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/angle.hpp>

@@ -9,10 +9,10 @@
 #include <array>
 #include <vector>
 
-#include "normal_equations.hpp"
-#include "obstacle_links.hpp"
-#include "residuals.hpp"
-#include "timed_elastic_band.hpp"
+#include "controllers/teb/normal_equations.hpp"
+#include "controllers/teb/obstacle_links.hpp"
+#include "controllers/teb/residuals.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers::teb {
 

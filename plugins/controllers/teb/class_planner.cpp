@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "class_planner.hpp"
+#include "controllers/teb/class_planner.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 #include <dmrp/toolkit/random.hpp>
 #include <vector>
 
-#include "band_optimizer.hpp"
-#include "roadmap.hpp"
+#include "controllers/teb/band_optimizer.hpp"
+#include "controllers/teb/roadmap.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "homotopy_signature.hpp"
+#include "controllers/teb/homotopy_signature.hpp"
 
 #include <algorithm>
 

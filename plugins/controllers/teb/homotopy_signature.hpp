@@ -18,8 +18,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "../motion/obstacles.hpp"
-#include "timed_elastic_band.hpp"
+#include "controllers/motion/obstacles.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers::teb {
 

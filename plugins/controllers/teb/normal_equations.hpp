@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "../motion/banded_ldlt.hpp"
-#include "residuals.hpp"
+#include "controllers/motion/banded_ldlt.hpp"
+#include "controllers/teb/residuals.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "obstacle_links.hpp"
+#include "controllers/teb/obstacle_links.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>

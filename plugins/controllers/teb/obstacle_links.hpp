@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "../motion/obstacles.hpp"
-#include "timed_elastic_band.hpp"
+#include "controllers/motion/obstacles.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -5,7 +5,7 @@
 
 #include <dmrp/cpp/local_controller.hpp>
 
-#include "tuning.hpp"
+#include "controllers/teb/tuning.hpp"
 
 namespace dmrp::controllers::teb {
 

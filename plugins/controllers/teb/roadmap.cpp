@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap.hpp"
+#include "controllers/teb/roadmap.hpp"
 
 #include <algorithm>
 #include <cmath>

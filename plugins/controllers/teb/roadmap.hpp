@@ -13,7 +13,7 @@
 #include <dmrp/toolkit/random.hpp>
 #include <vector>
 
-#include "homotopy_signature.hpp"
+#include "controllers/teb/homotopy_signature.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "teb.hpp"
+#include "controllers/teb/teb.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <string>
 
-#include "band_command.hpp"
+#include "controllers/teb/band_command.hpp"
 
 namespace dmrp::controllers {
 

@@ -9,13 +9,13 @@
 
 #include <dmrp/plugin.hpp>
 
-#include "../motion/guide.hpp"
-#include "../motion/oscillation_detector.hpp"
-#include "../motion/path_ahead.hpp"
-#include "../motion/path_tracker.hpp"
-#include "../motion/stop_and_rotate.hpp"
-#include "class_planner.hpp"
-#include "parameters.hpp"
+#include "controllers/motion/guide.hpp"
+#include "controllers/motion/oscillation_detector.hpp"
+#include "controllers/motion/path_ahead.hpp"
+#include "controllers/motion/path_tracker.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/teb/class_planner.hpp"
+#include "controllers/teb/parameters.hpp"
 
 namespace dmrp::controllers {
 

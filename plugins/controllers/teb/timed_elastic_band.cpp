@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "timed_elastic_band.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 #include <algorithm>
 #include <cmath>

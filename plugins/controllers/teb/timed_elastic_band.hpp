@@ -10,7 +10,7 @@
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
-#include "tuning.hpp"
+#include "controllers/teb/tuning.hpp"
 
 namespace dmrp::controllers::teb {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compute_time.hpp"
+#include "metrics/compute/compute_time.hpp"
 
 #include <dmrp/status.h>
 
 #include <algorithm>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "idle_time.hpp"
+#include "metrics/execution/idle_time.hpp"
 
 #include <cmath>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/in_seconds.hpp"
-#include "../measure/per_robot.hpp"
-#include "../measure/speed_of.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/in_seconds.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/speed_of.hpp"
 
 namespace dmrp::metrics {
 namespace {

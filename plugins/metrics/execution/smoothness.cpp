@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "smoothness.hpp"
+#include "metrics/execution/smoothness.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -6,8 +6,8 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/sums.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/sums.hpp"
 
 namespace dmrp::metrics {
 

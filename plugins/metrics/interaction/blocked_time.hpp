@@ -5,9 +5,9 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/recent_progress.hpp"
-#include "../measure/time_span.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/recent_progress.hpp"
+#include "metrics/measure/time_span.hpp"
 
 namespace dmrp::metrics {
 

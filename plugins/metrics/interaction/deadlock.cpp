@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "deadlock.hpp"
+#include "metrics/interaction/deadlock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <string>
 #include <tuple>
 
-#include "../measure/bodies.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/in_seconds.hpp"
-#include "../measure/per_robot.hpp"
-#include "../measure/time_span.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/in_seconds.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/time_span.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -12,8 +12,8 @@
 #include <map>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/recent_progress.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/recent_progress.hpp"
 
 namespace dmrp::metrics {
 

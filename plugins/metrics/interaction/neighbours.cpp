@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "neighbours.hpp"
+#include "metrics/interaction/neighbours.hpp"
 
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 

@@ -4,7 +4,7 @@
 
 #include <dmrp/plugin.hpp>
 
-#include "../measure/mean_count.hpp"
+#include "metrics/measure/mean_count.hpp"
 
 namespace dmrp::metrics {
 

@@ -9,7 +9,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "active_steps.hpp"
+#include "metrics/measure/active_steps.hpp"
 
 namespace dmrp::metrics {
 

@@ -8,7 +8,7 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "sums.hpp"
+#include "metrics/measure/sums.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "arrivals.hpp"
+#include "metrics/outcome/arrivals.hpp"
 
 #include <algorithm>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/in_seconds.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/in_seconds.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "completion_time.hpp"
+#include "metrics/outcome/completion_time.hpp"
 
 #include <algorithm>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/in_seconds.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/in_seconds.hpp"
 
 namespace dmrp::metrics {
 

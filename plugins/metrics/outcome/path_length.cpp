@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "path_length.hpp"
+#include "metrics/outcome/path_length.hpp"
 
 #include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 
-#include "../measure/describe_metric.hpp"
+#include "metrics/measure/describe_metric.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "planning_time.hpp"
+#include "metrics/outcome/planning_time.hpp"
 
-#include "../measure/describe_metric.hpp"
+#include "metrics/measure/describe_metric.hpp"
 
 namespace dmrp::metrics {
 

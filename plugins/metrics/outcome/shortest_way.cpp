@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shortest_way.hpp"
+#include "metrics/outcome/shortest_way.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/grid_line.hpp>

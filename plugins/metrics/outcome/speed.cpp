@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "speed.hpp"
+#include "metrics/outcome/speed.hpp"
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/speed_of.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/speed_of.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "spl.hpp"
+#include "metrics/outcome/spl.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
-#include "shortest_way.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/outcome/shortest_way.hpp"
 
 namespace dmrp::metrics {
 

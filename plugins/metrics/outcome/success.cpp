@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "success.hpp"
+#include "metrics/outcome/success.hpp"
 
-#include "../measure/contact_fault.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/sums.hpp"
+#include "metrics/measure/contact_fault.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/sums.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ibtr.hpp"
+#include "metrics/paper/ibtr.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>
@@ -7,10 +7,10 @@
 #include <string>
 #include <tuple>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/speed_of.hpp"
-#include "../measure/thresholds.hpp"
-#include "../measure/time_span.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/speed_of.hpp"
+#include "metrics/measure/thresholds.hpp"
+#include "metrics/measure/time_span.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ldf.hpp"
+#include "metrics/paper/ldf.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
-#include "../measure/thresholds.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/thresholds.hpp"
 
 namespace dmrp::metrics {
 

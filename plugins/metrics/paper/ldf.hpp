@@ -6,7 +6,7 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
+#include "metrics/measure/active_steps.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "pfd.hpp"
+#include "metrics/paper/pfd.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/segment.hpp>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "sto.hpp"
+#include "metrics/paper/sto.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>
 #include <stdexcept>
 #include <vector>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
-#include "../measure/thresholds.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/thresholds.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "clearance.hpp"
+#include "metrics/safety/clearance.hpp"
 
 #include <cmath>
 
-#include "../measure/bodies.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 

@@ -5,10 +5,10 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/nearest_wall.hpp"
-#include "../measure/sums.hpp"
-#include "../measure/time_share.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/nearest_wall.hpp"
+#include "metrics/measure/sums.hpp"
+#include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
 

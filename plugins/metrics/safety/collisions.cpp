@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "collisions.hpp"
+#include "metrics/safety/collisions.hpp"
 
-#include "../measure/contact_fault.hpp"
-#include "../measure/describe_metric.hpp"
+#include "metrics/measure/contact_fault.hpp"
+#include "metrics/measure/describe_metric.hpp"
 
 namespace dmrp::metrics {
 namespace {

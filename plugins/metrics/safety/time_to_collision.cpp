@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "time_to_collision.hpp"
+#include "metrics/safety/time_to_collision.hpp"
 
 #include <cmath>
 
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 

@@ -5,9 +5,9 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/bodies.hpp"
-#include "../measure/time_share.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "group_intrusion.hpp"
+#include "metrics/social/group_intrusion.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/polygon.hpp>
 #include <map>
 
-#include "../measure/bodies.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "pedestrian_progress.hpp"
+#include "metrics/social/pedestrian_progress.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <map>
 
-#include "../measure/describe_metric.hpp"
+#include "metrics/measure/describe_metric.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -11,7 +11,7 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/sums.hpp"
+#include "metrics/measure/sums.hpp"
 
 namespace dmrp::metrics {
 

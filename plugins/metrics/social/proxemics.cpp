@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "proxemics.hpp"
+#include "metrics/social/proxemics.hpp"
 
-#include "../measure/bodies.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {

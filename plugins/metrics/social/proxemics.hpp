@@ -5,8 +5,8 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/time_share.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "social_work.hpp"
+#include "metrics/social/social_work.hpp"
 
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
-#include "../measure/bodies.hpp"
-#include "../measure/describe_metric.hpp"
-#include "../measure/per_robot.hpp"
+#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {

@@ -6,9 +6,9 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "../measure/active_steps.hpp"
-#include "../measure/nearest_wall.hpp"
-#include "../measure/sums.hpp"
+#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/nearest_wall.hpp"
+#include "metrics/measure/sums.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "collision_free_speed/collision_free_speed.hpp"
+#include "pedestrians/collision_free_speed/collision_free_speed.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "collision_free_speed/speed_function.hpp"
-#include "crowd/wall_push.hpp"
+#include "pedestrians/collision_free_speed/speed_function.hpp"
+#include "pedestrians/crowd/wall_push.hpp"
 
 namespace dmrp::pedestrians {
 

@@ -7,11 +7,11 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "crowd/leanings.hpp"
-#include "crowd/neighbor_grid.hpp"
-#include "crowd/walkers.hpp"
-#include "crowd/wall_grid.hpp"
-#include "crowd/way_finding.hpp"
+#include "pedestrians/crowd/leanings.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
+#include "pedestrians/crowd/walkers.hpp"
+#include "pedestrians/crowd/wall_grid.hpp"
+#include "pedestrians/crowd/way_finding.hpp"
 
 namespace dmrp::pedestrians {
 

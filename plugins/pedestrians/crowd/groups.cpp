@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "groups.hpp"
+#include "pedestrians/crowd/groups.hpp"
 
 #include <algorithm>
 #include <utility>

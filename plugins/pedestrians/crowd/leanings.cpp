@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "leanings.hpp"
+#include "pedestrians/crowd/leanings.hpp"
 
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "line_of_sight.hpp"
+#include "pedestrians/crowd/line_of_sight.hpp"
 
 #include <algorithm>
 #include <cmath>

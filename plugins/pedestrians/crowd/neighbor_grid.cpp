@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "neighbor_grid.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "right_of_way.hpp"
+#include "pedestrians/crowd/right_of_way.hpp"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "crowd/neighbor_grid.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
 
 namespace dmrp::pedestrians {
 

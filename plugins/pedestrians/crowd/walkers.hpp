@@ -7,8 +7,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "crowd/neighbor_grid.hpp"
-#include "crowd/right_of_way.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
+#include "pedestrians/crowd/right_of_way.hpp"
 
 namespace dmrp::pedestrians {
 

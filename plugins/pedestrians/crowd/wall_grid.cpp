@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "wall_grid.hpp"
+#include "pedestrians/crowd/wall_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

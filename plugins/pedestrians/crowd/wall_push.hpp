@@ -6,7 +6,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "crowd/wall_grid.hpp"
+#include "pedestrians/crowd/wall_grid.hpp"
 
 namespace dmrp::pedestrians {
 

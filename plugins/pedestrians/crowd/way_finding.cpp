@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "way_finding.hpp"
+#include "pedestrians/crowd/way_finding.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/rectangle.hpp>

@@ -10,7 +10,7 @@
 #include <dmrp/toolkit/navigation_field.hpp>
 #include <vector>
 
-#include "crowd/line_of_sight.hpp"
+#include "pedestrians/crowd/line_of_sight.hpp"
 
 namespace dmrp::pedestrians {
 

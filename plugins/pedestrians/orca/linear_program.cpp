@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orca/linear_program.hpp"
+#include "pedestrians/orca/linear_program.hpp"
 
 #include <algorithm>
 #include <cmath>

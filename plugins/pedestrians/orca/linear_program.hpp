@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "orca/half_plane.hpp"
+#include "pedestrians/orca/half_plane.hpp"
 
 namespace dmrp::pedestrians {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "orca/orca.hpp"
+#include "pedestrians/orca/orca.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "orca/velocity_obstacle.hpp"
+#include "pedestrians/orca/velocity_obstacle.hpp"
 
 namespace dmrp::pedestrians {
 

@@ -8,13 +8,13 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "crowd/leanings.hpp"
-#include "crowd/neighbor_grid.hpp"
-#include "crowd/walkers.hpp"
-#include "crowd/way_finding.hpp"
-#include "orca/half_plane.hpp"
-#include "orca/linear_program.hpp"
-#include "orca/wall_obstacles.hpp"
+#include "pedestrians/crowd/leanings.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
+#include "pedestrians/crowd/walkers.hpp"
+#include "pedestrians/crowd/way_finding.hpp"
+#include "pedestrians/orca/half_plane.hpp"
+#include "pedestrians/orca/linear_program.hpp"
+#include "pedestrians/orca/wall_obstacles.hpp"
 
 namespace dmrp::pedestrians {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "orca/half_plane.hpp"
+#include "pedestrians/orca/half_plane.hpp"
 
 namespace dmrp::pedestrians {
 

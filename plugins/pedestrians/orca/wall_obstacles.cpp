@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orca/wall_obstacles.hpp"
+#include "pedestrians/orca/wall_obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@
 #include <dmrp/cpp/span.hpp>
 #include <vector>
 
-#include "crowd/wall_grid.hpp"
-#include "orca/half_plane.hpp"
+#include "pedestrians/crowd/wall_grid.hpp"
+#include "pedestrians/orca/half_plane.hpp"
 
 namespace dmrp::pedestrians {
 

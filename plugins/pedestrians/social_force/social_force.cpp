@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "social_force/social_force.hpp"
+#include "pedestrians/social_force/social_force.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "crowd/wall_push.hpp"
-#include "social_force/headway.hpp"
+#include "pedestrians/crowd/wall_push.hpp"
+#include "pedestrians/social_force/headway.hpp"
 
 namespace dmrp::pedestrians {
 

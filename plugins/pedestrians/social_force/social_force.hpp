@@ -6,12 +6,12 @@
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "crowd/groups.hpp"
-#include "crowd/neighbor_grid.hpp"
-#include "crowd/walkers.hpp"
-#include "crowd/wall_grid.hpp"
-#include "crowd/way_finding.hpp"
-#include "social_force/forces.hpp"
+#include "pedestrians/crowd/groups.hpp"
+#include "pedestrians/crowd/neighbor_grid.hpp"
+#include "pedestrians/crowd/walkers.hpp"
+#include "pedestrians/crowd/wall_grid.hpp"
+#include "pedestrians/crowd/way_finding.hpp"
+#include "pedestrians/social_force/forces.hpp"
 
 namespace dmrp::pedestrians {
 

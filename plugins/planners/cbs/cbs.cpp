@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cbs.hpp"
+#include "planners/cbs/cbs.hpp"
 
 namespace dmrp::planners {
 

@@ -2,7 +2,7 @@
 // cbs.hpp: conflict-based search: paths without conflicts, of least sum of costs.
 #pragma once
 
-#include "../conflict_search/planner.hpp"
+#include "planners/conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 

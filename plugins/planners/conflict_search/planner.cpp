@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "planner.hpp"
+#include "planners/conflict_search/planner.hpp"
 
 #include <numeric>
 
-#include "../mapf/solvability.hpp"
-#include "../mapf/straighten.hpp"
+#include "planners/mapf/solvability.hpp"
+#include "planners/mapf/straighten.hpp"
 
 namespace dmrp::planners {
 

@@ -4,7 +4,7 @@
 
 #include <dmrp/plugin.hpp>
 
-#include "search.hpp"
+#include "planners/conflict_search/high_level/search.hpp"
 
 namespace dmrp::planners {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ecbs.hpp"
+#include "planners/ecbs/ecbs.hpp"
 
 namespace dmrp::planners {
 

@@ -2,7 +2,7 @@
 // ecbs.hpp: enhanced conflict-based search: paths without conflicts, of a sum of costs within a bound of the least.
 #pragma once
 
-#include "../conflict_search/planner.hpp"
+#include "planners/conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "constraint.hpp"
+#include "planners/ecbs8/constraint.hpp"
 
 #include <algorithm>
 

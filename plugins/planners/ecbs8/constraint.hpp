@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "step_cost.hpp"
+#include "planners/ecbs8/step_cost.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "constraint_tree.hpp"
+#include "planners/ecbs8/constraint_tree.hpp"
 
 #include <algorithm>
 

@@ -11,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "constraint.hpp"
-#include "occupancy.hpp"
+#include "planners/ecbs8/constraint.hpp"
+#include "planners/ecbs8/occupancy.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ecbs8.hpp"
+#include "planners/ecbs8/ecbs8.hpp"
 
 #include <algorithm>
 #include <numbers>
 
-#include "../mapf/solvability.hpp"
-#include "search.hpp"
+#include "planners/ecbs8/search.hpp"
+#include "planners/mapf/solvability.hpp"
 
 namespace dmrp::planners {
 

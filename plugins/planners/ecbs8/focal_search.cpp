@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "focal_search.hpp"
+#include "planners/ecbs8/focal_search.hpp"
 
 #include <algorithm>
 

@@ -12,10 +12,10 @@
 #include <optional>
 #include <vector>
 
-#include "../mapf/stop_signal.hpp"
-#include "constraint.hpp"
-#include "occupancy.hpp"
-#include "tour_distances.hpp"
+#include "planners/ecbs8/constraint.hpp"
+#include "planners/ecbs8/occupancy.hpp"
+#include "planners/ecbs8/tour_distances.hpp"
+#include "planners/mapf/stop_signal.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

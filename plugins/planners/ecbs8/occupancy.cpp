@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occupancy.hpp"
+#include "planners/ecbs8/occupancy.hpp"
 
 #include <algorithm>
 #include <new>

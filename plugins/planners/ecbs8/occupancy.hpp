@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "step_cost.hpp"
+#include "planners/ecbs8/step_cost.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "search.hpp"
+#include "planners/ecbs8/search.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
-#include "../mapf/solvability.hpp"
+#include "planners/mapf/solvability.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

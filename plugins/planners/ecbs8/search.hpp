@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "constraint_tree.hpp"
-#include "focal_search.hpp"
+#include "planners/ecbs8/constraint_tree.hpp"
+#include "planners/ecbs8/focal_search.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

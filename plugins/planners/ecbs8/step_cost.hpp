@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "../mapf/problem.hpp"
+#include "planners/mapf/problem.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tour_distances.hpp"
+#include "planners/ecbs8/tour_distances.hpp"
 
 #include <bit>
 

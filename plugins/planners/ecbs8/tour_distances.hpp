@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "../mapf/stop_signal.hpp"
-#include "step_cost.hpp"
+#include "planners/ecbs8/step_cost.hpp"
+#include "planners/mapf/stop_signal.hpp"
 
 namespace dmrp::planners::ecbs8 {
 

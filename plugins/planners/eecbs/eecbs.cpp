@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "eecbs.hpp"
+#include "planners/eecbs/eecbs.hpp"
 
 namespace dmrp::planners {
 

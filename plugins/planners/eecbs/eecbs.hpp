@@ -3,7 +3,7 @@
 // the least, found by estimating what the conflicts that are left will cost.
 #pragma once
 
-#include "../conflict_search/planner.hpp"
+#include "planners/conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "individual.hpp"
+#include "planners/individual/individual.hpp"
 
-#include "../mapf/problem.hpp"
-#include "../mapf/straighten.hpp"
-#include "../mapf/tour_table.hpp"
+#include "planners/mapf/problem.hpp"
+#include "planners/mapf/straighten.hpp"
+#include "planners/mapf/tour_table.hpp"
 
 namespace dmrp::planners {
 

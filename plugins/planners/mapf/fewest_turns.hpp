@@ -2,7 +2,7 @@
 // fewest_turns.hpp: a bound on the turns that are left.
 #pragma once
 
-#include "grid_graph.hpp"
+#include "planners/mapf/grid_graph.hpp"
 
 namespace dmrp::planners {
 

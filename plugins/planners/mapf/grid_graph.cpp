@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grid_graph.hpp"
+#include "planners/mapf/grid_graph.hpp"
 
 #include <cmath>
 

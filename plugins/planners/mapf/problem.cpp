@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problem.hpp"
+#include "planners/mapf/problem.hpp"
 
 #include <cmath>
 #include <limits>

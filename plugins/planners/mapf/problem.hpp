@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "grid_graph.hpp"
+#include "planners/mapf/grid_graph.hpp"
 
 namespace dmrp::planners {
 

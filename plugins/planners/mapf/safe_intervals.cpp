@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "safe_intervals.hpp"
+#include "planners/mapf/safe_intervals.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "problem.hpp"
+#include "planners/mapf/problem.hpp"
 
 namespace dmrp::planners {
 

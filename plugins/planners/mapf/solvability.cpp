@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solvability.hpp"
+#include "planners/mapf/solvability.hpp"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "problem.hpp"
-#include "stop_signal.hpp"
+#include "planners/mapf/problem.hpp"
+#include "planners/mapf/stop_signal.hpp"
 
 namespace dmrp::planners {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "straighten.hpp"
+#include "planners/mapf/straighten.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "fewest_turns.hpp"
+#include "planners/mapf/fewest_turns.hpp"
 
 namespace dmrp::planners {
 

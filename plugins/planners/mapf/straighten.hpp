@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "safe_intervals.hpp"
-#include "stop_signal.hpp"
-#include "tour_table.hpp"
+#include "planners/mapf/safe_intervals.hpp"
+#include "planners/mapf/stop_signal.hpp"
+#include "planners/mapf/tour_table.hpp"
 
 namespace dmrp::planners {
 

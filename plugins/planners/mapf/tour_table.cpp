@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tour_table.hpp"
+#include "planners/mapf/tour_table.hpp"
 
 #include <algorithm>
 

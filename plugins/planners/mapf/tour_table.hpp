@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "problem.hpp"
-#include "stop_signal.hpp"
+#include "planners/mapf/problem.hpp"
+#include "planners/mapf/stop_signal.hpp"
 
 namespace dmrp::planners {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "prioritized_search.hpp"
+#include "planners/sipp/prioritized_search.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/random.hpp>
 #include <numeric>
 
-#include "../mapf/solvability.hpp"
+#include "planners/mapf/solvability.hpp"
 
 namespace dmrp::planners {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sipp_search.hpp"
+#include "planners/sipp/sipp_search.hpp"
 
 namespace dmrp::planners {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "sipp.hpp"
+#include "planners/sipp/sipp.hpp"
 
-#include "../mapf/solvability.hpp"
-#include "../mapf/straighten.hpp"
-#include "prioritized_search.hpp"
+#include "planners/mapf/solvability.hpp"
+#include "planners/mapf/straighten.hpp"
+#include "planners/sipp/prioritized_search.hpp"
 
 namespace dmrp::planners {
 

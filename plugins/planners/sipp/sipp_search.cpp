@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sipp_search.hpp"
+#include "planners/sipp/sipp_search.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "../mapf/fewest_turns.hpp"
+#include "planners/mapf/fewest_turns.hpp"
 
 namespace dmrp::planners {
 

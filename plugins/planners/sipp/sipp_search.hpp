@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "../mapf/safe_intervals.hpp"
-#include "../mapf/stop_signal.hpp"
-#include "../mapf/tour_table.hpp"
+#include "planners/mapf/safe_intervals.hpp"
+#include "planners/mapf/stop_signal.hpp"
+#include "planners/mapf/tour_table.hpp"
 
 namespace dmrp::planners {
 

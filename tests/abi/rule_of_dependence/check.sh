@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# check.sh SOURCE_DIR: the one rule of dependence, sdk <- core <- host and sdk <- plugins, read from the include lines,
-# the link lines and the plugin ids in the sources. Prints each breach as file:line: text; exit status 1 if there is one.
+# check.sh SOURCE_DIR: the one rule of dependence, sdk <- core <- host and sdk <- plugins, and the order of the rooms
+# within core, host and plugins (rooms.txt), read from the include lines, the link lines and the plugin ids in the
+# sources. Prints each breach as file:line: text; exit status 1 if there is one.
 set -euo pipefail
 shopt -s inherit_errexit
+rooms=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/rooms.txt
 cd "$1"
 
 # what the files of a part may include, beside themselves and what lies outside these folders
@@ -59,9 +61,37 @@ check_include() {
   # a header of the standard library or of a dependency
   [[ -n $found ]] || return 0
   for owner in $found; do
-    [[ " $part ${may_include[$part]} " != *" $owner "* ]] || return 0
+    if [[ " $part ${may_include[$part]} " == *" $owner "* ]]; then
+      check_room "$file" "$line" "$header"
+      return 0
+    fi
   done
   breach "$file:$line" "$part includes $header of ${found# }"
+}
+
+# order[room] = its line in rooms.txt; a room further down may include those further up
+declare -A order=()
+read_rooms() {
+  local room
+  while IFS= read -r room; do
+    [[ -z $room || $room == \#* ]] || order[$room]=${#order[@]}
+  done <"$rooms"
+}
+
+check_room() {
+  local room=${1%/*} header=$3 other
+  [[ -e $header ]] || header=plugins/$header
+  [[ -e $header ]] || return 0
+  other=${header%/*}
+  [[ -n ${order[$room]:-} && -n ${order[$other]:-} ]] || return 0
+  ((${order[$other]} <= ${order[$room]})) || breach "$1:$2" "$room includes $3 of $other, a room above it"
+}
+
+check_rooms_are_listed() {
+  local room
+  while IFS= read -r room; do
+    [[ -n ${order[$room]:-} ]] || breach "$room:1" "this room is not in ${rooms##*/}"
+  done < <(find core host plugins -name '*.[ch]pp' -printf '%h\n' | sort -u)
 }
 
 check_includes() {
@@ -82,6 +112,8 @@ forbid() {
 }
 
 index_files
+read_rooms
+check_rooms_are_listed
 check_includes
 forbid "links more than the SDK" '\bdmrp(_|::)(core|host)\b' --include=CMakeLists.txt plugins sdk examples
 forbid "core sees the host or the plugins" '\bdmrp(_|::)(host|planners|controllers|pedestrians|metrics)\b' \

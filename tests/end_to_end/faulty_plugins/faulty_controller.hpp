@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "misbehave.hpp"
+#include "tests/end_to_end/faulty_plugins/misbehave.hpp"
 
 namespace dmrp::test {
 

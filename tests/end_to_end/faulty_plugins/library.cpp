@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // libdmrp_test_faults.so: one plugin of each kind that breaks its contract as its parameters say.
-#include "faulty_controller.hpp"
-#include "faulty_metric.hpp"
-#include "faulty_pedestrians.hpp"
-#include "faulty_planner.hpp"
+#include "tests/end_to_end/faulty_plugins/faulty_controller.hpp"
+#include "tests/end_to_end/faulty_plugins/faulty_metric.hpp"
+#include "tests/end_to_end/faulty_plugins/faulty_pedestrians.hpp"
+#include "tests/end_to_end/faulty_plugins/faulty_planner.hpp"
 
 using namespace dmrp::test;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "bottleneck.hpp"
+#include "tests/rimea/metrics/bottleneck.hpp"
 
-#include "describe_rimea.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
 
 namespace dmrp::rimea {
 

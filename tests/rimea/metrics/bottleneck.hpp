@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "walkers.hpp"
+#include "tests/rimea/metrics/walkers.hpp"
 
 namespace dmrp::rimea {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "evacuation.hpp"
+#include "tests/rimea/metrics/evacuation.hpp"
 
-#include "describe_rimea.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
 
 namespace dmrp::rimea {
 

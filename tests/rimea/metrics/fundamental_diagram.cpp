@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "fundamental_diagram.hpp"
+#include "tests/rimea/metrics/fundamental_diagram.hpp"
 
-#include "describe_rimea.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
 
 namespace dmrp::rimea {
 

@@ -9,7 +9,7 @@
 #include <dmrp/toolkit/rectangle.hpp>
 #include <vector>
 
-#include "walkers.hpp"
+#include "tests/rimea/metrics/walkers.hpp"
 
 namespace dmrp::rimea {
 

@@ -2,12 +2,12 @@
 // The measurements of the RiMEA tests as one plugin library, built from the SDK alone.
 #include <stdexcept>
 
-#include "bottleneck.hpp"
-#include "describe_rimea.hpp"
-#include "evacuation.hpp"
-#include "fundamental_diagram.hpp"
-#include "solidity.hpp"
-#include "travel_time.hpp"
+#include "tests/rimea/metrics/bottleneck.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
+#include "tests/rimea/metrics/evacuation.hpp"
+#include "tests/rimea/metrics/fundamental_diagram.hpp"
+#include "tests/rimea/metrics/solidity.hpp"
+#include "tests/rimea/metrics/travel_time.hpp"
 
 namespace dmrp::rimea {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "solidity.hpp"
+#include "tests/rimea/metrics/solidity.hpp"
 
 #include <algorithm>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <numeric>
 
-#include "describe_rimea.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
 
 namespace dmrp::rimea {
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "../../unit/metrics/synthetic_trial.hpp"
+#include "tests/unit/metrics/synthetic_trial.hpp"
 
 using namespace dmrp::test;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "travel_time.hpp"
+#include "tests/rimea/metrics/travel_time.hpp"
 
 #include <cmath>
 
-#include "describe_rimea.hpp"
+#include "tests/rimea/metrics/describe_rimea.hpp"
 
 namespace dmrp::rimea {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "walkers.hpp"
+#include "tests/rimea/metrics/walkers.hpp"
 
 #include <dmrp/toolkit/vec2.hpp>
 

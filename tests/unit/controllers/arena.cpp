@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arena.hpp"
+#include "tests/unit/controllers/arena.hpp"
 
 #include <algorithm>
 #include <cmath>

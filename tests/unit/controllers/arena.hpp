@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "../plugin_under_test.hpp"
-#include "arena_sensors.hpp"
+#include "tests/unit/controllers/arena_sensors.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

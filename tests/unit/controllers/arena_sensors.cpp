@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arena_sensors.hpp"
+#include "tests/unit/controllers/arena_sensors.hpp"
 
 #include <algorithm>
 #include <array>

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "../plugin_under_test.hpp"
-#include "core/costmap.hpp"
-#include "core/lidar.hpp"
-#include "core/obstacle_clusters.hpp"
+#include "core/sensors/costmap.hpp"
+#include "core/sensors/lidar.hpp"
+#include "core/sensors/obstacle_clusters.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "arena.hpp"
-#include "tuned_parameters.hpp"
+#include "tests/unit/controllers/arena.hpp"
+#include "tests/unit/controllers/tuned_parameters.hpp"
 
 namespace dmrp::test {
 

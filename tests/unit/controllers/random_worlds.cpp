@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "random_worlds.hpp"
+#include "tests/unit/controllers/random_worlds.hpp"
 
 #include <dmrp/ext/distance_field.h>
 #include <dmrp/ext/local_costmap.h>
@@ -15,7 +15,7 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "core/obstacle_clusters.hpp"
+#include "core/sensors/obstacle_clusters.hpp"
 
 namespace dmrp::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../plugin_under_test.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

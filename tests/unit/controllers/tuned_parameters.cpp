@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tuned_parameters.hpp"
+#include "tests/unit/controllers/tuned_parameters.hpp"
 
 #include <toml++/toml.h>
 

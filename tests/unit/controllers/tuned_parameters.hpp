@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "../plugin_under_test.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

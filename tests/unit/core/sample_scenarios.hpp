@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
-#include "core/settings.hpp"
-#include "core/static_geometry.hpp"
+#include "core/scene/scenario.hpp"
+#include "core/scene/settings.hpp"
+#include "core/scene/static_geometry.hpp"
 
 namespace dmrp::core::test {
 

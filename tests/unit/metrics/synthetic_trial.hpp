@@ -24,7 +24,7 @@
 #include <tuple>
 #include <vector>
 
-#include "../plugin_under_test.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

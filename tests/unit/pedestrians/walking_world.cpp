@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "walking_world.hpp"
+#include "tests/unit/pedestrians/walking_world.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

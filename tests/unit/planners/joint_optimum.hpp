@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "planning_case.hpp"
+#include "tests/unit/planners/planning_case.hpp"
 
 namespace dmrp::test {
 

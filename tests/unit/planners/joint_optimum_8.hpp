@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "plan_check_8.hpp"
+#include "tests/unit/planners/plan_check_8.hpp"
 
 namespace dmrp::test {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "planning_case.hpp"
+#include "tests/unit/planners/planning_case.hpp"
 
 namespace dmrp::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planning_case.hpp"
+#include "tests/unit/planners/planning_case.hpp"
 
 namespace dmrp::test {
 

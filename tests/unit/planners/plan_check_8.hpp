@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "plan_check.hpp"
+#include "tests/unit/planners/plan_check.hpp"
 
 namespace dmrp::test {
 

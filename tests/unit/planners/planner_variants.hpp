@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "plan_check.hpp"
+#include "tests/unit/planners/plan_check.hpp"
 
 namespace dmrp::test {
 

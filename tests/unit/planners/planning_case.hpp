@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "../plugin_under_test.hpp"
+#include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planning_case.hpp"
-#include "random.hpp"
+#include "tests/unit/planners/planning_case.hpp"
+#include "tests/unit/planners/random.hpp"
 
 namespace dmrp::test {
 

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "core/execution/progress.hpp"
+
+#include <algorithm>
+#include <dmrp/toolkit/polyline.hpp>
+
+namespace dmrp::core {
+namespace {
+
+// How far ahead on the path the robot is looked for, beyond what it has travelled since its last progress: enough to
+// follow one that cuts a corner, too little to skip a detour that it is about to take.
+constexpr double search_ahead_m = 2.0;
+
+}  // namespace
+
+void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position) {
+  const double off_old_path_m = off_path_m();
+  path_.assign(path.begin(), path.end());
+  toolkit::arc_lengths(path_, arcs_);
+  last_position_ = position;
+  reached_m_ = path_.empty() ? 0.0 : toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
+  way_there_ = 0;
+  if (!path_.empty() && reached_m_ == 0.0 && off_path_m() > 0.0) {
+    way_there_ = 1;
+    path_.insert(path_.begin(), path_.front());
+    path_.front().x = position.x;
+    path_.front().y = position.y;
+    toolkit::arc_lengths(path_, arcs_);
+  }
+  lost_m_ += std::max(0.0, off_old_path_m - off_path_m());
+  travelled_m_ = 0.0;
+  waypoint_ = 0;
+  pass_waypoints();
+}
+
+void PathProgress::update(dmrp_vec2 position, std::uint32_t goal_index) {
+  if (path_.empty()) return;
+  travelled_m_ += toolkit::distance(last_position_, position);
+  last_position_ = position;
+
+  // the way to the current goal ends at its last waypoint
+  std::size_t last = path_.size() - 1;
+  while (last > 0 && path_[last].goal_index > goal_index) --last;
+  advance(arcs_[last]);
+}
+
+void PathProgress::advance(double limit_m) {
+  if (limit_m <= reached_m_) return;
+  const double until_m = std::min(limit_m, reached_m_ + search_ahead_m + travelled_m_);
+  const double place_m = toolkit::project(path_, arcs_, last_position_, reached_m_, until_m).arc_m;
+  if (place_m <= reached_m_) return;
+  const double ahead_m = place_m - reached_m_;
+  const double won_back_m = std::min(lost_m_, ahead_m);
+  lost_m_ -= won_back_m;
+  gained_m_ += ahead_m - won_back_m;
+  reached_m_ = place_m;
+  travelled_m_ = 0.0;
+  pass_waypoints();
+}
+
+void PathProgress::pass_waypoints() {
+  while (waypoint_ + 1 < path_.size() && arcs_[waypoint_ + 1] <= reached_m_) ++waypoint_;
+}
+
+double PathProgress::progress_m() const {
+  return way_there_ == 0 ? reached_m_ : std::max(0.0, reached_m_ - arcs_[way_there_]);
+}
+
+std::uint32_t PathProgress::waypoint() const {
+  return waypoint_ - std::min(waypoint_, way_there_);
+}
+
+bool PathProgress::has_begun() const {
+  return waypoint_ >= way_there_;
+}
+
+double PathProgress::off_path_m() const {
+  return path_.empty() ? 0.0 : toolkit::distance(toolkit::point_at(path_, arcs_, reached_m_), last_position_);
+}
+
+}  // namespace dmrp::core

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// replanning.hpp: when the planner is to be asked again.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/execution/progress.hpp"
+#include "core/scene/settings.hpp"
+#include "core/world/world.hpp"
+
+namespace dmrp::core {
+
+class ReplanMonitor {
+ public:
+  // The first plan is asked for at t = 0.
+  ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count);
+
+  // At every control tick, with the progress of all robots. After a yes the planner counts as asked, and a stall has to
+  // last anew.
+  bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress);
+
+ private:
+  struct Watched {
+    double gained_m = 0.0;
+    std::int64_t since_ns = 0;
+  };
+
+  bool off_course(std::int64_t t_ns, const PathProgress& progress, Watched& watched) const;
+
+  ReplanSettings settings_;
+  std::int64_t asked_ns_ = 0;
+  std::vector<Watched> robots_;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// annotation_source.hpp: the plugin that left a trajectory or a note in the trace.
+#pragma once
+
+#include <cstdint>
+
+namespace dmrp::core {
+
+struct AnnotationSource {
+  std::uint32_t plugin_kind = 0;  // DMRP_KIND_*
+  std::uint32_t robot = 0;        // of a local controller; 0 otherwise
+};
+
+}  // namespace dmrp::core

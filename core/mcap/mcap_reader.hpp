@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// mcap_reader.hpp: the messages of one channel of an MCAP file, in the order in which they were written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/bytes/trace_bytes.hpp"
+#include "core/mcap/mcap.hpp"
+
+namespace dmrp::core {
+
+struct McapMessage {
+  std::int64_t log_time_ns = 0;
+  std::span<const std::uint8_t> data;
+};
+
+// Holds one chunk of the file at a time. Takes chunks that are not compressed or by zstd.
+//
+//   McapReader file(path, "robots");
+//   while (const auto message = file.next()) ...
+class McapReader {
+ public:
+  // Throws std::system_error where the file cannot be opened.
+  McapReader(const std::filesystem::path& path, std::string topic);
+
+  // The next message whose channel is called `topic`, valid until the next call; none after the last. A file that was
+  // cut short ends with its last whole chunk. Throws TraceError where the file is damaged, and std::system_error.
+  std::optional<McapMessage> next();
+
+  // The next message is the first again.
+  void rewind();
+
+  // Once there was no next message: whether the file was not cut short.
+  bool is_whole() const { return is_whole_; }
+
+ private:
+  void begin();
+  bool magic_follows();
+  void read(std::vector<std::uint8_t>& bytes, std::uint64_t count);
+  void skip_to(std::uint64_t position);
+  bool read_record();
+  void open_chunk(ByteCursor in);
+  std::optional<McapMessage> next_in_chunk();
+  void take_channel(ByteCursor in);
+  std::optional<McapMessage> take_message(ByteCursor in) const;
+
+  std::filesystem::path path_;
+  std::string topic_;
+  std::ifstream file_;
+  std::uint64_t size_ = 0;      // of the file, when its reading began
+  std::uint64_t position_ = 0;  // in the file
+  bool begun_ = false;
+  bool ended_ = false;
+  bool is_whole_ = false;
+  std::set<std::uint16_t> channels_;  // of the topic
+  McapOpcode opcode_{};               // of the last record outside chunks ...
+  std::vector<std::uint8_t> record_;  // ... and its body
+  std::vector<std::uint8_t> chunk_;   // decompressed
+  std::size_t chunk_position_ = 0;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// mcap_writer.hpp: writes an MCAP file as messages come in. Throws std::system_error.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "core/mcap/mcap.hpp"
+
+namespace dmrp::core {
+
+// Messages gather in chunks, each of which goes to the file whole: after a crash, all but the last one can be read.
+//
+//   McapWriter file(path);
+//   const std::uint16_t channel = file.add_channel({"robots", "json", file.add_schema(schema), {}});
+//   file.write(channel, t_ns, message);
+//   file.finish();
+class McapWriter {
+ public:
+  explicit McapWriter(const std::filesystem::path& path);
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  std::uint16_t add_schema(const McapSchema& schema);
+  std::uint16_t add_channel(const McapChannel& channel);
+  void write(std::uint16_t channel, std::int64_t log_time_ns, std::span<const std::uint8_t> message);
+
+  // Puts what has gathered into the file, as a chunk.
+  void flush() { write_chunk(); }
+
+  // Writes the last chunk, the index and the end. A file without it is one cut short.
+  void finish();
+
+ private:
+  using Bytes = std::vector<std::uint8_t>;
+
+  struct TimeRange {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    bool empty = true;
+    void add(std::uint64_t t);
+  };
+  struct IndexEntry {
+    std::uint64_t log_time;
+    std::uint64_t offset;  // in the uncompressed chunk
+  };
+
+  void write_chunk();
+  std::map<std::uint16_t, std::uint64_t> write_message_indexes();  // gives the offset of each channel's
+  void write_summary();
+  void put_statistics(Bytes& bytes) const;
+  void to_file(const Bytes& bytes);
+
+  std::filesystem::path path_;
+  std::ofstream file_;
+  std::uint64_t file_size_ = 0;
+
+  Bytes chunk_;  // records not yet written
+  TimeRange chunk_times_;
+  std::map<std::uint16_t, std::vector<IndexEntry>> chunk_messages_;  // by channel
+
+  Bytes schemas_;        // records for the summary
+  Bytes channels_;       // likewise
+  Bytes chunk_indexes_;  // likewise
+  TimeRange file_times_;
+  std::map<std::uint16_t, std::uint64_t> message_counts_;  // by channel: every channel is in it
+  std::uint16_t schema_count_ = 0;
+  std::uint32_t chunk_count_ = 0;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/planning_grid.hpp"
+
+#include <cmath>
+#include <dmrp/toolkit/grid_view.hpp>
+
+namespace dmrp::core {
+namespace {
+
+using toolkit::Cell;
+using toolkit::GridView;
+
+// Rounding must not close a gap of exactly the size needed.
+constexpr double touching_m = 1e-9;
+
+// A last column that sticks out by no more than this is none.
+std::uint32_t cells_across(double length_m, double resolution_m) {
+  return static_cast<std::uint32_t>(std::ceil(length_m / resolution_m - 1e-6));
+}
+
+bool move_is_free(const StaticGeometry& geometry, const GridView& grid, Cell from, int direction, double radius_m) {
+  const auto d = static_cast<std::size_t>(direction);
+  const Cell to = {from.column + toolkit::direction_dx[d], from.row + toolkit::direction_dy[d]};
+  if (!grid.free(to)) return false;
+  if (toolkit::is_diagonal(direction)) {
+    if (!grid.free(Cell{to.column, from.row}) || !grid.free(Cell{from.column, to.row})) return false;
+  }
+  // far from everything the move needs no closer look
+  const double length_m = toolkit::direction_length[d] * grid.resolution_m();
+  if (static_cast<double>(grid.clearance(grid.index(from))) > radius_m + length_m) return true;
+  return geometry.sweep_is_free(grid.center(from), grid.center(to), radius_m);
+}
+
+void find_edges(const StaticGeometry& geometry, double radius_m, PlanningGrid& grid) {
+  const dmrp_grid sdk_grid = grid.view();
+  const GridView view(sdk_grid);
+  for (std::uint32_t index = 0; index < view.size(); ++index) {
+    if (!view.free(index)) continue;
+    // half of the directions: what is free one way is free the other way
+    for (int direction = 0; direction < 4; ++direction) {
+      if (!move_is_free(geometry, view, view.cell(index), direction, radius_m)) continue;
+      const std::uint32_t other = view.neighbour(index, direction);
+      grid.edges[index] = static_cast<std::uint8_t>(grid.edges[index] | 1u << direction);
+      grid.edges[other] = static_cast<std::uint8_t>(grid.edges[other] | 1u << toolkit::opposite_direction(direction));
+    }
+  }
+}
+
+}  // namespace
+
+dmrp_grid PlanningGrid::view() const {
+  dmrp_grid grid{};
+  grid.struct_size = sizeof(grid);
+  grid.width = width;
+  grid.height = height;
+  grid.resolution_m = resolution_m;
+  grid.origin = origin;
+  grid.free = free.data();
+  grid.edges = edges.data();
+  grid.clearance = clearance.data();
+  return grid;
+}
+
+PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resolution_m, double radius_m,
+                                 double margin_m) {
+  PlanningGrid grid;
+  grid.width = cells_across(geometry.upper().x - geometry.lower().x, resolution_m);
+  grid.height = cells_across(geometry.upper().y - geometry.lower().y, resolution_m);
+  grid.resolution_m = resolution_m;
+  grid.origin = geometry.lower();
+  const std::size_t size = std::size_t{grid.width} * grid.height;
+  grid.free.assign(size, 0);
+  grid.edges.assign(size, 0);
+  grid.clearance.assign(size, 0.0f);
+
+  const dmrp_grid sdk_grid = grid.view();
+  const GridView view(sdk_grid);
+  for (std::uint32_t index = 0; index < size; ++index) {
+    const double clearance = geometry.clearance(view.center(index));
+    grid.clearance[index] = static_cast<float>(clearance);
+    grid.free[index] = clearance > 0.0 && clearance >= radius_m + margin_m - touching_m ? 1 : 0;
+  }
+  find_edges(geometry, radius_m, grid);
+  return grid;
+}
+
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m) {
+  return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
+}
+
+}  // namespace dmrp::core

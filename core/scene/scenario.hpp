@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// scenario.hpp: a world as its file describes it: static shapes, robots with their goals, and flows of people.
+// Plain data, metres and radians in the world frame; host parses scenario.toml into it.
+#pragma once
+
+#include <dmrp/values.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/recorded_track.hpp"
+
+namespace dmrp::core {
+
+// A static body. A box of the file is a polygon here.
+struct Shape {
+  enum class Kind { circle, polygon };
+  std::string name;
+  Kind kind = Kind::polygon;
+  dmrp_vec2 center{};               // circle
+  double radius_m = 0.0;            // circle
+  std::vector<dmrp_vec2> vertices;  // polygon: convex, counter-clockwise
+  double height_m = 2.0;
+};
+
+// A robot's task. Headings that are NaN are free: a start's is then set along the first goal's dominant axis.
+struct RobotTask {
+  std::string name;
+  dmrp_pose start{};
+  std::vector<dmrp_pose> goals;  // at least one; several make a tour
+};
+
+// An axis-aligned rectangle where people come from, pass or go to.
+struct Region {
+  std::string name;
+  dmrp_vec2 lower{};
+  dmrp_vec2 upper{};
+};
+
+// Where the people of a flow are at t = 0: spread along the whole way, or all in its first region.
+enum class FlowStart { along, from };
+
+// People who walk from one region through others to a last one, where they leave.
+struct Flow {
+  std::string name;
+  std::vector<std::uint32_t> regions;  // indices into Scenario::regions: from, via..., to; at least two
+  std::uint32_t people = 0;            // at t = 0
+  FlowStart start = FlowStart::along;
+  bool respawn = true;           // somebody new begins in the first region for everybody who leaves
+  std::uint32_t group_size = 1;  // so many walk together; the last group is smaller where people don't divide by it
+};
+
+// Bodies and walking speeds of people: normal, truncated.
+struct PeopleSettings {
+  double radius_m = 0.3;
+  double speed_mean = 1.2;  // m/s
+  double speed_sd = 0.2;
+  double speed_min = 0.5;
+  double speed_max = 2.0;
+};
+
+struct Scenario {
+  std::string name;  // as it is used in experiment files
+  std::string title;
+  std::string description;
+  dmrp_vec2 lower{};  // the world is this rectangle; its border is a wall
+  dmrp_vec2 upper{};
+  double time_limit_s = 180.0;
+  std::vector<Shape> shapes;
+  std::vector<RobotTask> robots;
+  std::vector<dmrp_vec2> other_starts;  // of robots that take no part here: at t = 0 people keep clear of them as well
+  PeopleSettings people;
+  std::vector<Region> regions;
+  std::vector<Flow> flows;
+  std::vector<Track> tracks;  // of people who walk as they did when they were recorded; time 0 is the trial's beginning
+};
+
+// People whom a pedestrian model moves.
+inline std::uint32_t walker_count(const Scenario& scenario) {
+  std::uint32_t count = 0;
+  for (const Flow& flow : scenario.flows) count += flow.people;
+  return count;
+}
+
+// All, at any time.
+inline std::uint32_t person_count(const Scenario& scenario) {
+  return walker_count(scenario) + static_cast<std::uint32_t>(scenario.tracks.size());
+}
+
+}  // namespace dmrp::core

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// static_geometry.hpp: what never moves: the shapes of a scenario and the border of its rectangle. Exact distances.
+#pragma once
+
+#include <dmrp/world.h>
+
+#include <cstdint>
+#include <dmrp/toolkit/rectangle.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/broad_phase.hpp"
+#include "core/scene/scenario.hpp"
+
+namespace dmrp::core {
+
+// How far a point is from the surface of a body, negative inside it, and which way leads out.
+struct SurfaceDistance {
+  double distance_m = 0.0;
+  dmrp_vec2 outward{};  // unit normal of the nearest surface
+};
+
+struct NearestShape {
+  double clearance_m = 0.0;  // from the point to the nearest shape or the border; 0 inside a shape or outside the world
+  std::uint32_t shape = 0;   // shapes().size() means the border
+};
+
+// Immutable, so that one serves all trials of a scenario. Broad phase: FCL's dynamic AABB tree.
+class StaticGeometry {
+ public:
+  explicit StaticGeometry(const Scenario& scenario);
+  StaticGeometry(const StaticGeometry&) = delete;
+  StaticGeometry& operator=(const StaticGeometry&) = delete;
+
+  dmrp_vec2 lower() const { return lower_; }
+  dmrp_vec2 upper() const { return upper_; }
+  toolkit::Rectangle rectangle() const { return {lower_, upper_}; }
+  const std::vector<Shape>& shapes() const { return shapes_; }
+  std::span<const dmrp_shape> sdk_shapes() const { return sdk_shapes_; }
+  std::uint32_t border() const { return static_cast<std::uint32_t>(shapes_.size()); }  // the border's index
+  std::string_view shape_name(std::uint32_t shape) const;                              // "the border" for border()
+
+  // Outlines of all shapes and of the border, as walls for people; circles as polygons around them.
+  std::span<const dmrp_segment> segments() const { return segments_; }
+
+  NearestShape nearest(dmrp_vec2 point) const;
+  double clearance(dmrp_vec2 point) const { return nearest(point).clearance_m; }
+  bool inside_world(dmrp_vec2 point) const;
+
+  // Whether a disc stands clear of everything; touching is allowed.
+  bool disc_is_free(dmrp_vec2 center, double radius_m) const;
+
+  // Whether a disc stays clear along the straight way, exactly (no sampling).
+  bool sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const;
+
+  // Whether no shape stands between the two points.
+  bool line_of_sight(dmrp_vec2 a, dmrp_vec2 b) const;
+
+  // Indices of the shapes whose bounding boxes touch this one, ascending. Replaces what `found` held.
+  void shapes_near(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
+
+  // To one shape's surface. Not for the border.
+  SurfaceDistance distance_to(std::uint32_t shape, dmrp_vec2 point) const;
+
+ private:
+  dmrp_vec2 lower_;
+  dmrp_vec2 upper_;
+  std::vector<Shape> shapes_;
+  std::vector<dmrp_shape> sdk_shapes_;  // point into shapes_
+  std::vector<dmrp_segment> segments_;
+  BoxTree tree_;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// lidar.hpp: a planar range scan; sensor_noise.hpp makes it less than exact.
+#pragma once
+
+#include <dmrp/ext/lidar.h>
+
+#include <cstdint>
+#include <dmrp/toolkit/ray_cast.hpp>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/scene/settings.hpp"
+#include "core/scene/static_geometry.hpp"
+
+namespace dmrp::core {
+
+struct Disc {
+  dmrp_vec2 center{};
+  double radius_m = 0.0;
+};
+
+// Sees shapes, the border, and the bodies it is given. One serves all robots of a world, one scan at a time.
+class Lidar {
+ public:
+  Lidar(const LidarSettings& settings, std::shared_ptr<const StaticGeometry> geometry);
+
+  std::uint32_t beams() const { return settings_.beams; }
+
+  // Fills `ranges` (beams() of them) as in dmrp_scan. `bodies` must not contain who carries the sensor.
+  void scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::span<float> ranges);
+
+  // The scan's head over ranges that stay the caller's.
+  dmrp_scan describe(std::int64_t t_ns, std::span<const float> ranges) const;
+
+ private:
+  void begin(const dmrp_pose& sensor);
+  void see_shapes();
+  void see_disc(const Disc& disc);
+  void see_polygon(const dmrp_shape& shape, double distance_m);
+  template <class Cast>
+  void look(double from, double width, double distance_m, const Cast& cast);
+
+  LidarSettings settings_;
+  std::shared_ptr<const StaticGeometry> geometry_;
+  double angle_min_;
+  double angle_increment_;
+  std::vector<dmrp_vec2> directions_;  // of the beams, in the sensor's frame
+
+  // of the scan under way
+  dmrp_vec2 origin_{};
+  double heading_ = 0.0;
+  std::vector<toolkit::Ray> rays_;
+  std::vector<double> nearest_m_;
+  std::vector<std::uint32_t> near_;
+  std::vector<std::pair<double, std::uint32_t>> by_distance_;
+};
+
+}  // namespace dmrp::core

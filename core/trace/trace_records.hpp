@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// trace_records.hpp: the records of a trace one after the other, as often as anybody wants them, wherever it is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/mcap/mcap_reader.hpp"
+#include "core/trace/trace.hpp"
+#include "core/trace/trace_spool.hpp"
+
+namespace dmrp::core {
+
+struct TraceRecord {
+  TraceRecordKind kind{};
+  std::size_t offset = 0;  // of the body, in the trace
+  std::span<const std::uint8_t> body;
+  std::span<const std::uint8_t> whole;  // with its length and kind
+};
+
+// A trace of a file is kept in memory as it is read for the first time if it is small; of a larger one no more than a
+// chunk is held, however long the trial was.
+class TraceRecords {
+ public:
+  // Above this a trace stays in its file: four robots among twelve people fill it in ten minutes.
+  static constexpr std::size_t small_trace_bytes = std::size_t{1} << 26;
+
+  // `bytes`, the whole trace, outlive it.
+  explicit TraceRecords(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  // All that was written to the spool, which outlives it.
+  explicit TraceRecords(TraceSpool& spool) : spool_(&spool) { spool.rewind(); }
+
+  // One that was cut short ends with its last whole chunk. Throws std::system_error.
+  explicit TraceRecords(const std::filesystem::path& file, std::size_t most_bytes_in_memory = small_trace_bytes);
+
+  // The next record, valid until the next call; none after the last. Throws TraceError, and std::system_error.
+  std::optional<TraceRecord> next();
+
+  // The next record is the first again.
+  void rewind();
+
+ private:
+  std::optional<TraceRecord> next_in_memory();
+  std::optional<TraceRecord> next_in_spool();
+  std::optional<TraceRecord> next_in_file();
+  void keep(std::span<const std::uint8_t> record);
+
+  std::span<const std::uint8_t> bytes_;  // of a trace in memory
+  TraceSpool* spool_ = nullptr;          // of one in a spool
+  std::unique_ptr<McapReader> file_;     // of a stored one
+  std::size_t most_bytes_in_memory_ = 0;
+  bool is_small_ = true;  // as far as is known
+  TraceBytes kept_;       // what was read of it so far
+  std::size_t position_ = 0;
+};
+
+}  // namespace dmrp::core

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/contact_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::core {
+namespace {
+
+dmrp_vec2 position_of(const dmrp_agent& agent) {
+  return toolkit::position(agent.pose);
+}
+
+// m/s with which `mover` comes nearer to `other`, as far as its own motion goes.
+double speed_toward(const dmrp_agent& mover, const dmrp_agent& other) {
+  return toolkit::dot(mover.velocity, toolkit::normalized(position_of(other) - position_of(mover)));
+}
+
+// Whether the two will touch if both go straight on.
+bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
+  const dmrp_vec2 apart = position_of(two) - position_of(one);
+  const dmrp_vec2 velocity = two.velocity - one.velocity;
+  const double touching_m = one.radius_m + two.radius_m;
+  if (toolkit::squared_norm(apart) <= touching_m * touching_m) return true;
+  const double squared_speed = toolkit::squared_norm(velocity);
+  const double approach = -toolkit::dot(apart, velocity);
+  if (!(approach > 0.0)) return false;
+  // the nearest they get, on the line of relative motion
+  const double aside = toolkit::cross(apart, velocity);
+  return aside * aside <= touching_m * touching_m * squared_speed;
+}
+
+}  // namespace
+
+ContactTracker::ContactTracker(double a_max, double v_max, std::int64_t latency_ns)
+    : a_max_(a_max),
+      latency_ns_(latency_ns),
+      memory_ns_(std::max<std::int64_t>(fault_window_ns, std::llround(1e9 * v_max / a_max) + latency_ns)) {}
+
+void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
+                            std::span<dmrp_contact> contacts) {
+  for (dmrp_contact& contact : contacts) {
+    const std::uint64_t b = contact.kind == DMRP_CONTACT_PERSON ? people[contact.b].id : contact.b;
+    const auto [event, is_first] = events_.try_emplace(Pair(contact.kind, contact.a, b));
+    const bool begins = is_first || t_ns - event->second.last_ns >= event_gap_ns;
+    if (begins) event->second.fault = fault_of(contact, b, t_ns);
+    event->second.last_ns = t_ns;
+    contact.flags = event->second.fault | (begins ? DMRP_CONTACT_BEGINS : 0u);
+  }
+
+  // remember the bodies; what is older than anybody asks for lends its buffers
+  Moment moment;
+  while (history_.size() > 1 && history_[1].t_ns <= t_ns - memory_ns_) {
+    moment = std::move(history_.front());
+    history_.pop_front();
+  }
+  moment.t_ns = t_ns;
+  moment.robots.assign(robots.begin(), robots.end());
+  moment.people.assign(people.begin(), people.end());
+  history_.push_back(std::move(moment));
+}
+
+std::uint32_t ContactTracker::fault_of(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns) const {
+  if (contact.kind == DMRP_CONTACT_STATIC) return DMRP_CONTACT_FAULT_A;
+  const Motion motion = motion_before(contact, b, t_ns);
+  if (contact.kind == DMRP_CONTACT_ROBOT)
+    return (motion.a_moved ? DMRP_CONTACT_FAULT_A : 0u) | (motion.b_moved ? DMRP_CONTACT_FAULT_B : 0u);
+  return (motion.a_moved ? DMRP_CONTACT_FAULT_A : DMRP_CONTACT_FAULT_B) |
+         (was_unavoidable(contact, b, t_ns, motion.a_speed) ? DMRP_CONTACT_UNAVOIDABLE : 0u);
+}
+
+const dmrp_agent* ContactTracker::body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b) {
+  if (contact.kind == DMRP_CONTACT_ROBOT) return &moment.robots[contact.b];
+  if (contact.b < moment.people.size() && moment.people[contact.b].id == b) return &moment.people[contact.b];
+  // others have come or gone since
+  const auto person =
+      std::find_if(moment.people.begin(), moment.people.end(), [b](const dmrp_agent& agent) { return agent.id == b; });
+  return person != moment.people.end() ? &*person : nullptr;
+}
+
+ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact, std::uint64_t b,
+                                                     std::int64_t t_ns) const {
+  Motion motion;
+  for (const Moment& moment : history_) {
+    if (moment.t_ns < t_ns - fault_window_ns) continue;
+    const dmrp_agent& robot = moment.robots[contact.a];
+    const dmrp_agent* const other = body_b(moment, contact, b);
+    if (other == nullptr) continue;
+    motion.a_speed = std::max(motion.a_speed, toolkit::norm(robot.velocity));
+    motion.a_moved = motion.a_moved || speed_toward(robot, *other) > fault_speed;
+    motion.b_moved = motion.b_moved || speed_toward(*other, robot) > fault_speed;
+  }
+  return motion;
+}
+
+bool ContactTracker::was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns,
+                                     double speed) const {
+  const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / a_max_) - latency_ns_;
+  // the last moment that is a braking time old, or the first of all
+  for (auto moment = history_.rbegin(); moment != history_.rend(); ++moment) {
+    if (moment->t_ns > then_ns && std::next(moment) != history_.rend()) continue;
+    const dmrp_agent* const person = body_b(*moment, contact, b);
+    return person != nullptr && !on_collision_course(moment->robots[contact.a], *person);
+  }
+  return false;
+}
+
+}  // namespace dmrp::core

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/solid_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
+
+namespace dmrp::core {
+namespace {
+
+constexpr double neighbour_reach_m = 0.25;  // found anew after every 0.2 s or so of walking
+constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
+constexpr int pushing_sweeps = 200;         // a dozen do in a jam, but for few steps
+constexpr int stopping_sweeps = 100;
+
+struct Wall {
+  dmrp_vec2 inward;
+  double distance_m;
+};
+
+// The four sides of the border as seen from a point.
+std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point) {
+  return {{{{1.0, 0.0}, point.x - geometry.lower().x},
+           {{-1.0, 0.0}, geometry.upper().x - point.x},
+           {{0.0, 1.0}, point.y - geometry.lower().y},
+           {{0.0, -1.0}, geometry.upper().y - point.y}}};
+}
+
+// From b toward a, also where they are at the same point.
+dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
+  return distance_m > 0.0 ? (a - b) / distance_m : dmrp_vec2{1.0, 0.0};
+}
+
+using Bearing = SolidBody::Bearing;
+
+// How far it may get in this step, pushed or not.
+double reach_of(const SolidBody& body) {
+  const double own_m = toolkit::norm(body.displacement);
+  return body.bearing == Bearing::gives_way ? std::max(own_m, pushed_at_most_m) : own_m;
+}
+
+// Moves it on, no further than it may get.
+void push_on(SolidBody& body, dmrp_vec2 push) {
+  const double at_most_m = reach_of(body);
+  body.displacement += push;
+  const double length_m = toolkit::norm(body.displacement);
+  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
+}
+
+}  // namespace
+
+SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry) : geometry_(std::move(geometry)) {}
+
+void SolidMotion::resolve(std::span<SolidBody> bodies) {
+  find_neighbours(bodies);
+  collect_constraints(bodies);
+  for (int sweep = 0; sweep < pushing_sweeps; ++sweep)
+    if (hold(bodies, true)) return;
+  for (int sweep = 0; sweep < stopping_sweeps; ++sweep)
+    if (hold(bodies, false)) return;
+  stop_violators(bodies);
+}
+
+bool SolidMotion::neighbours_are_fresh(std::span<const SolidBody> bodies) const {
+  if (bodies.size() != found_at_.size()) return false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double moved_m = toolkit::distance(bodies[i].position, found_at_[i]);
+    if (bodies[i].radius_m != found_radii_m_[i] || moved_m + reach_of(bodies[i]) > reach_m_) return false;
+  }
+  return true;
+}
+
+void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
+  if (neighbours_are_fresh(bodies)) return;
+
+  double furthest_m = 0.0;
+  for (const SolidBody& body : bodies) furthest_m = std::max(furthest_m, reach_of(body));
+  reach_m_ = neighbour_reach_m + furthest_m;
+  found_at_.clear();
+  found_radii_m_.clear();
+  std::vector<double> reaching_radii_m;
+  for (const SolidBody& body : bodies) {
+    found_at_.push_back(body.position);
+    found_radii_m_.push_back(body.radius_m);
+    reaching_radii_m.push_back(body.radius_m + neighbour_reach_m + furthest_m);
+  }
+
+  // FCL rebuilds its tree when radii change: round them up, so that they seldom do
+  for (double& radius : reaching_radii_m) radius = 0.25 * std::ceil(4.0 * radius);
+  pairs_.touching(found_at_, reaching_radii_m, body_neighbours_);
+
+  shape_neighbours_.clear();
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const dmrp_vec2 reach = {reaching_radii_m[i], reaching_radii_m[i]};
+    geometry_->shapes_near({found_at_[i] - reach, found_at_[i] + reach}, near);
+    for (const std::uint32_t shape : near) shape_neighbours_.emplace_back(i, shape);
+  }
+}
+
+void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
+                            double gap_m) {
+  const double allowed_m = std::max(0.0, gap_m + solid_depth_m);
+  if (reach_of(bodies[a]) + (b == no_body ? 0.0 : reach_of(bodies[b])) > allowed_m)
+    constraints_.push_back({a, b, normal, allowed_m});
+}
+
+// Beside somebody unstoppable; `normal`: from there.
+void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
+                                   dmrp_vec2 normal, double gap_m) {
+  if (bodies[stoppable].bearing == Bearing::unstoppable) return;
+  const double comes_m = toolkit::dot(bodies[other].displacement, normal);
+  const double allowed_m = std::max(0.0, std::max(0.0, gap_m + solid_depth_m) - comes_m);
+  if (reach_of(bodies[stoppable]) > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
+}
+
+// A half-plane that holds one convex body apart from another on their line of nearest points holds them apart for any
+// motion that respects it. So nothing can be stepped over, however fast it moves.
+void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
+  constraints_.clear();
+  for (const auto& [body, shape] : shape_neighbours_) {
+    if (bodies[body].bearing == Bearing::unstoppable) continue;
+    const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
+    constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
+  }
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].bearing == Bearing::unstoppable) continue;
+    for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
+      constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
+  }
+  for (const auto& [a, b] : body_neighbours_) {
+    const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
+    const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
+    const double gap_m = distance_m - bodies[a].radius_m - bodies[b].radius_m;
+    if (bodies[b].bearing == Bearing::unstoppable)
+      constrain_beside(bodies, a, b, normal, gap_m);
+    else if (bodies[a].bearing == Bearing::unstoppable)
+      constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
+    else
+      constrain(bodies, a, b, normal, gap_m);
+  }
+}
+
+// One pass over all constraints; whether all of them held.
+bool SolidMotion::hold(std::span<SolidBody> bodies, bool pushing) const {
+  bool all_held = true;
+  for (const Constraint& constraint : constraints_) {
+    SolidBody& a = bodies[constraint.a];
+    SolidBody* b = constraint.b == no_body ? nullptr : &bodies[constraint.b];
+    const double a_comes_m = -toolkit::dot(a.displacement, constraint.normal);
+    const double b_comes_m = b == nullptr ? 0.0 : toolkit::dot(b->displacement, constraint.normal);
+    const double excess_m = a_comes_m + b_comes_m - constraint.allowed_m;
+    if (excess_m <= tolerance_m) continue;
+    all_held = false;
+    if (pushing && b != nullptr && a.bearing == Bearing::gives_way && b->bearing == Bearing::gives_way) {
+      push_on(a, constraint.normal * (0.5 * excess_m));
+      push_on(*b, constraint.normal * (-0.5 * excess_m));
+      continue;
+    }
+    // who approaches loses approach; who recedes makes room
+    const double room_m = constraint.allowed_m - std::min(a_comes_m, 0.0) - std::min(b_comes_m, 0.0);
+    const double approach_m = std::max(a_comes_m, 0.0) + std::max(b_comes_m, 0.0);
+    const double lost_share = 1.0 - room_m / approach_m;
+    a.displacement += constraint.normal * (lost_share * std::max(a_comes_m, 0.0));
+    if (b != nullptr) b->displacement -= constraint.normal * (lost_share * std::max(b_comes_m, 0.0));
+  }
+  return all_held;
+}
+
+// Where sweeping did not settle it, those that still get too deep stand still for this step; then perhaps others do.
+void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
+  bool stopped = true;
+  while (stopped) {
+    stopped = false;
+    for (const Constraint& constraint : constraints_) {
+      double approach_m = -toolkit::dot(bodies[constraint.a].displacement, constraint.normal);
+      if (constraint.b != no_body) approach_m += toolkit::dot(bodies[constraint.b].displacement, constraint.normal);
+      if (approach_m <= constraint.allowed_m + tolerance_m) continue;
+      bodies[constraint.a].displacement = {0.0, 0.0};
+      if (constraint.b != no_body) bodies[constraint.b].displacement = {0.0, 0.0};
+      stopped = true;
+    }
+  }
+}
+
+void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                                       std::vector<Overlap>& found) {
+  found.clear();
+  find_neighbours(bodies);
+  const auto add = [&](std::uint32_t body, std::uint32_t shape, double distance_m, dmrp_vec2 outward) {
+    const double depth = bodies[body].radius_m - distance_m;
+    // the disc reaches from its centre to radius_m behind the surface
+    if (depth > depth_m)
+      found.push_back({body, shape, depth, bodies[body].position - outward * (distance_m + 0.5 * depth)});
+  };
+  for (const auto& [body, shape] : shape_neighbours_) {
+    if (body >= count) break;
+    const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
+    add(body, shape, surface.distance_m, surface.outward);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto walls = walls_around(*geometry_, bodies[i].position);
+    const auto nearest = std::min_element(
+        walls.begin(), walls.end(), [](const Wall& one, const Wall& two) { return one.distance_m < two.distance_m; });
+    add(i, geometry_->border(), nearest->distance_m, nearest->inward);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Overlap& one, const Overlap& two) { return std::pair(one.a, one.b) < std::pair(two.a, two.b); });
+}
+
+void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
+                                   std::vector<Overlap>& found) {
+  found.clear();
+  find_neighbours(bodies);
+  for (const auto& [a, b] : body_neighbours_) {
+    if (a >= count) break;
+    const double distance_m = toolkit::distance(bodies[a].position, bodies[b].position);
+    const double depth = bodies[a].radius_m + bodies[b].radius_m - distance_m;
+    if (!(depth > depth_m)) continue;
+    const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
+    found.push_back({a, b, depth, bodies[a].position - normal * (bodies[a].radius_m - 0.5 * depth)});
+  }
+}
+
+}  // namespace dmrp::core

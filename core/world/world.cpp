@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/robot_task.hpp"
+#include "core/world/motion_limits.hpp"
+#include "core/world/unicycle.hpp"
+
+namespace dmrp::core {
+namespace {
+
+constexpr double walking_speed = 0.05;  // m/s; who is slower keeps facing where it did
+
+std::vector<RobotState> initial_states(const Scenario& scenario) {
+  std::vector<RobotState> states;
+  for (const RobotTask& task : scenario.robots) {
+    RobotState state;
+    state.pose = start_of(task);
+    state.state = task.goals.empty() ? DMRP_ROBOT_FINISHED : DMRP_ROBOT_ACTIVE;
+    states.push_back(state);
+  }
+  return states;
+}
+
+std::vector<std::vector<dmrp_goal>> goals_of_all(const Scenario& scenario, const GoalSettings& settings) {
+  std::vector<std::vector<dmrp_goal>> goals;
+  for (const RobotTask& task : scenario.robots) goals.push_back(goals_of(task, settings));
+  return goals;
+}
+
+std::vector<dmrp_vec2> positions_of(std::span<const RobotState> robots) {
+  std::vector<dmrp_vec2> positions;
+  for (const RobotState& robot : robots) positions.push_back(toolkit::position(robot.pose));
+  return positions;
+}
+
+// Where nobody begins at t = 0: so that the crowd is the same however many of a scenario's robots take part.
+std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec2> robots) {
+  robots.insert(robots.end(), scenario.other_starts.begin(), scenario.other_starts.end());
+  return robots;
+}
+
+FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& geometry) {
+  if (walker_count(scenario) == 0) return FlowRoutes{std::vector<std::vector<Route>>(scenario.flows.size())};
+  return find_flow_routes(scenario, build_walking_grid(geometry, scenario.people.radius_m));
+}
+
+bool is_at_goal(const RobotState& robot, const dmrp_goal& goal) {
+  if (!(toolkit::distance(toolkit::position(robot.pose), toolkit::position(goal.pose)) < goal.tolerance_m))
+    return false;
+  if (!(std::abs(robot.velocity.v_x) < goal.tolerance_speed)) return false;
+  return std::isnan(goal.pose.theta) ||
+         std::abs(toolkit::difference(robot.pose.theta, goal.pose.theta)) < goal.tolerance_rad;
+}
+
+}  // namespace
+
+World::World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+             std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed)
+    : World(scenario, robot, simulation, geometry, routes_on_own_grid(scenario, *geometry), seed) {}
+
+World::World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+             std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes, std::uint64_t seed)
+    : robot_settings_(robot),
+      settings_(simulation),
+      limits_(limits_of(robot)),
+      geometry_(std::move(geometry)),
+      robots_(initial_states(scenario)),
+      coming_(robots_.size()),
+      goals_(goals_of_all(scenario, simulation.goal)),
+      robot_positions_(positions_of(robots_)),
+      population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
+      motion_(geometry_),
+      tracker_(robot.a_max, robot.v_max, command_latency_ns()) {
+  proposed_poses_.resize(robots_.size());
+  proposed_displacements_.resize(robots_.size());
+  for (const RobotState& state : robots_) bodies_.push_back({toolkit::position(state.pose), robot.radius_m, {}});
+  place_bodies_of_people();
+  robot_agents_.resize(robots_.size());
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  show_agents();
+}
+
+dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
+  RobotState& state = robots_[robot];
+  if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
+  const dmrp_twist clipped = clip_to_limits(command, limits_);
+  if (command_latency_ns() == 0)
+    state.command = clipped;
+  else
+    coming_[robot].push_back({t_ns_ + command_latency_ns(), clipped});
+  return state.command;
+}
+
+// Who is done brakes at once: its base does that by itself.
+void World::stop(std::uint32_t robot) {
+  robots_[robot].command = {};
+  coming_[robot].clear();
+}
+
+void World::take_up_commands() {
+  for (std::uint32_t i = 0; i < robots_.size(); ++i)
+    for (auto& coming = coming_[i]; !coming.empty() && coming.front().from_ns <= t_ns_; coming.pop_front())
+      robots_[i].command = coming.front().command;
+}
+
+void World::fail(std::uint32_t robot) {
+  RobotState& state = robots_[robot];
+  if (state.state != DMRP_ROBOT_ACTIVE) return;
+  state.state = DMRP_ROBOT_FAILED;
+  stop(robot);
+}
+
+std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
+  take_up_commands();
+  propose_motion(person_velocities);
+  motion_.resolve(bodies_);
+  apply_motion();
+  t_ns_ += settings_.step_ns;
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  advance_people();
+  show_agents();
+  find_contacts();
+  return contacts_;
+}
+
+void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    RobotState& robot = robots_[i];
+    robot.velocity = track(robot.velocity, robot.command, limits_, step_s());
+    proposed_poses_[i] = core::move(robot.pose, robot.velocity, step_s());
+    proposed_displacements_[i] = toolkit::position(proposed_poses_[i]) - toolkit::position(robot.pose);
+    bodies_[i].displacement = proposed_displacements_[i];
+  }
+  for (std::size_t i = 0; i < person_velocities.size(); ++i)
+    bodies_[robots_.size() + i].displacement = person_velocities[i] * step_s();
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    SolidBody& body = bodies_[robots_.size() + i];
+    if (const auto there = population_.position_on_track(i, t_ns_ + settings_.step_ns))
+      body.displacement = *there - body.position;
+  }
+}
+
+void World::apply_motion() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    RobotState& robot = robots_[i];
+    SolidBody& body = bodies_[i];
+    robot.pose.theta = proposed_poses_[i].theta;
+    if (body.displacement == proposed_displacements_[i]) {
+      robot.pose = proposed_poses_[i];
+    } else {
+      // of a motion that was cut, the speed that is left along the robot's own way; slipping sideways has none
+      const dmrp_vec2 way = proposed_displacements_[i];
+      const double share = toolkit::dot(body.displacement, way) / toolkit::squared_norm(way);
+      robot.velocity.v_x *= std::clamp(share, 0.0, 1.0);
+      robot.pose.x += body.displacement.x;
+      robot.pose.y += body.displacement.y;
+    }
+    robot_positions_[i] = toolkit::position(robot.pose);
+    body.position = robot_positions_[i];
+    body.displacement = {};
+  }
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    SolidBody& body = bodies_[robots_.size() + i];
+    body.position += body.displacement;
+    population_.move(i, body.position, body.displacement / step_s());
+    body.displacement = {};
+  }
+}
+
+void World::check_arrival(std::uint32_t robot) {
+  RobotState& state = robots_[robot];
+  if (state.state != DMRP_ROBOT_ACTIVE) return;
+  const dmrp_goal& goal = goals_[robot][state.goal_index];
+  if (!is_at_goal(state, goal)) {
+    state.settling_since_ns = -1;
+    return;
+  }
+  if (state.settling_since_ns < 0) state.settling_since_ns = t_ns_;
+  if (t_ns_ - state.settling_since_ns < goal.settle_ns) return;
+  state.settling_since_ns = -1;
+  if (state.goal_index + 1 < goals_[robot].size()) {
+    ++state.goal_index;
+    return;
+  }
+  state.state = DMRP_ROBOT_FINISHED;
+  stop(robot);
+  state.arrival_ns = t_ns_;
+}
+
+void World::advance_people() {
+  population_.advance(t_ns_, robot_positions_);
+  place_bodies_of_people();
+}
+
+void World::place_bodies_of_people() {
+  bodies_.resize(robots_.size());
+  for (std::size_t i = 0; i < population_.people().size(); ++i) {
+    const dmrp_person& person = population_.people()[i];
+    const auto bearing = population_.is_recorded(i) ? SolidBody::Bearing::unstoppable : SolidBody::Bearing::gives_way;
+    bodies_.push_back({person.position, person.radius_m, {}, bearing});
+  }
+}
+
+void World::show_agents() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const RobotState& robot = robots_[i];
+    robot_agents_[i] = {i,
+                        DMRP_AGENT_ROBOT,
+                        robot.state,
+                        robot.pose,
+                        toolkit::rotate({robot.velocity.v_x, robot.velocity.v_y}, robot.pose.theta),
+                        robot_settings_.radius_m};
+  }
+  show_people();
+}
+
+void World::show_people() {
+  person_agents_before_.swap(person_agents_);
+  person_agents_.clear();
+  auto before = person_agents_before_.begin();
+  for (const dmrp_person& person : population_.people()) {
+    // both are by slot: who was there before comes in the same order
+    const auto known = std::find_if(before, person_agents_before_.end(),
+                                    [&](const dmrp_agent& agent) { return agent.id == person.id; });
+    dmrp_agent agent{};
+    agent.id = person.id;
+    agent.kind = DMRP_AGENT_PERSON;
+    agent.pose = {person.position.x, person.position.y, 0.0};
+    if (toolkit::norm(person.velocity) > walking_speed)
+      agent.pose.theta = std::atan2(person.velocity.y, person.velocity.x);
+    else if (known != person_agents_before_.end())
+      agent.pose.theta = known->pose.theta;
+    else
+      agent.pose.theta = toolkit::bearing(person.position, person.target);
+    if (known != person_agents_before_.end()) before = std::next(known);
+    agent.velocity = person.velocity;
+    agent.radius_m = person.radius_m;
+    person_agents_.push_back(agent);
+  }
+}
+
+void World::find_contacts() {
+  contacts_.clear();
+  const auto robot_count = static_cast<std::uint32_t>(robots_.size());
+  const auto add = [&](std::uint32_t kind, const Overlap& overlap, std::uint32_t b) {
+    contacts_.push_back({kind, 0, overlap.a, b, overlap.depth_m, overlap.point});
+  };
+  motion_.overlaps_with_shapes(bodies_, robot_count, contact_depth_m, overlaps_);
+  for (const Overlap& overlap : overlaps_) add(DMRP_CONTACT_STATIC, overlap, overlap.b);
+  motion_.overlaps_between(bodies_, robot_count, contact_depth_m, overlaps_);
+  for (const Overlap& overlap : overlaps_)
+    if (overlap.b < robot_count) add(DMRP_CONTACT_ROBOT, overlap, overlap.b);
+  for (const Overlap& overlap : overlaps_)
+    if (overlap.b >= robot_count) add(DMRP_CONTACT_PERSON, overlap, overlap.b - robot_count);
+  tracker_.update(t_ns_, robot_agents_, person_agents_, contacts_);
+}
+
+}  // namespace dmrp::core

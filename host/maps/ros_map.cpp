@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// The format: http://wiki.ros.org/map_server and nav2_map_server's map_io.
+#include "host/maps/ros_map.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "host/errors/input_error.hpp"
+#include "host/files/read_file.hpp"
+#include "host/maps/map_image.hpp"
+#include "host/toml/nearest_name.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr std::uintmax_t most_yaml_bytes = 1 << 16;
+constexpr double finest_resolution_m = 0.001;
+constexpr double coarsest_resolution_m = 100.0;
+constexpr double farthest_m = 1e6;    // of a coordinate
+constexpr int most_likely_free = 49;  // of 100
+
+enum class Mode { trinary, scale, raw };
+
+struct Shades {
+  Mode mode = Mode::trinary;
+  bool negate = false;
+  double occupied_thresh = 0.0;
+  double free_thresh = 0.0;
+};
+
+// The one mapping of the file, key by key, with places for messages.
+class MapFile {
+ public:
+  MapFile(const std::string& text, const std::string& shown_path) : shown_path_(shown_path) {
+    try {
+      root_ = YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      fail(error.mark, error.msg);
+    }
+    if (!root_.IsMap()) fail(root_.Mark(), "expected 'image: ...' and other keys: this is no map of map_server");
+    std::vector<std::string> seen;
+    for (const auto& entry : root_) check_key(entry.first, seen);
+  }
+
+  [[noreturn]] void fail(const YAML::Mark& mark, std::string text) const {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
+    const bool known = !mark.is_null() && mark.line >= 0 && mark.column >= 0;
+    throw InputError(
+        fmt::format("{}:{}:{}: {}", shown_path_, known ? mark.line + 1 : 1, known ? mark.column + 1 : 1, text));
+  }
+
+  YAML::Node find(const std::string& key) const {
+    for (const auto& entry : root_)
+      if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+    return YAML::Node(YAML::NodeType::Undefined);
+  }
+  YAML::Node need(const std::string& key) const {
+    const YAML::Node node = find(key);
+    if (!node.IsDefined()) fail(root_.Mark(), fmt::format("the map needs '{}'", key));
+    return node;
+  }
+
+  std::string text(const YAML::Node& node, const std::string& key) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node.Mark(), fmt::format("'{}' must be a text", key));
+    return node.Scalar();
+  }
+
+  double number(const YAML::Node& node, const std::string& key, double least, double most) const {
+    double value = 0.0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || std::isnan(value))
+      fail(node.Mark(), fmt::format("'{}' must be a number{}", key, quoted(node)));
+    if (value < least || value > most)
+      fail(node.Mark(), fmt::format("'{}' must be from {} to {}, not {}", key, least, most, value));
+    return value;
+  }
+
+  // map_server writes 0 and 1.
+  bool flag(const YAML::Node& node, const std::string& key) const {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    if (text == "0" || text == "1") return text == "1";
+    bool value = false;
+    if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))
+      fail(node.Mark(), fmt::format("'{}' must be 0 or 1{}", key, quoted(node)));
+    return value;
+  }
+
+ private:
+  // Other tools add keys of their own: only those that were meant to be one of map_server's are refused.
+  void check_key(const YAML::Node& key, std::vector<std::string>& seen) const {
+    static const std::vector<std::string> known = {"image",           "resolution",  "origin", "negate",
+                                                   "occupied_thresh", "free_thresh", "mode"};
+    if (!key.IsScalar()) return;
+    const std::string name = key.Scalar();
+    if (std::find(seen.begin(), seen.end(), name) != seen.end())
+      fail(key.Mark(), fmt::format("'{}' is there twice", name));
+    seen.push_back(name);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (const std::string meant = did_you_mean(name, known); !meant.empty())
+      fail(key.Mark(), fmt::format("unknown key '{}'{}", name, meant));
+  }
+
+  static std::string quoted(const YAML::Node& node) {
+    constexpr std::size_t longest = 24;
+    return node.IsScalar() ? fmt::format(", not '{}'", node.Scalar().substr(0, longest)) : "";
+  }
+
+  std::string shown_path_;
+  YAML::Node root_;
+};
+
+dmrp_pose read_origin(const MapFile& file) {
+  const YAML::Node node = file.need("origin");
+  if (!node.IsSequence() || node.size() != 3) file.fail(node.Mark(), "'origin' must be [x, y, yaw]");
+  const double most = farthest_m;
+  return {file.number(node[0], "origin", -most, most), file.number(node[1], "origin", -most, most),
+          file.number(node[2], "origin", -most, most)};
+}
+
+Mode read_mode(const MapFile& file) {
+  const YAML::Node node = file.find("mode");
+  if (!node.IsDefined()) return Mode::trinary;
+  static const std::vector<std::string> names = {"trinary", "scale", "raw"};
+  const std::string name = file.text(node, "mode");
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    file.fail(node.Mark(),
+              fmt::format("'mode' must be one of {}, not '{}'{}", join_names(names), name, did_you_mean(name, names)));
+  return static_cast<Mode>(found - names.begin());
+}
+
+Shades read_shades(const MapFile& file) {
+  Shades shades;
+  shades.mode = read_mode(file);
+  shades.negate = file.flag(file.need("negate"), "negate");
+  shades.occupied_thresh = file.number(file.need("occupied_thresh"), "occupied_thresh", 0.0, 1.0);
+  const YAML::Node free_thresh = file.need("free_thresh");
+  shades.free_thresh = file.number(free_thresh, "free_thresh", 0.0, 1.0);
+  if (shades.free_thresh >= shades.occupied_thresh)
+    file.fail(free_thresh.Mark(), fmt::format("'free_thresh' must be below 'occupied_thresh', not {} and {}",
+                                              shades.free_thresh, shades.occupied_thresh));
+  return shades;
+}
+
+// How likely a cell is occupied, of 100; none where that is unknown.
+std::optional<int> chance(const MapImage& image, std::size_t pixel, const Shades& shades) {
+  double level = image.level[pixel];
+  double white = image.white;
+  if (shades.mode == Mode::trinary && !image.alpha.empty()) {
+    // as map_server does: the mean is over all channels
+    level += image.alpha[pixel];
+    white += 255.0;
+  }
+  const double shade = level / white;
+  if (shades.mode == Mode::raw) {
+    const double value = std::round(255.0 * shade);
+    return value <= 100.0 ? std::optional<int>(static_cast<int>(value)) : std::nullopt;
+  }
+  if (shades.mode == Mode::scale && !image.alpha.empty() && image.alpha[pixel] != 255) return std::nullopt;
+  const double occupied = shades.negate ? shade : 1.0 - shade;
+  if (occupied > shades.occupied_thresh) return 100;
+  if (occupied < shades.free_thresh) return 0;
+  if (shades.mode == Mode::trinary) return std::nullopt;
+  return static_cast<int>(
+      std::rint(100.0 * (occupied - shades.free_thresh) / (shades.occupied_thresh - shades.free_thresh)));
+}
+
+core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells unknown) {
+  core::CellMap map{image.width, image.height, {}};
+  map.free.resize(image.level.size());
+  for (std::uint32_t y = 0; y < image.height; ++y)
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      const auto likely = chance(image, std::size_t{y} * image.width + x, shades);
+      const bool free = likely ? *likely <= most_likely_free : unknown == UnknownCells::free;
+      map.free[std::size_t{image.height - 1 - y} * image.width + x] = free ? 1 : 0;
+    }
+  return map;
+}
+
+}  // namespace
+
+RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_path, UnknownCells unknown) {
+  const MapFile yaml(read_file(file, shown_path, most_yaml_bytes), shown_path);
+  RosMap map;
+  const YAML::Node name = yaml.need("image");
+  const std::string image = yaml.text(name, "image");
+  map.resolution_m = yaml.number(yaml.need("resolution"), "resolution", finest_resolution_m, coarsest_resolution_m);
+  map.origin = read_origin(yaml);
+  const Shades shades = read_shades(yaml);
+  map.image = (file.parent_path() / image).lexically_normal();
+  if (std::error_code ignored; !std::filesystem::is_regular_file(map.image, ignored))
+    yaml.fail(name.Mark(), fmt::format("no file '{}' beside the map file", image));
+  const std::string shown_image = (std::filesystem::path(shown_path).parent_path() / image).lexically_normal().string();
+  map.cells = cells_of(read_map_image(map.image, shown_image), shades, unknown);
+  return map;
+}
+
+}  // namespace dmrp::host

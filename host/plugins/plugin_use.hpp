@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// plugin_use.hpp: the libraries and plugins that an experiment uses, with the values of their parameters.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/plugins/plugin_info.hpp"
+
+namespace dmrp::host {
+
+// A library that the experiment names.
+struct LibraryUse {
+  std::string written;         // as in the file
+  std::filesystem::path file;  // absolute
+  std::vector<PluginInfo> plugins;
+};
+
+// A plugin as the experiment uses it.
+struct PluginUse {
+  std::uint32_t library = 0;  // index into Experiment::libraries
+  PluginInfo info;
+  std::string label;                       // for people; unique among the uses of its kind
+  std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
+  std::filesystem::path parameter_file{};  // that some of them come from; absolute, empty if there is none
+};
+
+}  // namespace dmrp::host

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "host/program/executable.hpp"
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+namespace dmrp::host {
+
+const std::filesystem::path& executable_path() {
+  static const std::filesystem::path path = std::filesystem::canonical("/proc/self/exe");
+  return path;
+}
+
+std::filesystem::path shared_data_path() {
+  return executable_path().parent_path().parent_path() / "share/dmrp";
+}
+
+std::vector<std::filesystem::path> folders_of_variable(const char* name) {
+  std::vector<std::filesystem::path> folders;
+  const char* value = std::getenv(name);
+  std::istringstream entries(value ? value : "");
+  for (std::string entry; std::getline(entries, entry, ':');)
+    if (!entry.empty()) folders.emplace_back(entry);
+  return folders;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "host/report/data/report_data.hpp"
+
+#include <dmrp/descriptor.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "host/files/read_file.hpp"
+#include "host/report/data/report_curves.hpp"
+#include "host/report/data/report_frame.hpp"
+#include "host/report/data/report_statistics.hpp"
+#include "host/results/summary.hpp"
+
+namespace dmrp::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+std::uint64_t finished(std::span<const TrialRecord> trials) {
+  return static_cast<std::uint64_t>(std::count_if(
+      trials.begin(), trials.end(), [](const auto& trial) { return trial.outcome != trial_outcome::skipped; }));
+}
+
+Json run_json(const ReportRun& run) {
+  const ExperimentFacts& facts = run.manifest.experiment;
+  return {{"name", facts.name},
+          {"seed", std::to_string(facts.seed)},
+          {"repetitions", facts.repetitions},
+          {"trials_planned", std::max<std::uint64_t>(facts.trials_planned, run.trials.size())},
+          {"trials_finished", finished(run.trials)},
+          {"version", run.manifest.dmrp_version},
+          {"started", run.manifest.started_at},
+          {"command_line", run.manifest.command_line},
+          {"effective_toml", run.effective_toml},
+          {"manifest", Json::parse(run.manifest_json)}};
+}
+
+Json scenarios_json(const ExperimentFacts& facts) {
+  Json json = Json::array();
+  for (const ScenarioFacts& scenario : facts.scenarios)
+    json.push_back({{"name", scenario.name},
+                    {"robots", scenario.robots},
+                    {"title", scenario.title},
+                    {"description", scenario.description},
+                    {"people", scenario.people},
+                    {"time_limit_s", scenario.time_limit_s}});
+  return json;
+}
+
+Json metrics_json(std::span<const MetricColumn> metrics) {
+  static constexpr std::array<const char*, 3> directions{"none", "lower", "higher"};  // by DMRP_DIRECTION_*
+  Json json = Json::array();
+  for (const MetricColumn& metric : metrics)
+    json.push_back({{"name", metric.name},
+                    {"unit", metric.unit},
+                    {"direction", directions.at(metric.direction)},
+                    {"wall_clock", metric.wall_clock},
+                    {"description", metric.description}});
+  return json;
+}
+
+Json labels_json(const CombinationLabels& labels) {
+  return {{"scenario", labels.scenario},
+          {"robots", labels.robots},
+          {"global_planner", labels.global_planner},
+          {"local_controller", labels.local_controller},
+          {"pedestrian_model", labels.pedestrian_model}};
+}
+
+Json combinations_json(const ReportFrame& frame) {
+  Json json = Json::array();
+  for (const CombinationLabels& labels : frame.combinations) json.push_back(labels_json(labels));
+  return json;
+}
+
+Json trials_json(const ReportFrame& frame) {
+  Json json;
+  for (const char* column :
+       {"id", "combination", "repetition", "seed", "outcome", "repeatable", "sim_time_s", "wall_time_s"})
+    json[column] = Json::array();
+  for (std::size_t i = 0; i < frame.trials.size(); ++i) {
+    const TrialRecord& trial = frame.trials[i];
+    json["id"].push_back(trial.id);
+    json["combination"].push_back(frame.combination_of[i]);
+    json["repetition"].push_back(trial.repetition);
+    json["seed"].push_back(std::to_string(trial.seed));
+    json["outcome"].push_back(trial.outcome);
+    json["repeatable"].push_back(trial.repeatable);
+    json["sim_time_s"].push_back(trial.sim_time_s);
+    json["wall_time_s"].push_back(trial.wall_time_s);
+  }
+  return json;
+}
+
+Json values_json(const ReportFrame& frame, const std::set<std::size_t>& curves) {
+  Json json = Json::object();
+  for (std::size_t metric = 0; metric < frame.metrics.size(); ++metric) {
+    if (curves.count(metric) > 0) continue;
+    Json column = Json::array();
+    for (const auto& values : frame.values) column.push_back(number_or_null(values[metric]));
+    json[frame.metrics[metric].name] = std::move(column);
+  }
+  return json;
+}
+
+Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
+  return {{"trials", trials},
+          {"defined", summary.defined},
+          {"mean", summary.mean},
+          {"sd", summary.sd},
+          {"median", summary.median},
+          {"low", summary.interval.low},
+          {"high", summary.interval.high},
+          {"paper_mean", summary.paper.mean},
+          {"paper_count", summary.paper.count},
+          {"paper_trimmed_all_nonzero", summary.paper.trimmed_all_nonzero}};
+}
+
+// [group][metric], for groups that need not have a summary: those of skipped trials.
+Json summaries_json(std::span<const CombinationLabels> groups, std::span<const CombinationSummary> summaries,
+                    std::size_t metrics) {
+  Json json = Json::array();
+  for (const CombinationLabels& labels : groups) {
+    const auto summary = std::find_if(summaries.begin(), summaries.end(),
+                                      [&](const CombinationSummary& other) { return other.combination == labels; });
+    Json of_metrics = Json::array();
+    for (std::size_t metric = 0; metric < metrics; ++metric)
+      of_metrics.push_back(summary == summaries.end() ? Json()
+                                                      : summary_json(summary->trials, summary->metrics[metric]));
+    json.push_back(std::move(of_metrics));
+  }
+  return json;
+}
+
+// As far as a plan knows.
+CombinationLabels planner_of(const TrialRecord& trial) {
+  return {trial.scenario, trial.robots, trial.global_planner, "", ""};
+}
+
+void add_planners(Json& json, const ReportFrame& frame, std::span<const std::string> counts_failures) {
+  const auto summaries = summarise(frame.metrics, frame.trials, counts_failures, planner_of);
+  json["planners"] = Json::array();
+  std::vector<CombinationLabels> groups;
+  for (const CombinationSummary& summary : summaries) {
+    if (summary.combination.robots == 0) continue;  // nobody to plan for
+    const CombinationLabels& labels = groups.emplace_back(summary.combination);
+    json["planners"].push_back(
+        {{"scenario", labels.scenario}, {"robots", labels.robots}, {"global_planner", labels.global_planner}});
+  }
+  json["planner_summaries"] = summaries_json(groups, summaries, frame.metrics.size());
+}
+
+Json curves_json(const ReportFrame& frame, std::span<const MetricCurve> curves, std::span<const CurveAxis> axes) {
+  Json json = Json::array();
+  for (const MetricCurve& curve : curves) {
+    const std::string& metric = frame.metrics[curve.metric].name;
+    const auto axis = std::find_if(axes.begin(), axes.end(), [&](const auto& one) { return one.metric == metric; });
+    Json points = Json::array();
+    for (const CurvePoint& point : curve.points)
+      points.push_back({point.coordinate, point.mean, point.interval.low, point.interval.high, point.defined});
+    json.push_back({{"metric", metric},
+                    {"combination", curve.combination},
+                    {"coordinate_unit", axis == axes.end() ? "" : axis->coordinate_unit},
+                    {"points", std::move(points)}});
+  }
+  return json;
+}
+
+Json faults_json(std::span<const TrialRecord> trials) {
+  Json json = Json::array();
+  for (const TrialRecord& trial : trials)
+    for (const FaultRecord& fault : trial.faults)
+      json.push_back({{"trial", trial.id},
+                      {"kind", fault.kind},
+                      {"plugin", fault.plugin},
+                      {"function", fault.function},
+                      {"step", fault.step},
+                      {"robot", fault.robot < 0 ? Json() : Json(fault.robot)},
+                      {"signal", fault.signal == 0 ? Json() : Json(fault.signal)},
+                      {"detail", fault.detail},
+                      {"rerun", fault.rerun}});
+  return json;
+}
+
+void add_replays(Json& json, const ReplayIndex& index) {
+  json["replays"] = Json::array();
+  for (const ReplayMention& replay : index.replays)
+    json["replays"].push_back({{"trial", replay.trial}, {"why", replay.why}, {"element", replay.element}});
+  json["replays_left_out"] = Json::array();
+  for (const ReplaysLeftOut& left_out : index.left_out)
+    json["replays_left_out"].push_back(
+        {{"why", left_out.why}, {"trials", left_out.trials}, {"reason", left_out.reason}});
+}
+
+// Metrics that have values with a coordinate, whoever's.
+std::set<std::size_t> curve_metrics(const ReportFrame& frame) {
+  std::set<std::string_view> names;
+  for (const TrialRecord& trial : frame.trials)
+    for (const MetricValue& value : trial.values)
+      if (value.coordinate) names.insert(value.metric);
+  std::set<std::size_t> metrics;
+  for (std::size_t i = 0; i < frame.metrics.size(); ++i)
+    if (names.count(frame.metrics[i].name) > 0) metrics.insert(i);
+  return metrics;
+}
+
+}  // namespace
+
+ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
+  const std::filesystem::path summary = folder / "summary.json";
+  return {read_summary_layout(summary), read_file(summary, summary.string()),
+          read_report_layout(folder / "report.json")};
+}
+
+std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
+  const ReportFrame frame = make_report_frame(run.metrics, run.trials);
+  const std::vector<std::string>& counts_failures = layouts.summary.counts_failures;
+  Json json;
+  json["format"] = 1;
+  json["run"] = run_json(run);
+  json["scenarios"] = scenarios_json(run.manifest.experiment);
+  json["metrics"] = metrics_json(run.metrics);
+  json["combinations"] = combinations_json(frame);
+  json["trials"] = trials_json(frame);
+  json["values"] = values_json(frame, curve_metrics(frame));
+  json["summaries"] =
+      summaries_json(frame.combinations, summarise(run.metrics, run.trials, counts_failures), run.metrics.size());
+  add_planners(json, frame, counts_failures);
+  json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
+  add_statistics(json, frame, run.manifest.experiment, layouts);
+  json["faults"] = faults_json(run.trials);
+  json["layouts"] = {{"summary", Json::parse(layouts.summary_json)}, {"report", Json::parse(layouts.report.json)}};
+  add_replays(json, replays);
+  // labels and details need not be UTF-8
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace dmrp::host

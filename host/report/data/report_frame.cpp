@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "host/report/data/report_frame.hpp"
+
+#include <algorithm>
+
+namespace dmrp::host {
+
+std::optional<std::size_t> ReportFrame::metric(std::string_view name) const {
+  const auto found =
+      std::find_if(metrics.begin(), metrics.end(), [&](const auto& column) { return column.name == name; });
+  if (found == metrics.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - metrics.begin());
+}
+
+ReportFrame make_report_frame(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials) {
+  ReportFrame frame{metrics, trials, {}, {}, system_values(metrics, trials)};
+  for (const TrialRecord& trial : trials) {
+    const CombinationLabels labels = combination_of(trial);
+    const auto found = std::find(frame.combinations.begin(), frame.combinations.end(), labels);
+    frame.combination_of.push_back(static_cast<std::size_t>(found - frame.combinations.begin()));
+    if (found == frame.combinations.end()) frame.combinations.push_back(labels);
+  }
+  return frame;
+}
+
+}  // namespace dmrp::host

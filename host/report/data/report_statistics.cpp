@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "host/report/data/report_statistics.hpp"
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "host/report/data/report_comparisons.hpp"
+#include "host/report/data/report_completion.hpp"
+#include "host/report/data/report_correlations.hpp"
+#include "host/report/data/report_delay.hpp"
+
+namespace dmrp::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Choice {
+  Varied varied;
+  const char* name;
+  std::string CombinationLabels::*label;
+};
+
+constexpr Choice choices[] = {{Varied::global_planner, "global_planner", &CombinationLabels::global_planner},
+                              {Varied::local_controller, "local_controller", &CombinationLabels::local_controller},
+                              {Varied::pedestrian_model, "pedestrian_model", &CombinationLabels::pedestrian_model}};
+
+Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
+  const CombinationLabels& a = frame.combinations[one.a];
+  const CombinationLabels& b = frame.combinations[one.b];
+  Json json = {{"metric", frame.metrics[one.metric].name}, {"scenario", a.scenario}, {"robots", a.robots}};
+  Json given = Json::object();
+  for (const Choice& choice : choices)
+    if (choice.varied == one.varied) {
+      json["varied"] = choice.name;
+      json["a"] = a.*choice.label;
+      json["b"] = b.*choice.label;
+    } else {
+      given[choice.name] = a.*choice.label;
+    }
+  json["given"] = std::move(given);
+  json["combinations"] = {one.a, one.b};
+  json["pairs"] = one.pairs;
+  json["ties"] = one.ties;
+  json["median_difference"] = one.median_difference;
+  json["low"] = one.median_interval.low;
+  json["high"] = one.median_interval.high;
+  json["mean_difference"] = one.mean_difference;
+  json["mean_low"] = one.mean_interval.low;
+  json["mean_high"] = one.mean_interval.high;
+  json["effect"] = one.effect;
+  json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "sign_flip";
+  json["exact"] = one.exact;
+  json["p"] = one.p;
+  json["p_holm"] = one.p_holm;
+  return json;
+}
+
+Json correlation_json(const ReportFrame& frame, const StratumCorrelation& one) {
+  return {{"scenario", one.stratum.scenario},
+          {"robots", one.stratum.robots},
+          {"global_planner", one.stratum.global_planner},
+          {"pedestrian_model", one.stratum.pedestrian_model},
+          {"x", frame.metrics[one.x].name},
+          {"y", frame.metrics[one.y].name},
+          {"n", one.correlation.n},
+          {"rho", one.correlation.rho},
+          {"low", one.correlation.interval.low},
+          {"high", one.correlation.interval.high},
+          {"p", one.correlation.p},
+          {"exact", one.correlation.exact},
+          {"ties_share", one.correlation.ties_share}};
+}
+
+Json completion_json(const ArrivalTimes& one) {
+  Json steps = Json::array();
+  for (const core::SurvivalStep& step : one.not_arrived) steps.push_back({step.time, 1.0 - step.share});
+  return {{"combination", one.combination},
+          {"robots", one.robots},
+          {"horizon_s", one.horizon_s},
+          {"restricted_mean_s", one.restricted_mean_s},
+          {"low", one.interval.low},
+          {"high", one.interval.high},
+          {"arrived_share", one.arrived_share},
+          {"steps", std::move(steps)}};
+}
+
+Json delay_json(const PedestrianDelay& one) {
+  return {{"combination", one.combination},
+          {"pairs", one.pairs},
+          {"mean_s", one.mean_s},
+          {"low", one.interval.low},
+          {"high", one.interval.high}};
+}
+
+}  // namespace
+
+void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts& facts, const ReportLayouts& layouts) {
+  const ReportLayout& report = layouts.report;
+  json["comparisons"] = Json::array();
+  for (const auto& one : paired_comparisons(frame, facts, report, layouts.summary.counts_failures))
+    json["comparisons"].push_back(comparison_json(frame, one));
+  json["correlations"] = Json::array();
+  for (const auto& one : stratum_correlations(frame, report.diagnosis))
+    json["correlations"].push_back(correlation_json(frame, one));
+  json["completion"] = Json::array();
+  for (const auto& one : arrival_times(frame, facts, report)) json["completion"].push_back(completion_json(one));
+  json["pedestrian_delay"] = Json::array();
+  for (const auto& one : pedestrian_delays(frame, report.pedestrian_delay))
+    json["pedestrian_delay"].push_back(delay_json(one));
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// report_statistics.hpp: the part of the report's data that judges (report_data.hpp is the whole):
+//
+//   comparisons       [{metric, scenario, robots, varied: global_planner | local_controller | pedestrian_model, a, b,
+//                     given: {the other two labels}, combinations: [of a, of b], pairs, ties, median_difference, low,
+//                     high, mean_difference, mean_low, mean_high, effect, test: signed_rank | sign_flip, exact, p,
+//                     p_holm}]; differences are b - a
+//   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
+//                     ties_share}]
+//   completion        [{combination, robots, horizon_s, restricted_mean_s, low, high, arrived_share,
+//                     steps: [[t, share of robots that have arrived]]}]
+//   pedestrian_delay  [{combination, pairs, mean_s, low, high}]
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "host/report/data/report_data.hpp"
+#include "host/report/data/report_frame.hpp"
+
+namespace dmrp::host {
+
+void add_statistics(nlohmann::ordered_json& json, const ReportFrame& frame, const ExperimentFacts& facts,
+                    const ReportLayouts& layouts);
+
+}  // namespace dmrp::host

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// replay_tracks.hpp: what moves in a replay: robots and people, sample by sample.
+#pragma once
+
+#include <dmrp/metric.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "host/report/replay/replay_numbers.hpp"
+
+namespace dmrp::host {
+
+class RobotTrack {
+ public:
+  // `plan`: in force; may be null.
+  void add(std::size_t sample, const dmrp_robot_sample& robot, const dmrp_path* path);
+
+  // Adds its series to what is known of the robot already.
+  void write_to(nlohmann::json& robot) &&;
+
+ private:
+  Deltas x_;
+  Deltas y_;
+  Deltas theta_;
+  double unwrapped_theta_ = 0.0;
+  Runs state_;
+  Runs goal_;
+  bool active_ = true;
+  Deltas speed_;
+  Deltas deviation_;  // -1 where there was no path
+};
+
+class PeopleTracks {
+ public:
+  void add(std::size_t sample, const dmrp_sample& people);
+  nlohmann::json json() &&;
+
+ private:
+  // From entering to leaving.
+  struct Visit {
+    std::uint64_t id;
+    std::uint32_t group;
+    double radius_m;
+    std::size_t from_sample;
+    Deltas x;
+    Deltas y;
+  };
+  std::vector<Visit> visits_;
+  std::map<std::uint64_t, std::size_t> latest_;  // by id: its last visit
+};
+
+}  // namespace dmrp::host

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// read_map.hpp: the parts of scenario.toml that name files of others: [map], and [robots] for tasks on it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/cell_map.hpp"
+#include "host/scenario/read_scenario.hpp"
+
+namespace dmrp::host {
+
+inline const std::vector<std::string> map_keys = {"file", "cell_m", "unknown"};  // of [map]
+inline const std::vector<std::string> tasks_keys = {"scen", "count"};            // of [robots]
+
+// A MovingAI map, whose cells tasks count in; its lower left corner is the world's.
+struct TaskMap {
+  core::CellMap cells;
+  double cell_m = 1.0;
+};
+
+// Reads [map] into the scenario: its world and its shapes. `file`, `shown_path`: of scenario.toml. None where there is
+// no [map], or one of map_server, which has no tasks.
+std::optional<TaskMap> read_map(const TomlTable& root, const std::filesystem::path& file, const std::string& shown_path,
+                                ScenarioFile& out);
+
+// Reads [robots]: the tasks of a .scen file.
+void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const std::filesystem::path& file,
+                const std::string& shown_path, ScenarioFile& out);
+
+}  // namespace dmrp::host

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/read_recordings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "host/errors/input_error.hpp"
+#include "host/files/read_file.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double longest_s = 1e6;
+constexpr std::array<std::string_view, 4> columns = {"time", "id", "x", "y"};
+
+// A field of a line and where it begins, from 1.
+struct Field {
+  std::string_view text;
+  std::size_t column = 1;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t\r");
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+class Recording {
+ public:
+  Recording(const std::string& text, std::string shown_path) : text_(text), shown_path_(std::move(shown_path)) {}
+
+  void read(ScenarioFile& out) {
+    std::string_view rest = text_;
+    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // the byte order mark of spreadsheets
+    bool has_header = false;
+    while (!rest.empty()) {
+      const auto end = rest.find('\n');
+      const std::string_view line = rest.substr(0, end);
+      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+      ++line_;
+      if (trimmed(line).empty()) continue;
+      const std::array<Field, 4> fields = split(line);
+      if (has_header)
+        read_row(fields, out);
+      else
+        check_header(fields);
+      has_header = true;
+    }
+    if (!has_header) fail(1, "the file needs the line 'time,id,x,y'");
+    if (persons_.empty()) fail(1, "nobody is recorded");
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t column, const std::string& text) const {
+    throw InputError(fmt::format("{}:{}:{}: {}", shown_path_, std::max<std::size_t>(line_, 1), column, text));
+  }
+
+  std::array<Field, 4> split(std::string_view line) const {
+    std::array<Field, 4> fields;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const auto end = line.find(',', begin);
+      if ((end == std::string_view::npos) != (i + 1 == fields.size()))
+        fail(1, fmt::format("a row has 4 values, time,id,x,y, not {}", 1 + std::count(line.begin(), line.end(), ',')));
+      fields[i] = {trimmed(line.substr(begin, end - begin)), begin + 1};
+      begin = end + 1;
+    }
+    return fields;
+  }
+
+  void check_header(const std::array<Field, 4>& fields) const {
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].text != columns[i])
+        fail(fields[i].column,
+             fmt::format("the first line must be 'time,id,x,y': '{}' should be '{}'", fields[i].text, columns[i]));
+  }
+
+  // Whether all of the field is such a number.
+  template <class Number>
+  static bool parse(std::string_view text, Number& value) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end;
+  }
+
+  double number(const Field& field, std::size_t index, double farthest) const {
+    double value = 0.0;
+    if (!parse(field.text, value) || !(std::abs(value) <= farthest))
+      fail(field.column,
+           fmt::format("'{0}' must be a number from -{1} to {1}, not '{2}'", columns[index], farthest, field.text));
+    return value;
+  }
+
+  std::uint64_t id(const Field& field) const {
+    std::uint64_t value = 0;
+    if (!parse(field.text, value))
+      fail(field.column, fmt::format("'id' must be a whole number of at least 0, not '{}'", field.text));
+    return value;
+  }
+
+  void read_row(const std::array<Field, 4>& fields, ScenarioFile& out) {
+    const std::int64_t t_ns = std::llround(number(fields[0], 0, longest_s) * 1e9);
+    const auto [person, is_new] = persons_.try_emplace(id(fields[1]), out.scenario.tracks.size());
+    if (is_new) {
+      out.scenario.tracks.emplace_back();
+      out.tracks.push_back({shown_path_, std::to_string(person->first), {}});
+    }
+    auto& points = out.scenario.tracks[person->second].points;
+    if (!points.empty() && t_ns == points.back().t_ns)
+      fail(fields[0].column, fmt::format("person {} has two rows at {} s, line {} is the first", person->first,
+                                         fields[0].text, out.tracks[person->second].lines.back()));
+    if (!points.empty() && t_ns < points.back().t_ns)
+      fail(fields[0].column, fmt::format("the rows of person {} must be in order of time: {} s comes after {} s",
+                                         person->first, fields[0].text, static_cast<double>(points.back().t_ns) / 1e9));
+    const double x = number(fields[2], 2, longest_side_m);
+    points.push_back({t_ns, {x, number(fields[3], 3, longest_side_m)}});
+    out.tracks[person->second].lines.push_back(line_);
+  }
+
+  const std::string& text_;
+  std::string shown_path_;
+  std::size_t line_ = 0;
+  std::map<std::uint64_t, std::size_t> persons_;  // by id: the track
+};
+
+}  // namespace
+
+void read_recordings(const TomlTable& root, const fs::path& file, const std::string& shown_path, ScenarioFile& out) {
+  for (const TomlTable& table : root.tables("recording")) {
+    table.allow_only(recording_keys);
+    const TomlValue name = table.need("file");
+    const fs::path recording = (file.parent_path() / name.line()).lexically_normal();
+    if (std::error_code ignored; !fs::is_regular_file(recording, ignored))
+      name.fail(fmt::format("no file '{}' beside the scenario file", name.text()));
+    const std::string shown = (fs::path(shown_path).parent_path() / name.text()).lexically_normal().string();
+    out.files.push_back(recording);
+    const std::string text = read_file(recording, shown);
+    const std::size_t first = out.scenario.tracks.size();
+    Recording(text, shown).read(out);
+    out.recordings.push_back({name.position(), shown, first, out.scenario.tracks.size()});
+  }
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "host/terminal/closing_line.hpp"
+
+#include <dmrp/descriptor.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace dmrp::host {
+namespace {
+
+constexpr const char* separator = " · ";
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
+  std::uint64_t robots = 0;
+  std::uint64_t arrived = 0;
+  bool arrival_measured = false;
+  std::uint64_t faults = 0;
+  std::uint64_t skipped = 0;
+  std::uint64_t not_repeatable = 0;
+  std::optional<double> contacts;
+  for (const TrialRecord& trial : trials) {
+    faults += trial.faults.size();
+    if (trial.outcome == trial_outcome::skipped) {
+      ++skipped;
+      continue;
+    }
+    robots += trial.robots;
+    if (!trial.repeatable) ++not_repeatable;
+    for (const MetricValue& value : trial.values) {
+      if (value.metric != layout.arrived || value.subject_kind != DMRP_SUBJECT_ROBOT || value.coordinate) continue;
+      arrival_measured = true;
+      if (value.value && *value.value == 1.0) ++arrived;
+    }
+    if (const std::optional<double> count = system_value(trial, layout.contacts))
+      contacts = contacts.value_or(0.0) + *count;
+  }
+
+  std::string line;
+  if (arrival_measured && robots > 0)
+    line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
+  if (contacts) line += counted(static_cast<std::uint64_t>(std::llround(*contacts)), "contact") + separator;
+  line += counted(faults, "fault") + separator;
+  if (skipped > 0) line += counted(skipped, "trial") + " skipped" + separator;
+  line += not_repeatable == 0 ? "repeatable" : counted(not_repeatable, "trial") + " not repeatable";
+  return line;
+}
+
+std::string files_line(const std::filesystem::path& run_directory, std::span<const std::string> files) {
+  std::string line = run_directory.string() + " ";
+  for (const std::string& file : files) line += "  " + file;
+  return line;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "host/terminal/summary_table.hpp"
+
+#include <dmrp/descriptor.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "host/terminal/display_width.hpp"
+
+namespace dmrp::host {
+namespace {
+
+constexpr std::size_t indent = 2;
+constexpr std::size_t gap = 3;
+constexpr const char* undefined_cell = "–";
+constexpr const char* separator = " · ";
+constexpr const char* bold = "\x1b[1m";
+constexpr const char* plain = "\x1b[0m";
+
+struct Cell {
+  std::string text;
+  bool best = false;
+};
+
+struct Column {
+  std::string header;
+  std::vector<Cell> cells;  // a row each
+  std::size_t width = 0;
+};
+
+struct Row {
+  const CombinationSummary* summary;
+  std::string label;
+  std::string group;  // heading under which it stands
+};
+
+std::string fixed(double value, std::uint32_t decimals) {
+  std::array<char, 400> buffer;  // the largest double has 309 digits before the point
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed,
+                                    static_cast<int>(decimals));
+  const std::string text(buffer.data(), result.ptr);
+  // what rounds to zero has no sign
+  return text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
+}
+
+std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const std::string& name) {
+  for (std::size_t i = 0; i < metrics.size(); ++i)
+    if (metrics[i].name == name) return i;
+  return std::nullopt;
+}
+
+std::string group_of(const CombinationLabels& combination, bool several_models) {
+  std::string group = combination.scenario + separator +
+                      (combination.robots == 0 ? "no" : std::to_string(combination.robots)) +
+                      (combination.robots == 1 ? " robot" : " robots");
+  if (several_models)
+    group += separator + (combination.pedestrian_model.empty() ? "no people" : combination.pedestrian_model);
+  return group;
+}
+
+std::string label_of(const CombinationLabels& combination) {
+  if (combination.robots > 0) return combination.global_planner + " + " + combination.local_controller;
+  return combination.pedestrian_model.empty() ? "recorded people" : combination.pedestrian_model;
+}
+
+// Those that can be compared stand together, whatever the order of trials was.
+std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
+  const bool several_models = std::any_of(summaries.begin(), summaries.end(), [&](const CombinationSummary& summary) {
+    return summary.combination.pedestrian_model != summaries.front().combination.pedestrian_model;
+  });
+  std::vector<std::vector<Row>> groups;
+  for (const CombinationSummary& summary : summaries) {
+    const CombinationLabels& combination = summary.combination;
+    Row row{&summary, label_of(combination), group_of(combination, several_models)};
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const std::vector<Row>& rows) { return rows.front().group == row.group; });
+    if (group == groups.end()) group = groups.emplace(groups.end());
+    group->push_back(std::move(row));
+  }
+  std::vector<Row> rows;
+  for (const std::vector<Row>& group : groups) rows.insert(rows.end(), group.begin(), group.end());
+  return rows;
+}
+
+// Whether a row may be the best of its group: only who arrived most is compared in how. (Who gives up early drives less.)
+std::vector<char> contenders(const std::optional<std::size_t>& arrived, const std::vector<Row>& rows) {
+  std::vector<char> contends(rows.size(), true);
+  if (!arrived) return contends;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const Row& other : rows)
+      if (other.group == rows[i].group &&
+          other.summary->metrics[*arrived].mean > rows[i].summary->metrics[*arrived].mean)
+        contends[i] = false;
+  return contends;
+}
+
+// Marks the best of the cells [begin, end), as they are shown; nothing where all are alike or only one has a value.
+void mark_best(std::vector<Cell>& cells, const std::vector<double>& shown, std::uint32_t direction, std::size_t begin,
+               std::size_t end) {
+  if (direction == DMRP_DIRECTION_NONE) return;
+  std::vector<double> defined;
+  for (std::size_t i = begin; i < end; ++i)
+    if (!std::isnan(shown[i])) defined.push_back(shown[i]);
+  if (defined.size() < 2) return;
+  const auto [lowest, highest] = std::minmax_element(defined.begin(), defined.end());
+  if (*lowest == *highest) return;
+  const double best = direction == DMRP_DIRECTION_LOWER ? *lowest : *highest;
+  for (std::size_t i = begin; i < end; ++i) cells[i].best = shown[i] == best;
+}
+
+Column make_column(const SummaryTableColumn& layout, std::span<const MetricColumn> metrics, std::size_t metric,
+                   const std::vector<Row>& rows, const std::vector<char>& contends) {
+  Column column;
+  const std::string& unit = metrics[metric].unit;
+  column.header = unit.empty() || unit == "1" ? layout.header : layout.header + " " + unit;
+  const std::optional<std::size_t> spread = index_of(metrics, layout.spread);
+
+  std::vector<double> shown;
+  for (const Row& row : rows) {
+    const double mean = row.summary->metrics[metric].mean;
+    Cell cell{std::isnan(mean) ? undefined_cell : fixed(mean, layout.decimals), false};
+    shown.push_back(std::isnan(mean) ? mean : std::stod(cell.text));
+    if (!std::isnan(mean) && spread && !std::isnan(row.summary->metrics[*spread].mean))
+      cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
+    column.cells.push_back(std::move(cell));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!contends[i]) shown[i] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t begin = 0; begin < rows.size();) {
+    std::size_t end = begin + 1;
+    while (end < rows.size() && rows[end].group == rows[begin].group) ++end;
+    mark_best(column.cells, shown, metrics[metric].direction, begin, end);
+    begin = end;
+  }
+  return column;
+}
+
+void set_width(Column& column, const TableStyle& style) {
+  const bool marked =
+      !style.ansi && std::any_of(column.cells.begin(), column.cells.end(), [](const Cell& cell) { return cell.best; });
+  column.width = display_width(column.header);
+  for (Cell& cell : column.cells) {
+    if (marked) cell.text += cell.best ? "*" : " ";
+    column.width = std::max(column.width, display_width(cell.text));
+  }
+}
+
+std::string print_cell(const Cell& cell, const Column& column, const TableStyle& style) {
+  const std::string padded = pad_left(cell.text, column.width);
+  return style.ansi && cell.best ? bold + padded + plain : padded;
+}
+
+std::string without_trailing_spaces(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+// The columns [begin, end) under each other, with labels and groups.
+std::string print_block(const std::vector<Row>& rows, std::span<const Column> columns, std::size_t label_width,
+                        bool with_groups, const TableStyle& style) {
+  std::string text;
+  std::string line(indent + label_width, ' ');
+  for (const Column& column : columns) line += std::string(gap, ' ') + pad_left(column.header, column.width);
+  text += without_trailing_spaces(line) + "\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (with_groups && (i == 0 || rows[i].group != rows[i - 1].group))
+      text += std::string(indent, ' ') + rows[i].group + "\n";
+    line = std::string(indent, ' ') + pad_right((with_groups ? "  " : "") + rows[i].label, label_width);
+    for (const Column& column : columns) line += std::string(gap, ' ') + print_cell(column.cells[i], column, style);
+    text += without_trailing_spaces(line) + "\n";
+  }
+  return text;
+}
+
+// How many columns from `begin` on fit in the width; one at least.
+std::size_t columns_that_fit(std::span<const Column> columns, std::size_t begin, std::size_t label_width,
+                             const TableStyle& style) {
+  std::size_t width = indent + label_width;
+  std::size_t end = begin;
+  while (end < columns.size()) {
+    width += gap + columns[end].width;
+    if (style.width != 0 && width > style.width && end > begin) break;
+    ++end;
+  }
+  return end - begin;
+}
+
+}  // namespace
+
+std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
+                          std::span<const CombinationSummary> summaries, const TableStyle& style) {
+  if (summaries.empty()) return {};
+  const std::vector<Row> rows = make_rows(summaries);
+  const bool with_groups = rows.front().group != rows.back().group;
+  std::size_t label_width = 0;
+  for (const Row& row : rows) label_width = std::max(label_width, display_width(row.label) + (with_groups ? 2 : 0));
+
+  const std::optional<std::size_t> arrived = index_of(metrics, layout.arrived);
+  const std::vector<char> contends = contenders(arrived, rows);
+  const std::vector<char> everybody(rows.size(), true);
+  std::vector<Column> columns;
+  for (const SummaryTableColumn& column : layout.columns) {
+    const std::optional<std::size_t> metric = index_of(metrics, column.metric);
+    if (!metric) continue;
+    columns.push_back(make_column(column, metrics, *metric, rows, metric == arrived ? everybody : contends));
+    set_width(columns.back(), style);
+  }
+
+  std::string text;
+  std::size_t begin = 0;
+  do {
+    const std::size_t count = columns_that_fit(columns, begin, label_width, style);
+    if (begin > 0) text += "\n";
+    text += print_block(rows, std::span<const Column>(columns).subspan(begin, count), label_width, with_groups, style);
+    begin += count;
+  } while (begin < columns.size());
+  return text;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "host/toml/toml_document.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/errors/input_error.hpp"
+#include "host/toml/nearest_name.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+SourcePosition position_of(const toml::source_region& region) {
+  return {std::max<std::uint32_t>(region.begin.line, 1), std::max<std::uint32_t>(region.begin.column, 1)};
+}
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+}  // namespace
+
+TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : shown_path_(std::move(shown_path)) {
+  try {
+    table_ = std::make_unique<const toml::table>(toml::parse(text, shown_path_));
+  } catch (const toml::parse_error& error) {
+    fail(position_of(error.source()), std::string(error.description()));
+  }
+}
+
+TomlDocument::~TomlDocument() = default;
+
+std::vector<std::string> TomlDocument::tables_with(const std::string& key) const {
+  std::vector<std::string> titles;
+  for (const TomlKeys& table : tables_)
+    if (std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end()) titles.push_back(table.title);
+  return titles;
+}
+
+TomlTable TomlDocument::root() const {
+  return {*this, *table_, ""};
+}
+
+std::string TomlDocument::place(SourcePosition at) const {
+  return fmt::format("{}:{}:{}", shown_path_, at.line, at.column);
+}
+
+void TomlDocument::fail(SourcePosition at, const std::string& text) const {
+  throw InputError(place(at) + ": " + text);
+}
+
+SourcePosition TomlValue::position() const {
+  return position_of(node_->source());
+}
+
+void TomlValue::fail(const std::string& text) const {
+  document_->fail(position(), text);
+}
+
+void TomlValue::fail_at_key(const std::string& text) const {
+  document_->fail(key_position_, text);
+}
+
+std::string TomlValue::type_name() const {
+  switch (node_->type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a float";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+bool TomlValue::is_integer() const {
+  return node_->is_integer();
+}
+bool TomlValue::is_array() const {
+  return node_->is_array();
+}
+
+bool TomlValue::boolean() const {
+  if (!node_->is_boolean()) fail(fmt::format("'{}' must be true or false, not {}", key_, type_name()));
+  return node_->as_boolean()->get();
+}
+
+std::int64_t TomlValue::integer(std::int64_t minimum, std::int64_t maximum) const {
+  if (!node_->is_integer()) fail(fmt::format("'{}' must be an integer, not {}", key_, type_name()));
+  const std::int64_t value = node_->as_integer()->get();
+  if (value < minimum) fail(fmt::format("'{}' must be at least {}, not {}", key_, minimum, value));
+  if (value > maximum) fail(fmt::format("'{}' must be at most {}, not {}", key_, maximum, value));
+  return value;
+}
+
+double TomlValue::number(double minimum, double maximum) const {
+  if (!node_->is_number()) fail(fmt::format("'{}' must be a number, not {}", key_, type_name()));
+  const double value = *node_->value<double>();
+  if (!std::isfinite(value)) fail(fmt::format("'{}' must be finite", key_));
+  if (value < minimum) fail(fmt::format("'{}' must be at least {}, not {}", key_, minimum, value));
+  if (value > maximum) fail(fmt::format("'{}' must be at most {}, not {}", key_, maximum, value));
+  return value;
+}
+
+double TomlValue::positive() const {
+  const double value = number();
+  if (value <= 0.0) fail(fmt::format("'{}' must be positive, not {}", key_, value));
+  return value;
+}
+
+std::string TomlValue::text() const {
+  if (!node_->is_string()) fail(fmt::format("'{}' must be a string, not {}", key_, type_name()));
+  return node_->as_string()->get();
+}
+
+std::string TomlValue::line() const {
+  const std::string value = text();
+  if (value.empty()) fail(fmt::format("'{}' must not be empty", key_));
+  if (std::any_of(value.begin(), value.end(), is_control))
+    fail(fmt::format("'{}' must not have line breaks or other control characters", key_));
+  return value;
+}
+
+std::string TomlValue::choice(const std::vector<std::string>& choices) const {
+  const std::string value = text();
+  if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    fail(fmt::format("'{}' must be one of {}, not '{}'{}", key_, join_names(choices), value,
+                     did_you_mean(value, choices)));
+  return value;
+}
+
+std::vector<TomlValue> TomlValue::array() const {
+  if (!node_->is_array()) fail(fmt::format("'{}' must be an array, not {}", key_, type_name()));
+  std::vector<TomlValue> out;
+  for (const toml::node& element : *node_->as_array())
+    out.emplace_back(*document_, element, key_, position_of(element.source()));
+  return out;
+}
+
+TomlTable TomlValue::table() const {
+  if (!node_->is_table()) fail(fmt::format("'{}' must be a table, not {}", key_, type_name()));
+  return {*document_, *node_->as_table(), "'" + key_ + "'"};
+}
+
+TomlTable::TomlTable(const TomlDocument& document, const toml::table& table, std::string title)
+    : document_(&document), table_(&table), title_(std::move(title)) {}
+
+SourcePosition TomlTable::position() const {
+  return position_of(table_->source());
+}
+
+void TomlTable::fail(const std::string& text) const {
+  document_->fail(position(), text);
+}
+
+void TomlTable::refuse_key(const TomlValue& entry, const std::vector<std::string>& known,
+                           const std::string& whose) const {
+  const std::string in = whose.empty() && !title_.empty() ? " in " + title_ : whose;
+  std::vector<std::string> others = document_->tables_with(entry.key());
+  others.erase(std::remove(others.begin(), others.end(), title_), others.end());
+  const std::string meant =
+      others.empty() ? did_you_mean(entry.key(), known) : fmt::format(" (it is a key of {})", join_names(others));
+  document_->fail(entry.key_position(), fmt::format("unknown key '{}'{}{}", entry.key(), in, meant));
+}
+
+std::vector<std::string> TomlTable::keys_of(const std::vector<KeyReader>& readers) {
+  std::vector<std::string> keys;
+  for (const KeyReader& reader : readers) keys.push_back(reader.first);
+  return keys;
+}
+
+void TomlTable::read(const std::vector<KeyReader>& readers) const {
+  const std::vector<std::string> known = keys_of(readers);
+  for (const TomlValue& entry : entries()) {
+    const auto found = std::find(known.begin(), known.end(), entry.key());
+    if (found == known.end()) refuse_key(entry, known, "");
+    readers[static_cast<std::size_t>(found - known.begin())].second(entry);
+  }
+}
+
+void TomlTable::allow_only(const std::vector<std::string>& keys, const std::string& whose) const {
+  for (const TomlValue& entry : entries())
+    if (std::find(keys.begin(), keys.end(), entry.key()) == keys.end()) refuse_key(entry, keys, whose);
+}
+
+std::optional<TomlValue> TomlTable::find(const std::string& key) const {
+  const auto entry = table_->find(key);
+  if (entry == table_->end()) return std::nullopt;
+  return TomlValue(*document_, entry->second, key, position_of(entry->first.source()));
+}
+
+TomlValue TomlTable::need(const std::string& key) const {
+  if (const auto value = find(key)) return *value;
+  fail(title_.empty() ? fmt::format("the file needs [{}]", key) : fmt::format("{} needs '{}'", title_, key));
+}
+
+std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
+  const auto value = find(key);
+  if (!value) return std::nullopt;
+  TomlTable table = value->table();
+  table.title_ = title_.empty() ? "[" + key + "]" : "'" + key + "'";
+  return table;
+}
+
+std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
+  std::vector<TomlTable> out;
+  const auto value = find(key);
+  if (!value) return out;
+  if (!value->is_array()) value->fail(fmt::format("'{}' must be written as [[{}]]", key, key));
+  for (const TomlValue& element : value->array()) {
+    TomlTable table = element.table();
+    table.title_ = "[[" + key + "]]";
+    out.push_back(std::move(table));
+  }
+  return out;
+}
+
+std::vector<TomlValue> TomlTable::entries() const {
+  std::vector<TomlValue> out;
+  for (const auto& [key, node] : *table_)
+    out.emplace_back(*document_, node, std::string(key.str()), position_of(key.source()));
+  std::sort(out.begin(), out.end(), [](const TomlValue& a, const TomlValue& b) {
+    const SourcePosition p = a.key_position();
+    const SourcePosition q = b.key_position();
+    return p.line != q.line ? p.line < q.line : p.column < q.column;
+  });
+  return out;
+}
+
+}  // namespace dmrp::host

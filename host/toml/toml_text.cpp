@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "host/toml/toml_text.hpp"
+
+#include <fmt/format.h>
+
+namespace dmrp::host {
+
+namespace {
+
+template <class Items>
+std::string array(const Items& items) {
+  std::string out;
+  for (const auto& item : items) out += (out.empty() ? "" : ", ") + toml_text(item);
+  return "[" + out + "]";
+}
+
+}  // namespace
+
+std::string toml_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string toml_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string toml_text(const std::vector<std::string>& texts) {
+  return array(texts);
+}
+
+std::string toml_text(const std::vector<double>& values) {
+  return array(values);
+}
+
+}  // namespace dmrp::host

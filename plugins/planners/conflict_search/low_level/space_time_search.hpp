@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// space_time_search.hpp: the low level over single steps: nodes are (location, time, leg). Slower than safe intervals,
+// and simpler: the measure for them.
+#pragma once
+
+#include "planners/conflict_search/low_level/focal_list.hpp"
+#include "planners/conflict_search/low_level/low_level.hpp"
+
+namespace dmrp::planners {
+
+class SpaceTimeSearch {
+ public:
+  explicit SpaceTimeSearch(const GridGraph& graph) : graph_(graph) {}
+
+  // From the last constraint and the last move of the others on, time is not told apart: of two ways to be somewhere
+  // then the earlier one is kept, even if it has more conflicts.
+  LowLevelResult search(const LowLevelRequest& request, StopSignal& stop, LowLevelPath& found);
+
+  std::int64_t expanded() const { return expanded_; }
+
+ private:
+  using Id = FocalList::Id;
+  static constexpr Id none = FocalList::none;
+
+  struct Node {
+    std::uint64_t key;  // where, when and in which leg: equal for nodes of which only the best is kept
+    Id parent;
+    Location location;
+    std::int32_t t;
+    std::int32_t leg;
+    std::int32_t f;
+    std::int32_t conflicts;
+    std::int32_t turns;
+    std::uint8_t heading = GridGraph::no_direction;
+    bool waited_at_end = false;  // its last step is a wait where the path could have ended: it cannot end here then
+    bool is_open = false;
+    bool is_fresh = false;
+    bool is_end = false;  // stays there for good; its conflicts are those until then, too
+  };
+  struct Slot {
+    std::uint32_t epoch = 0;
+    Id node = none;
+  };
+
+  void reset(const LowLevelRequest& request);
+  void expand(Id id);
+  void offer(Node node);
+  void offer_end(Id id);
+  bool can_keep_landmarks(Location location, std::int32_t t) const;
+  void open(const Node& node);
+  void close(Id id);
+  Id& slot_of(std::uint64_t key);
+  void grow_slots();
+  void extract(Id id, LowLevelPath& found) const;
+
+  const GridGraph& graph_;
+  const LowLevelRequest* request_ = nullptr;
+  std::int32_t horizon_ = 0;  // from here on time is not told apart
+  FocalList focal_;
+  std::vector<Node> nodes_;
+  std::vector<Slot> slots_;  // open addressing by key
+  std::uint32_t epoch_ = 0;
+  std::int64_t expanded_ = 0;
+};
+
+}  // namespace dmrp::planners

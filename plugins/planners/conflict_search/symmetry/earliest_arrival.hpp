@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// earliest_arrival.hpp: how early an agent can be at a location, under its constraints.
+//
+// A* over locations and the stretches of time during which the agent may stay there (safe intervals; Phillips and
+// Likhachev 2011): without constraints each location is met once, however far away the time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planners/conflict_search/low_level/constraint.hpp"
+#include "planners/mapf/stop_signal.hpp"
+#include "planners/mapf/tour_table.hpp"
+
+namespace dmrp::planners {
+
+class EarliestArrival {
+ public:
+  explicit EarliestArrival(const GridGraph& graph, StopSignal* stop = nullptr);
+
+  struct Query {
+    const Agent& agent;
+    const TourTable& table;
+    const ConstraintTable& constraints;
+    Location to;
+    Location not_from = nowhere;  // the move from here to `to` is taken out of the graph
+    std::int32_t latest = 0;
+  };
+
+  // A time before which the agent cannot be there: the earliest but for what is asked of it after it has been there;
+  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out or `stop` says so. The graph
+  // must be symmetric.
+  std::optional<std::int32_t> search(const Query& query);
+
+ private:
+  struct Open {
+    std::int32_t estimate;  // of the arrival
+    std::int32_t t;
+    Location location;
+  };
+  struct Visit {
+    Location location;
+    std::int32_t safe_from;  // the start of the interval
+  };
+  enum class Outcome { arrived, too_late, gave_up };
+
+  Outcome search_stage(const Query& query, Location from, std::int32_t t, std::int32_t latest);
+  void expand(const Query& query, Location from, std::int32_t t, std::int32_t latest);
+  void push(const Query& query, Location location, std::int32_t t, std::int32_t latest);
+  bool visit(const ConstraintTable& constraints, Location location, std::int32_t t);
+  std::int32_t lower_bound(const Query& query, Location from) const;
+
+  const GridGraph* graph_;
+  StopSignal* stop_;
+  std::vector<Open> open_;
+  std::vector<std::uint32_t> visited_in_;  // by location without constraints: the stage
+  std::vector<Visit> visits_;              // of locations with constraints
+  std::uint32_t stage_ = 0;
+  std::int32_t arrival_ = 0;
+};
+
+}  // namespace dmrp::planners

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// What the C++ layer publishes about plugins, and how parameters reach them.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "tests/conformance/sample_library.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+const dmrp_descriptor& descriptor(const std::string& id) {
+  for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
+    if (const dmrp_descriptor* d = dmrp_entry_v1.descriptor(i); d && id == d->id) return *d;
+  throw std::runtime_error("no descriptor of " + id);
+}
+
+const dmrp_param_spec& spec(const std::string& key) {
+  const dmrp_descriptor& d = descriptor("sample.controller");
+  for (std::uint32_t i = 0; i < d.param_count; ++i) {
+    const auto* s = DMRP_AT(dmrp_param_spec, d.params, d.param_stride, i);
+    if (key == s->fallback.key) return *s;
+  }
+  throw std::runtime_error("no parameter " + key);
+}
+
+std::vector<std::string> list(const char* const* texts, std::uint32_t count) {
+  return {texts, texts + count};
+}
+
+dmrp_param_value value(const char* key, std::uint32_t type) {
+  dmrp_param_value v{};
+  v.key = key;
+  v.type = type;
+  return v;
+}
+
+}  // namespace
+
+TEST_CASE("the entry says what it was built with and lists the plugins in their order") {
+  CHECK(dmrp_entry_v1.struct_size == sizeof(dmrp_entry));
+  CHECK(dmrp_entry_v1.abi_minor == DMRP_ABI_MINOR);
+  CHECK(dmrp_entry_v1.abi_draft == DMRP_ABI_DRAFT);
+  CHECK(dmrp_entry_v1.min_host_minor == 0);
+  REQUIRE(dmrp_entry_v1.plugin_count() == 5);
+  CHECK(dmrp_entry_v1.descriptor(0)->id == std::string("sample.controller"));
+  CHECK(dmrp_entry_v1.descriptor(4)->id == std::string("sample.unmakeable"));
+  CHECK(dmrp_entry_v1.descriptor(5) == nullptr);
+  CHECK(dmrp_entry_v1.descriptor(0) == dmrp_entry_v1.descriptor(0));  // static data
+}
+
+TEST_CASE("a descriptor carries all that describe() said") {
+  const dmrp_descriptor& controller = descriptor("sample.controller");
+  CHECK(controller.struct_size == sizeof(dmrp_descriptor));
+  CHECK(controller.kind == DMRP_KIND_LOCAL_CONTROLLER);
+  CHECK(controller.name == std::string("Sample controller"));
+  CHECK(controller.version == std::string("1.2.3"));
+  CHECK(controller.vendor == std::string("Somebody"));
+  CHECK(controller.license == std::string("MIT"));
+  CHECK(controller.summary == std::string("what it does"));
+  CHECK(controller.source == std::string("a paper, section 4"));
+  CHECK(list(controller.requires_, controller.requires_count) == std::vector<std::string>{"dmrp.lidar/1"});
+  CHECK(list(controller.uses, controller.uses_count) ==
+        std::vector<std::string>{"dmrp.local_costmap/1", "dmrp.annotate/1"});
+  CHECK(controller.value_count == 0);
+  CHECK(controller.connectivity == DMRP_CONNECTIVITY_NONE);
+  CHECK(controller.planner_flags == 0);
+
+  const dmrp_descriptor& planner = descriptor("sample.planner");
+  CHECK(planner.kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(planner.connectivity == DMRP_CONNECTIVITY_8);
+  CHECK(planner.planner_flags == DMRP_PLANNER_UNCOORDINATED);
+  CHECK(planner.vendor == std::string());  // never NULL
+  CHECK(descriptor("sample.pedestrian").kind == DMRP_KIND_PEDESTRIAN_MODEL);
+
+  const dmrp_descriptor& metric = descriptor("sample.metric");
+  CHECK(metric.kind == DMRP_KIND_METRIC);
+  CHECK(metric.channels == (DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS));
+  REQUIRE(metric.value_count == 3);
+  const auto at = [&](std::uint32_t i) {
+    return *DMRP_AT(dmrp_metric_value_spec, metric.values, metric.value_stride, i);
+  };
+  CHECK(at(0).name == std::string("plain"));
+  CHECK(at(0).unit == std::string("m"));
+  CHECK(at(0).description == std::string("one number"));
+  CHECK(at(0).direction == DMRP_DIRECTION_LOWER);
+  CHECK(at(0).subjects == 1u << DMRP_SUBJECT_SYSTEM);
+  CHECK((at(0).wall_clock == 0 && at(0).curve == 0));
+  CHECK(at(1).direction == DMRP_DIRECTION_NONE);
+  CHECK(at(1).subjects == (1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT));
+  CHECK((at(1).wall_clock == 1 && at(1).curve == 0));
+  CHECK(at(2).direction == DMRP_DIRECTION_HIGHER);
+  CHECK(at(2).subjects == (1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_PEDESTRIAN));
+  CHECK((at(2).wall_clock == 0 && at(2).curve == 1));
+}
+
+TEST_CASE("the parameter table has every declaration, in order, with type, default and bounds") {
+  const dmrp_descriptor& d = descriptor("sample.controller");
+  std::vector<std::string> keys;
+  for (std::uint32_t i = 0; i < d.param_count; ++i)
+    keys.push_back(DMRP_AT(dmrp_param_spec, d.params, d.param_stride, i)->fallback.key);
+  CHECK(keys == std::vector<std::string>{"does", "flag", "integer", "large", "number", "text", "choice", "file",
+                                         "numbers", "texts"});
+
+  CHECK(spec("flag").fallback.type == DMRP_PARAM_BOOL);
+  CHECK(spec("flag").fallback.integer == 1);
+  CHECK(spec("flag").doc == std::string("a flag"));
+  CHECK(spec("flag").unit == std::string());
+  CHECK(spec("integer").fallback.type == DMRP_PARAM_INT);
+  CHECK(spec("integer").fallback.integer == 7);
+  CHECK(spec("integer").minimum == 1.0);
+  CHECK(spec("integer").maximum == 9.0);
+  CHECK(spec("integer").unit == std::string("1"));
+  CHECK(spec("large").fallback.integer == std::int64_t{1} << 60);
+  CHECK(spec("large").minimum == -INFINITY);
+  CHECK(spec("large").maximum == INFINITY);
+  CHECK(spec("number").fallback.type == DMRP_PARAM_DOUBLE);
+  CHECK(spec("number").fallback.number == 0.25);
+  CHECK(spec("number").maximum == 0.5);
+  CHECK(spec("text").fallback.type == DMRP_PARAM_STRING);
+  CHECK(spec("text").fallback.text == std::string("as it is"));
+  CHECK(spec("choice").fallback.type == DMRP_PARAM_CHOICE);
+  CHECK(spec("choice").fallback.text == std::string("red"));
+  CHECK(list(spec("choice").choices, spec("choice").choice_count) == std::vector<std::string>{"red", "green", "blue"});
+  CHECK(spec("file").fallback.type == DMRP_PARAM_PATH);
+  CHECK(spec("numbers").fallback.type == DMRP_PARAM_DOUBLE_ARRAY);
+  REQUIRE(spec("numbers").fallback.count == 2);
+  CHECK(spec("numbers").fallback.numbers[1] == -2.0);
+  CHECK(spec("texts").fallback.type == DMRP_PARAM_STRING_ARRAY);
+  CHECK(list(spec("texts").fallback.texts, spec("texts").fallback.count) == std::vector<std::string>{"a", "b", "c"});
+}
+
+TEST_CASE("create() brings values of every type into the members, what it leaves out keeps its default") {
+  const double numbers[] = {4.0, 5.0, 6.0};
+  const char* const texts[] = {"x"};
+  std::vector<dmrp_param_value> given = {value("flag", DMRP_PARAM_BOOL),
+                                         value("integer", DMRP_PARAM_INT),
+                                         value("number", DMRP_PARAM_DOUBLE),
+                                         value("text", DMRP_PARAM_STRING),
+                                         value("choice", DMRP_PARAM_CHOICE),
+                                         value("file", DMRP_PARAM_PATH),
+                                         value("numbers", DMRP_PARAM_DOUBLE_ARRAY),
+                                         value("texts", DMRP_PARAM_STRING_ARRAY)};
+  given[0].integer = 0;
+  given[1].integer = 3;
+  given[2].number = 0.125;
+  std::string text = "mine";  // dies before the plugin looks at it
+  given[3].text = text.c_str();
+  given[4].text = "blue";
+  given[5].text = "/data/other.csv";
+  given[6].numbers = numbers;
+  given[6].count = 3;
+  given[7].texts = texts;
+  given[7].count = 1;
+  const ParamList params(given);
+
+  RecordingHost host;
+  dmrp_plugin plugin{};
+  plugin.struct_size = sizeof(plugin);
+  REQUIRE(dmrp_entry_v1.create(&host.c, "sample.controller", params.c(), &plugin) == DMRP_OK);
+  text.assign("XXXX");
+
+  dmrp_world world{};
+  world.struct_size = sizeof(world);
+  world.time_limit_ns = 5;
+  world.robot_count = 3;
+  CHECK(plugin.start(plugin.self, &world, 99) == DMRP_OK);
+  const double large = static_cast<double>(std::int64_t{1} << 60);
+  CHECK(seen().numbers == std::vector<double>{0.0, 3.0, large, 0.125, 4.0, 5.0, 6.0, 99.0, 3.0, 1.0});
+  CHECK(seen().texts == std::vector<std::string>{"mine", "blue", "/data/other.csv", "x"});
+  plugin.destroy(plugin.self);
+}
+
+TEST_CASE("instances are told apart, and destroy() ends them") {
+  CHECK(seen().alive == 0);  // the prototype that declared the parameters is gone
+  {
+    const Sample first("sample.controller", "nothing");
+    const Sample second("sample.controller", "no solution");
+    CHECK(seen().alive == 2);
+    dmrp_world world{};
+    CHECK(first.c.start(first.c.self, &world, 1) == DMRP_OK);
+    CHECK(second.c.start(second.c.self, &world, 1) == DMRP_NO_SOLUTION);
+  }
+  CHECK(seen().alive == 0);
+}
+
+TEST_CASE("create() answers what it cannot make with a status and a text") {
+  RecordingHost host;
+  dmrp_plugin plugin{};
+  plugin.struct_size = sizeof(plugin);
+  const ParamList params({text_value("does", "nothing")});
+  const auto create = [&](const char* id) { return dmrp_entry_v1.create(&host.c, id, params.c(), &plugin); };
+
+  CHECK(create("sample.other") == DMRP_ERROR);
+  CHECK(host.error == "no plugin of that id in this library");
+
+  CHECK(dmrp_entry_v1.descriptor(4) != nullptr);  // made while it could be
+  seen().texts = {"throw"};
+  CHECK(create("sample.unmakeable") == DMRP_ERROR);
+  CHECK(host.error == "thrown on purpose");
+  seen().texts = {"throw number"};
+  CHECK(create("sample.unmakeable") == DMRP_ERROR);
+  CHECK(host.error == "an exception that is no std::exception");
+  seen().texts = {"throw bad_alloc"};
+  CHECK(create("sample.unmakeable") == DMRP_OUT_OF_MEMORY);
+  CHECK(plugin.self == nullptr);
+  seen().texts.clear();
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// What the contract asks of the library and of an instance.
+#include <malloc.h>
+
+#include <cmath>
+#include <cstring>
+#include <dmrp/toolkit/angle.hpp>
+
+#include "tests/unit/controllers/controllers.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+// Walls, a standing and a crossing person, a replan.
+Course eventful() {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}, {6.0, 4.0}});
+  course.boxes = {{{-2.0, 1.2}, {4.5, 1.4}}, {{-2.0, -1.4}, {8.0, -1.2}}, {{7.4, -1.2}, {7.6, 6.0}}};
+  course.walkers = {standing({3.0, 0.1}), walking({8.0, 2.0}, {0.0, 2.5}, 1.2, 6.0)};
+  course.change = [](Course& now, double t_s, const dmrp_pose&) {
+    if (t_s < 9.0 || now.revision > 1) return;
+    now.revision = 2;
+    now.path = metre_path({{5.0, 0.0}, {6.0, 0.0}, {6.0, 4.0}});
+  };
+  course.time_limit_s = 40.0;
+  return course;
+}
+
+bool same_bits(const Drive& a, const Drive& b) {
+  if (a.commands.size() != b.commands.size()) return false;
+  for (std::size_t i = 0; i < a.commands.size(); ++i)
+    if (std::memcmp(&a.commands[i], &b.commands[i], sizeof(dmrp_command)) != 0) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("The library describes its controllers") {
+  const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
+  for (const Controller& controller : all_controllers()) {
+    CAPTURE(controller);
+    const dmrp_descriptor* descriptor = library.find(controller.id);
+    REQUIRE(descriptor);
+    CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
+    CHECK(std::string(descriptor->license) == "MIT");
+    for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
+      const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);
+      CAPTURE(spec.fallback.key);
+      CHECK(std::strlen(spec.doc) > 0);
+      if (spec.fallback.type == DMRP_PARAM_DOUBLE) {
+        CHECK(std::strlen(spec.unit) > 0);
+        CHECK(spec.minimum <= spec.fallback.number);
+        CHECK(spec.fallback.number <= spec.maximum);
+      }
+    }
+  }
+}
+
+TEST_CASE("A controller that requires an extension does not start without it, any other drives") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
+  course.costmap = false;
+  const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
+  if (library.find(controller.id)->requires_count > 0) {
+    Trip trip(controller.id, course, controller.tuned);
+    CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
+  } else {
+    check_arrives(run(controller, course), 10.0);
+  }
+}
+
+TEST_CASE("The defaults drive too") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  check_arrives(run(controller.id, course), 20.0);
+}
+
+TEST_CASE("What is annotated changes nothing") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course = eventful();
+  const Drive silent = run(controller, course);
+  course.annotate = true;
+  Trip trip(controller.id, course, controller.tuned);
+  while (!trip.finished()) trip.control_period();
+  CHECK(same_bits(silent, trip.result()));
+  const auto& said = trip.notes().trajectories;
+  const auto is_prediction = [](const ArenaNotes::Trajectory& t) { return t.role == DMRP_ANNOTATE_PREDICTED; };
+  CHECK(std::any_of(said.begin(), said.end(), is_prediction));
+  for (const ArenaNotes::Trajectory& trajectory : said) {
+    REQUIRE(trajectory.step_ns > 0);
+    REQUIRE(trajectory.poses.size() >= 2);
+    for (const dmrp_pose& pose : trajectory.poses)
+      REQUIRE((std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta)));
+  }
+}
+
+TEST_CASE("DWA annotates all that it tries, what it chooses among it") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {2.0, 0.0}});
+  course.annotate = true;
+  Trip trip("dmrp.controller.dwa", course, {{"vx_samples", 4}, {"vth_samples", 6}});
+  trip.control_period();
+  trip.control_period();
+  const auto& said = trip.notes().trajectories;
+  // from rest: v 0 to 0.1 m/s, omega with zero between
+  REQUIRE(said.size() == 2 * (4 * 7 + 1));
+  for (const std::size_t chosen : {said.size() / 2 - 1, said.size() - 1}) {
+    CHECK(said[chosen].role == DMRP_ANNOTATE_PREDICTED);
+    int alike = 0;
+    for (std::size_t i = chosen - 28; i < chosen; ++i) {
+      CHECK(said[i].role == DMRP_ANNOTATE_CANDIDATE);
+      alike += said[i].poses.back().x == said[chosen].poses.back().x &&
+               said[i].poses.back().y == said[chosen].poses.back().y;
+    }
+    CHECK(alike >= 1);
+  }
+}
+
+TEST_CASE("DWA without the dynamic window tries all velocities within the time simulated") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  course.boxes = corridor(2.4, -2.0, 6.0);
+  course.boxes.front().upper.x = 2.8;
+  check_arrives(run("dmrp.controller.dwa", course, {{"use_dwa", false}, {"occdist_scale", 0.001}}), 25.0);
+}
+
+TEST_CASE("The same course gives the same bits: fresh, started again, and interleaved with other instances") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  const Course course = eventful();
+  const Drive once = run(controller, course);
+  CHECK(once.breaches == std::vector<std::string>{});
+  CHECK(same_bits(once, run(controller, course)));
+
+  // an instance that has been through another trial, broken off in the middle
+  Trip again(controller.id, course, controller.tuned);
+  for (int k = 0; k < 60; ++k) again.control_period();
+  again.start();
+  while (!again.finished()) again.control_period();
+  CHECK(same_bits(once, again.result()));
+
+  Course other;
+  other.path = metre_path({{1.0, 5.0}, {1.0, 1.0}});
+  other.walkers = {standing({1.2, 3.0})};
+  Trip one(controller.id, course, controller.tuned);
+  Trip two(controller.id, other, controller.tuned);
+  Trip three(controller.id, course, controller.tuned);
+  while (!one.finished()) {
+    one.control_period();
+    if (!two.finished()) two.control_period();
+    three.control_period();
+  }
+  CHECK(same_bits(once, one.result()));
+  CHECK(same_bits(once, three.result()));
+}
+
+TEST_CASE("Memory does not grow from trial to trial") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Trip trip(controller.id, eventful(), controller.tuned);
+  const auto bytes_after = [&trip](int trials) {
+    for (int i = 0; i < trials; ++i) {
+      trip.start();
+      for (int k = 0; k < 10; ++k) trip.control_period();
+    }
+    trip.start();
+    const struct mallinfo2 heap = mallinfo2();
+    return static_cast<double>(heap.uordblks + heap.hblkhd);
+  };
+  const double few = bytes_after(3);
+  CHECK(bytes_after(12) < few + 65536.0);
+}
+
+TEST_CASE("A robot that is already too near to something gets away from it") {
+  // a person has stepped up to 0.02 m from the robot's side, and stays
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
+  course.walkers = {standing({0.0, 0.57})};
+  course.time_limit_s = 20.0;
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  const Drive drive = run(controller, course);
+  CHECK(drive.arrived);
+  CHECK(drive.walker_clearance_m > 0.0);
+}
+
+TEST_CASE("A standing robot with an obstacle all around says so calmly") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
+  course.boxes = {{{0.35, -0.5}, {0.45, 0.5}},
+                  {{-0.45, -0.5}, {-0.35, 0.5}},
+                  {{-0.5, 0.35}, {0.5, 0.45}},
+                  {{-0.5, -0.45}, {0.5, -0.35}}};
+  course.time_limit_s = 5.0;
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  const Drive drive = run(controller, course);
+  CHECK(drive.breaches == std::vector<std::string>{});
+  CHECK_FALSE(drive.arrived);
+  CHECK(drive.static_clearance_m > 0.0);
+  CHECK(drive.turned_rad < 0.5);
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What teb_local_planner is known to fail at, in closed loop.
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+
+#include "tests/unit/controllers/controllers.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+Controller teb() {
+  return {"dmrp.controller.teb"};
+}
+
+}  // namespace
+
+TEST_CASE("TEB: a start nearer to a wall than min_obstacle_dist gets away") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+  course.boxes = {{{-1.0, 0.29}, {3.0, 0.5}}};  // 4 cm beside the robot
+  course.start.theta = GENERATE(0.0, 0.4, -1.5);
+  CAPTURE(course.start.theta);
+  check_arrives(run(teb(), course), 13.0);
+}
+
+TEST_CASE("TEB: keeps its speed in a free corridor, cycle after cycle") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {10.0, 0.0}});
+  course.boxes = corridor(2.0);
+  const Drive drive = run(teb(), course);
+  check_arrives(drive, 15.0);
+  for (std::size_t k = 15; k < 110; ++k) CHECK(drive.commands[k].v_x > 0.75);
+}
+
+TEST_CASE("TEB: goes on once a way is free again, after many cycles without one") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+  course.boxes = {{{0.4, -0.6}, {0.6, 0.6}},
+                  {{-0.6, -0.6}, {-0.4, 0.6}},
+                  {{-0.6, 0.4}, {0.6, 0.6}},
+                  {{-0.6, -0.6}, {0.6, -0.4}}};  // shut in
+  course.change = [](Course& now, double t_s, const dmrp_pose&) {
+    if (t_s >= 12.0) now.boxes.clear();
+  };
+  const Drive drive = run(teb(), course);
+  check_arrives(drive, 24.0);
+  CHECK(drive.longest_no_solution_s < 1.0);
+}
+
+TEST_CASE("TEB: no spinning for ever before a place that is taken") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}});
+  course.walkers = {standing({4.0, 0.0})};
+  course.tracking = GENERATE(true, false);
+  course.time_limit_s = 40.0;
+  const Drive drive = run(teb(), course);
+  check_sound(drive);
+  CHECK(drive.walker_clearance_m > 0.0);
+  CHECK(drive.end.x > 2.5);
+  CHECK(drive.turned_rad < 6.3);
+}
+
+TEST_CASE("TEB: the defaults, which are upstream's, drive in the open") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}, {5.0, 5.0}});
+  course.walkers = {standing({2.5, -0.1})};
+  const Drive drive = run("dmrp.controller.teb", course);
+  check_arrives(drive, 25.0);
+  CHECK(drive.walker_clearance_m > 0.3);
+}
+
+TEST_CASE("TEB: via-points draw the robot along the path") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  Controller free = teb();
+  Controller guided = teb();
+  guided.tuned["global_plan_viapoint_sep"] = 0.5;
+  guided.tuned["weight_viapoint"] = 5.0;
+  const Drive a = run(free, course);
+  const Drive b = run(guided, course);
+  check_arrives(a, 14.0);
+  check_arrives(b, 16.0);
+  CHECK(b.path_deviation_m < 0.7 * a.path_deviation_m);
+}
+
+TEST_CASE("TEB: leaves its bands in the trace, the chosen one and the others") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+  course.walkers = {standing({2.0, 0.1})};
+  course.annotate = true;
+  const Controller controller = teb();
+  Trip trip(controller.id, course, controller.tuned);
+  for (int k = 0; k < 10; ++k) trip.control_period();
+  int predicted = 0;
+  int candidates = 0;
+  for (const ArenaNotes::Trajectory& trajectory : trip.notes().trajectories) {
+    ++(trajectory.role == DMRP_ANNOTATE_PREDICTED ? predicted : candidates);
+    CHECK(trajectory.poses.size() > 2);
+    CHECK(trajectory.step_ns > 0);
+  }
+  CHECK(predicted == 10);
+  CHECK(candidates > 0);
+  CHECK(trip.notes().notes.size() == 10);
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "core/statistics/bootstrap.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/statistics/descriptive.hpp"
+
+using namespace dmrp::core;
+
+namespace {
+
+std::vector<double> repeated(double value, std::size_t count) {
+  return std::vector<double>(count, value);
+}
+
+}  // namespace
+
+TEST_CASE("mean, standard deviation and median", "[statistics]") {
+  const std::array<double, 8> values{2, 4, 4, 4, 5, 5, 7, 9};
+  CHECK(mean(values) == 5.0);
+  CHECK(sample_sd(values) == Approx(std::sqrt(32.0 / 7.0)).epsilon(1e-15));
+  CHECK(median(values) == 4.5);
+  CHECK(median(std::array<double, 3>{9, 1, 2}) == 2.0);
+}
+
+TEST_CASE("too few values give NaN", "[statistics]") {
+  const std::vector<double> none;
+  const std::array<double, 1> one{3.0};
+  CHECK(std::isnan(mean(none)));
+  CHECK(std::isnan(median(none)));
+  CHECK(std::isnan(sample_sd(one)));
+  CHECK(mean(one) == 3.0);
+  CHECK(std::isnan(cluster_bootstrap_interval(std::vector<std::vector<double>>{{1, 2, 3}}).low));
+  CHECK(std::isnan(cluster_bootstrap_interval(std::vector<std::vector<double>>{{1, 2, 3}, {}}).low));
+}
+
+TEST_CASE("quantiles lie linearly between the values", "[statistics]") {
+  const std::array<double, 5> values{0, 10, 20, 30, 40};
+  CHECK(quantile_of_sorted(values, 0.0) == 0.0);
+  CHECK(quantile_of_sorted(values, 1.0) == 40.0);
+  CHECK(quantile_of_sorted(values, 0.1) == Approx(4.0));
+  CHECK(quantile_of_sorted(values, 0.625) == Approx(25.0));
+}
+
+TEST_CASE("the bootstrap's interval", "[statistics]") {
+  SECTION("is a point where all clusters agree") {
+    const std::vector<std::vector<double>> clusters{{3.0}, {3.0, 3.0}, {3.0}};
+    const Interval interval = cluster_bootstrap_interval(clusters);
+    CHECK(interval.low == 3.0);
+    CHECK(interval.high == 3.0);
+  }
+  SECTION("of two clusters spans both, since one in four resamples repeats either") {
+    const std::vector<std::vector<double>> clusters{{0.0}, {1.0}};
+    const Interval interval = cluster_bootstrap_interval(clusters);
+    CHECK(interval.low == 0.0);
+    CHECK(interval.high == 1.0);
+  }
+  SECTION("comes near the normal one for many clusters of one") {
+    std::vector<std::vector<double>> clusters;
+    for (int i = 0; i < 400; ++i) clusters.push_back({static_cast<double>(i % 20)});
+    // 0 to 19, twenty times each: mean 9.5, standard error sqrt(33.25 / 400)
+    const double half = 1.96 * std::sqrt(33.25 / 400.0);
+    const Interval interval = cluster_bootstrap_interval(clusters);
+    CHECK(interval.low == Approx(9.5 - half).margin(0.05));
+    CHECK(interval.high == Approx(9.5 + half).margin(0.05));
+  }
+  SECTION("is as wide for robots that share a trial's fate as for one robot a trial") {
+    std::vector<std::vector<double>> single;
+    std::vector<std::vector<double>> fourfold;
+    for (int i = 0; i < 20; ++i) {
+      single.push_back(repeated(i % 2, 1));
+      fourfold.push_back(repeated(i % 2, 4));
+    }
+    CHECK(cluster_bootstrap_interval(fourfold).low == cluster_bootstrap_interval(single).low);
+    CHECK(cluster_bootstrap_interval(fourfold).high == cluster_bootstrap_interval(single).high);
+  }
+  SECTION("repeats to the bit, and moves with the seed") {
+    std::vector<std::vector<double>> clusters;
+    for (int i = 0; i < 30; ++i) clusters.push_back({std::sin(i)});
+    const Interval first = cluster_bootstrap_interval(clusters);
+    CHECK(cluster_bootstrap_interval(clusters).low == first.low);
+    CHECK(cluster_bootstrap_interval(clusters, {2000, 2}).low != first.low);
+  }
+}
+
+TEST_CASE("the paper's mean", "[statistics]") {
+  SECTION("leaves out what is farther than two standard deviations") {
+    // 1, ..., 9 and 100: mean 14.5, deviation 30.22, so that 100 goes and 5 is the mean of the rest
+    const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 100};
+    const TrimmedMean trimmed = paper_mean(values);
+    CHECK(trimmed.mean == 5.0);
+    CHECK(trimmed.count == 9);
+    CHECK_FALSE(trimmed.trimmed_all_nonzero);
+  }
+  SECTION("passes once only") {
+    // 0 eight times, 10, 1000: mean 101, deviation 315.9: 1000 goes. A second pass (mean 1.11, deviation 3.33) would
+    // take 10 as well
+    std::vector<double> values = repeated(0.0, 8);
+    values.insert(values.end(), {10.0, 1000.0});
+    const TrimmedMean trimmed = paper_mean(values);
+    CHECK(trimmed.count == 9);
+    CHECK(trimmed.mean == Approx(10.0 / 9.0));
+  }
+  SECTION("leaves out none below five values") {
+    // of four values none is ever farther than 1.5 deviations; the rule holds anyway
+    const std::vector<double> values{0, 0, 0, 100};
+    CHECK(paper_mean(values).mean == 25.0);
+    CHECK(paper_mean(values).count == 4);
+  }
+  SECTION("of five values keeps the far one: it is at 1.79 deviations") {
+    const std::vector<double> values{0, 0, 0, 0, 100};
+    CHECK(paper_mean(values).count == 5);
+  }
+  SECTION("says so where a rare event vanishes: in 3 of 20 trials, but not in 4") {
+    // k of n ones: the ones lie sqrt((n - 1)(n - k) / (n k)) deviations off: 2.32 for 3 of 20, 1.95 for 4
+    std::vector<double> three = repeated(0.0, 17);
+    three.resize(20, 1.0);
+    CHECK(paper_mean(three).trimmed_all_nonzero);
+    CHECK(paper_mean(three).mean == 0.0);
+    CHECK(paper_mean(three).count == 17);
+    std::vector<double> four = repeated(0.0, 16);
+    four.resize(20, 1.0);
+    CHECK_FALSE(paper_mean(four).trimmed_all_nonzero);
+    CHECK(paper_mean(four).mean == 0.2);
+  }
+  SECTION("does not say so where nothing was there") {
+    CHECK_FALSE(paper_mean(repeated(0.0, 20)).trimmed_all_nonzero);
+  }
+  SECTION("of nothing is NaN") {
+    CHECK(std::isnan(paper_mean({}).mean));
+    CHECK(paper_mean({}).count == 0);
+  }
+}

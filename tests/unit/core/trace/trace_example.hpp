@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// A small trial with something of everything that a trace holds, and what two of them have in common.
+#pragma once
+
+#include <dmrp/metric.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/trace/trace_encoder.hpp"
+
+namespace dmrp::test {
+
+// Two robots (a disc and a triangle, one with a tour), a circle and a polygon, both grids. Never moved or copied: the
+// world points into it.
+struct ExampleWorld {
+  dmrp_limits limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.5};
+  std::array<dmrp_vec2, 3> outline{{{0.3, 0.0}, {-0.2, 0.25}, {-0.2, -0.25}}};
+  dmrp_footprint disc{sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
+  dmrp_footprint triangle{sizeof(dmrp_footprint), 3, 0.33, 0.15, outline.data()};
+  std::array<dmrp_goal, 3> goals{{{{5.5, 1.5, std::nan("")}, 0.2, 0.2, 0.1, 500'000'000},
+                                  {{1.5, 5.5, 0.5}, 0.2, 0.3, 0.1, 500'000'000},
+                                  {{2.5, 2.5, -3.0}, 0.25, 0.2, 0.1, 0}}};
+  std::array<dmrp_robot, 2> robots{
+      {{"r0", DMRP_KINEMATICS_DIFFERENTIAL, 1, &goals[0], sizeof(dmrp_goal), 0, &limits, &disc, {0.5, 0.5, 0.0}},
+       {"rö1", DMRP_KINEMATICS_DIFFERENTIAL, 2, &goals[1], sizeof(dmrp_goal), 0, &limits, &triangle, {5.5, 5.5, 3.1}}}};
+  std::array<dmrp_vec2, 4> corners{{{2, 3}, {4, 3}, {4, 4}, {2, 4}}};
+  std::array<dmrp_shape, 2> shapes{{{"planter", DMRP_SHAPE_CIRCLE, 0, {3, 1}, 0.4, nullptr, 0.9},
+                                    {"shelf", DMRP_SHAPE_POLYGON, 4, {0, 0}, 0, corners.data(), 2.0}}};
+  std::array<dmrp_segment, 2> segments{{{{0, 0}, {6, 0}}, {{6, 0}, {6, 6}}}};
+  std::array<std::uint8_t, 6> free{1, 0, 1, 1, 1, 0};
+  std::array<std::uint8_t, 6> edges{0x01, 0, 0xff, 7, 9, 0};
+  std::array<float, 6> clearance{0.5F, 0.0F, 1.25F, 0.1F, 3.0F, std::numeric_limits<float>::infinity()};
+  dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data()};
+  dmrp_grid walking{sizeof(dmrp_grid), 2, 3, 0, 0.5, {-1.0, 0.0}, free.data(), nullptr, nullptr};
+  dmrp_world world{};
+
+  ExampleWorld() {
+    world.struct_size = sizeof(dmrp_world);
+    world.person_count = 2;
+    world.lower = {0, 0};
+    world.upper = {6, 6};
+    world.step_ns = 20'000'000;
+    world.control_period_ns = 100'000'000;
+    world.time_limit_ns = 180'000'000'000;
+    world.call_budget_ns = 50'000'000;
+    world.robots = robots.data();
+    world.robot_count = 2;
+    world.robot_stride = sizeof(dmrp_robot);
+    world.shapes = shapes.data();
+    world.shape_count = 2;
+    world.shape_stride = sizeof(dmrp_shape);
+    world.segments = segments.data();
+    world.segment_count = 2;
+    world.self = 1;
+    world.planning_grid = &planning;
+    world.walking_grid = &walking;
+  }
+  ExampleWorld(const ExampleWorld&) = delete;
+  ExampleWorld& operator=(const ExampleWorld&) = delete;
+};
+
+struct ExamplePlan {
+  std::vector<dmrp_waypoint> first;
+  std::vector<dmrp_waypoint> second;
+  std::array<dmrp_path, 2> paths{};
+  std::array<dmrp_statistic, 2> statistics{{{"cost", 12.0}, {"lower_bound", 0.1 + 0.2}}};
+  dmrp_plan plan{};
+
+  explicit ExamplePlan(std::uint64_t revision)
+      : first{{0.5, 0.5, std::nan(""), 0, 0, 0}, {1.5, 0.5, 0.25, 1'800'000'000, 0, 0}},
+        second{{5.5, 5.5, 0.0, 0, 0, 0}, {5.5, 5.5, 0.0, 1'800'000'000, 0, 0}, {4.5, 5.5, 0.0, 3'600'000'000, 1, 0}} {
+    paths[0] = {sizeof(dmrp_path), 2, sizeof(dmrp_waypoint), 0, first.data()};
+    paths[1] = {sizeof(dmrp_path), 3, sizeof(dmrp_waypoint), 0, second.data()};
+    plan = {sizeof(dmrp_plan),
+            2,
+            paths.data(),
+            sizeof(dmrp_path),
+            2,
+            statistics.data(),
+            sizeof(dmrp_statistic),
+            DMRP_OK,
+            revision,
+            0,
+            1'800'000'000,
+            432'100};
+  }
+  ExamplePlan(const ExamplePlan&) = delete;
+  ExamplePlan& operator=(const ExamplePlan&) = delete;
+};
+
+// The state at step `k`: awkward numbers that depend on k.
+struct ExampleSample {
+  std::array<dmrp_robot_sample, 2> robots{};
+  std::array<dmrp_person, 2> people{};
+  std::array<dmrp_contact, 2> contacts{};
+  std::array<dmrp_call, 3> calls{};
+  dmrp_sample sample{};
+
+  ExampleSample(std::int64_t k, const dmrp_plan* plan) {
+    const double x = static_cast<double>(k) / 3.0;
+    robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x};
+    robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0};
+    people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}};
+    people[1] = {
+        static_cast<std::uint64_t>(100 + k), 0, 8, {2.0, x}, {0.1, -1.1}, 0.3, 0.7, {x, 4.0}, {0.0, 3.0}, {5.0, 5.0}};
+    contacts[0] = {DMRP_CONTACT_STATIC, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 2, 0.0011, {0.0, 0.5}};
+    contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}};
+    calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
+    calls[1] = {DMRP_CALL_CONTROL, 1, DMRP_NO_SOLUTION, 0, 11'000};
+    calls[2] = {DMRP_CALL_PEOPLE, 0, DMRP_OK, 0, 3'000};
+    sample.struct_size = sizeof(dmrp_sample);
+    sample.control_tick = k % 5 == 0;
+    sample.t_ns = k * 20'000'000;
+    sample.dt_ns = k == 0 ? 0 : 20'000'000;
+    sample.plan = plan;
+    sample.robots = robots.data();
+    sample.robot_count = 2;
+    sample.robot_stride = sizeof(dmrp_robot_sample);
+    sample.people = people.data();
+    sample.person_count = 2;
+    sample.person_stride = sizeof(dmrp_person);
+    sample.contacts = contacts.data();
+    sample.contact_count = k % 3 == 0 ? 2 : 0;
+    sample.contact_stride = sizeof(dmrp_contact);
+    sample.calls = calls.data();
+    sample.call_count = k % 5 == 0 ? 3 : 1;
+    sample.call_stride = sizeof(dmrp_call);
+  }
+  ExampleSample(const ExampleSample&) = delete;
+  ExampleSample& operator=(const ExampleSample&) = delete;
+};
+
+// A whole trial of `samples` steps: a second plan comes after half of them.
+inline core::TraceBytes example_trace(std::int64_t samples, const core::TraceEncoder::RecordSink& sink = {},
+                                      core::FoxgloveChannels* foxglove = nullptr) {
+  const ExampleWorld example;
+  const ExamplePlan first(1);
+  const ExamplePlan second(2);
+  core::TraceBytes bytes;
+  core::TraceEncoder trace(
+      example.world,
+      [&](std::int64_t t_ns, std::span<const std::uint8_t> record) {
+        bytes.insert(bytes.end(), record.begin(), record.end());
+        if (sink) sink(t_ns, record);
+      },
+      foxglove);
+  trace.plan(first.plan, 3);
+  for (std::int64_t k = 0; k < samples; ++k) {
+    if (k == samples / 2) {
+      dmrp_plan failed{};  // an attempt without a plan
+      failed.struct_size = sizeof(failed);
+      failed.revision = 2;
+      failed.status = DMRP_TIMEOUT;
+      trace.plan(failed);
+      trace.plan(second.plan);
+      trace.note({DMRP_KIND_LOCAL_CONTROLLER, 1}, "replanned – ok");
+    }
+    trace.sample(ExampleSample(k, k < samples / 2 ? &first.plan : &second.plan).sample);
+    if (k == 1) {
+      const std::array<dmrp_pose, 2> poses{{{0, 0, 0}, {0.1, 0, 0.5}}};
+      trace.trajectory({DMRP_KIND_LOCAL_CONTROLLER, 0}, 1, poses, 100'000'000);
+      const std::array<float, 3> ranges{1.5F, std::numeric_limits<float>::infinity(), 0.25F};
+      trace.scan(1, {sizeof(dmrp_scan), 3, 20'000'000, -0.5, 0.5, 0.0, 10.0, ranges.data()});
+    }
+  }
+  const std::array<dmrp_robot_end, 2> robots{
+      {{DMRP_ROBOT_FAILED, DMRP_FAILURE_TIMEOUT, -1}, {DMRP_ROBOT_FINISHED, DMRP_FAILURE_NONE, 0}}};
+  const dmrp_trial_end end{sizeof(dmrp_trial_end), DMRP_ENDING_TIME_LIMIT, samples * 20'000'000, robots.data(), 2,
+                           sizeof(dmrp_robot_end)};
+  trace.end(end, "time limit");
+  return bytes;
+}
+
+}  // namespace dmrp::test

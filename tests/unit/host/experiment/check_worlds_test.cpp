@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+// Worlds without robots, with robots that are drawn, of tiles, and with recorded people; settings of what is imperfect.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "host/errors/input_error.hpp"
+#include "host/experiment/adhoc_use.hpp"
+#include "host/experiment/digest.hpp"
+#include "host/trial/variant_world.hpp"
+#include "tests/unit/host/experiment/experiment_example.hpp"
+
+namespace {
+
+using namespace dmrp::test;
+using namespace dmrp::host;
+namespace core = dmrp::core;
+
+// The example with this after the scenario's name.
+std::string with_robots(const std::string& lines) {
+  return with(experiment_text, "scenario.toml\"\n", "scenario.toml\"\n" + lines + "\n");
+}
+
+std::string message_of(const std::string& experiment) {
+  try {
+    load(experiment);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Of the example scenario, so changed.
+std::string message_of_scenario(const std::string& from, const std::string& to) {
+  write_file("hall/scenario.toml", with(scenario_text, from, to));
+  return message_of(experiment_text);
+}
+
+void write_hall_without_robots() {
+  std::string text = scenario_text;
+  const auto begin = text.find("[[robot]]");
+  text.erase(begin, text.find("[[region]]") - begin);
+  write_file("hall/scenario.toml", text);
+}
+
+void check_round_trip(const Experiment& original) {
+  const std::string effective = effective_toml(original);
+  write_file("elsewhere/effective.toml", effective);
+  const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
+  CHECK(effective_toml(again) == effective);
+  CHECK(experiment_digest(again) == experiment_digest(original));
+  CHECK(combinations(again).size() == combinations(original).size());
+}
+
+}  // namespace
+
+TEST_CASE("without robots there is a combination for each model, and neither planner nor controller") {
+  const ExperimentFolder folder;
+  const Experiment e = load(with_robots("robots = [0, 2]"));
+  REQUIRE(e.scenarios.size() == 2);
+  CHECK(e.scenarios[0].label == "hall/0");
+  CHECK(e.scenarios[0].scenario.robots.empty());
+  CHECK(e.scenarios[0].scenario.other_starts.size() == 2);
+  CHECK(e.scenarios[1].label == "hall");
+  CHECK(e.scenarios[1].scenario.other_starts.empty());
+  const auto all = combinations(e);
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].global_planner == -1);
+  CHECK(all[0].local_controller == -1);
+  CHECK(all[0].pedestrian_model == 0);
+  CHECK(all[1].global_planner == 0);
+  CHECK(world_seed(e, "hall", 1) != world_seed(e, "hall", 2));
+  check_round_trip(e);
+}
+
+TEST_CASE("an experiment without any robots needs nobody to plan and drive") {
+  const ExperimentFolder folder;
+  const std::string alone =
+      with(with(with_robots("robots = 0"), "[[local_controller]]\nuse = \"test.controller\"\n", ""),
+           "[[global_planner]]\nuse = \"test.planner\"\nparams = { weight = 1.5 }\n", "");
+  CHECK(combinations(load(alone)).size() == 1);
+  check_round_trip(load(alone));
+  // nor does a scenario that lists none have to be told so
+  write_hall_without_robots();
+  const Experiment e = load(with(alone, "robots = 0\n", ""));
+  CHECK(e.scenarios[0].label == "hall");
+  CHECK(robot_count(e.scenarios[0]) == 0);
+
+  CHECK(message_of(with(with_robots("robots = [0, 1]"),
+                        "[[global_planner]]\nuse = \"test.planner\"\nparams = { weight = "
+                        "1.5 }\n",
+                        "")) == "experiment.toml:1:1: the experiment needs a [[global_planner]]");
+}
+
+TEST_CASE("there has to be somebody") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 0"));
+  CHECK(message_of(with_robots("robots = 0")) ==
+        "experiment.toml:9:10: without robots nobody is there: scenario 'hall' has no people");
+  write_hall_without_robots();
+  write_file("hall/scenario.toml", with(std::string("") + scenario_text, "people = 2", "people = 0"));
+  std::string empty = with(scenario_text, "people = 2", "people = 0");
+  const auto begin = empty.find("[[robot]]");
+  empty.erase(begin, empty.find("[[region]]") - begin);
+  write_file("hall/scenario.toml", empty);
+  CHECK(message_of(experiment_text) == "experiment.toml:8:7: scenario 'hall' lists neither robots nor people");
+}
+
+TEST_CASE("more robots than are listed are drawn, for each repetition anew") {
+  const ExperimentFolder folder;
+  const Experiment e = load(with_robots("robots = [0, 2, 3]"));
+  REQUIRE(e.scenarios.size() == 3);
+  CHECK(e.scenarios[1].scenario.robots.size() == 2);
+  CHECK(e.scenarios[1].drawn_robots == 0);
+  CHECK(e.scenarios[2].scenario.robots.empty());
+  CHECK(e.scenarios[2].drawn_robots == 3);
+  CHECK(e.scenarios[2].label == "hall/3");
+  for (const ScenarioVariant& variant : e.scenarios) {
+    CHECK(is_drawn(variant));  // people keep clear of the same starts in all of them
+    const VariantWorld shared(e, variant);
+    const VariantWorld first(e, variant, shared, world_seed(e, "hall", 0));
+    const VariantWorld second(e, variant, shared, world_seed(e, "hall", 1));
+    CHECK(first.view.world().robot_count == robot_count(variant));
+    CHECK(first.scenario.robots.size() + first.scenario.other_starts.size() == 5);
+    if (variant.drawn_robots == 0) continue;
+    CHECK(first.scenario.robots[0].name == "robot 1");
+    CHECK_FALSE((first.scenario.robots[0].start.x == second.scenario.robots[0].start.x &&
+                 first.scenario.robots[0].start.y == second.scenario.robots[0].start.y &&
+                 first.scenario.robots[1].start.x == second.scenario.robots[1].start.x));
+  }
+  check_round_trip(e);
+
+  const Experiment all = load(with_robots("robots = 2\ntasks = \"drawn\""));
+  CHECK(all.scenarios[0].drawn_robots == 2);
+  CHECK(all.scenarios[0].label == "hall/2");
+  check_round_trip(all);
+}
+
+TEST_CASE("mistakes in the number of robots") {
+  const ExperimentFolder folder;
+  const auto at = [](const std::string& lines) { return message_of(with_robots(lines)); };
+  CHECK(at("robots = -1") == "experiment.toml:9:10: 'robots' must be at least 0, not -1");
+  CHECK(at("robots = []") == "experiment.toml:9:10: 'robots' must have at least one number");
+  CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' is there twice");
+  CHECK(at("robots = 3\ntasks = \"listed\"") ==
+        "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
+  CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', how many");
+  CHECK_THAT(at("tasks = \"random\"\nrobots = 1"), Catch::Contains("experiment.toml:9:9: 'tasks' must be"));
+  CHECK_THAT(at("robots = 100"),
+             Catch::StartsWith("experiment.toml:9:10: scenario 'hall' holds at most ") &&
+                 Catch::EndsWith("(repetition 0: starts, and goals, more than 2 m apart), not 100"));
+}
+
+TEST_CASE("a world of tiles has everything of its tile but the robots") {
+  const ExperimentFolder folder;
+  write_file("row/scenario.toml", R"([scenario]
+name = "row"
+title = "Row"
+description = "three halls"
+origin_m = [100.0, 0.0]
+
+[tiles]
+of = "../hall/scenario.toml"
+columns = 3
+
+[[flow]]
+name = "nobody"
+from = "end"
+to = "corner"
+people = 0
+
+[[region]]
+name = "end"
+lower_m = [128.0, 1.0]
+upper_m = [129.0, 2.0]
+
+[[region]]
+name = "corner"
+lower_m = [128.0, 4.0]
+upper_m = [129.0, 5.0]
+)");
+  const Experiment e = load(with(with_robots("robots = 5"), "./hall/", "./row/"));
+  const core::Scenario& row = e.scenarios[0].scenario;
+  CHECK(row.upper.x == 130.0);
+  CHECK(row.upper.y == 8.0);
+  REQUIRE(row.shapes.size() == 9);
+  CHECK(row.shapes[0].name == "wall, tile 1/1");
+  CHECK(row.shapes[7].name == "pillar, tile 3/1");
+  CHECK(row.shapes[7].center.x == Approx(128.0));
+  CHECK(row.shapes[3].vertices[0].x == Approx(row.shapes[0].vertices[0].x + 10.0));
+  REQUIRE(row.flows.size() == 4);
+  CHECK(row.regions[row.flows[2].regions[0]].name == "west, tile 3/1");
+  CHECK(row.regions[row.flows[3].regions[0]].name == "end");
+  CHECK(core::person_count(row) == 6);
+  CHECK(e.scenarios[0].files.size() == 1);  // the tile's, which the digest counts
+  const VariantWorld shared(e, e.scenarios[0]);
+  const VariantWorld own(e, e.scenarios[0], shared, 1);
+  double farthest_m = 0.0;
+  for (const core::RobotTask& task : own.scenario.robots) farthest_m = std::max(farthest_m, task.start.x);
+  CHECK(farthest_m > 105.0);
+  check_round_trip(e);
+
+  const auto mistake = [&](const std::string& tiles, const std::string& message) {
+    write_file("row/scenario.toml",
+               "[scenario]\nname = \"row\"\ntitle = \"Row\"\ndescription = \"halls\"\n[tiles]\n" + tiles + "\n");
+    CHECK(message_of(with(experiment_text, "./hall/", "./row/")) == "row/scenario.toml:" + message);
+  };
+  mistake("of = \"../hall/scenario.toml\"", "5:1: [tiles] needs 'columns'");
+  mistake("of = \"nowhere\"\ncolumns = 2", "6:6: no scenario 'nowhere'");
+  mistake("of = \"scenario.toml\"\ncolumns = 2", "6:6: a scenario cannot be made of itself");
+  mistake("of = \"../hall/scenario.toml\"\ncolumns = 0", "7:11: 'columns' must be at least 1, not 0");
+}
+
+TEST_CASE("recorded people come from a file beside the scenario") {
+  const ExperimentFolder folder;
+  write_file("hall/crowd.csv", "time, id, x, y\n0,7,1,1\n0.5,3,2.5,2\r\n1,7,1.5,1\n\n2,7,2,1.5\n");
+  write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
+  const Experiment e = load(experiment_text);
+  const core::Scenario& hall = e.scenarios[0].scenario;
+  REQUIRE(hall.tracks.size() == 2);
+  CHECK(hall.tracks[0].points.size() == 3);
+  CHECK(hall.tracks[0].points[2].t_ns == 2'000'000'000);
+  CHECK(hall.tracks[0].points[2].position.y == 1.5);
+  CHECK(hall.tracks[1].points.size() == 1);
+  CHECK(core::person_count(hall) == 4);
+  CHECK(core::walker_count(hall) == 2);
+  const std::string digest = experiment_digest(e);
+  write_file("hall/crowd.csv", "\xEF\xBB\xBFtime,id,x,y\n0,7,1,1\n");
+  CHECK(experiment_digest(load(experiment_text)) != digest);
+  check_round_trip(load(experiment_text));
+}
+
+TEST_CASE("who is only replayed needs no model") {
+  const ExperimentFolder folder;
+  write_file("hall/crowd.csv", "time,id,x,y\n0,7,1,1\n5,7,3,1\n");
+  write_file("hall/scenario.toml",
+             with(scenario_text, "people = 2", "people = 0") + "[[recording]]\nfile = \"crowd.csv\"\n");
+  const Experiment e = load(with(with_robots("robots = [0, 2]"), "[[pedestrian_model]]\nuse = \"test.model\"\n", ""));
+  for (const Combination& combination : combinations(e)) CHECK(combination.pedestrian_model == -1);
+}
+
+TEST_CASE("mistakes in a recording") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
+  CHECK(message_of(experiment_text) == "hall/scenario.toml:46:8: no file 'crowd.csv' beside the scenario file");
+  const auto mistake = [](const std::string& csv, const std::string& message) {
+    INFO(csv);
+    write_file("hall/crowd.csv", csv);
+    CHECK(message_of(experiment_text) == "hall/crowd.csv:" + message);
+  };
+  mistake("", "1:1: the file needs the line 'time,id,x,y'");
+  mistake("time,id,x,y\n", "1:1: nobody is recorded");
+  mistake("time,person,x,y\n", "1:6: the first line must be 'time,id,x,y': 'person' should be 'id'");
+  mistake("time,id,x\n", "1:1: a row has 4 values, time,id,x,y, not 3");
+  mistake("time,id,x,y\n0,1,2,3,4\n", "2:1: a row has 4 values, time,id,x,y, not 5");
+  mistake("time,id,x,y\n0,1,2,north\n", "2:7: 'y' must be a number from -10000 to 10000, not 'north'");
+  mistake("time,id,x,y\n0,1.5,2,3\n", "2:3: 'id' must be a whole number of at least 0, not '1.5'");
+  mistake("time,id,x,y\n0,-1,2,3\n", "2:3: 'id' must be a whole number of at least 0, not '-1'");
+  mistake("time,id,x,y\n0,1,nan,3\n", "2:5: 'x' must be a number from -10000 to 10000, not 'nan'");
+  mistake("time,id,x,y\n0,1,+-2,3\n", "2:5: 'x' must be a number from -10000 to 10000, not '+-2'");
+  mistake("time,id,x,y\n-2e6,1,2,3\n", "2:1: 'time' must be a number from -1000000 to 1000000, not '-2e6'");
+  mistake("time,id,x,y\n,1,2,3\n", "2:1: 'time' must be a number from -1000000 to 1000000, not ''");
+  mistake("time,id,x,y\n0,1,2\r3,4\n", "2:5: 'x' must be a number from -10000 to 10000, not '2 3'");
+  mistake("time;id;x;y\n", "1:1: a row has 4 values, time,id,x,y, not 1");
+  mistake("time,id,x,y\n0.5,1,2,3\n0.50000000001,1,2,3\n",
+          "3:1: person 1 has two rows at 0.50000000001 s, line 2 is the first");
+  mistake("time,id,x,y\n1,1,2,3\n0.5,2,2,3\n0.5,1,2,3\n",
+          "4:1: the rows of person 1 must be in order of time: 0.5 s comes after 1 s");
+  mistake("time,id,x,y\n+1,+1,2,+3\n+0.5,1,2,3\n",
+          "3:1: the rows of person 1 must be in order of time: +0.5 s comes after 1 s");
+  mistake("time,id,x,y\n0,1,2,3\n1,1,12,3\n", "3:1: person 1 is outside the world, at (12, 3)");
+  mistake("time,id,x,y\n0,1,5,4\n", "2:1: person 1 is inside 'wall', at (5, 4)");
+}
+
+TEST_CASE("a recording of which nobody is ever there gets a warning") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
+  const auto warnings = [](const std::string& csv, const std::string& settings) {
+    write_file("hall/crowd.csv", "time,id,x,y\n" + csv);
+    return load(experiment_text + settings).warnings;
+  };
+  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
+        std::vector<std::string>{"hall/scenario.toml:46:8: nobody of 'hall/crowd.csv' is there during the trial, from "
+                                 "0 to 180 s: its rows are of -20 to 200 s"});
+  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "[simulation]\ntime_limit_s = 200\n").empty());
+  CHECK(warnings("2,1,1,1\n", "[simulation]\ntime_limit_s = 1.5\n").size() == 1);
+  CHECK(warnings("-1,1,1,1\n0,1,2,1\n", "").empty());
+  CHECK(warnings("-1,1,1,1\n190,1,2,1\n", "").empty());
+}
+
+TEST_CASE("a flow leads from region to region") {
+  const ExperimentFolder folder;
+  const std::string to = "hall/scenario.toml:43:6: ";
+  CHECK(message_of_scenario("to = \"east\"", "to = \"west\"") ==
+        to + "flow 'across' leads from region 'west' to itself: nobody would walk");
+  CHECK(message_of_scenario("to = \"east\"", "via = [\"west\"]\nto = \"east\"") ==
+        "hall/scenario.toml:43:8: flow 'across' leads from region 'west' to itself: nobody would walk");
+  CHECK(message_of_scenario("to = \"east\"", "via = [\"east\"]\nto = \"west\"") == "no error");  // there and back
+}
+
+TEST_CASE("people who have to be somewhere at t = 0 need room there") {
+  const ExperimentFolder folder;
+  std::string text = scenario_text;
+  const auto begin = text.find("[[robot]]");
+  text.erase(begin, text.find("[[region]]") - begin);
+  const auto hall_with = [&](const std::string& flow, const std::string& more) {
+    write_file("hall/scenario.toml", with(text, "people = 2", flow) + more);
+    return message_of(experiment_text);
+  };
+  // in the 1 m x 2 m of 'west' there is room for two or three people 0.65 m apart
+  const std::string few = "people = 3\nstart = \"from\"";
+  CHECK(hall_with(few, "") == "no error");
+  write_file("hall/crowd.csv", "time,id,x,y\n0,1,0.8,1.3\n0,2,1.2,2\n0,3,0.8,2.7\n");
+  const std::string recording = "[[recording]]\nfile = \"crowd.csv\"\n";
+  CHECK_THAT(hall_with(few, recording), Catch::StartsWith("hall/scenario.toml:31:1: no room in region 'west' for 3 "
+                                                          "people, for ") &&
+                                            Catch::EndsWith(" at most beside 3 who are there already"));
+  write_file("hall/crowd.csv", "time,id,x,y\n1,1,0.8,1.3\n1,2,1.2,2\n1,3,0.8,2.7\n");  // they come later
+  CHECK(hall_with(few, recording) == "no error");
+
+  const std::string overlapping = R"([[region]]
+name = "south west"
+lower_m = [0.5, 1.0]
+upper_m = [1.5, 2.9]
+
+[[flow]]
+name = "too"
+from = "south west"
+to = "east"
+people = 3
+start = "from"
+)";
+  CHECK_THAT(hall_with("people = 1\nstart = \"from\"", overlapping), Catch::StartsWith("no error"));
+  CHECK_THAT(hall_with("people = 4\nstart = \"from\"", overlapping),
+             Catch::StartsWith("hall/scenario.toml:31:1: no room in region 'west' for 4 people, for ") &&
+                 Catch::EndsWith(" at most beside 3 who are there already"));
+
+  CHECK_THAT(hall_with("people = 200", ""),
+             Catch::Matches("hall/scenario.toml:31:1: no room along flow 'across' for 200 people, for [0-9]+ at most"));
+}
+
+TEST_CASE("flows that start in their first region and leave for good") {
+  const ExperimentFolder folder;
+  const std::string back = with(scenario_text, "from = \"west\"\nto = \"east\"", "from = \"east\"\nto = \"west\"");
+  write_file("hall/scenario.toml", with(back, "people = 2", "people = 3\nstart = \"from\"\nrespawn = false"));
+  const core::Flow flow = load(experiment_text).scenarios[0].scenario.flows[0];
+  CHECK(flow.start == core::FlowStart::from);
+  CHECK_FALSE(flow.respawn);
+  CHECK_THAT(message_of_scenario("people = 2", "people = 2\nstart = \"here\""),
+             Catch::Contains("hall/scenario.toml:45:9: 'start' must be"));
+  CHECK(message_of_scenario("people = 2", "people = 2\nrespawn = 0") ==
+        "hall/scenario.toml:45:11: 'respawn' must be true or false, not an integer");
+  CHECK_THAT(message_of_scenario("people = 2", "people = 50\nstart = \"from\""),
+             Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 50 people, for"));
+}
+
+// Two robots start by the region 'west': of its 1 m x 2 m, people find but a corner that is 1.5 m away from both.
+TEST_CASE("a crowd has to find room beside the robots' starts, whether they take part or not") {
+  const ExperimentFolder folder;
+  const std::string crowd = with(scenario_text, "people = 2", "people = 3\nstart = \"from\"");
+  const auto no_room = Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 3 people, for");
+  write_file("hall/scenario.toml", crowd);
+  CHECK_THAT(message_of(experiment_text), no_room);
+  CHECK_THAT(message_of(with_robots("robots = 0")), no_room);
+  std::string alone = crowd;
+  const auto begin = alone.find("[[robot]]");
+  alone.erase(begin, alone.find("[[region]]") - begin);
+  write_file("hall/scenario.toml", alone);
+  CHECK(message_of(experiment_text) == "no error");
+}
+
+TEST_CASE("what is imperfect is off unless it is asked for") {
+  const ExperimentFolder folder;
+  const Experiment off = load(experiment_text);
+  CHECK(off.robot.actuation_latency_ns == 0);
+  CHECK(off.robot.odometry.noise == std::array<double, 4>{});
+  CHECK(off.simulation.control_latency_ns == 0);
+  CHECK(off.simulation.planning_latency_ns == 0);
+  const std::string settings = R"([simulation]
+control_latency_s = 0.05
+planning_latency_s = 1.5
+[robot]
+actuation_latency_s = 0.12
+odometry = { noise = [0.01, 0.02, 0.03, 0.04], fix_period_s = 2 }
+)";
+  const Experiment on = load(experiment_text + settings);
+  CHECK(on.simulation.control_latency_ns == 50'000'000);
+  CHECK(on.simulation.planning_latency_ns == 1'500'000'000);
+  CHECK(on.robot.actuation_latency_ns == 120'000'000);
+  CHECK(on.robot.odometry.noise == std::array<double, 4>{0.01, 0.02, 0.03, 0.04});
+  CHECK(on.robot.odometry.fix_period_ns == 2'000'000'000);
+  check_round_trip(on);
+  CHECK_THAT(message_of(experiment_text + std::string("[robot]\nodometry = { noise = [0.1, 0.1] }\n")),
+             Catch::EndsWith("'noise' must be [a1, a2, a3, a4], not 2 numbers"));
+  CHECK_THAT(message_of(experiment_text + std::string("[simulation]\nplanning_latency_s = 30\n")),
+             Catch::EndsWith("'planning_latency_s' must be at most 10, not 30"));
+}
+
+TEST_CASE("plan draws robots for a seed") {
+  const ExperimentFolder folder;
+  Experiment e = adhoc_experiment("hall/scenario.toml");
+  draw_robots_in(e, 4, 3);
+  CHECK(e.scenarios[0].scenario.robots.size() == 4);
+  CHECK_THROWS_WITH(draw_robots_in(e, 100, 3),
+                    Catch::StartsWith("--agents 100: scenario 'hall' holds at most ") && Catch::EndsWith("drawn so"));
+}

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// A trial and its measures with plugins that check what they are given (trial_plugins.cpp), in this process.
+#include "host/trial/run_trial.hpp"
+
+#include <dmrp/ext/annotate.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/trace/trace_reader.hpp"
+#include "host/trial/measure.hpp"
+#include "tests/unit/core/trace/trace_in_memory.hpp"
+
+using namespace dmrp::host;
+namespace core = dmrp::core;
+namespace test = dmrp::test;
+
+namespace {
+
+constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
+
+PluginUse use_of(const std::vector<PluginInfo>& plugins, const std::string& id) {
+  for (const PluginInfo& info : plugins) {
+    if (info.id != id) continue;
+    PluginUse use = {0, info, id, {}};
+    for (const ParameterSpec& spec : info.parameters) use.parameters.push_back(spec.fallback);
+    return use;
+  }
+  throw std::runtime_error("no plugin " + id);
+}
+
+// An empty hall of 10 x 6 m; the goal of the first robot lies off its cell's centre.
+core::Scenario hall(std::size_t robots) {
+  core::Scenario scenario;
+  scenario.name = "hall";
+  scenario.upper = {10.0, 6.0};
+  scenario.time_limit_s = 40.0;
+  for (std::size_t i = 0; i < robots; ++i) {
+    const double y = 1.5 + 2.0 * static_cast<double>(i);
+    scenario.robots.push_back({"r" + std::to_string(i), {1.5, y, 0.0}, {{i == 0 ? 8.8 : 8.5, y, any_heading}}});
+  }
+  return scenario;
+}
+
+// One trial at a time, again and again with the same instances, as in a worker.
+struct Stage {
+  explicit Stage(std::size_t robots = 2, const std::string& planner_does = "plan",
+                 const std::string& controller_does = "drive", double planner_time_s = 60.0) {
+    experiment.libraries = {{"trial plugins", DMRP_TRIAL_PLUGINS, {}}};
+    const Library library(DMRP_TRIAL_PLUGINS);
+    experiment.global_planners = {use_of(library.plugins(), "test.planner.straight")};
+    experiment.local_controllers = {use_of(library.plugins(), "test.controller.careful")};
+    experiment.metrics = {use_of(library.plugins(), "test.metric.sink")};
+    experiment.global_planners[0].parameters[0].text = planner_does;
+    experiment.local_controllers[0].parameters[0].text = controller_does;
+    experiment.scenarios = {{hall(robots), "hall", ""}};
+    experiment.robot.lidar.beams = 36;
+    experiment.limits.planner_time_s = planner_time_s;
+    variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0]);
+    pool = std::make_unique<InstancePool>(experiment.libraries, guard, [](auto, const auto&, const auto&) {});
+  }
+
+  TrialEnding run() {
+    trace = std::make_unique<test::TraceInMemory>(variant->view.world());
+    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, **trace);
+    reader = std::make_unique<core::TraceReader>(trace->bytes());
+    return ending;
+  }
+
+  MetricResult measured() {
+    return measure(*reader, pool->get(experiment.metrics[0], -1), experiment.metrics[0].info, 3, 1, 1'000'000'000);
+  }
+
+  CallNote note{};
+  CallGuard guard{note};
+  Experiment experiment;
+  Combination combination;
+  std::unique_ptr<VariantWorld> variant;
+  std::unique_ptr<InstancePool> pool;
+  std::unique_ptr<test::TraceInMemory> trace;
+  std::unique_ptr<core::TraceReader> reader;
+};
+
+PluginFault fault_of(Stage& stage) {
+  try {
+    stage.run();
+  } catch (const PluginFault& fault) {
+    return fault;
+  }
+  throw std::runtime_error("no fault");
+}
+
+// All robots at all samples.
+std::vector<dmrp_robot_sample> motion(core::TraceReader& trace) {
+  std::vector<dmrp_robot_sample> all;
+  trace.rewind();
+  while (const dmrp_sample* sample = trace.next_sample())
+    for (std::uint32_t i = 0; i < sample->robot_count; ++i)
+      all.push_back(*DMRP_AT(dmrp_robot_sample, sample->robots, sample->robot_stride, i));
+  return all;
+}
+
+double system_of(const MetricResult& result, const std::string& name) {
+  for (const MetricValue& value : result.values)
+    if (value.metric == name && value.subject_kind == DMRP_SUBJECT_SYSTEM && !value.coordinate)
+      return value.value.value();
+  throw std::runtime_error("no value of " + name);
+}
+
+}  // namespace
+
+TEST_CASE("a trial keeps its word to every plugin, and the next one does not remember it") {
+  const std::size_t robots = GENERATE(std::size_t{1}, std::size_t{2});
+  Stage stage(robots);
+  const TrialEnding ending = stage.run();
+  CHECK(ending.succeeded);
+  CHECK_FALSE(stage.guard.stopped());
+  REQUIRE(stage.reader->end());
+  CHECK(stage.reader->end()->ending == DMRP_ENDING_ARRIVED);
+  CHECK(ending.sim_time_s == static_cast<double>(stage.reader->end()->t_ns) / 1e9);  // as metrics give it
+  const auto first = motion(*stage.reader);
+  // 7 cells and a leg of 0.3 m, up to the tolerance
+  CHECK(first[first.size() - robots].progress_m == Approx(7.3).margin(0.21));
+
+  CHECK(stage.run().succeeded);
+  const auto second = motion(*stage.reader);
+  REQUIRE(first.size() == second.size());
+  CHECK(std::memcmp(first.data(), second.data(), first.size() * sizeof(first[0])) == 0);
+}
+
+TEST_CASE("what plugins say goes to the trace where it is wanted, and changes nothing else") {
+  Stage silent;
+  silent.run();
+  CHECK(silent.reader->trajectories().empty());
+  CHECK(silent.reader->notes().empty());
+
+  Stage open;
+  open.experiment.annotations = true;
+  open.run();
+  const auto& trajectories = open.reader->trajectories();
+  const auto& notes = open.reader->notes();
+  REQUIRE(trajectories.size() > 20);
+  CHECK(trajectories[0].source.plugin_kind == DMRP_KIND_LOCAL_CONTROLLER);
+  CHECK(trajectories[0].source.robot == 0);
+  CHECK(trajectories[0].t_ns == 0);
+  CHECK(trajectories[0].role == DMRP_ANNOTATE_PREDICTED);
+  CHECK(trajectories[0].step_ns == 100'000'000);
+  REQUIRE(trajectories[0].poses.size() == 2);  // the third is not finite
+  CHECK(trajectories[0].poses[1].x == 2.5);
+  CHECK(trajectories[1].role == DMRP_ANNOTATE_CANDIDATE);
+  CHECK(trajectories[1].poses.size() == 1000);
+  CHECK(trajectories[2].source.robot == 1);
+  CHECK(trajectories[4].t_ns == 100'000'000);
+  for (std::size_t i = 4; i < trajectories.size(); ++i) CHECK(trajectories[i].poses.size() == 2);
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[0].source.plugin_kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(notes[0].text == "straight");
+  CHECK(notes[1].text == std::string(999, 'n'));  // no half of a character
+
+  const auto one = motion(*silent.reader);
+  const auto other = motion(*open.reader);
+  REQUIRE(one.size() == other.size());
+  CHECK(std::memcmp(one.data(), other.data(), one.size() * sizeof(one[0])) == 0);
+  const MetricResult before = silent.measured();
+  const MetricResult after = open.measured();
+  REQUIRE(before.values.size() == after.values.size());
+  for (std::size_t i = 0; i < before.values.size(); ++i) CHECK(before.values[i].value == after.values[i].value);
+
+  open.experiment.traces = RecordTraces::none;
+  open.run();
+  CHECK(open.reader->trajectories().empty());
+}
+
+TEST_CASE("no plan is a result: nothing moves, everything is measured") {
+  const std::string does = GENERATE("nothing", "timeout");
+  Stage stage(2, does);
+  CHECK_FALSE(stage.run().succeeded);
+  CHECK(stage.reader->end()->ending == DMRP_ENDING_NO_PLAN);
+  CHECK(stage.reader->first_plan() == nullptr);
+  CHECK(stage.reader->sample_count() == 1);
+  REQUIRE(stage.reader->plans().size() == 1);
+  CHECK(stage.reader->plans()[0].plan.status == (does == "timeout" ? DMRP_TIMEOUT : DMRP_NO_SOLUTION));
+  const MetricResult result = stage.measured();
+  CHECK(result.index == 3);
+  CHECK(system_of(result, "samples") == 0.0);
+  // who is there for the calls sees the one that gave no plan
+  stage.experiment.metrics[0].info.channels = DMRP_CHANNEL_CALLS;
+  CHECK(system_of(stage.measured(), "samples") == 1.0);
+  stage.reader->rewind();
+  const dmrp_sample* sample = stage.reader->next_sample();
+  REQUIRE(sample->call_count == 1);
+  CHECK(sample->calls->kind == DMRP_CALL_PLAN);
+  CHECK(sample->calls->status == stage.reader->plans()[0].plan.status);
+  CHECK(sample->calls->duration_ns == stage.reader->plans()[0].plan.planning_ns);
+}
+
+TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {
+  Stage stage(0);
+  stage.experiment.scenarios[0].scenario.tracks = {{{{0, {1.0, 1.0}}, {2'000'000'000, {3.0, 1.0}}}},
+                                                   {{{1'000'000'000, {5.0, 5.0}}, {3'000'000'000, {5.0, 4.0}}}}};
+  stage.variant = std::make_unique<VariantWorld>(stage.experiment, stage.experiment.scenarios[0]);
+  stage.combination = {0, -1, -1, -1};
+  const TrialEnding ending = stage.run();
+  CHECK(ending.succeeded);
+  CHECK(ending.sim_time_s == 3.02);
+  CHECK(stage.reader->end()->ending == DMRP_ENDING_DESERTED);
+  CHECK(stage.reader->plans().empty());
+  CHECK(stage.reader->world().person_count == 2);
+  std::vector<std::uint32_t> counts;
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    CHECK(sample->plan == nullptr);
+    if (counts.empty() || counts.back() != sample->person_count) counts.push_back(sample->person_count);
+  }
+  CHECK(counts == std::vector<std::uint32_t>{1, 2, 1, 0});
+  CHECK(stage.reader->sample_count() == 152);
+}
+
+TEST_CASE("a whole plan that came late counts") {
+  Stage stage(2, "late");
+  CHECK(stage.run().succeeded);
+  CHECK(stage.reader->first_plan()->status == DMRP_TIMEOUT);
+  REQUIRE(stage.reader->first_plan()->statistic_count == 1);
+  CHECK(stage.reader->first_plan()->statistics->value == 12.5);
+}
+
+TEST_CASE("a planner that was told to stop is remembered") {
+  Stage stage(1, "wait", "drive", 0.01);
+  CHECK(stage.run().succeeded);
+  CHECK(stage.guard.stopped());
+}
+
+TEST_CASE("what plugins break is a fault with its place, and the pool goes on") {
+  SECTION("a plan for one robot of two") {
+    Stage stage(2, "half");
+    const PluginFault fault = fault_of(stage);
+    CHECK(fault.kind() == std::string(fault_kind::bad_output));
+    CHECK(fault.plugin() == "test.planner.straight");
+    CHECK(fault.function() == std::string("plan"));
+    CHECK_FALSE(fault.fatal());
+  }
+  SECTION("a command that is no number") {
+    Stage stage(2, "plan", "nan");
+    const PluginFault fault = fault_of(stage);
+    CHECK(fault.kind() == std::string(fault_kind::bad_output));
+    CHECK(fault.plugin() == "test.controller.careful");
+    CHECK(fault.step() == 5);  // the second control tick
+    CHECK(fault.robot() == 0);
+    CHECK(fault_of(stage).step() == 5);
+  }
+  SECTION("a library that is lost") {
+    Stage stage(2, "fatal");
+    const PluginFault fault = fault_of(stage);
+    CHECK(fault.fatal());
+    CHECK(fault.what() == std::string("the library is lost"));
+  }
+}
+
+TEST_CASE("controllers that find no command fail their robots, not the trial") {
+  Stage stage(2, "plan", "nothing");
+  CHECK_FALSE(stage.run().succeeded);
+  const dmrp_trial_end& end = *stage.reader->end();
+  CHECK(end.t_ns < 30'000'000'000);
+  for (std::uint32_t i = 0; i < end.robot_count; ++i) {
+    const auto& robot = *DMRP_AT(dmrp_robot_end, end.robots, end.robot_stride, i);
+    CHECK(robot.state == DMRP_ROBOT_FAILED);
+    CHECK(robot.failure == DMRP_FAILURE_CONTROLLER);
+    CHECK(robot.arrival_ns == -1);
+  }
+}
+
+TEST_CASE("a metric's values are taken as they are declared") {
+  Stage stage;
+  stage.run();
+  const MetricResult result = stage.measured();
+  CHECK(system_of(result, "samples") == static_cast<double>(stage.reader->sample_count()));
+  CHECK(system_of(result, "refused") == 12.0);
+  CHECK(result.values.size() == 6);
+  REQUIRE(result.events.size() == 1);
+  CHECK(result.events[0].metric == "samples");
+  CHECK(result.events[0].robots == std::vector<std::uint32_t>{0, 1});
+  for (const MetricValue& value : result.values) CHECK(value.value.has_value() == (value.metric != "undefined"));
+
+  // again from the start, and the same
+  CHECK(system_of(stage.measured(), "samples") == system_of(result, "samples"));
+}
+
+TEST_CASE("a metric that is silent about a declared value is at fault") {
+  Stage stage;
+  stage.experiment.metrics[0].parameters[0].integer = 1;
+  stage.run();
+  CHECK_THROWS_WITH(stage.measured(), "gave no system value of undefined");
+}
+
+TEST_CASE("a trace that was cut short is not measured") {
+  Stage stage;
+  const test::TraceInMemory cut(stage.variant->view.world());
+  stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
+  CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Blocked time, deadlock and neighbours: cases computed by hand.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "tests/unit/metrics/synthetic_trial.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
+
+dmrp_robot_sample gained(dmrp_robot_sample robot, double progress_m) {
+  robot.progress_m = progress_m;
+  return robot;
+}
+
+// Two samples a second from 0 to `end_s`, the robots as `at_time` says.
+void fill(SyntheticTrial& trial, double begin_s, double end_s,
+          const std::function<std::vector<dmrp_robot_sample>(double)>& at_time) {
+  for (double t = begin_s; t <= end_s; t += 0.5) trial.sample(t, at_time(t));
+}
+
+// Robots that stand at these places at the beginning of their straight paths of 3 m to these directions.
+SyntheticTrial standing(const std::vector<dmrp_vec2>& places, const std::vector<dmrp_vec2>& directions) {
+  SyntheticTrial trial(places.size());
+  std::vector<Points> paths;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    paths.push_back({places[i], {places[i].x + 3 * directions[i].x, places[i].y + 3 * directions[i].y}});
+  trial.plan(paths);
+  return trial;
+}
+
+}  // namespace
+
+TEST_CASE("blocked time is the time without progress after the robot set out and before it arrived") {
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}, {9, 0}}});
+  fill(trial, 0.0, 20.0, [](double t) -> std::vector<dmrp_robot_sample> {
+    if (t <= 5.0) return {at(0, 0)};                             // waits for its start
+    if (t <= 7.0) return {gained(at(0, 0, 1.0), t - 5.0)};       // 1 m/s
+    if (t <= 11.0) return {gained(at(0, 0), 2.0)};               // blocked: (7, 11]
+    if (t <= 13.0) return {gained(at(0, 0, 1.0), t - 9.0)};      // 1 m/s
+    if (t <= 14.5) return {gained(at(0, 0), 4.0)};               // 1.5 s: shorter than the window
+    if (t <= 15.0) return {gained(at(0, 0, 1.0, parked), 4.5)};  // arrives
+    return {gained(at(0, 0, 0.0, parked), 4.5)};
+  });
+  trial.end(20.0, {15.0});
+  CHECK(measure("dmrp.metric.blocked_time", trial).system("blocked_time") == 4.0);
+  SECTION("with a shorter window the short stop counts as well") {
+    CHECK(measure("dmrp.metric.blocked_time", trial, {{"window_s", 1.0}}).system("blocked_time") == 5.5);
+  }
+}
+
+TEST_CASE("blocked time does not take a new path for progress, nor for its loss") {
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}, {9, 0}}});
+  fill(trial, 0.0, 2.0, [](double t) -> std::vector<dmrp_robot_sample> { return {gained(at(0, 0, 1.0), t)}; });
+  trial.plan({{{2, 0}, {9, 0}}});  // standing still, progress begins at 0 again
+  fill(trial, 2.5, 4.0, [](double) -> std::vector<dmrp_robot_sample> { return {gained(at(0, 0), 0.0)}; });
+  trial.plan({{{0, 0}, {9, 0}}});  // and is 2 again
+  fill(trial, 4.5, 6.0, [](double) -> std::vector<dmrp_robot_sample> { return {gained(at(0, 0), 2.0)}; });
+  trial.end(6.0, {never});
+  CHECK(measure("dmrp.metric.blocked_time", trial).system("blocked_time") == 4.0);
+}
+
+TEST_CASE("blocked time of a robot that creeps on is 0, of one that never sets out too") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}, {9, 0}}, {{0, 5}, {9, 5}}});
+  fill(trial, 0.0, 10.0, [](double t) -> std::vector<dmrp_robot_sample> {
+    return {gained(at(0, 0, 0.06), 0.06 * t), at(0, 5)};
+  });
+  trial.end(10.0, {never, never});
+  const Measurement m = measure("dmrp.metric.blocked_time", trial);
+  CHECK(m.robot("blocked_time", 0) == 0.0);  // 0.12 m in a window
+  CHECK(m.robot("blocked_time", 1) == 0.0);
+}
+
+TEST_CASE("two robots head-on that stand still are in deadlock") {
+  SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
+  fill(trial, 0.0, 12.0, [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; });
+  trial.end(12.0, {never, never});
+  const Measurement m = measure("dmrp.metric.deadlock", trial);
+  // both wait once a window of 2 s was watched: in the step that ends at 2 s, up to the end
+  CHECK(m.system("deadlocks") == 1.0);
+  CHECK(m.system("deadlock_time") == 10.5);
+  CHECK(m.robot("deadlocks", 0) == 1.0);
+  CHECK(m.robot("deadlock_time", 1) == 10.5);
+  REQUIRE(m.events.size() == 1);
+  CHECK(m.events[0].from_s == 1.5);
+  CHECK(m.events[0].to_s == 12.0);
+  CHECK(m.events[0].text == "robots 0 -> 1 -> 0 wait for each other");
+  SECTION("not if it has to last longer") {
+    CHECK(measure("dmrp.metric.deadlock", trial, {{"lasting_s", 10.6}}).system("deadlocks") == 0.0);
+    CHECK(measure("dmrp.metric.deadlock", trial, {{"lasting_s", 10.5}}).system("deadlocks") == 1.0);
+  }
+}
+
+TEST_CASE("a deadlock is a circle: of three robots, with one that waits outside of it") {
+  // 0, 1 and 2 at the corners of a triangle with sides of 0.8 m, each heading for the next; 3 heads for 0 from behind
+  const double half = 0.5, height = std::sqrt(0.75);
+  SyntheticTrial trial = standing({{0, 0}, {0.8, 0}, {0.8 * half, 0.8 * height}, {-0.8, 0}},
+                                  {{1, 0}, {-half, height}, {-half, -height}, {1, 0}});
+  fill(trial, 0.0, 10.0, [&](double) -> std::vector<dmrp_robot_sample> {
+    return {at(0, 0), at(0.8, 0), at(0.8 * half, 0.8 * height), at(-0.8, 0)};
+  });
+  trial.end(10.0, {never, never, never, never});
+  const Measurement m = measure("dmrp.metric.deadlock", trial);
+  CHECK(m.system("deadlocks") == 1.0);
+  REQUIRE(m.events.size() == 1);
+  CHECK(m.events[0].robots == std::vector<std::uint32_t>{0, 1, 2});
+  CHECK(m.robot("deadlocks", 3) == 0.0);
+  CHECK(m.robot("deadlock_time", 3) == 0.0);
+}
+
+TEST_CASE("no deadlock: one way only, a parked robot, nobody in the way, somebody who moves") {
+  const std::vector<dmrp_vec2> places = {{0, 0}, {0.7, 0}};
+  const auto deadlocks = [](SyntheticTrial& trial, const std::function<std::vector<dmrp_robot_sample>(double)>& as) {
+    fill(trial, 0.0, 20.0, as);
+    trial.end(20.0, {never, never});
+    return measure("dmrp.metric.deadlock", trial).system("deadlocks");
+  };
+  const auto both_stand = [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; };
+  SECTION("both eastward") {
+    SyntheticTrial trial = standing(places, {{1, 0}, {1, 0}});
+    CHECK(deadlocks(trial, both_stand) == 0.0);
+  }
+  SECTION("apart") {
+    SyntheticTrial trial = standing(places, {{-1, 0}, {1, 0}});
+    CHECK(deadlocks(trial, both_stand) == 0.0);
+  }
+  SECTION("one is parked in the way of the other") {
+    SyntheticTrial trial = standing(places, {{1, 0}, {-1, 0}});
+    CHECK(deadlocks(trial, [](double) -> std::vector<dmrp_robot_sample> {
+            return {at(0, 0), at(0.7, 0, 0.0, parked)};
+          }) == 0.0);
+  }
+  SECTION("one gets on") {
+    SyntheticTrial trial = standing(places, {{1, 0}, {-1, 0}});
+    CHECK(deadlocks(trial, [](double t) -> std::vector<dmrp_robot_sample> {
+            return {at(0, 0), gained(at(0.7, 0, 0.1), 0.1 * t)};
+          }) == 0.0);
+  }
+  SECTION("too far ahead") {
+    SyntheticTrial trial = standing({{0, 0}, {1.7, 0}}, {{1, 0}, {-1, 0}});
+    CHECK(deadlocks(trial, [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(1.7, 0)}; }) == 0.0);
+  }
+}
+
+TEST_CASE("a deadlock that dissolves and comes back is two") {
+  SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
+  fill(trial, 0.0, 30.0, [](double t) -> std::vector<dmrp_robot_sample> {
+    const double progress_m = t < 14.0 ? 0.0 : 0.5;  // robot 0 jumps ahead once
+    return {gained(at(0, 0), progress_m), at(0.7, 0)};
+  });
+  trial.end(30.0, {never, never});
+  const Measurement m = measure("dmrp.metric.deadlock", trial);
+  CHECK(m.system("deadlocks") == 2.0);
+  // (1.5, 13.5] and, a whole window after the jump's last sample before it (13.5), (15.5, 30]
+  CHECK(m.system("deadlock_time") == 12.0 + 14.5);
+}
+
+TEST_CASE("neighbours are counted by time among all robots, while active") {
+  SyntheticTrial trial(3);
+  trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {at(0, 0), at(0, 0), at(0, 0)});
+  trial.sample(1.0, {at(0, 0), at(2, 0), at(4.5, 0, 0.0, parked)});             // 0: 1, 1: 1, 2: 0
+  trial.sample(4.0, {at(0, 0), at(1, 0, 0.0, parked), at(1, 1, 0.0, parked)});  // 0: 2, 1: 2
+  trial.sample(5.0, {at(0, 0), at(9, 0, 0.0, parked), at(9, 9, 0.0, parked)});  // 0: 0
+  trial.end(5.0, {never, 4.0, 1.0});
+  const Measurement m = measure("dmrp.metric.neighbours", trial);
+  CHECK(m.robot("neighbours", 0) == 1.4);   // (1 * 1 + 3 * 2) / 5
+  CHECK(m.robot("neighbours", 1) == 1.75);  // (1 * 1 + 3 * 2) / 4
+  CHECK(m.robot("neighbours", 2) == 0.0);
+  CHECK(m.system("neighbours") == Approx(1.05));
+}

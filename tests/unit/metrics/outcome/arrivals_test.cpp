@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// ISR, CSR, flowtime, makespan, throughput and SPL: cases computed by hand.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/metrics/synthetic_trial.hpp"
+
+using namespace dmrp::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+const double free_heading = std::nan("");
+
+dmrp_robot_sample heading_for(std::uint32_t goal_index) {
+  dmrp_robot_sample robot = at(0, 0);
+  robot.goal_index = goal_index;
+  return robot;
+}
+
+}  // namespace
+
+TEST_CASE("flowtime is the sum, makespan the maximum of arrivals") {
+  SyntheticTrial trial(3);
+  trial.plan({{{0, 0}}, {{3, 0}}, {{6, 0}}}).sample(0.0, {at(0, 0), at(3, 0), at(6, 0)});
+  SECTION("all arrive") {
+    trial.end(10.0, {4.0, 10.0, 6.5});
+    const Measurement m = measure("dmrp.metric.arrivals", trial);
+    CHECK(m.system("isr") == 1.0);
+    CHECK(m.system("csr") == 1.0);
+    CHECK(m.system("flowtime") == 20.5);
+    CHECK(m.system("makespan") == 10.0);
+  }
+  SECTION("one does not: only the shares are defined") {
+    trial.end(20.0, {4.0, never, 6.5});
+    const Measurement m = measure("dmrp.metric.arrivals", trial);
+    CHECK(m.robot("isr", 0) == 1.0);
+    CHECK(m.robot("isr", 1) == 0.0);
+    CHECK_THAT(m.system("isr"), WithinAbs(2.0 / 3.0, 1e-15));
+    CHECK(m.system("csr") == 0.0);
+    CHECK(std::isnan(m.system("flowtime")));
+    CHECK(std::isnan(m.system("makespan")));
+  }
+  SECTION("a robot that oscillated is at its goal all the same") {
+    trial.end(10.0, {4.0, 10.0, 6.5}).failure(1, DMRP_FAILURE_OSCILLATION);
+    CHECK(measure("dmrp.metric.arrivals", trial).system("csr") == 1.0);
+    CHECK(measure("dmrp.metric.success", trial).system("trial_success") == 0.0);
+  }
+}
+
+TEST_CASE("throughput counts every goal of a tour") {
+  SyntheticTrial trial(3);
+  const std::vector<dmrp_pose> tour = {{1, 0, free_heading}, {2, 0, free_heading}, {3, 0, free_heading}};
+  for (std::size_t robot = 0; robot < 3; ++robot) trial.route(robot, {0, 0, 0}, tour);
+  trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {heading_for(0), heading_for(0), heading_for(0)});
+  trial.sample(20.0, {heading_for(2), heading_for(2), heading_for(0)});
+  trial.end(20.0, {20.0, never, never});  // robot 0 reached three, robot 1 two, robot 2 none
+  const Measurement m = measure("dmrp.metric.arrivals", trial);
+  CHECK(m.robot("throughput", 0) == 0.15);
+  CHECK(m.robot("throughput", 1) == 0.1);
+  CHECK(m.robot("throughput", 2) == 0.0);
+  CHECK_THAT(m.system("throughput"), WithinAbs(0.25, 1e-15));
+}
+
+TEST_CASE("SPL weighs success by the shortest length over the driven one") {
+  SyntheticTrial trial(3);
+  for (std::size_t robot = 0; robot < 3; ++robot) trial.route(robot, {0, 0, 0}, {{3, 4, free_heading}});
+  trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {at(0, 0), at(0, 0), at(0, 0)});
+  trial.sample(1.0, {at(3, 0), at(-3, 0), at(3, 0)});
+  trial.sample(2.0, {at(3, 4), at(-3, 4), at(3, 3)});
+  trial.sample(3.0, {at(3, 4), at(3, 4), at(3, 3)});
+  trial.end(3.0, {2.0, 3.0, never});
+  const Measurement m = measure("dmrp.metric.spl", trial);
+  CHECK_THAT(m.robot("spl", 0), WithinAbs(5.0 / 7.0, 1e-15));
+  CHECK_THAT(m.robot("spl", 1), WithinAbs(5.0 / 13.0, 1e-15));
+  CHECK(m.robot("spl", 2) == 0.0);  // no success, however short
+  CHECK_THAT(m.system("spl"), WithinAbs((5.0 / 7.0 + 5.0 / 13.0) / 3.0, 1e-15));
+  CHECK(m.system("shortest_length") == 15.0);
+}
+
+TEST_CASE("SPL is at most 1: a robot that stops within its goal's tolerance drives less than the shortest way") {
+  SyntheticTrial trial(1);
+  trial.route(0, {0, 0, 0}, {{5, 0, free_heading}}).plan({{{0, 0}}});
+  trial.sample(0.0, {at(0, 0)}).sample(1.0, {at(4.9, 0)}).end(1.0);
+  CHECK(measure("dmrp.metric.spl", trial).system("spl") == 1.0);
+}
+
+TEST_CASE("SPL of a robot that begins at its goal is 1") {
+  SyntheticTrial trial(1);
+  trial.route(0, {1, 1, 0}, {{1, 1, free_heading}}).plan({{{1, 1}}});
+  trial.sample(0.0, {at(1, 1)}).end(0.5);
+  CHECK(measure("dmrp.metric.spl", trial).system("spl") == 1.0);
+}
+
+TEST_CASE("the shortest length leads round walls at any angle, through gaps as wide as the robot, and along tours") {
+  //  . . . g . . .   a wall in column 3, open above, and in row 1 for a robot of at most 0.2 m
+  //  . . . # . . .
+  //  . . . # . . .
+  //  . . . n . . .
+  //  s . . # . . .
+  const float o = 2.0F, n = 0.2F, b = 0.0F;
+  SyntheticTrial trial(1);
+  trial.walking_grid({0, 0}, 1.0,
+                     {{o, o, o, b, o, o, o},
+                      {o, o, o, n, o, o, o},
+                      {o, o, o, b, o, o, o},
+                      {o, o, o, b, o, o, o},
+                      {o, o, o, o, o, o, o}});
+  trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).end(1.0, {never});
+  const auto length = [&] { return measure("dmrp.metric.spl", trial).system("shortest_length"); };
+  SECTION("round the wall") {
+    trial.route(0, {0.5, 0.5, 0}, {{6.5, 0.5, free_heading}});
+    // (0.5, 0.5) to (2.5, 4.5), 2 m across, and down again; straight lines would cut the wall's cells
+    CHECK_THAT(length(), WithinAbs(2.0 + 2.0 * std::sqrt(20.0), 1e-12));
+  }
+  SECTION("through the gap") {
+    trial.robot_radius(0.2).route(0, {0.5, 1.5, 0}, {{6.5, 1.5, free_heading}});
+    CHECK(length() == 6.0);
+  }
+  SECTION("a tour there and back") {
+    trial.route(0, {0.5, 0.5, 0}, {{2.5, 0.5, free_heading}, {0.5, 0.5, free_heading}, {0.5, 3.25, free_heading}});
+    CHECK(length() == 6.75);
+  }
+  SECTION("no way out of the grid") {
+    trial.route(0, {0.5, 0.5, 0}, {{6.5, 7.5, free_heading}});
+    CHECK(std::isnan(length()));
+  }
+  SECTION("no way through a wall without a gap") {
+    trial.walking_grid({0, 0}, 1.0, {{o, b, o}, {o, b, o}});
+    trial.route(0, {0.5, 0.5, 0}, {{2.5, 0.5, free_heading}});
+    CHECK(std::isnan(length()));
+  }
+}

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: MIT
+// Prioritized SIPP, against joint search where that can be done, and by the plan check alone where it cannot.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "planners/mapf/safe_intervals.hpp"
+#include "tests/support/test_data.hpp"
+#include "tests/unit/planners/joint_optimum.hpp"
+#include "tests/unit/planners/movingai.hpp"
+#include "tests/unit/planners/plan_check.hpp"
+#include "tests/unit/planners/random_case.hpp"
+
+using namespace dmrp::test;
+using dmrp::planners::Location;
+using dmrp::planners::SafeIntervals;
+
+namespace {
+
+const char* const library = "libdmrp_planners.so";
+const char* const sipp = "dmrp.planner.sipp";
+
+// Robots with distinct starts and distinct goals on free cells, all over the grid.
+void scatter(PlanningCase& c, Random& random, int robots) {
+  const auto draw = [&](auto is_taken) {
+    for (;;) {
+      const CellXY cell{random.below(c.width), random.below(c.height)};
+      if (c.is_free(cell) && !is_taken(cell)) return cell;
+    }
+  };
+  for (int i = 0; i < robots; ++i) {
+    const auto among = [&](auto end_of) {
+      return [&c, end_of](CellXY cell) {
+        for (const CaseRobot& robot : c.robots)
+          if (end_of(robot) == cell) return true;
+        return false;
+      };
+    };
+    const CellXY start = draw(among([](const CaseRobot& robot) { return robot.start; }));
+    std::vector<CellXY> goals;
+    if (random.one_in(5)) goals.push_back(draw([](CellXY) { return false; }));
+    goals.push_back(draw(among([](const CaseRobot& robot) { return robot.goals.back(); })));
+    c.robot(start, goals);
+  }
+}
+
+PlanningCase large_case(uint64_t seed, int robots) {
+  Random random(seed);
+  std::vector<std::string> rows(18, std::string(24, '.'));
+  for (auto& row : rows)
+    for (char& cell : row)
+      if (random.one_in(12)) cell = '#';
+  rows[0].assign(24, '.');
+  PlanningCase c(rows);
+  for (int y = 0; y < 18; ++y)
+    for (int x = 0; x + 1 < 24; ++x)
+      if (random.one_in(15)) c.thin_wall({x, y}, {x + 1, y});
+  scatter(c, random, robots);
+  return c;
+}
+
+// Steps from one cell to another, alone among those that rest; nothing if it is cut off.
+std::optional<int> steps_between(const PlanningCase& c, CellXY from, CellXY to) {
+  std::vector<int> steps(c.free.size(), -1);
+  for (const CaseRobot& robot : c.robots)
+    if (robot.state != DMRP_ROBOT_ACTIVE) steps[c.index(robot.start)] = 0;
+  if (steps[c.index(to)] == 0) return std::nullopt;
+  std::vector<CellXY> queue = {from};
+  steps[c.index(from)] = 0;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const CellXY at = queue[i];
+    if (at == to) return steps[c.index(at)];
+    for (const CellXY next : {CellXY{at.x + 1, at.y}, {at.x - 1, at.y}, {at.x, at.y + 1}, {at.x, at.y - 1}}) {
+      if (!c.is_free(next) || !c.is_open(at, next) || steps[c.index(next)] >= 0) continue;
+      steps[c.index(next)] = steps[c.index(at)] + 1;
+      queue.push_back(next);
+    }
+  }
+  return std::nullopt;
+}
+
+// The sum of the robots' costs if each were alone among those that rest; nothing if one is cut off.
+std::optional<int> sum_alone(const PlanningCase& c) {
+  int sum = 0;
+  for (const CaseRobot& robot : c.robots) {
+    if (robot.state != DMRP_ROBOT_ACTIVE) continue;
+    CellXY at = robot.start;
+    for (std::size_t leg = 0; leg < robot.goals.size(); ++leg) {
+      const auto steps = steps_between(c, at, robot.goals[leg]);
+      if (!steps) return std::nullopt;
+      sum += leg > 0 ? std::max(*steps, 1) : *steps;  // a wait between equal goals
+      at = robot.goals[leg];
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("SIPP is described") {
+  const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(sipp);
+  REQUIRE(descriptor);
+  CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
+  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(descriptor->planner_flags == 0);
+}
+
+TEST_CASE("SIPP solves nearly all random small problems, and proves only what is so") {
+  PluginUnderTest planner(library, sipp, {{"restarts", 100}});
+  const struct {
+    int most_robots;
+    uint64_t from;
+    uint64_t count;
+  } draws[] = {{3, 0, 3000}, {4, 50'000, 150}};
+  int solvable = 0;
+  int solved = 0;
+  int unsolvable = 0;
+  int dearer = 0;
+  for (const auto& draw : draws)
+    for (uint64_t seed = draw.from; seed < draw.from + draw.count; ++seed) {
+      CAPTURE(seed);
+      const PlanningCase c = random_case(seed, draw.most_robots);
+      const std::optional<int> optimum = JointSearch(c).optimum();
+      const Plan plan = run_planner(planner, c);
+      if (!optimum) {
+        ++unsolvable;
+        REQUIRE(plan.status == DMRP_NO_SOLUTION);
+        continue;
+      }
+      ++solvable;
+      REQUIRE(plan.statistics.at("lower_bound") == sum_alone(c));
+      if (plan.status != DMRP_OK) {
+        REQUIRE(plan.status == DMRP_TIMEOUT);
+        REQUIRE(plan.statistics.at("restarts") == 100);
+        continue;
+      }
+      ++solved;
+      REQUIRE(check_plan(c, plan) == "");
+      REQUIRE(plan.cost() >= *optimum);
+      REQUIRE(plan.statistics.at("cost") == plan.cost());
+      dearer += plan.cost() > *optimum;
+    }
+  // Two robots that have to yield to each other on the way are beyond any order; few problems are of that kind.
+  CHECK(solvable > 2500);
+  CHECK(solved >= solvable - solvable / 400);
+  CHECK(unsolvable > 100);
+  CHECK(dearer > 100);
+}
+
+TEST_CASE("SIPP plans have no conflicts on large and crowded grids") {
+  PluginUnderTest planner(library, sipp);
+  int solved = 0;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    const PlanningCase c = large_case(seed, 20 + static_cast<int>(seed % 5) * 25);
+    const Plan plan = run_planner(planner, c, seed);
+    if (!sum_alone(c)) {
+      REQUIRE(plan.status == DMRP_NO_SOLUTION);
+      continue;
+    }
+    ++solved;
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    REQUIRE(plan.statistics.at("lower_bound") == sum_alone(c));
+  }
+  CHECK(solved > 20);
+}
+
+TEST_CASE("SIPP sees what the robots before do") {
+  const auto solve = [](const PlanningCase& c, int cost) {
+    const Plan plan = run_planner(sipp, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    CHECK(plan.cost() == cost);
+  };
+  SECTION("one that is parked on the shortest way: round it") {
+    PlanningCase c({".....", "....."});
+    solve(c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 6);
+  }
+  SECTION("one that parks in the only way: it comes late") {
+    PlanningCase c({".....", "##.##"});
+    solve(c.robot({2, 1}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 3 + 4);
+  }
+  SECTION("one that is parked in the only way: it makes way") {
+    PlanningCase c({".....", "##.##"});
+    solve(c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 4 + 3);
+  }
+  SECTION("one that waits: nobody runs into it") {
+    // The first in line waits for the one that crosses; the second has to wait behind it.
+    PlanningCase c({"#.##", "....", "#.##", "#.##", "#.##"});
+    solve(c.robot({1, 0}, {{1, 3}}).robot({0, 1}, {{3, 1}}).robot({1, 1}, {{1, 4}}), 3 + 4 + 3);
+  }
+  SECTION("one that comes the other way: no swap") {
+    PlanningCase c({"...."});
+    c.robot({1, 0}, {{2, 0}}).robot({2, 0}, {{1, 0}});
+    CHECK(run_planner(sipp, c).status == DMRP_NO_SOLUTION);
+    PlanningCase with_bay({"....", "#..#"});
+    solve(with_bay.robot({1, 0}, {{2, 0}}).robot({2, 0}, {{1, 0}}), 1 + 3);
+  }
+  SECTION("a corridor with one bay in the middle: whoever comes first, it has to be late") {
+    PlanningCase c({".......", "###.###"});
+    c.robot({0, 0}, {{6, 0}}).robot({6, 0}, {{0, 0}});
+    solve(c, 6 + 6 + 3);
+    CHECK(run_planner(sipp, c).statistics.at("restarts") > 0);
+    CHECK(run_planner(sipp, c, {{"restarts", 0}}).status == DMRP_TIMEOUT);
+  }
+  SECTION("a goal that blocks another's only way") {
+    PlanningCase c({"....", "#.##", "#.##"});
+    c.robot({3, 0}, {{1, 1}}).robot({0, 0}, {{1, 2}});
+    solve(c, *JointSearch(c).optimum());
+  }
+  SECTION("four in a ring without a free cell") {
+    PlanningCase c({"..", ".."});
+    solve(c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{1, 1}}).robot({1, 1}, {{0, 1}}).robot({0, 1}, {{0, 0}}), 4);
+  }
+  SECTION("robots that rest") {
+    PlanningCase c({"...", "...", "..."});
+    solve(c.robot({0, 1}, {{2, 1}}).robot({1, 1}, {}, DMRP_ROBOT_FINISHED), 4);
+  }
+  SECTION("a start that others cross before its robot is planned") {
+    // The one at the dead end is the farthest from its goal, so it comes last; all the others go through its start.
+    PlanningCase c({"........", ".#######", ".......#"});
+    solve(c.robot({1, 0}, {{3, 2}}).robot({2, 0}, {{2, 2}}).robot({0, 0}, {{6, 2}}), 6 + 6 + 8);
+  }
+}
+
+TEST_CASE("SIPP plans tours") {
+  SECTION("start is goal") {
+    PlanningCase c({"..."});
+    const Plan plan = run_planner(sipp, c.robot({1, 0}, {{1, 0}}));
+    REQUIRE(plan.status == DMRP_OK);
+    CHECK(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 0);
+  }
+  SECTION("equal goals in a row cost a wait each") {
+    PlanningCase c({"..."});
+    const Plan plan = run_planner(sipp, c.robot({0, 0}, {{2, 0}, {2, 0}, {2, 0}, {1, 0}}));
+    REQUIRE(plan.status == DMRP_OK);
+    CHECK(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 2 + 2 + 1);
+  }
+  SECTION("equal goals at the end, where another passes between") {
+    PlanningCase c({"...", "#.#"});
+    c.robot({1, 1}, {{1, 0}, {1, 0}, {1, 0}}).robot({0, 0}, {{2, 0}});
+    const Plan plan = run_planner(sipp, c);
+    REQUIRE(plan.status == DMRP_OK);
+    CHECK(check_plan(c, plan) == "");
+    CHECK(plan.cost() == JointSearch(c).optimum());
+  }
+  SECTION("over the other's goal before it parks there") {
+    PlanningCase c({".....", "####."});
+    c.robot({0, 0}, {{4, 0}, {0, 0}}).robot({4, 1}, {{2, 0}});
+    const Plan plan = run_planner(sipp, c);
+    REQUIRE(plan.status == DMRP_OK);
+    CHECK(check_plan(c, plan) == "");
+    CHECK(plan.cost() == 8 + 7);
+  }
+  SECTION("nobody to plan for") {
+    PlanningCase c({"..."});
+    CHECK(run_planner(sipp, c).status == DMRP_OK);
+    const Plan plan = run_planner(sipp, c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED));
+    CHECK(plan.status == DMRP_OK);
+    CHECK(check_plan(c, plan) == "");
+  }
+}
+
+TEST_CASE("SIPP takes a way with fewest turns where it is free") {
+  for (int x = 0; x < 9; x += 2)
+    for (int y = 0; y < 7; y += 3) {
+      CAPTURE(x, y);
+      PlanningCase c(std::vector<std::string>(7, "........."));
+      const Plan plan = run_planner(sipp, c.robot({4, 3}, {{x, y}}));
+      REQUIRE(plan.status == DMRP_OK);
+      REQUIRE(check_plan(c, plan) == "");
+      CHECK(turns_of(plan.paths[0]) == (x != 4 && y != 3 ? 1 : 0));
+    }
+}
+
+TEST_CASE("SIPP proves or gives up") {
+  SECTION("a goal that is cut off, by walls or by a robot that rests") {
+    PlanningCase c({"..#.", "..#."});
+    CHECK(run_planner(sipp, c.robot({0, 0}, {{3, 0}})).status == DMRP_NO_SOLUTION);
+    PlanningCase resting({"....."});
+    resting.robot({0, 0}, {{4, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FAILED);
+    CHECK(run_planner(sipp, resting).status == DMRP_NO_SOLUTION);
+  }
+  SECTION("two of three in a ring would have to change places: all joint positions are tried") {
+    PlanningCase c({"..", ".."});
+    c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
+    const Plan plan = run_planner(sipp, c);
+    CHECK(plan.status == DMRP_NO_SOLUTION);
+    CHECK(plan.statistics.at("restarts") == 0);
+  }
+  // Nobody can pass, but the part is too large for a proof.
+  std::vector<std::string> rows(2, std::string(120, '.'));
+  rows[1].assign(120, '#');
+  rows[1][60] = '.';
+  PlanningCase jam(rows);
+  for (int i = 0; i < 4; ++i) jam.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
+  SECTION("by its own limit") {
+    const Plan plan = run_planner(sipp, jam, {{"restarts", 3}});
+    CHECK(plan.status == DMRP_TIMEOUT);
+    CHECK(plan.statistics.at("restarts") == 3);
+    CHECK(plan.statistics.at("lower_bound") == 8 * 119 - 2 * (0 + 2 + 4 + 6));
+  }
+  SECTION("by the host") {
+    PluginUnderTest planner(library, sipp, {{"restarts", 100'000'000}});
+    int asked = 0;
+    planner.host().should_stop = [&] { return ++asked > 100; };
+    CHECK(run_planner(planner, jam).status == DMRP_TIMEOUT);
+    CHECK(asked == 101);
+    planner.host().should_stop = nullptr;
+    PlanningCase easy({"..."});
+    CHECK(run_planner(planner, easy.robot({0, 0}, {{2, 0}})).status == DMRP_OK);
+  }
+}
+
+TEST_CASE("SIPP gives the same bits for the same seed, whatever came before, and others for others") {
+  PluginUnderTest used(library, sipp);
+  int differ = 0;
+  for (uint64_t seed = 300; seed < 330; ++seed) {
+    const PlanningCase c = large_case(seed, 60);
+    PluginUnderTest fresh(library, sipp);
+    const Plan plan = run_planner(used, c, seed);
+    REQUIRE(same_bits(plan, run_planner(fresh, c, seed)));
+    if (plan.status == DMRP_OK && !same_bits(plan, run_planner(fresh, c, seed + 1))) ++differ;
+  }
+  CHECK(differ > 3);
+}
+
+TEST_CASE("occupations follow the paths put in and taken out") {
+  Random random(5);
+  const PlanningCase grid(std::vector<std::string>(3, "..."));
+  const CProblem host(grid);
+  const auto problem = dmrp::planners::make_problem(dmrp::PlanningProblem(host.problem()), true);
+  SafeIntervals table(problem.graph);
+  std::vector<std::vector<Location>> paths(4);  // none: not in the table
+  const auto where = [&](std::size_t agent, int t) {
+    const auto& path = paths[agent];
+    return path.empty() ? dmrp::planners::nowhere : path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
+  };
+  for (int round = 0; round < 3000; ++round) {
+    const auto agent = static_cast<std::size_t>(random.below(4));
+    table.remove(paths[agent]);
+    paths[agent].clear();
+    std::vector<Location> walk = {random.below(9)};
+    for (int steps = random.below(12); steps > 0; --steps) {
+      const Location to = problem.graph.neighbor(walk.back(), random.below(4));
+      walk.push_back(to == dmrp::planners::nowhere ? walk.back() : to);
+    }
+    std::vector<int32_t> expected;
+    for (int t = 0; t < 14; ++t)
+      for (int other = 0; other < 4; ++other) {
+        const Location now = walk[std::min(static_cast<std::size_t>(t), walk.size() - 1)];
+        const Location before = walk[std::min(static_cast<std::size_t>(std::max(t - 1, 0)), walk.size() - 1)];
+        const auto o = static_cast<std::size_t>(other);
+        const bool swap = now != before && where(o, t) == before && where(o, t - 1) == now;
+        if ((where(o, t) == now || swap) && std::find(expected.begin(), expected.end(), other) == expected.end())
+          expected.push_back(other);
+      }
+    std::vector<int32_t> met;
+    table.list_conflicts(walk, met);
+    std::sort(met.begin(), met.end());
+    std::sort(expected.begin(), expected.end());
+    REQUIRE(met == expected);
+    if (!met.empty()) continue;
+    paths[agent] = walk;
+    table.add(static_cast<int32_t>(agent), paths[agent]);
+    for (Location location = 0; location < 9; ++location) {
+      int32_t free_from = 0;
+      for (const auto& occupation : table.occupations(location)) {
+        REQUIRE(occupation.from >= free_from);
+        for (int t = occupation.from; t <= std::min(occupation.to, 14); ++t)
+          REQUIRE(where(static_cast<std::size_t>(occupation.agent), t) == location);
+        free_from = occupation.to + 1;
+      }
+    }
+  }
+}
+
+namespace {
+
+void check_movingai(const std::string& map, int robots) {
+  const auto data = test_data();
+  if (!data) {
+    WARN("skipped: DMRP_TEST_DATA is not set");
+    return;
+  }
+  PluginUnderTest planner(library, sipp);
+  for (int i = 1; i <= 5; ++i) {
+    PlanningCase c = read_map(*data / "movingai" / "maps" / (map + ".map"));
+    add_robots(c, *data / "movingai" / "scens" / (map + "-random-" + std::to_string(i) + ".scen"), robots);
+    REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
+    CAPTURE(map, i);
+    const Plan plan = run_planner(planner, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    REQUIRE(plan.statistics.at("cost") == plan.cost());
+    REQUIRE(plan.statistics.at("restarts") == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("SIPP solves 200 robots on random-32-32-20") {
+  check_movingai("random-32-32-20", 200);
+}
+
+TEST_CASE("SIPP solves 400 robots on empty-32-32") {
+  check_movingai("empty-32-32", 400);
+}
+
+TEST_CASE("SIPP solves 80 robots in a maze and in rooms") {
+  check_movingai("maze-32-32-2", 80);
+  check_movingai("room-32-32-4", 80);
+}
