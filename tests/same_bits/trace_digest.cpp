@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// trace_digest [--records] TRACE.mcap...: for each file a line `SHA-256  file` over its channel dmrp/trace, that which
+// metrics read, but for what was measured by a clock. With --records a line for each record in its place, `number kind
+// log_time_ns bytes SHA-256`, so that the diff of two lists shows where two trials part.
+//
+// In the digest: every message of the channel, in the order of the file: its log time, its prefix, its whole body.
+// Set to 0 in it, since two runs of one trial differ there:
+//   plan    planning_ns, the wall time that plan() took
+//   sample  duration_ns of every call of a plugin
+// That is all: no other byte of the channel depends on a clock, on a path or on the version of anything but the trace's
+// format, which the world's record begins with. (Its call_budget_ns is a setting.) Not in the digest: how the messages
+// are spread over compressed chunks, and the channels for people to look at, of which /log names the planning time.
+//
+// Exit status 1 where a trace is damaged or was cut short.
+#include <dmrp/metric.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/mcap_reader.hpp"
+#include "core/trace.hpp"
+#include "core/trace_bytes.hpp"
+
+namespace {
+
+using dmrp::core::ByteCursor;
+using dmrp::core::McapMessage;
+using dmrp::core::McapReader;
+using dmrp::core::TraceBytes;
+using dmrp::core::TraceRecordKind;
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    check(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  }
+
+  void add(const void* data, std::size_t size) { check(EVP_DigestUpdate(context_.get(), data, size) == 1); }
+
+  std::string finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int size = 0;
+    check(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
+    constexpr const char* digits = "0123456789abcdef";
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i) {
+      text += digits[digest[i] >> 4];
+      text += digits[digest[i] & 15];
+    }
+    return text;
+  }
+
+ private:
+  static void check(bool good) {
+    if (!good) throw std::runtime_error("SHA-256 is not to be had from libcrypto");
+  }
+
+  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
+};
+
+// The next 8 bytes of `record`, at the cursor's place in it.
+void clear_time(TraceBytes& record, ByteCursor& in) {
+  const std::size_t position = in.position();
+  in.take<std::int64_t>();
+  std::memset(record.data() + position, 0, sizeof(std::int64_t));
+}
+
+// The cursor stands at the beginning of the body in both.
+void clear_planning_time(TraceBytes& record, ByteCursor& in) {
+  in.take<std::int64_t>();   // made at
+  in.take<std::uint64_t>();  // revision
+  in.take<std::int64_t>();   // from
+  in.take<std::int64_t>();   // step duration
+  clear_time(record, in);
+}
+
+void clear_call_durations(TraceBytes& record, ByteCursor& in) {
+  in.take<std::int64_t>();   // t
+  in.take<std::int64_t>();   // dt
+  in.take<std::uint32_t>();  // control tick
+  in.take<std::uint64_t>();  // revision
+  for (const std::size_t element_bytes : {sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_contact)})
+    in.take_bytes(in.take_count(element_bytes) * std::uint64_t{element_bytes});
+  const auto calls = in.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < calls; ++i) {
+    in.take<std::uint32_t>();  // kind
+    in.take<std::uint32_t>();  // robot
+    in.take<std::int32_t>();   // status
+    clear_time(record, in);
+  }
+  if (!in.at_end()) in.fail("the sample is longer than what is known of it");
+}
+
+// The record of a message without what a clock measured.
+TraceBytes timeless(const McapMessage& message) {
+  TraceBytes record(message.data.begin(), message.data.end());
+  ByteCursor in(message.data);
+  const auto body_bytes = in.take<std::uint32_t>();
+  const auto kind = in.take<TraceRecordKind>();
+  if (body_bytes != in.rest().size()) in.fail("a message that is not one record");
+  if (kind == TraceRecordKind::plan) clear_planning_time(record, in);
+  if (kind == TraceRecordKind::sample) clear_call_durations(record, in);
+  return record;
+}
+
+// On standard output: a line a record, or one for all.
+void print_digest(const char* path, bool each_record) {
+  McapReader file(path, dmrp::core::trace_topic);
+  Sha256 all;
+  std::size_t number = 0;
+  for (auto message = file.next(); message; message = file.next(), ++number) {
+    const TraceBytes record = timeless(*message);
+    all.add(&message->log_time_ns, sizeof(message->log_time_ns));
+    all.add(record.data(), record.size());
+    if (!each_record) continue;
+    Sha256 one;
+    one.add(record.data(), record.size());
+    std::printf("%zu %d %lld %zu %s\n", number, record[4], static_cast<long long>(message->log_time_ns), record.size(),
+                one.finish().c_str());
+  }
+  if (number == 0) throw std::runtime_error("no message of the channel " + std::string(dmrp::core::trace_topic));
+  if (!file.is_whole()) throw std::runtime_error("the file was cut short");
+  if (!each_record) std::printf("%s  %s\n", all.finish().c_str(), path);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<const char*> paths(argv + 1, argv + argc);
+  const bool each_record = !paths.empty() && std::strcmp(paths[0], "--records") == 0;
+  if (each_record) paths.erase(paths.begin());
+  if (paths.empty()) {
+    std::fprintf(stderr, "usage: trace_digest [--records] TRACE.mcap...\n");
+    return 2;
+  }
+  int status = 0;
+  for (const char* path : paths) try {
+      print_digest(path, each_record);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "trace_digest: %s: %s\n", path, error.what());
+      status = 1;
+    }
+  return status;
+}
