@@ -26,9 +26,9 @@
 #include <string>
 #include <vector>
 
-#include "core/mcap_reader.hpp"
-#include "core/trace.hpp"
-#include "core/trace_bytes.hpp"
+#include "core/bytes/trace_bytes.hpp"
+#include "core/mcap/mcap_reader.hpp"
+#include "core/trace/trace.hpp"
 
 namespace {
 
