@@ -1,46 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include <zlib.h>
+#include "host/report/replay/replay_data.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "core/trace/trace_file.hpp"
 #include "core/trace/trace_reader.hpp"
-#include "host/report/replay/page_packing.hpp"
-#include "host/report/replay/replay_choice.hpp"
-#include "host/report/replay/replay_data.hpp"
-#include "host/report/replay/replays.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
-#include "tests/unit/host/results/results_example.hpp"
 
 namespace dmrp::host {
 namespace {
 
 using nlohmann::json;
-using test::example_trial;
-
-std::string unzipped(const std::string& packed) {
-  z_stream stream{};
-  REQUIRE(inflateInit2(&stream, 15 + 16) == Z_OK);
-  std::string text(10'000'000, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(text.data());
-  stream.avail_out = static_cast<uInt>(text.size());
-  REQUIRE(inflate(&stream, Z_FINISH) == Z_STREAM_END);
-  text.resize(stream.total_out);
-  inflateEnd(&stream);
-  return text;
-}
 
 std::vector<std::int64_t> summed(const json& differences) {
   std::vector<std::int64_t> values;
@@ -54,24 +30,7 @@ json replay_of(const core::TraceBytes& bytes, const TrialRecord& trial = {}) {
   return json::parse(replay_json(trace, trial));
 }
 
-TEST_CASE("gzip gives the text back, and equal bytes for equal texts") {
-  const std::string text = "a\0b" + std::string(100'000, 'x') + "\xff";
-  CHECK(unzipped(gzip(text)) == text);
-  CHECK(gzip(text) == gzip(text));
-  CHECK(gzip(text).size() < 1000);
-  CHECK(unzipped(gzip("")).empty());
-}
-
-TEST_CASE("base64 is that of RFC 4648, section 10") {
-  CHECK(base64("").empty());
-  CHECK(base64("f") == "Zg==");
-  CHECK(base64("fo") == "Zm8=");
-  CHECK(base64("foo") == "Zm9v");
-  CHECK(base64("foobar") == "Zm9vYmFy");
-  CHECK(base64(std::string("\0\xff\xfe", 3)) == "AP/+");
-}
-
-TEST_CASE("A replay holds ten samples a second and the last, to half a millimetre") {
+TEST_CASE("A replay holds ten samples a second and the last, to half a millimetre", "[report]") {
   const core::TraceBytes bytes = test::example_trace(23);  // 50 Hz: 0 to 440 ms
   const json replay = replay_of(bytes);
   const std::vector<std::int64_t> times = summed(replay["times"]);
@@ -94,7 +53,7 @@ TEST_CASE("A replay holds ten samples a second and the last, to half a millimetr
   CHECK(kept == times.size());
 }
 
-TEST_CASE("A replay tells the plan in force, the states, and the curves up to the end of a robot's task") {
+TEST_CASE("A replay tells the plan in force, the states, and the curves up to the end of a robot's task", "[report]") {
   const json replay = replay_of(test::example_trace(20));  // the second plan is in force from sample 10, 200 ms
   CHECK(replay["plan"] == json{0, 0, 2, 2});               // the second of three records gave no plan
   CHECK(replay["plans"].size() == 3);
@@ -122,7 +81,7 @@ TEST_CASE("A replay tells the plan in force, the states, and the curves up to th
   CHECK(replay["end"]["reason"] == "time limit");
 }
 
-TEST_CASE("Without a plan there are no samples: the robots stand at their starts") {
+TEST_CASE("Without a plan there are no samples: the robots stand at their starts", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   const json replay = replay_of(trace.bytes());
@@ -134,7 +93,7 @@ TEST_CASE("Without a plan there are no samples: the robots stand at their starts
   CHECK(replay["robots"][1]["state"] == json{0, DMRP_ROBOT_FAILED});
 }
 
-TEST_CASE("People have a track each from entering to leaving") {
+TEST_CASE("People have a track each from entering to leaving", "[report]") {
   const json replay = replay_of(test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
   const json& people = replay["people"];
   REQUIRE(people.size() == 4);  // one stays; the other place is somebody else's at each sample
@@ -146,7 +105,7 @@ TEST_CASE("People have a track each from entering to leaving") {
   CHECK(people[2]["x"].size() == 1);
 }
 
-TEST_CASE("Headings go on past pi, the shorter way round") {
+TEST_CASE("Headings go on past pi, the shorter way round", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 4; ++k) {
@@ -162,7 +121,7 @@ TEST_CASE("Headings go on past pi, the shorter way round") {
   CHECK_FALSE(replay.contains("end"));
 }
 
-TEST_CASE("Scans come along in centimetres, at most 180 beams each") {
+TEST_CASE("Scans come along in centimetres, at most 180 beams each", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
@@ -197,7 +156,7 @@ TEST_CASE("Scans come along in centimetres, at most 180 beams each") {
   CHECK(scans["ranges"][180] == 200);  // begins anew
 }
 
-TEST_CASE("Contacts are events with fault and depth; metrics' events come along") {
+TEST_CASE("Contacts are events with fault and depth; metrics' events come along", "[report]") {
   TrialRecord trial;
   trial.id = 5;
   trial.events = {{"blocking", 1'500'000'000, 2'250'000'000, {0, 1}, "they block each other"}};
@@ -224,7 +183,7 @@ TEST_CASE("Contacts are events with fault and depth; metrics' events come along"
                                           {"text", "they block each other"}}}));
 }
 
-TEST_CASE("A contact that lasts is one event") {
+TEST_CASE("A contact that lasts is one event", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 5; ++k) {
@@ -239,118 +198,6 @@ TEST_CASE("A contact that lasts is one event") {
   CHECK(contacts[0]["to"] == 80);
   CHECK(contacts[0]["depth"] == 6);
   CHECK(contacts[0]["fault"] == "none");
-}
-
-// Three repetitions of two planners: A takes 30, 10 and 20 s, B arrives never.
-std::vector<TrialRecord> two_planners() {
-  std::vector<TrialRecord> trials = {example_trial(0, "A", 0, 30.0, 0.5), example_trial(1, "B", 0, {}, 0.3),
-                                     example_trial(2, "A", 1, 10.0, 0.5), example_trial(3, "B", 1, {}, 0.1),
-                                     example_trial(4, "A", 2, 20.0, 0.5), example_trial(5, "B", 2, {}, 0.2)};
-  return trials;
-}
-
-std::vector<std::pair<std::uint64_t, std::string>> wishes_of(const std::vector<TrialRecord>& trials,
-                                                             const std::vector<std::string>& rank_by,
-                                                             const std::vector<std::uint64_t>& asked = {}) {
-  std::vector<std::pair<std::uint64_t, std::string>> list;
-  for (const ReplayWish& wish : wished_replays(trials, test::example_metrics(), rank_by, asked))
-    list.emplace_back(trials[wish.trial].id, wish.why);
-  return list;
-}
-
-using Wishes = std::vector<std::pair<std::uint64_t, std::string>>;
-
-TEST_CASE("Median and worst come before failures, by the first metric that a combination has") {
-  // "time" is undefined for all of B, so "speed" ranks it: higher is better
-  CHECK(
-      wishes_of(two_planners(), {"time", "speed"}) ==
-      Wishes{{4, "median"}, {5, "median"}, {0, "worst"}, {3, "worst"}, {1, "failure"}, {3, "failure"}, {5, "failure"}});
-  CHECK(wishes_of(two_planners(), {"time"}) ==
-        Wishes{{4, "median"}, {0, "worst"}, {1, "failure"}, {3, "failure"}, {5, "failure"}});
-  CHECK(wishes_of(two_planners(), {}, {2, 77}) == Wishes{{2, "asked"}, {1, "failure"}, {3, "failure"}, {5, "failure"}});
-}
-
-TEST_CASE("Equals are ranked by id, of an even number the lower is the median, the skipped do not count") {
-  std::vector<TrialRecord> trials = {example_trial(0, "A", 0, 10.0, 0.5), example_trial(1, "A", 1, 10.0, 0.5),
-                                     example_trial(2, "A", 2, 10.0, 0.5), example_trial(3, "A", 3, 10.0, 0.5),
-                                     example_trial(4, "A", 4, 90.0, 0.5)};
-  trials[4].outcome = trial_outcome::skipped;
-  CHECK(wishes_of(trials, {"time"}) == Wishes{{1, "median"}, {3, "worst"}});
-}
-
-TEST_CASE("Faults come before failures, a round of all combinations at a time") {
-  std::vector<TrialRecord> trials = two_planners();
-  trials[0].outcome = trials[3].outcome = trials[4].outcome = trial_outcome::fault;
-  CHECK(wishes_of(trials, {}) == Wishes{{0, "fault"}, {3, "fault"}, {4, "fault"}, {1, "failure"}, {5, "failure"}});
-}
-
-// A run's folder with traces of these trials.
-class Run {
- public:
-  explicit Run(const std::vector<std::uint64_t>& traced) {
-    std::filesystem::create_directory(folder_ / "traces");
-    for (const std::uint64_t id : traced) {
-      core::TraceFileWriter file(trace(id));
-      test::example_trace(200, [&](std::int64_t t_ns, auto record) { file.write(t_ns, record); });
-      file.finish();
-    }
-  }
-  const std::filesystem::path& path() const { return folder_.path(); }
-  std::filesystem::path trace(std::uint64_t id) const {
-    return folder_ / ("traces/trial_00000" + std::to_string(id) + ".mcap");
-  }
-
- private:
-  test::ScratchFolder folder_;
-};
-
-TEST_CASE("Replays of a run: by id with all their reasons; what cannot be had is counted") {
-  const Run run({0, 1, 3, 4});
-  std::ofstream(run.trace(3), std::ios::trunc) << "no trace";
-  const Replays replays = choose_and_encode_replays(run.path(), two_planners(), test::example_metrics(),
-                                                    {{"time", "speed"}, 1'000'000, {}});
-  REQUIRE(replays.replays.size() == 3);
-  CHECK(replays.replays[0].trial == 0);
-  CHECK(replays.replays[0].why == std::vector<std::string>{"worst"});
-  CHECK(replays.replays[1].trial == 1);
-  CHECK(replays.replays[1].why == std::vector<std::string>{"failure"});
-  CHECK(replays.replays[2].trial == 4);
-
-  REQUIRE(replays.left_out.size() == 4);
-  CHECK(replays.left_out[0].why == "median");
-  CHECK(replays.left_out[0].reason == "no trace was recorded");
-  CHECK(replays.left_out[1].why == "worst");
-  CHECK(replays.left_out[1].reason == "the trace cannot be read");
-  CHECK(replays.left_out[2].why == "failure");
-  CHECK(replays.left_out[3].why == "failure");
-  CHECK(replays.left_out[3].trials == 1);
-
-  const core::TraceBytes bytes = test::example_trace(200);
-  core::TraceReader trace(bytes);
-  CHECK(replays.replays[0].packed == base64(gzip(replay_json(trace, two_planners()[0]))));
-}
-
-TEST_CASE("The budget holds the most wanted replays") {
-  const Run run({0, 1, 2, 3, 4, 5});
-  const ReplayPolicy all{{"time", "speed"}, 1'000'000, {}};
-  const Replays everything = choose_and_encode_replays(run.path(), two_planners(), test::example_metrics(), all);
-  REQUIRE(everything.replays.size() == 5);
-  CHECK(everything.left_out.empty());
-  std::map<std::uint64_t, std::size_t> bytes;
-  for (const Replay& replay : everything.replays) bytes[replay.trial] = replay.packed.size();
-
-  // room for the two medians, 4 and 5, exactly
-  const ReplayPolicy little{{"time", "speed"}, bytes[4] + bytes[5], {}};
-  const Replays few = choose_and_encode_replays(run.path(), two_planners(), test::example_metrics(), little);
-  REQUIRE(few.replays.size() == 2);
-  CHECK(few.replays[0].trial == 4);
-  CHECK(few.replays[1].trial == 5);
-  CHECK(few.replays[1].why == std::vector<std::string>{"median", "failure"});
-  REQUIRE(few.left_out.size() == 2);
-  CHECK(few.left_out[0].why == "worst");
-  CHECK(few.left_out[0].trials == 2);
-  CHECK(few.left_out[1].why == "failure");
-  CHECK(few.left_out[1].trials == 2);
 }
 
 }  // namespace
