@@ -143,7 +143,7 @@ function note_words(data, rows, chosen) {
       test ? `${test.name}, two-sided` : rows[0].test
     }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, corrected for all ` +
     'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
-    `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both trials have'}.` +
+    `\u22121 to 1. Pairs: seeds ${successes ? 'with which both trials succeeded' : 'with values in both trials'}.` +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
     (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed with values of both.` : '')
   );
