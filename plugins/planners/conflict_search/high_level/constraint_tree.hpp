@@ -73,6 +73,7 @@ class ConstraintTree {
   NodeId add(Node node, std::span<const AgentPath> paths, std::span<const Constraint> constraints,
              std::span<const Conflict> conflicts);
 
+  const std::vector<std::int32_t>& members() const { return members_; }
   Node& node(NodeId id) { return nodes_[static_cast<std::size_t>(id)]; }
   const Node& node(NodeId id) const { return nodes_[static_cast<std::size_t>(id)]; }
   std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()); }
