@@ -36,7 +36,7 @@ void EnteredNode::enter(NodeId id) {
   tree_.gather_conflicts(id, conflicts_);
   pairs_.clear();
   for (const std::uint32_t index : conflicts_) {
-    const Conflict& conflict = tree_.conflict(index).conflict;
+    const Conflict& conflict = tree_.conflict(index);
     if (const AgentPair pair(conflict.a, conflict.b); pairs_.empty() || pairs_.back() != pair) pairs_.push_back(pair);
   }
 }

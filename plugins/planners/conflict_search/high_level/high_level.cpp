@@ -178,7 +178,7 @@ std::vector<std::int32_t> HighLevel::agents_to_replan() {
   if (node_.node().parent == no_node) {
     for (const auto& [a, b] : node_.conflicting_pairs()) agents.insert(agents.end(), {a, b});
   } else {
-    const Conflict& conflict = tree_.conflict(splitter_.choose_conflict(node_)).conflict;
+    const Conflict& conflict = tree_.conflict(splitter_.choose_conflict(node_));
     agents = {conflict.a, conflict.b};
   }
   return agents;

@@ -33,7 +33,7 @@ NodeConflict::Cardinality cardinality_of(bool raises_a, bool raises_b) {
 
 std::uint32_t Splitter::choose_conflict(EnteredNode& node) {
   const auto time_and_agents = [this](std::uint32_t index) {
-    const Conflict& c = tree_.conflict(index).conflict;
+    const Conflict& c = tree_.conflict(index);
     return std::tuple(c.t, c.a, c.b, c.from, c.location);
   };
   const auto is_earlier = [&](std::uint32_t x, std::uint32_t y) { return time_and_agents(x) < time_and_agents(y); };
@@ -60,7 +60,7 @@ std::uint32_t Splitter::choose_conflict(EnteredNode& node) {
 void Splitter::classify(EnteredNode& node, NodeConflict& conflict) {
   if (conflict.is_known) return;
   conflict.is_known = true;
-  const Conflict& c = conflict.conflict;
+  const Conflict& c = conflict;
   bool raises_a = false;
   bool raises_b = false;
   if (options_.prioritize_conflicts) {
@@ -84,14 +84,13 @@ void Splitter::classify(EnteredNode& node, NodeConflict& conflict) {
 // The corridor or rectangle of a conflict; sets conflict.reasoning.
 std::optional<SymmetrySplit> Splitter::find_symmetry(EnteredNode& node, NodeConflict& conflict) {
   if (options_.corridor_reasoning) {
-    if (auto corridor = find_corridor_split(node, conflict.conflict)) {
+    if (auto corridor = find_corridor_split(node, conflict)) {
       conflict.reasoning = NodeConflict::Reasoning::corridor;
       return corridor;
     }
   }
-  if (options_.rectangle_reasoning && is_vertex(conflict.conflict) &&
-      conflict.cardinality != NodeConflict::Cardinality::full) {
-    if (auto rectangle = find_rectangle_split(node, conflict.conflict)) {
+  if (options_.rectangle_reasoning && is_vertex(conflict) && conflict.cardinality != NodeConflict::Cardinality::full) {
+    if (auto rectangle = find_rectangle_split(node, conflict)) {
       conflict.reasoning = NodeConflict::Reasoning::rectangle;
       return rectangle;
     }
@@ -123,7 +122,7 @@ std::optional<SymmetrySplit> Splitter::find_rectangle_split(EnteredNode& node, c
 
 Split Splitter::split(const EnteredNode& node, std::uint32_t index) const {
   const NodeConflict& conflict = tree_.conflict(index);
-  const Conflict& c = conflict.conflict;
+  const Conflict& c = conflict;
   switch (conflict.reasoning) {
     case NodeConflict::Reasoning::target: {
       const std::int32_t resting = rests_at(node, c.a, c.t) ? c.a : c.b;
