@@ -34,7 +34,7 @@ CsvWriter& CsvWriter::field(const std::optional<double>& value) {
   return value ? field(*value) : field(std::string_view());
 }
 
-// RFC 4180 ends lines with CR LF; every reader takes LF, and text tools prefer it.
+// Lines end with LF instead of RFC 4180's CR LF: every reader accepts it, and text tools prefer it.
 void CsvWriter::end_line() {
   text_ += '\n';
   line_begun_ = false;
