@@ -8,6 +8,8 @@
 namespace dmrp::host {
 namespace {
 
+// The wrapper is written by hand: it covers the few calls of the C API that are used here.
+
 // Throws the connection's last message with the file's name.
 [[noreturn]] void fail(sqlite3* connection, const std::string& what) {
   const char* file = sqlite3_db_filename(connection, "main");

@@ -59,11 +59,12 @@ class SqliteStatement {
   std::string column_text(int column) const;
 
  private:
-  void check(int code);
-
   struct Finalize {
     void operator()(sqlite3_stmt* handle) const;
   };
+
+  void check(int code);
+
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
   int next_parameter_ = 1;
 };
