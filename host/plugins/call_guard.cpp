@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 
 #include "host/plugins/fp_control.hpp"
+#include "host/program/monotonic_time.hpp"
 
 namespace dmrp::host {
 
@@ -29,12 +29,6 @@ std::string status_detail(const char* status, const std::string& error) {
 }
 
 }  // namespace
-
-std::int64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
 
 bool CallGuard::should_stop() {
   const bool over = monotonic_ns() >= deadline_ns_;

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <string>
 
-#include "host/plugins/call_note.hpp"
 #include "host/plugins/plugin_fault.hpp"
+#include "host/process/call_note.hpp"
 
 namespace dmrp::host {
 
@@ -63,8 +63,5 @@ class CallGuard {
   std::uint32_t control_bits_ = 0;
   std::atomic<bool> stopped_ = false;
 };
-
-// Nanoseconds of the monotonic clock that worker and supervisor share.
-std::int64_t monotonic_ns();
 
 }  // namespace dmrp::host

@@ -13,14 +13,15 @@
 
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/experiment/digest.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/line_channel.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
-#include "host/workers/line_channel.hpp"
 #include "host/workers/messages.hpp"
-#include "host/workers/resource_limits.hpp"
-#include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {
 
@@ -159,19 +160,20 @@ Probe read_descriptors(const std::filesystem::path& file) {
 int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
   // Inherited, but not for what a plugin may start.
   for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
-  LineChannel channel(read_end, write_end);
+  LineChannel channel{Descriptor(read_end), Descriptor(write_end)};
   try {
     const Experiment experiment = load_experiment(file, trials, &read_descriptors);
     set_resource_limits(experiment.limits.memory_mb);
-    Worker(experiment, channel, map_call_note(note)).serve();
+    const SharedCallNote shared{Descriptor(note)};
+    Worker(experiment, channel, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;
   } catch (const PluginFault& fault) {
-    channel.send({{"type", "error"}, {"text", fault.plugin() + ": " + fault.function() + "(): " + fault.what()}});
+    channel.send({{"type", "error"}, {"text", fault.text()}, {"machine", false}});
     return 1;
   } catch (const std::exception& error) {
-    channel.send({{"type", "error"}, {"text", error.what()}});
+    channel.send({{"type", "error"}, {"text", error_text(error)}, {"machine", is_machine_failure(error)}});
     return 1;
   }
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/plugins/call_guard.hpp"
+#include "host/program/monotonic_time.hpp"
 #include "host/trial/planning.hpp"
 
 using namespace dmrp::host;

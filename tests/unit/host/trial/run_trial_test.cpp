@@ -301,3 +301,12 @@ TEST_CASE("a trace that was cut short is not measured") {
   stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
 }
+
+TEST_CASE("every ending has its text") {
+  CHECK(ending_text(DMRP_ENDING_ARRIVED) == std::string("all robots arrived"));
+  CHECK(ending_text(DMRP_ENDING_TIME_LIMIT) == std::string("time limit"));
+  CHECK(ending_text(DMRP_ENDING_DEADLOCK) == std::string("deadlock"));
+  CHECK(ending_text(DMRP_ENDING_NO_PLAN) == std::string("the planner found no plan"));
+  CHECK(ending_text(DMRP_ENDING_DESERTED) == std::string("everybody left"));
+  CHECK(ending_text(0) == std::string());
+}

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/workers/line_channel.hpp"
+#include "host/process/line_channel.hpp"
 
 namespace {
 
@@ -29,7 +29,7 @@ T through_text(const T& value) {
 struct Loop {
   Loop() {
     REQUIRE(pipe(ends.data()) == 0);
-    channel = std::make_unique<LineChannel>(ends[0], ends[1]);
+    channel = std::make_unique<LineChannel>(Descriptor(ends[0]), Descriptor(ends[1]));
   }
   void raw(const std::string& bytes) const {
     REQUIRE(write(ends[1], bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
@@ -45,8 +45,8 @@ struct Pair {
     std::array<int, 2> back{};
     REQUIRE(pipe(there.data()) == 0);
     REQUIRE(pipe(back.data()) == 0);
-    near = std::make_unique<LineChannel>(back[0], there[1]);
-    far = std::make_unique<LineChannel>(there[0], back[1]);
+    near = std::make_unique<LineChannel>(Descriptor(back[0]), Descriptor(there[1]));
+    far = std::make_unique<LineChannel>(Descriptor(there[0]), Descriptor(back[1]));
   }
   std::unique_ptr<LineChannel> near;
   std::unique_ptr<LineChannel> far;

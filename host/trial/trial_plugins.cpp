@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/cast.hpp"
+#include "host/trial/trial_plugins.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double fastest_person = 5.0;  // m/s; nobody runs faster than this in a benchmark of walking people
+constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
 
 std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32_t index) {
   return toolkit::Stream(seed, purpose, index).next_u64();
@@ -22,8 +22,9 @@ std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32
 
 }  // namespace
 
-Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& combination,
-           const VariantWorld& variant, const core::World& world, std::uint64_t seed, core::TraceEncoder& trace)
+TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, const Combination& combination,
+                           const VariantWorld& variant, const core::World& world, std::uint64_t seed,
+                           core::TraceEncoder& trace)
     : experiment_(experiment),
       variant_(variant),
       world_(world),
@@ -35,7 +36,7 @@ Cast::Cast(InstancePool& pool, const Experiment& experiment, const Combination& 
   if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
 }
 
-void Cast::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+void TrialPlugins::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
   planner_ = &pool.get(*planner_use_, -1);
   offer(*planner_, {DMRP_KIND_GLOBAL_PLANNER, 0}, nullptr);
@@ -43,22 +44,22 @@ void Cast::start_planner(const Combination& combination, InstancePool& pool, std
                   nanoseconds(experiment_.limits.planner_time_s));
 }
 
-void Cast::start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+void TrialPlugins::start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   const PluginUse& use = experiment_.local_controllers[static_cast<std::size_t>(combination.local_controller)];
-  drivers_.reserve(world_.robots().size());  // controllers keep the address of their view
+  controllers_.reserve(world_.robots().size());  // plugins keep the address of their view
   for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-    Instance& controller = pool.get(use, static_cast<std::int32_t>(i));
-    drivers_.push_back({&controller, std::make_shared<RobotSensors>(world_, i, lidar_, seed),
-                        variant_.view.seen_by(static_cast<std::int32_t>(i)),
-                        controller.table<dmrp_local_controller>()});
-    Driver& driver = drivers_.back();
-    offer(controller, {DMRP_KIND_LOCAL_CONTROLLER, i}, driver.sensors);
-    controller.start(driver.view, instance_seed(seed, "local_controller", i),
-                     nanoseconds(experiment_.limits.step_time_s));
+    Instance& instance = pool.get(use, static_cast<std::int32_t>(i));
+    controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_, seed),
+                            variant_.view.seen_by(static_cast<std::int32_t>(i)),
+                            instance.table<dmrp_local_controller>()});
+    Controller& controller = controllers_.back();
+    offer(instance, {DMRP_KIND_LOCAL_CONTROLLER, i}, controller.sensors);
+    instance.start(controller.view, instance_seed(seed, "local_controller", i),
+                   nanoseconds(experiment_.limits.step_time_s));
   }
 }
 
-void Cast::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+void TrialPlugins::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   pedestrian_model_ =
       &pool.get(experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
   offer(*pedestrian_model_, {DMRP_KIND_PEDESTRIAN_MODEL, 0}, nullptr);
@@ -67,8 +68,9 @@ void Cast::start_pedestrian_model(const Combination& combination, InstancePool& 
   pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
 }
 
-// The instance outlives the trial.
-void Cast::offer(Instance& instance, core::AnnotationSource source, const std::shared_ptr<RobotSensors>& sensors) {
+// The instance outlives the trial, so it must not keep the extensions alive.
+void TrialPlugins::offer(Instance& instance, core::AnnotationSource source,
+                         const std::shared_ptr<RobotSensors>& sensors) {
   annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, source));
   instance.offer([annotations = std::weak_ptr(annotations_.back()),
                   sensors = std::weak_ptr(sensors)](const char* id) -> const void* {
@@ -78,47 +80,48 @@ void Cast::offer(Instance& instance, core::AnnotationSource source, const std::s
   });
 }
 
-void Cast::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result) {
+void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result) {
   calls_.push_back({kind, robot, result.status, 0, result.duration_ns});
 }
 
-Plan Cast::plan(const InForce* in_force, std::int64_t step) {
+Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   Plan plan = make_plan(*planner_, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
-  if (plan.asked) note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
+  if (plan.planner_called) note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
   return plan;
 }
 
-void Cast::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step) {
+void TrialPlugins::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step) {
   const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
                           waypoints.data()};
-  Driver& driver = drivers_[robot];
-  const std::uint64_t revision = ++driver.paths;
-  driver.controller->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
-                          [&] { return driver.table.set_path(driver.controller->self(), &path, revision); });
+  Controller& controller = controllers_[robot];
+  const std::uint64_t revision = ++controller.revision;
+  controller.instance->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
+                            [&] { return controller.table.set_path(controller.instance->self(), &path, revision); });
 }
 
-void Cast::sense() {
-  for (std::uint32_t i = 0; i < drivers_.size(); ++i)
+void TrialPlugins::sense() {
+  for (std::uint32_t i = 0; i < controllers_.size(); ++i)
     if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) {
-      drivers_[i].sensors->tick();
-      if (scanned_trace_) scanned_trace_->scan(i, drivers_[i].sensors->scan());
+      controllers_[i].sensors->tick();
+      if (scanned_trace_) scanned_trace_->scan(i, controllers_[i].sensors->scan());
     }
 }
 
-std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
+// The observation without the robot's agents.
+dmrp_observation TrialPlugins::observation(std::uint32_t robot, const Guidance& guidance) const {
   const core::RobotState& state = world_.robots()[robot];
-  const dmrp_robot& body =
-      *DMRP_AT(dmrp_robot, variant_.view.world().robots, variant_.view.world().robot_stride, robot);
-  const std::vector<dmrp_agent>& agents = drivers_[robot].sensors->agents();
+  const dmrp_world& view = variant_.view.world();
+  const dmrp_robot& body = *DMRP_AT(dmrp_robot, view.robots, view.robot_stride, robot);
+  const core::Odometry& odometry = controllers_[robot].sensors->odometry();
 
   dmrp_observation observation{};
   observation.struct_size = sizeof(observation);
   observation.robot = robot;
   observation.t_ns = world_.t_ns();
   observation.dt_ns = variant_.simulation.control_period_ns;
-  observation.pose = drivers_[robot].sensors->odometry().pose();
-  observation.velocity = drivers_[robot].sensors->odometry().velocity();
+  observation.pose = odometry.pose();
+  observation.velocity = odometry.velocity();
   observation.applied = state.command;
   observation.goal = guidance.goal;
   observation.goal_index = state.goal_index;
@@ -128,25 +131,31 @@ std::optional<dmrp_twist> Cast::drive(std::uint32_t robot, const Guidance& guida
   observation.released_waypoint = guidance.released_waypoint;
   observation.limits = body.limits;
   observation.footprint = body.footprint;
-  observation.agents = agents.data();
-  observation.agent_count = static_cast<std::uint32_t>(agents.size());
-  observation.agent_stride = sizeof(dmrp_agent);
+  return observation;
+}
 
-  Driver& driver = drivers_[robot];
+std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
+  Controller& controller = controllers_[robot];
+  const std::vector<dmrp_agent>& agents = controller.sensors->agents();
+  dmrp_observation seen = observation(robot, guidance);
+  seen.agents = agents.data();
+  seen.agent_count = static_cast<std::uint32_t>(agents.size());
+  seen.agent_stride = sizeof(dmrp_agent);
+
   dmrp_command command{};
   command.struct_size = sizeof(command);
-  const auto result = driver.controller->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
-    return driver.table.step(driver.controller->self(), &observation, &command);
+  const auto result = controller.instance->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
+    return controller.table.step(controller.instance->self(), &seen, &command);
   });
   note_call(DMRP_CALL_CONTROL, robot, result);
   if (result.status == DMRP_NO_SOLUTION) return std::nullopt;
   if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
-    throw PluginFault(fault_kind::bad_output, driver.controller->site("step", step),
+    throw PluginFault(fault_kind::bad_output, controller.instance->site("step", step),
                       fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
   return dmrp_twist{command.v_x, command.v_y, command.omega};
 }
 
-const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
+const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step) {
   velocities_.assign(world_.people().size(), {0.0, 0.0});
   if (!pedestrian_model_ || velocities_.empty()) return velocities_;
   const auto people = world_.people();
@@ -162,7 +171,7 @@ const std::vector<dmrp_vec2>& Cast::walk(std::int64_t step) {
   note_call(DMRP_CALL_PEOPLE, 0, result);
   if (result.status == DMRP_NO_SOLUTION) std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
   for (std::size_t i = 0; i < velocities_.size(); ++i)
-    if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person))
+    if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person_mps))
       throw PluginFault(
           fault_kind::bad_output, pedestrian_model_->site("step", step),
           fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocities_[i].x, velocities_[i].y));

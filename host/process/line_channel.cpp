@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/workers/line_channel.hpp"
+#include "host/process/line_channel.hpp"
 
 #include <unistd.h>
 
@@ -9,33 +9,19 @@
 
 namespace dmrp::host {
 
-LineChannel::~LineChannel() {
-  close(read_end_);
-  hang_up();
-}
-
-void LineChannel::hang_up() {
-  if (write_end_ >= 0) close(write_end_);
-  write_end_ = -1;
-}
+LineChannel::LineChannel(Descriptor read_end, Descriptor write_end)
+    : read_end_(std::move(read_end)), write_end_(std::move(write_end)) {}
 
 bool LineChannel::send(const nlohmann::json& message) {
-  // Plugins' texts may be no UTF-8: replaced rather than thrown at.
-  const std::string line = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  for (std::size_t sent = 0; sent < line.size();) {
-    const ssize_t count = write(write_end_, line.data() + sent, line.size() - sent);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    sent += static_cast<std::size_t>(count);
-  }
-  return true;
+  // texts of plugins need not be UTF-8: invalid bytes are replaced
+  return write_end_.write(message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 bool LineChannel::fill() {
   std::array<char, 65536> chunk;
   ssize_t count;
   do {
-    count = read(read_end_, chunk.data(), chunk.size());
+    count = read(read_end_.number(), chunk.data(), chunk.size());
   } while (count < 0 && errno == EINTR);
   if (count <= 0) return false;
   buffer_.append(chunk.data(), static_cast<std::size_t>(count));
@@ -51,10 +37,10 @@ std::optional<nlohmann::json> LineChannel::take() {
   return message;
 }
 
-std::optional<nlohmann::json> LineChannel::receive() {
+std::optional<nlohmann::json> LineChannel::receive(const std::function<bool()>& wait) {
   for (;;) {
     if (auto message = take()) return message->is_discarded() ? std::nullopt : message;
-    if (!fill()) return std::nullopt;
+    if ((wait && !wait()) || !fill()) return std::nullopt;
   }
 }
 
