@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +16,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/plugins/library.hpp"
 #include "host/program/version.hpp"
 #include "host/workers/worker.hpp"
@@ -210,18 +213,26 @@ int run_main(int argc, char** argv) {
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }
 
+// What was printed is buffered: a full disk shows only here.
+void flush_output() {
+  if (std::fflush(stdout) != 0) throw MachineError("standard output", errno);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of `ulimit -f`: write() fails instead
   if (const auto status = run_as_child(argc, argv)) return *status;
   try {
-    return run_main(argc, argv);
+    const int status = run_main(argc, argv);
+    flush_output();
+    return status;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return exit_status::bad_input;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "dmrp-host: %s\n", error.what());
-    return exit_status::bad_input;
+    std::fprintf(stderr, "dmrp-host: %s\n", error_text(error).c_str());
+    return is_machine_failure(error) ? exit_status::machine_failed : exit_status::bad_input;
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// commands.hpp: what `dmrp-host` can do. Each returns the exit status; InputErrors are main()'s.
+// commands.hpp: the commands of `dmrp-host`. Each returns the exit status, and throws InputError, MachineError,
+// std::system_error or std::runtime_error, which main() reports.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace exit_status {
 inline constexpr int done = 0;
 inline constexpr int faults = 1;  // some trials ended in a fault
 inline constexpr int bad_input = 2;
+inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memory
 inline constexpr int interrupted = 130;
 }  // namespace exit_status
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <map>
@@ -91,7 +92,8 @@ void take_traces(const Part& part, const fs::path& out) {
 void take_log(const Part& part, const fs::path& out) {
   std::ifstream from(part.directory.path() / "log.txt", std::ios::binary);
   if (!from || from.peek() == std::ifstream::traits_type::eof()) return;
-  std::ofstream(out / "log.txt", std::ios::binary | std::ios::app) << from.rdbuf();
+  std::ofstream to(out / "log.txt", std::ios::binary | std::ios::app);
+  if (!(to << from.rdbuf() << std::flush)) throw std::system_error(errno, std::generic_category(), out / "log.txt");
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ std::optional<double> statistic(const PlannerAnswer& answer, const char* name) {
 void compare(const PlannerAnswer& answer, Outcome& outcome) {
   const double cost = outcome.figures->cost;
   const double tolerance = same_cost * std::max(1.0, cost);
-  if (const auto told = statistic(answer, "cost"); told && !(std::abs(*told - cost) <= tolerance))
-    outcome.warnings.push_back(fmt::format("the planner tells of a cost of {}, its paths cost {}", *told, cost));
+  if (const auto reported = statistic(answer, "cost"); reported && !(std::abs(*reported - cost) <= tolerance))
+    outcome.warnings.push_back(fmt::format("the planner tells of a cost of {}, its paths cost {}", *reported, cost));
   if (outcome.lower_bound && !(*outcome.lower_bound <= cost + tolerance))
     outcome.warnings.push_back(
         fmt::format("the planner's lower bound {} is above the cost {}", *outcome.lower_bound, cost));

@@ -4,13 +4,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 
 namespace dmrp::host {
 
@@ -18,28 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// There once this returns, whoever made it.
+[[noreturn]] void fail(const std::string& what, const std::error_code& error) {
+  const std::string line = fmt::format("{}: {}", what, error.message());
+  if (is_machine_failure(error)) throw MachineError(line);
+  throw InputError(line);
+}
+
+// Another process may have created it.
 void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw InputError(fmt::format("{}: cannot make the run directory: {}", path.string(), error.message()));
+  if (error) fail(path.string() + ": cannot make the run directory", error);
 }
 
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path) : path_(std::move(path)) {
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw InputError(fmt::format("{}: cannot be opened: {}", path_.string(), std::strerror(errno)));
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems know no locks
-  close(lock_);
-  lock_ = -1;
-}
-
-RunDirectory::RunDirectory(RunDirectory&& other) noexcept
-    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
-
-RunDirectory::~RunDirectory() {
-  if (lock_ >= 0) close(lock_);
+  lock_ = Descriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!lock_.is_open()) fail(path_.string() + ": cannot be opened", {errno, std::generic_category()});
+  if (flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems have no locks
+  lock_.close();
 }
 
 RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
