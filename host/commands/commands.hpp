@@ -38,26 +38,26 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 
 int validate_command(const std::filesystem::path& experiment);
 
-// All libraries of the plugin path if none is named.
+// Without names, all libraries of the plugin path.
 enum class PluginsFormat { text, json, markdown };
 int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
 
 struct DrawOptions {
   std::string scenario;
-  std::uint32_t agents = 0;  // to draw, in place of the scenario's; 0: none
+  std::uint32_t agents = 0;  // random robots that replace the scenario's; 0: keep the scenario's
   std::uint64_t seed = 1;
   std::string planner;                // id; empty: no plan
-  std::vector<std::string> plugins;   // libraries beside those of the plugin path
+  std::vector<std::string> plugins;   // libraries, in addition to the plugin path
   std::vector<std::string> settings;  // key=value for the planner
   std::filesystem::path svg;          // empty: standard output
 };
 int draw_command(const DrawOptions& options);
 
 struct PlanOptions {
-  std::filesystem::path map;  // MovingAI's, with tasks and a number of agents ...
+  std::filesystem::path map;  // either a MovingAI map, its tasks and a number of agents
   std::filesystem::path tasks;
   std::uint32_t agents = 0;
-  std::string scenario;  // ... or a scenario, named or by its path
+  std::string scenario;  // or a scenario: a name, or the path of a scenario.toml; `agents` then draws robots
   std::string planner;   // id
   std::vector<std::string> plugins;
   std::vector<std::string> settings;
@@ -68,13 +68,13 @@ struct PlanOptions {
 };
 int plan_command(const PlanOptions& options);
 
-// Writes report.html into the run directory; `replayed`: trials whose replay goes in whatever they are like.
+// Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
 struct EvaluateOptions {
   std::filesystem::path run_directory;
-  std::string metric;                 // id; empty: all of the run's and of `plugins`
-  std::vector<std::string> plugins;   // libraries beside the run's, searched before these
+  std::string metric;                 // id; empty: all metrics of the run and of `plugins`
+  std::vector<std::string> plugins;   // libraries, searched before the run's
   std::vector<std::string> settings;  // key=value for `metric`
   std::string parameter_file;         // likewise; empty: none
   std::vector<std::uint64_t> trials;  // empty: all

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -18,24 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& what, const std::error_code& error) {
-  const std::string line = fmt::format("{}: {}", what, error.message());
-  if (is_machine_failure(error)) throw MachineError(line);
-  throw InputError(line);
-}
-
 // Another process may have created it.
 void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) fail(path.string() + ": cannot make the run directory", error);
+  if (error) throw_path_error(path.string() + ": cannot make the run directory", error);
 }
 
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path) : path_(std::move(path)) {
   lock_ = Descriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!lock_.is_open()) fail(path_.string() + ": cannot be opened", {errno, std::generic_category()});
+  if (!lock_.is_open()) throw_path_error(path_.string() + ": cannot be opened", {errno, std::generic_category()});
   if (flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems have no locks
   lock_.close();
 }
@@ -47,16 +42,19 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) {
       make_directory(path);
       RunDirectory directory(path);
-      if (directory.locked() && fs::is_empty(path, ignored)) return directory;
+      if (directory.locked() && fs::is_empty(path, ignored)) {
+        if (access(path.c_str(), W_OK | X_OK) != 0)
+          throw_path_error(path.string() + ": cannot be written", {errno, std::generic_category()});
+        return directory;
+      }
     }
     if (!out.empty())
-      throw InputError(
-          fmt::format("--out {}: is there already and not empty (go on with it by --resume)", out.string()));
+      throw InputError(fmt::format("--out {}: exists already and is not empty (--resume continues it)", out.string()));
   }
 }
 
 RunDirectory RunDirectory::reopen(const fs::path& out) {
-  if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to go on with");
+  if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to continue");
   return open_finished(out, "--out " + out.string());
 }
 

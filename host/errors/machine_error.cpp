@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "host/errors/input_error.hpp"
 #include "host/errors/one_line.hpp"
 
 namespace dmrp::host {
@@ -32,15 +33,15 @@ MachineError::MachineError(std::string line) : line_(one_line(std::move(line))) 
 MachineError::MachineError(const std::string& what, int error_number)
     : MachineError(what + ": " + std::generic_category().message(error_number)) {}
 
-bool is_machine_failure(const std::error_code& code) {
-  return std::none_of(errors_of_paths.begin(), errors_of_paths.end(),
-                      [&](std::errc path_error) { return code == path_error; });
+bool is_machine_failure(const std::exception& error) {
+  return dynamic_cast<const MachineError*>(&error) || dynamic_cast<const std::bad_alloc*>(&error) ||
+         dynamic_cast<const std::system_error*>(&error);
 }
 
-bool is_machine_failure(const std::exception& error) {
-  if (dynamic_cast<const MachineError*>(&error) || dynamic_cast<const std::bad_alloc*>(&error)) return true;
-  const auto* system = dynamic_cast<const std::system_error*>(&error);
-  return system && is_machine_failure(system->code());
+void throw_path_error(const std::string& what, const std::error_code& error) {
+  const std::string line = what + ": " + error.message();
+  if (std::find(errors_of_paths.begin(), errors_of_paths.end(), error) != errors_of_paths.end()) throw InputError(line);
+  throw MachineError(line);
 }
 
 std::string error_text(const std::exception& error) {

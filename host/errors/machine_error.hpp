@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// machine_error.hpp: the machine failed: a full disk, an I/O error, no memory, no more processes. One line; exit
-// status 3.
+// machine_error.hpp: the machine failed: a full disk, an I/O error, no memory, no more processes, a folder that vanished
+// during the run. One line; exit status 3.
 #pragma once
 
 #include <exception>
@@ -22,12 +22,12 @@ class MachineError : public std::exception {
   std::string line_;
 };
 
-// Whether the machine is the cause. Errors that a path can have (it is missing, it is a folder, access is denied, the
-// file system is read-only) are the user's to correct.
-bool is_machine_failure(const std::error_code& code);
-
-// The same for an exception: a MachineError, std::bad_alloc, or a std::system_error with such a code.
+// Whether it is a MachineError, std::bad_alloc or std::system_error.
 bool is_machine_failure(const std::exception& error);
+
+// Throws "WHAT: the error's text", for a path that the user named: an InputError if another path would do (this one is
+// missing, is a folder, or access is denied), otherwise a MachineError.
+[[noreturn]] void throw_path_error(const std::string& what, const std::error_code& error);
 
 // The text of an exception for the user, in one line.
 std::string error_text(const std::exception& error);

@@ -13,7 +13,7 @@ namespace dmrp::host {
 
 namespace {
 
-// A call counts as hanging long after should_stop() has said yes, so that a slow machine makes no faults.
+// A call counts as hanging only long after should_stop() has returned true: a slow machine must not cause faults.
 constexpr std::int64_t grace_factor = 2;
 constexpr std::int64_t grace_ns = 5'000'000'000;
 
@@ -62,7 +62,7 @@ void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
 
 CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bool threw) {
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
-  note_.call_number.fetch_add(1);  // before the next call's note is written
+  note_.call_number.fetch_add(1);  // before the note of the next call
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
     throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");

@@ -74,7 +74,7 @@ Probe probe_library(const std::filesystem::path& file) {
           answer.at("init_error").get<std::string>()};
 }
 
-int run_probe(const std::filesystem::path& file, int descriptor) {
+void run_probe(const std::filesystem::path& file, int descriptor) {
   nlohmann::json answer;
   try {
     const Library library(file);

@@ -4,39 +4,27 @@
 #include <sqlite3.h>
 
 #include <cmath>
-#include <system_error>
 
 #include "host/errors/machine_error.hpp"
 
 namespace dmrp::host {
 namespace {
 
-// A full disk, an I/O error, no memory; or a file that could not be opened for such a reason.
-bool is_machine_failure_of(sqlite3* connection, int code) {
-  switch (code & 0xff) {
+[[noreturn]] void fail(int code, const std::string& line) {
+  switch (code & 0xff) {  // the primary code
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_NOMEM:
-      return true;
-    case SQLITE_CANTOPEN: {
-      const int error_number = sqlite3_system_errno(connection);
-      return error_number != 0 && is_machine_failure(std::error_code(error_number, std::generic_category()));
-    }
+      throw MachineError(line);
     default:
-      return false;
+      throw SqliteError(line);
   }
-}
-
-[[noreturn]] void fail(sqlite3* connection, int code, const std::string& line) {
-  if (is_machine_failure_of(connection, code)) throw MachineError(line);
-  throw SqliteError(line);
 }
 
 // With the connection's last message and its file's name.
 [[noreturn]] void fail(sqlite3* connection, const std::string& what) {
   const char* file = sqlite3_db_filename(connection, "main");
-  fail(connection, sqlite3_errcode(connection),
-       std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
+  fail(sqlite3_errcode(connection), std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
 }
 
 }  // namespace
@@ -54,7 +42,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &connection, flags, nullptr);
   handle_.reset(connection);
-  if (code != SQLITE_OK) fail(connection, code, path.string() + ": " + sqlite3_errstr(code));
+  if (code != SQLITE_OK) fail(code, path.string() + ": " + sqlite3_errstr(code));
   sqlite3_extended_result_codes(connection, 1);
   sqlite3_busy_timeout(connection, 10'000);
 }

@@ -69,7 +69,7 @@ class Run {
   bool has_robots() const { return !world_.robots().empty(); }
   bool has_plan() const { return plan_.exists(); }
 
-  // DMRP_ENDING_*, 0 while the trial goes on.
+  // DMRP_ENDING_*, 0 until the trial is over.
   std::uint32_t check_ending() {
     return monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m(), world_.is_deserted());
   }

@@ -103,7 +103,7 @@ class Worker {
     done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && kept.is_recorded())
       std::filesystem::remove(job.trace_file);
-    if (own) pool_.clear();  // instances may look at their world until they go
+    if (own) pool_.clear();  // instances may keep pointers into their world
     channel_.send(typed("done", done));
   }
 
@@ -120,7 +120,7 @@ class Worker {
     nlohmann::json message = typed("fault", record_of(fault));
     message["fatal"] = fault.fatal();
     channel_.send(message);
-    // The library is unusable, its destroy() included: a fresh process goes on.
+    // no function of the library may be called, not even destroy(): another worker continues
     if (fault.fatal()) _exit(1);
   }
 
@@ -145,11 +145,11 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   CallGuard guard_;
-  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances see these worlds until they go
+  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
   InstancePool pool_;
 };
 
-// Descriptors without a probe: the supervisor's probe has survived these libraries.
+// Without a child process: the supervisor has already probed these libraries.
 Probe read_descriptors(const std::filesystem::path& file) {
   const Library library(file);
   return {library.plugins(), library.warning(), ""};
@@ -158,7 +158,7 @@ Probe read_descriptors(const std::filesystem::path& file) {
 }  // namespace
 
 int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
-  // Inherited, but not for what a plugin may start.
+  // processes that a plugin starts do not inherit them
   for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   LineChannel channel{Descriptor(read_end), Descriptor(write_end)};
   try {

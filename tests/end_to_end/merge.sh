@@ -39,7 +39,7 @@ run --resume --out "$scratch/part"
 [[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
 expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"
-expect_refusal "$scratch/joined: is there already and not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
+expect_refusal "$scratch/joined: exists already and is not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
 mkdir "$scratch/empty"
 expect_refusal "$scratch/empty: is no run directory" "$scratch/none" "$scratch/a" "$scratch/empty"
 sed 's/^seed .*/seed = 8/' "$source_file" >"$scratch/other.toml"

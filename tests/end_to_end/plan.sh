@@ -114,7 +114,7 @@ expect_value status timeout
 # a planner's own sums are not believed, but that is no fault
 expect_status 0 "$host" plan --scenario crossing --planner test.planner.faulty --plugin "$faults" --set fault=wrong_cost --json
 expect_value cost 13
-grep -q "^warning: test.planner.faulty: the planner tells of a cost of 12, its paths cost 13$" "$scratch/stderr" ||
+grep -q "^warning: test.planner.faulty: the planner reports a cost of 12, its paths cost 13$" "$scratch/stderr" ||
   fail "$(cat "$scratch/stderr")"
 
 # --- mistakes: one line, status 2

@@ -11,27 +11,23 @@
 
 using namespace dmrp::host;
 
-namespace {
-
-bool fails_by_machine(int error_number) {
-  return is_machine_failure(std::system_error(error_number, std::generic_category(), "file"));
-}
-
-}  // namespace
-
-TEST_CASE("a full disk, an I/O error and a lack of memory or processes are failures of the machine") {
-  for (const int number : {ENOSPC, EDQUOT, EFBIG, EIO, ENOMEM, EMFILE, ENFILE, EAGAIN}) CHECK(fails_by_machine(number));
-  CHECK(is_machine_failure(std::bad_alloc()));
+TEST_CASE("errors of the operating system and a lack of memory are failures of the machine") {
   CHECK(is_machine_failure(MachineError("full")));
-  const std::filesystem::filesystem_error full("file", std::make_error_code(std::errc::no_space_on_device));
-  CHECK(is_machine_failure(full));
-}
-
-TEST_CASE("a path that cannot be used is the user's mistake, as any other input") {
-  for (const int number : {ENOENT, EACCES, EPERM, ENOTDIR, EISDIR, EROFS, ENAMETOOLONG})
-    CHECK_FALSE(fails_by_machine(number));
+  CHECK(is_machine_failure(std::bad_alloc()));
+  const auto full = std::make_error_code(std::errc::no_space_on_device);
+  CHECK(is_machine_failure(std::system_error(full, "file")));
+  CHECK(is_machine_failure(std::filesystem::filesystem_error("file", full)));
   CHECK_FALSE(is_machine_failure(InputError("bad")));
   CHECK_FALSE(is_machine_failure(std::runtime_error("bad")));
+}
+
+TEST_CASE("a path that cannot be used is the user's to correct, a full disk is not") {
+  for (const int number : {ENOENT, EACCES, EPERM, ENOTDIR, EISDIR, EROFS, ENAMETOOLONG})
+    CHECK_THROWS_AS(throw_path_error("file", {number, std::generic_category()}), InputError);
+  for (const int number : {ENOSPC, EDQUOT, EFBIG, EIO, ENOMEM, EMFILE, ENFILE})
+    CHECK_THROWS_AS(throw_path_error("file", {number, std::generic_category()}), MachineError);
+  CHECK_THROWS_WITH(throw_path_error("--csv a.csv", {ENOENT, std::generic_category()}),
+                    "--csv a.csv: No such file or directory");
 }
 
 TEST_CASE("error texts are one line") {
