@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A run leaves report.html; `report` writes the same file again; what is no run gets one line.
+# A run writes report.html; `report` writes the same file again; other folders get one line.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 run=$scratch/run
@@ -13,7 +13,7 @@ cmp "$scratch/before.html" "$run/report.html" || fail "the same results give ano
 grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a part is not filled in"
 grep -Eq '<(script|img|iframe)[^>]* src=|<link[^>]* href="(http|/)' "$run/report.html" && fail "the page fetches something"
 
-# what the data say, without a browser
+# the data, without a browser
 data() {
   sed -n 's|.*<script type="application/json" id="dmrp-data">\(.*\)</script>$|\1|p' "$run/report.html"
 }
@@ -24,12 +24,12 @@ data | grep -q '"varied":"local_controller"' || fail "controllers are not compar
 # of an interrupted run
 query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id > 4;"
 expect_status 0 "$host" report "$run"
-data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials are not told of"
+data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials are not counted"
 
-# of nothing
+# of other folders
 query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial;"
-for what in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
-  expect_status 2 "$host" report "${what%%:*}"
+for error in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
+  expect_status 2 "$host" report "${error%%:*}"
   [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
-  grep -Eq "$what" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$what'"
+  grep -Eq "$error" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$error'"
 done
