@@ -126,17 +126,17 @@ CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
 
 CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
   CLI::App* command = app.add_subcommand("evaluate", "measure the stored traces of a run, as CSV");
-  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
-  command->add_option("--metric", options.metric, "metric (default: all metrics of the run and of --plugin)")
+  command->add_option("run", options.choice.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--metric", options.choice.metric, "metric (default: all metrics of the run and of --plugin)")
       ->type_name("ID");
-  command->add_option("--plugin", options.plugins, "additional plugin library, searched before the run's")
+  command->add_option("--plugin", options.choice.plugins, "additional plugin library, searched before the run's")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
-  command->add_option("--set", options.settings, "parameter of the metric (default: as in the run)")
+  command->add_option("--set", options.choice.settings, "parameter of the metric (default: as in the run)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      ->add_option("--params-file", options.parameter_file,
+      ->add_option("--params-file", options.choice.parameter_file,
                    "parameters of the metric: a file, or the name of a shipped set")
       ->type_name("FILE");
   command->add_option("--trial", options.trials, "measure only this trial")->type_name("N")->allow_extra_args(false);

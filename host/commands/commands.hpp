@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/evaluate/evaluation.hpp"
+
 namespace dmrp::host {
 
 namespace exit_status {
@@ -72,11 +74,7 @@ int plan_command(const PlanOptions& options);
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
 struct EvaluateOptions {
-  std::filesystem::path run_directory;
-  std::string metric;                 // id; empty: all metrics of the run and of `plugins`
-  std::vector<std::string> plugins;   // libraries, searched before the run's
-  std::vector<std::string> settings;  // key=value for `metric`
-  std::string parameter_file;         // likewise; empty: none
+  EvaluationChoice choice;
   std::vector<std::uint64_t> trials;  // empty: all
   std::filesystem::path csv;          // empty: standard output
 };

@@ -25,15 +25,15 @@ void print_note(const std::string& line) {
 
 // The records of the trials to evaluate.
 std::vector<TrialRecord> chosen_trials(const EvaluateOptions& options) {
-  const fs::path database = options.run_directory / "results.sqlite";
+  const fs::path database = options.choice.run_directory / "results.sqlite";
   if (std::error_code ignored; !fs::is_regular_file(database, ignored))
     throw InputError(
-        fmt::format("{}: is no run directory (there is no results.sqlite)", options.run_directory.string()));
+        fmt::format("{}: is no run directory (there is no results.sqlite)", options.choice.run_directory.string()));
   std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials();
-  if (trials.empty()) throw InputError(fmt::format("{}: has no finished trial", options.run_directory.string()));
+  if (trials.empty()) throw InputError(fmt::format("{}: has no finished trial", options.choice.run_directory.string()));
   for (const std::uint64_t id : options.trials)
     if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& trial) { return trial.id == id; }))
-      throw InputError(fmt::format("--trial {}: {} has {}, from {} to {}", id, options.run_directory.string(),
+      throw InputError(fmt::format("--trial {}: {} has {}, from {} to {}", id, options.choice.run_directory.string(),
                                    plural(trials.size(), "trial"), trials.front().id, trials.back().id));
   if (!options.trials.empty())
     std::erase_if(trials, [&](const TrialRecord& trial) {
@@ -104,13 +104,12 @@ void write_values(CsvWriter& csv, std::uint64_t trial, const std::vector<MetricV
 int evaluate_command(const EvaluateOptions& options) {
   check_output_file("--csv", options.csv);
   const std::vector<TrialRecord> trials = chosen_trials(options);
-  const Evaluation evaluation = plan_evaluation(
-      {options.run_directory, options.metric, options.plugins, options.settings, options.parameter_file});
+  const Evaluation evaluation = plan_evaluation(options.choice);
   for (const std::string& warning : evaluation.warnings) warn(warning);
-  TraceSearch search(options.run_directory, evaluation.traces);
+  TraceSearch search(options.choice.run_directory, evaluation.traces);
   const std::vector<StoredTrial> stored = search.among(trials);
   search.report_others();
-  if (stored.empty()) throw InputError(fmt::format("{}: nothing to evaluate", options.run_directory.string()));
+  if (stored.empty()) throw InputError(fmt::format("{}: nothing to evaluate", options.choice.run_directory.string()));
 
   bool failures = search.incomplete();
   CsvWriter csv;
