@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <system_error>
 
@@ -32,7 +33,11 @@ void check_output_file(const char* option, const fs::path& file) {
 }
 
 void write_output(const char* option, const fs::path& file, std::string_view content) {
-  if (file.empty()) return fmt::print("{}", content);
+  if (file.empty()) {
+    if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size())
+      throw MachineError("standard output", errno);
+    return;
+  }
   try {
     write_file_atomically(file, content);
   } catch (const std::system_error& error) {

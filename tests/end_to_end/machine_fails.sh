@@ -29,7 +29,7 @@ expect_vanished() {
     ls "$scratch"/vanished/traces/*1.mcap >/dev/null 2>&1 && break
     sleep 0.05
   done
-  rm -rf "$scratch/vanished/traces"
+  mv "$scratch/vanished/traces" "$scratch/gone"
   wait "$host_process"
 }
 expect_failure "^dmrp-host: .*vanished/traces/trial_.*.mcap: No such file or directory$" expect_vanished
@@ -40,12 +40,12 @@ full() { "$@" >/dev/full; }
 expect_failure "^dmrp-host: .*No space left on device$" full "$host" evaluate "$scratch/run"
 expect_failure "^dmrp-host: .*No space left on device$" full "$host" plan --scenario crossing --planner dmrp.planner.cbs
 expect_failure "^dmrp-host: .*No space left on device$" full "$host" plugins --json
-expect_failure "^dmrp-host: --csv $scratch/values.csv: File too large$" \
-  with_files_up_to 1 "$host" evaluate "$scratch/run" --csv "$scratch/values.csv"
-[[ ! -e $scratch/values.csv ]] || fail "half a file was left"
+expect_failure "^dmrp-host: --svg $scratch/mall.svg: File too large$" \
+  with_files_up_to 1 "$host" draw mall --svg "$scratch/mall.svg"
+[[ ! -e $scratch/mall.svg ]] || fail "half a file was left"
 
 # no descriptors for child processes
-few_files() { (ulimit -n 6 && exec "$@"); }
+few_files() { (ulimit -n 4 && exec "$@"); }
 expect_failure "^dmrp-host: .*Too many open files$" few_files "$host" plugins
 
 # a path that the user can correct is bad input
