@@ -91,14 +91,14 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   return experiment;
 }
 
-void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
+void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
   core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::StaticGeometry geometry(scenario);
   const core::SimulationSettings& simulation = experiment.simulation;
   scenario.robots =
-      core::draw_robots(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
-                                                  simulation.planning_margin_m),
-                        robots, seed);
+      core::random_tasks(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
+                                                   simulation.planning_margin_m),
+                         robots, seed);
   if (scenario.robots.size() < robots)
     throw InputError(fmt::format("--agents {}: scenario '{}' holds at most {} robots drawn so", robots, scenario.name,
                                  scenario.robots.size()));

@@ -16,7 +16,7 @@ namespace dmrp::host {
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
 
 // Its scenario with `robots` drawn for the seed in place of those it lists. Throws InputError.
-void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed);
+void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed);
 
 // `id`: searched in `libraries`, then in those of the plugin path. `settings`: key=value, as TOML values; bare words
 // are strings. Throws InputError.

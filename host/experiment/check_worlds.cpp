@@ -247,7 +247,7 @@ class WorldCheck {
     std::vector<dmrp_vec2> starts = scenario_.other_starts;
     for (const core::RobotTask& task : scenario_.robots) starts.push_back({task.start.x, task.start.y});
     if (most_drawn_ > 0)
-      for (const core::RobotTask& task : core::draw_robots(planning_, most_drawn_, seed))
+      for (const core::RobotTask& task : core::random_tasks(planning_, most_drawn_, seed))
         starts.push_back({task.start.x, task.start.y});
     return starts;
   }
@@ -288,15 +288,15 @@ void check_world(const ScenarioFile& file, Experiment& experiment, const DrawnRo
   check_size(file, core::walking_resolution_m, "the grid for people");
   WorldCheck check(file, experiment, drawn.most);
   check.run();
-  if (drawn.most == 0 || core::surely_room_for(check.planning_grid(), drawn.most)) return;
+  if (drawn.most == 0 || core::has_room_for_tasks(check.planning_grid(), drawn.most)) return;
   for (std::uint32_t repetition = 0; repetition < experiment.trials; ++repetition) {
     const std::uint64_t seed = world_seed(experiment, file.scenario.name, repetition);
-    const std::size_t found = core::draw_robots(check.planning_grid(), drawn.most, seed).size();
+    const std::size_t found = core::random_tasks(check.planning_grid(), drawn.most, seed).size();
     if (found < drawn.most)
       drawn.at->fail(
           fmt::format("scenario '{}' holds at most {} robots drawn so (repetition {}: starts, and goals, more "
                       "than {} m apart), not {}",
-                      file.scenario.name, found, repetition, core::drawn_apart_m, drawn.most));
+                      file.scenario.name, found, repetition, core::task_separation_m, drawn.most));
   }
 }
 

@@ -99,9 +99,9 @@ void read_raw_samples(std::string_view bytes, const PgmText& text, MapImage& ima
 
 void check_map_size(std::uint64_t width, std::uint64_t height, const std::string& place) {
   if (width == 0 || height == 0) throw InputError(fmt::format("{}: the image has no cells", place));
-  if (width > core::longest_map_side || height > core::longest_map_side || width * height > core::most_map_cells)
+  if (width > core::max_map_side || height > core::max_map_side || width * height > core::max_map_cells)
     throw InputError(fmt::format("{}: the map is too large: {} x {} cells, at most {} a side and {} altogether", place,
-                                 width, height, core::longest_map_side, core::most_map_cells));
+                                 width, height, core::max_map_side, core::max_map_cells));
 }
 
 MapImage read_pgm(std::string_view bytes, const std::string& shown_path) {

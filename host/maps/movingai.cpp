@@ -104,13 +104,12 @@ Size read_header(const Lines& lines) {
     if (fields.size() == 2 && fields[0].text == "width") side = &Size::width;
     if (!side || size.*side != 0)
       lines.fail(line, 1, fmt::format("expected '{} N'", size.height == 0 ? "height" : "width"));
-    size.*side =
-        lines.whole_number(line, fields[1], side == &Size::height ? "height" : "width", 1, core::longest_map_side);
+    size.*side = lines.whole_number(line, fields[1], side == &Size::height ? "height" : "width", 1, core::max_map_side);
   }
-  if (std::uint64_t{size.width} * size.height > core::most_map_cells)
+  if (std::uint64_t{size.width} * size.height > core::max_map_cells)
     lines.fail(
         3, 1,
-        fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::most_map_cells));
+        fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::max_map_cells));
   if (lines.line(4) != "map") lines.fail(4, 1, "expected 'map'");
   return size;
 }
@@ -156,8 +155,8 @@ MovingAiTask read_task(const Lines& lines, std::size_t line, const core::CellMap
                fmt::format("a task has {} fields (bucket, map, width, height, start x, y, goal x, y, length), not {}",
                            field_count, fields.size()));
   lines.whole_number(line, fields[0], "the bucket", 0, 1'000'000'000);
-  const std::uint32_t width = lines.whole_number(line, fields[2], "the map's width", 1, core::longest_map_side);
-  const std::uint32_t height = lines.whole_number(line, fields[3], "the map's height", 1, core::longest_map_side);
+  const std::uint32_t width = lines.whole_number(line, fields[2], "the map's width", 1, core::max_map_side);
+  const std::uint32_t height = lines.whole_number(line, fields[3], "the map's height", 1, core::max_map_side);
   if (width != map.width || height != map.height)
     lines.fail(line, fields[2].column,
                fmt::format("the task is for another map: '{}' of {} x {} cells, not {} x {}",

@@ -288,7 +288,7 @@ TEST_CASE("what there is to look at stands beside the trace", "[mcap]") {
         12, [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { writer.write(t_ns, record); },
         &writer.foxglove());
     const std::array<std::uint32_t, 2> robots{0, 1};
-    writer.foxglove().mark({"sto", 40'000'000, 1'240'000'000, robots, "near"});
+    writer.foxglove().metric_event({"sto", 40'000'000, 1'240'000'000, robots, "near"});
     writer.finish();
   }
   std::vector<std::string> seen;

@@ -398,8 +398,8 @@ odometry = { noise = [0.01, 0.02, 0.03, 0.04], fix_period_s = 2 }
 TEST_CASE("plan draws robots for a seed") {
   const ExperimentFolder folder;
   Experiment e = adhoc_experiment("hall/scenario.toml");
-  draw_robots_in(e, 4, 3);
+  use_random_tasks(e, 4, 3);
   CHECK(e.scenarios[0].scenario.robots.size() == 4);
-  CHECK_THROWS_WITH(draw_robots_in(e, 100, 3),
+  CHECK_THROWS_WITH(use_random_tasks(e, 100, 3),
                     Catch::StartsWith("--agents 100: scenario 'hall' holds at most ") && Catch::EndsWith("drawn so"));
 }
