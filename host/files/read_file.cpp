@@ -19,7 +19,7 @@ std::string read_file(const std::filesystem::path& file, const std::string& show
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   std::string text = bytes.str();
-  // an empty file sets a failure bit of its own
+  // Reading an empty file sets a failure bit although nothing failed.
   if (!stream.is_open() || stream.bad() || (!stream && !text.empty()))
     throw InputError(shown_path + ":1:1: the file cannot be read");
   return text;

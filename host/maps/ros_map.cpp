@@ -34,7 +34,7 @@ struct Shades {
   double free_thresh = 0.0;
 };
 
-// The one mapping of the file, key by key, with places for messages.
+// The YAML mapping of the file, with places for messages.
 class MapFile {
  public:
   MapFile(const std::string& text, const std::string& shown_path) : shown_path_(shown_path) {
@@ -81,7 +81,7 @@ class MapFile {
     return value;
   }
 
-  // map_server writes 0 and 1.
+  // Accepts 0 and 1, as map_server writes them, and YAML's booleans.
   bool flag(const YAML::Node& node, const std::string& key) const {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
     if (text == "0" || text == "1") return text == "1";
@@ -92,14 +92,14 @@ class MapFile {
   }
 
  private:
-  // Other tools add keys of their own: only those that were meant to be one of map_server's are refused.
+  // Other tools add keys, so an unknown key is refused only if it is probably a mistyped key of map_server.
   void check_key(const YAML::Node& key, std::vector<std::string>& seen) const {
     static const std::vector<std::string> known = {"image",           "resolution",  "origin", "negate",
                                                    "occupied_thresh", "free_thresh", "mode"};
     if (!key.IsScalar()) return;
     const std::string name = key.Scalar();
     if (std::find(seen.begin(), seen.end(), name) != seen.end())
-      fail(key.Mark(), fmt::format("'{}' is there twice", name));
+      fail(key.Mark(), fmt::format("'{}' occurs twice", name));
     seen.push_back(name);
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     if (const std::string meant = did_you_mean(name, known); !meant.empty())
@@ -148,12 +148,12 @@ Shades read_shades(const MapFile& file) {
   return shades;
 }
 
-// How likely a cell is occupied, of 100; none where that is unknown.
+// The occupancy probability of a cell in per cent; none if it is unknown.
 std::optional<int> chance(const MapImage& image, std::size_t pixel, const Shades& shades) {
   double level = image.level[pixel];
   double white = image.white;
   if (shades.mode == Mode::trinary && !image.alpha.empty()) {
-    // as map_server does: the mean is over all channels
+    // Like map_server: the mean over all channels, with alpha.
     level += image.alpha[pixel];
     white += 255.0;
   }

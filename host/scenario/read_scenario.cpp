@@ -61,7 +61,7 @@ dmrp_pose pose(const TomlValue& value) {
   return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : free_heading};
 }
 
-// At most `maximum`, and more than nothing.
+// A number > 0, at most `maximum`.
 double positive(const TomlValue& value, double maximum) {
   value.positive();
   return value.number(0.0, maximum);
@@ -197,7 +197,7 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
   return static_cast<std::uint32_t>(found - names.begin());
 }
 
-// With nobody in the flow there are no groups either.
+// A flow without people has no groups, so its group size is not limited.
 std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
   const auto size = static_cast<std::uint32_t>(value.integer(1, most_people));
   if (flow.people > 0 && size > flow.people)
@@ -283,6 +283,11 @@ std::vector<TomlKeys> keys_of_tables() {
 }
 
 }  // namespace
+
+void check_extent(const TomlValue& at, dmrp_vec2 extent) {
+  if (extent.x > longest_side_m || extent.y > longest_side_m)
+    at.fail(fmt::format("the world must be at most {0} m by {0} m", longest_side_m));
+}
 
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;

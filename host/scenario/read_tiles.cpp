@@ -21,7 +21,7 @@ dmrp_vec2 moved(dmrp_vec2 point, dmrp_vec2 by) {
   return {point.x + by.x, point.y + by.y};
 }
 
-// The tile's shapes, regions and flows, moved and renamed; `at`: where [tiles] stands.
+// Adds the tile's shapes, regions and flows, moved and renamed. `at`: the place of [tiles].
 void add_tile(const core::Scenario& tile, dmrp_vec2 by, const std::string& suffix, SourcePosition at,
               ScenarioFile& out) {
   core::Scenario& scenario = out.scenario;
@@ -51,7 +51,7 @@ ScenarioFile read_tile(const TomlValue& of, const fs::path& file) {
   if (tile_file == file) of.fail("a scenario cannot be made of itself");
   ScenarioFile tile = read_scenario_file(tile_file, shown(tile_file));
   if (tile.document->root().find_table("tiles")) of.fail(fmt::format("'{}' is made of tiles itself", of.text()));
-  if (!tile.scenario.tracks.empty()) of.fail(fmt::format("'{}' has a [[recording]], which has its place", of.text()));
+  if (!tile.scenario.tracks.empty()) of.fail(fmt::format("'{}' has a [[recording]], which cannot be tiled", of.text()));
   tile.files.insert(tile.files.begin(), tile_file);
   return tile;
 }
@@ -75,8 +75,7 @@ void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) 
   const dmrp_vec2 extent = {tile.scenario.upper.x - tile.scenario.lower.x,
                             tile.scenario.upper.y - tile.scenario.lower.y};
   const dmrp_vec2 whole = {extent.x * static_cast<double>(columns), extent.y * static_cast<double>(rows)};
-  if (whole.x > longest_side_m || whole.y > longest_side_m)
-    of.fail(fmt::format("the world must be at most {0} m by {0} m", longest_side_m));
+  check_extent(of, whole);
   scenario.upper = moved(scenario.lower, whole);
   scenario.people = tile.scenario.people;
   for (std::int64_t row = 0; row < rows; ++row)

@@ -140,7 +140,7 @@ TEST_CASE("mistakes in the number of robots") {
   const auto at = [](const std::string& lines) { return message_of(with_robots(lines)); };
   CHECK(at("robots = -1") == "experiment.toml:9:10: 'robots' must be at least 0, not -1");
   CHECK(at("robots = []") == "experiment.toml:9:10: 'robots' must have at least one number");
-  CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' is there twice");
+  CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' occurs twice");
   CHECK(at("robots = 3\ntasks = \"listed\"") ==
         "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
   CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', how many");
@@ -248,7 +248,7 @@ TEST_CASE("mistakes in a recording") {
     CHECK(message_of(experiment_text) == "hall/crowd.csv:" + message);
   };
   mistake("", "1:1: the file needs the line 'time,id,x,y'");
-  mistake("time,id,x,y\n", "1:1: nobody is recorded");
+  mistake("time,id,x,y\n", "1:1: the recording has no rows");
   mistake("time,person,x,y\n", "1:6: the first line must be 'time,id,x,y': 'person' should be 'id'");
   mistake("time,id,x\n", "1:1: a row has 4 values, time,id,x,y, not 3");
   mistake("time,id,x,y\n0,1,2,3,4\n", "2:1: a row has 4 values, time,id,x,y, not 5");
@@ -278,9 +278,10 @@ TEST_CASE("a recording of which nobody is ever there gets a warning") {
     write_file("hall/crowd.csv", "time,id,x,y\n" + csv);
     return load(experiment_text + settings).warnings;
   };
-  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
-        std::vector<std::string>{"hall/scenario.toml:46:8: nobody of 'hall/crowd.csv' is there during the trial, from "
-                                 "0 to 180 s: its rows are of -20 to 200 s"});
+  CHECK(
+      warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
+      std::vector<std::string>{"hall/scenario.toml:46:8: nobody in 'hall/crowd.csv' is present during the trial, from "
+                               "0 to 180 s: its rows are from -20 to 200 s"});
   CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "[simulation]\ntime_limit_s = 200\n").empty());
   CHECK(warnings("2,1,1,1\n", "[simulation]\ntime_limit_s = 1.5\n").size() == 1);
   CHECK(warnings("-1,1,1,1\n0,1,2,1\n", "").empty());
@@ -400,6 +401,6 @@ TEST_CASE("plan draws robots for a seed") {
   Experiment e = adhoc_experiment("hall/scenario.toml");
   use_random_tasks(e, 4, 3);
   CHECK(e.scenarios[0].scenario.robots.size() == 4);
-  CHECK_THROWS_WITH(use_random_tasks(e, 100, 3),
-                    Catch::StartsWith("--agents 100: scenario 'hall' holds at most ") && Catch::EndsWith("drawn so"));
+  CHECK_THROWS_WITH(use_random_tasks(e, 100, 3), Catch::StartsWith("--agents 100: scenario 'hall' has room for ") &&
+                                                     Catch::EndsWith("robots with random tasks"));
 }

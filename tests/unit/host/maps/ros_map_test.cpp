@@ -323,7 +323,7 @@ TEST_CASE("mistakes in a map's YAML file") {
   CHECK(told("0.196", "0.7") == at + "6:14: 'free_thresh' must be below 'occupied_thresh', not 0.7 and 0.65");
   CHECK(told("negate: 0", "negate: 0\nmode: trinaty") ==
         at + "5:7: 'mode' must be one of trinary, scale, raw, not 'trinaty' (did you mean 'trinary'?)");
-  CHECK(told("negate: 0", "image: b.pgm") == at + "4:1: 'image' is there twice");
+  CHECK(told("negate: 0", "image: b.pgm") == at + "4:1: 'image' occurs twice");
   CHECK(told("[-1.0, 2.0, 0.0]", "[-1.0, 2.0, 0.0") == at + "4:7: end of sequence flow not found");
   CHECK(told(yaml_text, "attic.pgm") == at + "1:1: expected 'image: ...' and other keys: this is no map of map_server");
   CHECK(told(yaml_text, "") == at + "1:1: expected 'image: ...' and other keys: this is no map of map_server");

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Static geometry and grids, against looking at everything, and against FCL's own narrow phase.
+#include "core/scene/static_geometry.hpp"
+
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 
-#include "core/people/flow_routes.hpp"
-#include "core/scene/planning_grid.hpp"
-#include "core/scene/static_geometry.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-using toolkit::Cell;
-using toolkit::GridView;
 
 namespace {
 
@@ -71,7 +66,7 @@ TEST_CASE("outlines surround every shape and the world") {
   CHECK(nearest_to_pillar == Approx(0.5));
 }
 
-TEST_CASE("distances, sweeps and sight agree with looking at every shape") {
+TEST_CASE("distances, sweeps and sight agree with a check of every shape") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Scenario scenario = random_scenario(seed, 20.0, 60);
     const StaticGeometry geometry(scenario);
@@ -101,7 +96,7 @@ TEST_CASE("distances, sweeps and sight agree with looking at every shape") {
   }
 }
 
-TEST_CASE("overlaps of discs with turned boxes and discs are those that FCL sees") {
+TEST_CASE("overlaps of discs with rotated boxes and discs agree with FCL") {
   toolkit::Stream stream(11, "test.fcl");
   int overlapping = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -137,101 +132,4 @@ TEST_CASE("overlaps of discs with turned boxes and discs are those that FCL sees
   }
   CHECK(overlapping > 100);
   CHECK(overlapping < 900);
-}
-
-TEST_CASE("cells and edges follow clearance and sweeps") {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    Scenario scenario = random_scenario(seed, 12.0, 16);
-    scenario.lower = {-1.5, 0.25};
-    const StaticGeometry geometry(scenario);
-    const PlanningGrid grid = build_planning_grid(geometry, 1.0, 0.25, 0.1);
-    const dmrp_grid sdk_grid = grid.view();
-    const GridView view(sdk_grid);
-    REQUIRE(view.width() == 14);
-    REQUIRE(view.height() == 12);
-    CHECK(view.center(std::uint32_t{0}) == dmrp_vec2{-1.0, 0.75});
-    for (std::uint32_t index = 0; index < view.size(); ++index) {
-      const double clearance = clearance_by_looking(geometry, view.center(index));
-      CHECK(view.clearance(index) == static_cast<float>(clearance));
-      CHECK(view.free(index) == (clearance >= 0.35 - 1e-9));
-      for (int direction = 0; direction < 8; ++direction) {
-        const std::uint32_t to = view.neighbour(index, direction);
-        bool expected = to != toolkit::no_cell && view.free(index) && view.free(to);
-        if (expected && toolkit::is_diagonal(direction)) {
-          const Cell a = view.cell(index);
-          const Cell b = view.cell(to);
-          expected = view.free(Cell{a.column, b.row}) && view.free(Cell{b.column, a.row});
-        }
-        if (expected) {
-          const double least = clearance_along(geometry, view.center(index), view.center(to));
-          if (std::abs(least - 0.25) < 0.005) continue;  // sampling cannot tell
-          expected = least > 0.25;
-        }
-        CHECK(view.edge(index, direction) == expected);
-      }
-    }
-  }
-}
-
-TEST_CASE("a thin wall between two free cells closes the move between them") {
-  Scenario scenario = empty_scenario(4, 3);
-  scenario.shapes = {box("partition", {1.98, 0.0}, {2.02, 2.0})};
-  const StaticGeometry geometry(scenario);
-  const PlanningGrid grid = build_planning_grid(geometry, 1.0, 0.25, 0.1);
-  const dmrp_grid sdk_grid = grid.view();
-  const GridView view(sdk_grid);
-  for (std::uint32_t index = 0; index < view.size(); ++index) CHECK(view.free(index));
-  CHECK(view.edges(view.index({1, 0})) == (DMRP_EDGE_W | DMRP_EDGE_NW | DMRP_EDGE_N));
-  CHECK(view.edges(view.index({2, 0})) == (DMRP_EDGE_E | DMRP_EDGE_NE | DMRP_EDGE_N));
-  // above the wall's end the way is open straight ahead, but the diagonals would cut its corner
-  CHECK(view.edge(view.index({1, 2}), 0));
-  CHECK_FALSE(view.edge(view.index({1, 1}), 1));
-  CHECK_FALSE(view.edge(view.index({1, 2}), 7));
-}
-
-TEST_CASE("a gap of exactly the size needed is open") {
-  Scenario scenario = empty_scenario(3, 3);
-  // 0.7 m between two blocks: clearance 0.35 m in the middle
-  scenario.shapes = {box("left", {0, 1}, {1.15, 2}), box("right", {1.85, 1}, {3, 2})};
-  const StaticGeometry geometry(scenario);
-  const PlanningGrid grid = build_planning_grid(geometry, 1.0, 0.25, 0.1);
-  const dmrp_grid sdk_grid = grid.view();
-  const GridView view(sdk_grid);
-  CHECK(view.free(Cell{1, 1}));
-  CHECK(view.edge(view.index({1, 1}), 2));
-  CHECK(view.edge(view.index({1, 1}), 6));
-}
-
-TEST_CASE("people's cells are finer and need no margin") {
-  const StaticGeometry geometry(empty_scenario(2, 1));
-  const PlanningGrid grid = build_walking_grid(geometry, 0.3);
-  CHECK(grid.width == 8);
-  CHECK(grid.height == 4);
-  const dmrp_grid sdk_grid = grid.view();
-  CHECK_FALSE(GridView(sdk_grid).free(Cell{0, 0}));  // 0.125 m from the border
-  CHECK(GridView(sdk_grid).free(Cell{1, 1}));        // 0.375 m
-  // slender people get through where others don't
-  CHECK(build_walking_grid(geometry, 0.1).free[0] == 1);
-  CHECK(build_walking_grid(geometry, 0.38).free[grid.width + 1] == 0);
-}
-
-TEST_CASE("the route of a flow goes around what is in its way") {
-  Scenario scenario = empty_scenario(20, 10);
-  scenario.shapes = {box("wall", {9.9, 0}, {10.1, 8})};
-  scenario.regions = {{"west", {1, 1}, {3, 3}}, {"east", {17, 1}, {19, 3}}};
-  scenario.flows = {{"across", {0, 1, 0}, 4}};
-  const StaticGeometry geometry(scenario);
-  const FlowRoutes routes = find_flow_routes(scenario, build_walking_grid(geometry, 0.3));
-  REQUIRE(routes.legs.size() == 1);
-  REQUIRE(routes.legs[0].size() == 2);
-  const Route& there = routes.legs[0][0];
-  CHECK(there.front() == dmrp_vec2{2, 2});
-  CHECK(toolkit::contains(toolkit::Rectangle{{17, 1}, {19, 3}}, there.back()));
-  CHECK(routes.legs[0][1].front() == there.back());
-  double highest = 0.0;
-  for (const dmrp_vec2 point : there) {
-    CHECK(geometry.clearance(point) > 0.2);
-    highest = std::max(highest, point.y);
-  }
-  CHECK(highest > 8.2);
 }
