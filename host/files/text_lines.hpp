@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// text_lines.hpp: the lines of a text file, with errors that name a line and a column.
+// text_lines.hpp: the lines of a text file, and errors that name a line and a column.
 #pragma once
 
 #include <cstddef>

@@ -8,31 +8,13 @@
 
 #include "core/scene/static_geometry.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
+#include "tests/unit/core/scene/sampled_clearance.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 using toolkit::Cell;
 using toolkit::GridView;
-
-namespace {
-
-double clearance_by_looking(const StaticGeometry& geometry, dmrp_vec2 point) {
-  double least = std::max(0.0, toolkit::depth(geometry.rectangle(), point));
-  for (const dmrp_shape& shape : geometry.sdk_shapes()) least = std::min(least, toolkit::distance(shape, point));
-  return least;
-}
-
-// The least clearance on the way, sampled.
-double clearance_along(const StaticGeometry& geometry, dmrp_vec2 from, dmrp_vec2 to) {
-  double least = clearance_by_looking(geometry, from);
-  const int samples = 200;
-  for (int i = 1; i <= samples; ++i)
-    least = std::min(least, clearance_by_looking(geometry, toolkit::lerp(from, to, i / double{samples})));
-  return least;
-}
-
-}  // namespace
 
 TEST_CASE("cells and edges follow clearance and sweeps") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
