@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "host/files/read_file.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -35,7 +36,7 @@ Probe probe_for(const TomlValue& value, const std::string& name, const fs::path&
   Probe probe;
   try {
     probe = source(file);
-  } catch (const std::exception& error) {
+  } catch (const std::runtime_error& error) {  // a failure of the machine is none
     value.fail(fmt::format("{}: {}", name, error.what()));
   }
   if (!probe.init_error.empty()) value.fail(fmt::format("{}: {}", name, probe.init_error));

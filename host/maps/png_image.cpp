@@ -6,6 +6,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 
 #include "host/errors/input_error.hpp"
 #include "host/maps/map_image.hpp"
@@ -79,7 +80,7 @@ MapImage read_png(std::string_view bytes, const std::string& shown_path) {
   Decoder decoder;
   decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, &note_error, &ignore_warning);
   decoder.info = decoder.png ? png_create_info_struct(decoder.png) : nullptr;
-  if (!decoder.info) throw InputError(shown_path + ":1:1: the PNG image cannot be read: out of memory");
+  if (!decoder.info) throw std::bad_alloc();
   png_set_read_fn(decoder.png, &source, &take_bytes);
   // The size is checked below, with our own message.
   png_set_user_limits(decoder.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);

@@ -25,7 +25,7 @@ dmrp_vec2 place(const dmrp_pose& pose) {
 
 }  // namespace
 
-TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reachable part of the world") {
+TEST_CASE("random starts and goals are free, on cell centres, apart, and in one connected part of the world") {
   Scenario scenario = random_scenario(3, 40.0, 60);
   // a closed room that nobody gets out of
   scenario.shapes.push_back(box("room, east", {8, 0}, {8.2, 8}));
@@ -57,7 +57,7 @@ TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reac
   CHECK(starts.size() > 15);
 }
 
-TEST_CASE("more robots are drawn beside the same ones") {
+TEST_CASE("the tasks of the first robots do not depend on the number") {
   const PlanningGrid grid = grid_of(empty_scenario(30, 30));
   const auto few = random_tasks(grid, 4, 7);
   const auto many = random_tasks(grid, 30, 7);
@@ -70,7 +70,7 @@ TEST_CASE("more robots are drawn beside the same ones") {
   }
 }
 
-TEST_CASE("where there is no room for all there are as many as were found, and what is sure is true") {
+TEST_CASE("without room for all there are fewer tasks, and has_room_for_tasks() is never wrong") {
   const PlanningGrid grid = grid_of(empty_scenario(12, 12));
   CHECK(random_tasks(grid, 1000, 1).size() < 30);  // no two within 2 m on 144 cells
   CHECK(random_tasks(grid, 1000, 1).size() > 8);

@@ -315,7 +315,7 @@ TEST_CASE("mistakes in a scenario file") {
   }
 }
 
-TEST_CASE("robots can keep the order only of plans that have one") {
+TEST_CASE("ordered execution needs conflict-free plans on cells") {
   const ExperimentFolder folder;
   const auto message = [](std::uint32_t connectivity, std::uint32_t flags) -> std::string {
     write_file("experiment.toml", std::string(experiment_text) + "[simulation]\nexecution = \"ordered\"\n");
