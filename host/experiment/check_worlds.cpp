@@ -19,17 +19,17 @@ namespace dmrp::host {
 namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
-constexpr double most_cells = 1 << 24;
+constexpr double max_cells = 1 << 24;
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;
   const double cells =
       (scenario.upper.x - scenario.lower.x) * (scenario.upper.y - scenario.lower.y) / (resolution_m * resolution_m);
-  if (cells > most_cells)
+  if (cells > max_cells)
     file.document->fail(file.size,
                         fmt::format("the world is too large: {} with cells of {} m would have {:.0f} cells, at "
                                     "most {:.0f}",
-                                    grid, resolution_m, cells, most_cells));
+                                    grid, resolution_m, cells, max_cells));
 }
 
 class WorldCheck {

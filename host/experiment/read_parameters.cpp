@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_variants = 1000;
+constexpr std::size_t max_variants = 1000;
 
 fs::path parameter_set_folder() {
   return shared_data_path() / "parameter_sets";
@@ -192,8 +192,8 @@ std::vector<ParameterVariant> read_parameters(const TomlTable& use, const Plugin
     for (const auto& [entry, index] : declared_entries(*sweep, info)) {
       if (set[index]) entry.fail_at_key(fmt::format("'{}' is already set in 'params'", entry.key()));
       const auto values = read_sweep(entry, info.parameters[index], base);
-      if (variants.size() * values.size() > most_variants)
-        entry.fail(fmt::format("the sweep has more than {} variants", most_variants));
+      if (variants.size() * values.size() > max_variants)
+        entry.fail(fmt::format("the sweep has more than {} variants", max_variants));
       variants = multiply(variants, index, values);
     }
   return variants;

@@ -15,10 +15,10 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double longest_s = 1e6;
-constexpr double shortest_s = 1e-3;
-constexpr double longest_latency_s = 10.0;
-constexpr double farthest_m = 1e4;
+constexpr double max_time_s = 1e6;
+constexpr double min_time_s = 1e-3;
+constexpr double max_latency_s = 10.0;
+constexpr double max_length_m = 1e4;
 constexpr double max_dropout_share = 0.9;     // with more a costmap cannot distinguish them from free space
 constexpr double max_costmap_cells = 2000.0;  // along a side
 
@@ -89,13 +89,13 @@ Setting time(const std::string& key, std::int64_t& to_ns, double minimum_s, doub
           [&to_ns] { return toml_text(static_cast<double>(to_ns) / 1e9); }};
 }
 Setting seconds(const std::string& key, std::int64_t& to_ns) {
-  return time(key, to_ns, shortest_s, longest_s);
+  return time(key, to_ns, min_time_s, max_time_s);
 }
 Setting seconds_or_never(const std::string& key, std::int64_t& to_ns) {  // 0: never
-  return time(key, to_ns, 0.0, longest_s);
+  return time(key, to_ns, 0.0, max_time_s);
 }
 Setting latency(const std::string& key, std::int64_t& to_ns) {
-  return time(key, to_ns, 0.0, longest_latency_s);
+  return time(key, to_ns, 0.0, max_latency_s);
 }
 
 // A table in the table. `check` runs after all its keys have been read.
@@ -150,16 +150,16 @@ Settings simulation_settings(core::SimulationSettings& to) {
           latency("planning_latency_s", to.planning_latency_ns),
           number("planning_margin_m", to.planning_margin_m, 0.0, 10.0),
           choice("tracking", to.tracking, {"none", "visible", "all"}),
-          positive("tracking_range_m", to.tracking_range_m, farthest_m),
+          positive("tracking_range_m", to.tracking_range_m, max_length_m),
           number("tracking_velocity_noise_sd", to.tracking_velocity_noise_sd, 0.0, 10.0),
-          positive("goal_tolerance_m", to.goal.tolerance_m, farthest_m),
+          positive("goal_tolerance_m", to.goal.tolerance_m, max_length_m),
           positive("goal_tolerance_rad", to.goal.tolerance_rad, std::numbers::pi),
           positive("goal_tolerance_speed", to.goal.tolerance_speed, 100.0),
-          number("goal_settle_s", to.goal.settle_s, 0.0, longest_s),
+          number("goal_settle_s", to.goal.settle_s, 0.0, max_time_s),
           choice("dispatch", to.dispatch, {"full_path", "waypoint"}),
           choice("execution", to.execution, {"free", "ordered"}),
           seconds_or_never("replan_period_s", to.replan.period_ns),
-          number("replan_stray_m", to.replan.stray_m, 0.0, farthest_m),
+          number("replan_stray_m", to.replan.stray_m, 0.0, max_length_m),
           seconds_or_never("replan_stall_s", to.replan.stall_ns),
           seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns)};
 }
@@ -191,8 +191,8 @@ Settings odometry_settings(core::OdometrySettings& to) {
 Settings lidar_settings(core::LidarSettings& to) {
   return {integer("beams", to.beams, 1, 100'000),
           number("field_of_view_rad", to.field_of_view_rad, 0.01, 2.0 * std::numbers::pi),
-          number("range_min_m", to.range_min_m, 0.0, farthest_m),
-          positive("range_max_m", to.range_max_m, farthest_m),
+          number("range_min_m", to.range_min_m, 0.0, max_length_m),
+          positive("range_max_m", to.range_max_m, max_length_m),
           number("noise_sd_m", to.noise_sd_m, 0.0, 10.0),
           number("dropout_share", to.dropout_share, 0.0, max_dropout_share)};
 }
@@ -206,8 +206,8 @@ void check_lidar(const TomlTable& table, const core::LidarSettings& lidar) {
 Settings costmap_settings(core::CostmapSettings& to) {
   return {number("resolution_m", to.resolution_m, 0.01, 1.0),
           number("window_m", to.window_m, 1.0, 100.0),
-          positive("obstacle_range_m", to.obstacle_range_m, farthest_m),
-          positive("raytrace_range_m", to.raytrace_range_m, farthest_m),
+          positive("obstacle_range_m", to.obstacle_range_m, max_length_m),
+          positive("raytrace_range_m", to.raytrace_range_m, max_length_m),
           positive("inflation_radius_m", to.inflation_radius_m, 100.0),
           positive("cost_scaling", to.cost_scaling, 1000.0)};
 }
@@ -239,9 +239,9 @@ Settings record_settings(Experiment& experiment) {
 }
 
 Settings limits_settings(RunLimits& to) {
-  return {number("planner_time_s", to.planner_time_s, shortest_s, longest_s),
-          number("step_time_s", to.step_time_s, shortest_s, longest_s),
-          number("trial_wall_time_s", to.trial_wall_time_s, shortest_s, longest_s),
+  return {number("planner_time_s", to.planner_time_s, min_time_s, max_time_s),
+          number("step_time_s", to.step_time_s, min_time_s, max_time_s),
+          number("trial_wall_time_s", to.trial_wall_time_s, min_time_s, max_time_s),
           integer("memory_mb", to.memory_mb, 0, 1 << 30)};
 }
 

@@ -15,7 +15,7 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::uint32_t highest_maxval = 65'535;
+constexpr std::uint32_t max_maxval = 65'535;
 constexpr std::string_view png_magic = "\x89PNG";
 
 bool is_space(char c) {
@@ -113,7 +113,7 @@ MapImage read_pgm(std::string_view bytes, const std::string& shown_path) {
   image.width = text.number("the width", std::numeric_limits<std::uint32_t>::max());
   image.height = text.number("the height", std::numeric_limits<std::uint32_t>::max());
   check_map_size(image.width, image.height, text.place(header));
-  image.white = text.number("maxval", highest_maxval);
+  image.white = text.number("maxval", max_maxval);
   if (image.white == 0) text.fail(text.position() - 1, "maxval must be at least 1");
   image.level.resize(std::size_t{image.width} * image.height);
   if (bytes[1] == '2') {

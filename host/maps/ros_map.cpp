@@ -19,11 +19,11 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::uintmax_t most_yaml_bytes = 1 << 16;
-constexpr double finest_resolution_m = 0.001;
-constexpr double coarsest_resolution_m = 100.0;
-constexpr double farthest_m = 1e6;    // of a coordinate
-constexpr int most_likely_free = 49;  // of 100
+constexpr std::uintmax_t max_yaml_bytes = 1 << 16;
+constexpr double min_resolution_m = 0.001;
+constexpr double max_resolution_m = 100.0;
+constexpr double max_length_m = 1e6;      // of a coordinate
+constexpr int max_free_probability = 49;  // of 100
 
 enum class Mode { trinary, scale, raw };
 
@@ -118,7 +118,7 @@ class MapFile {
 dmrp_pose read_origin(const MapFile& file) {
   const YAML::Node node = file.need("origin");
   if (!node.IsSequence() || node.size() != 3) file.fail(node.Mark(), "'origin' must be [x, y, yaw]");
-  const double most = farthest_m;
+  const double most = max_length_m;
   return {file.number(node[0], "origin", -most, most), file.number(node[1], "origin", -most, most),
           file.number(node[2], "origin", -most, most)};
 }
@@ -177,7 +177,7 @@ core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x) {
       const auto likely = chance(image, std::size_t{y} * image.width + x, shades);
-      const bool free = likely ? *likely <= most_likely_free : unknown == UnknownCells::free;
+      const bool free = likely ? *likely <= max_free_probability : unknown == UnknownCells::free;
       map.free[std::size_t{image.height - 1 - y} * image.width + x] = free ? 1 : 0;
     }
   return map;
@@ -186,11 +186,11 @@ core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells
 }  // namespace
 
 RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_path, UnknownCells unknown) {
-  const MapFile yaml(read_file(file, shown_path, most_yaml_bytes), shown_path);
+  const MapFile yaml(read_file(file, shown_path, max_yaml_bytes), shown_path);
   RosMap map;
   const YAML::Node name = yaml.need("image");
   const std::string image = yaml.text(name, "image");
-  map.resolution_m = yaml.number(yaml.need("resolution"), "resolution", finest_resolution_m, coarsest_resolution_m);
+  map.resolution_m = yaml.number(yaml.need("resolution"), "resolution", min_resolution_m, max_resolution_m);
   map.origin = read_origin(yaml);
   const Shades shades = read_shades(yaml);
   map.image = (file.parent_path() / image).lexically_normal();

@@ -28,9 +28,9 @@ NamedFile file_of_type(const TomlValue& value, const fs::path& scenario_file, co
 
 // A noisy map has more boxes than any building and would fill the memory. `at`: the name of the map.
 void check_roughness(const TomlValue& at, const core::CellMap& cells) {
-  constexpr std::size_t most_boxes = 250'000;
-  if (const std::size_t boxes = core::count_boxes(cells); boxes > most_boxes)
-    at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, most_boxes));
+  constexpr std::size_t max_boxes = 250'000;
+  if (const std::size_t boxes = core::count_boxes(cells); boxes > max_boxes)
+    at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, max_boxes));
 }
 
 TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const NamedFile& file, core::Scenario& scenario) {
@@ -41,7 +41,7 @@ TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const Named
   const auto cell = table.find("cell_m");
   if (cell) {
     cell->positive();
-    map.cell_m = cell->number(0.0, longest_side_m);
+    map.cell_m = cell->number(0.0, max_side_m);
   }
   const dmrp_vec2 extent = {map.cell_m * map.cells.width, map.cell_m * map.cells.height};
   check_extent(cell ? *cell : name, extent);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_s = 1e6;
+constexpr double max_time_s = 1e6;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some spreadsheets write it
 constexpr std::array<std::string_view, 4> columns = {"time", "id", "x", "y"};
 
@@ -104,7 +104,7 @@ class Recording {
   }
 
   void read_row(const std::array<TextField, 4>& fields, ScenarioFile& out) {
-    const std::int64_t t_ns = std::llround(number(fields[0], 0, longest_s) * 1e9);
+    const std::int64_t t_ns = std::llround(number(fields[0], 0, max_time_s) * 1e9);
     const auto [person, is_new] = persons_.try_emplace(id(fields[1]), out.scenario.tracks.size());
     if (is_new) {
       out.scenario.tracks.emplace_back();
@@ -117,8 +117,8 @@ class Recording {
     if (!points.empty() && t_ns < points.back().t_ns)
       fail(fields[0].column, fmt::format("the rows of person {} must be in order of time: {} s comes after {} s",
                                          person->first, fields[0].text, static_cast<double>(points.back().t_ns) / 1e9));
-    const double x = number(fields[2], 2, longest_side_m);
-    points.push_back({t_ns, {x, number(fields[3], 3, longest_side_m)}});
+    const double x = number(fields[2], 2, max_side_m);
+    points.push_back({t_ns, {x, number(fields[3], 3, max_side_m)}});
     out.tracks[person->second].lines.push_back(line_);
   }
 

@@ -13,7 +13,7 @@
 
 namespace dmrp::host {
 
-inline constexpr double longest_side_m = 10'000.0;  // of a world
+inline constexpr double max_side_m = 10'000.0;  // of a world
 
 // The place of a recorded person in its file.
 struct TrackPlace {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t most_tiles = 100;  // along a side
+constexpr std::int64_t max_tiles = 100;  // along a side
 
 dmrp_vec2 moved(dmrp_vec2 point, dmrp_vec2 by) {
   return {point.x + by.x, point.y + by.y};
@@ -64,9 +64,9 @@ void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) 
   table->allow_only(tiles_keys);
   if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
   const TomlValue of = table->need("of");
-  const auto columns = table->need("columns").integer(1, most_tiles);
+  const auto columns = table->need("columns").integer(1, max_tiles);
   const auto asked_rows = table->find("rows");
-  const auto rows = asked_rows ? asked_rows->integer(1, most_tiles) : 1;
+  const auto rows = asked_rows ? asked_rows->integer(1, max_tiles) : 1;
   const ScenarioFile tile = read_tile(of, file);
   out.size = of.position();
   out.files.insert(out.files.end(), tile.files.begin(), tile.files.end());
