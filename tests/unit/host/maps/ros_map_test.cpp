@@ -398,7 +398,7 @@ TEST_CASE("damaged maps give an error of one line or a map") {
   }
 }
 
-TEST_CASE("public maps become few shapes that contain every blocked cell") {
+TEST_CASE("public maps become few shapes that contain every blocked cell", "[data]") {
   const auto data = test_data();
   if (!data || !std::filesystem::is_directory(*data / "mrpb")) {
     WARN("skipped: DMRP_TEST_DATA is not set");
