@@ -92,7 +92,7 @@ Plan plan_once(const Experiment& experiment) {
 int draw_command(const DrawOptions& options) {
   Experiment experiment = adhoc_experiment(options.scenario, !options.planner.empty() || options.agents > 0);
   experiment.seed = options.seed;
-  if (options.agents > 0) draw_robots_in(experiment, options.agents, options.seed);
+  if (options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (!options.planner.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots to plan for (--agents draws some)", options.scenario));
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);

@@ -184,7 +184,7 @@ int plan_command(const PlanOptions& options) {
   Experiment experiment = options.map.empty() ? adhoc_experiment(options.scenario) : Experiment();
   experiment.seed = options.seed;
   experiment.limits.planner_time_s = options.time_limit_s;
-  if (options.map.empty() && options.agents > 0) draw_robots_in(experiment, options.agents, options.seed);
+  if (options.map.empty() && options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));
   add_planner(experiment, options.planner, options.plugins, options.settings);

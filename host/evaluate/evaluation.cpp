@@ -11,7 +11,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/experiment/read_parameters.hpp"
-#include "host/experiment/read_settings.hpp"
+#include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/files/sha256.hpp"
 #include "host/program/version.hpp"

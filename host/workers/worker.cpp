@@ -112,7 +112,7 @@ class Worker {
                      [](const MetricEvent& a, const MetricEvent& b) { return a.from_ns < b.from_ns; });
     if (core::FoxgloveChannels* const foxglove = kept.foxglove())
       for (const MetricEvent& event : events)
-        foxglove->mark({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
+        foxglove->metric_event({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
     kept.finish();
   }
 

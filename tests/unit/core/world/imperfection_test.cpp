@@ -126,7 +126,7 @@ TEST_CASE("without noise a robot knows where it is, to the bit") {
   CHECK(odometry.pose().x == there.x);
   CHECK(odometry.pose().theta == there.theta);
   CHECK(odometry.velocity().omega == 0.1);
-  const dmrp_pose seen = odometry.as_believed({5, 5, 1.0});
+  const dmrp_pose seen = odometry.to_estimated({5, 5, 1.0});
   CHECK(seen.x == 5.0);
   CHECK(seen.theta == 1.0);
 }
@@ -188,11 +188,11 @@ TEST_CASE("what a robot sees lies about where it believes to be") {
   REQUIRE(std::abs(believed.theta - 0.4) > 1e-3);
   // 2 m straight ahead, facing the robot
   const dmrp_pose other = {0.3 + 2.0 * std::cos(0.4), 0.1 + 2.0 * std::sin(0.4), 0.4 + pi};
-  const dmrp_pose seen = odometry.as_believed(other);
+  const dmrp_pose seen = odometry.to_estimated(other);
   CHECK(seen.x == Approx(believed.x + 2.0 * std::cos(believed.theta)));
   CHECK(seen.y == Approx(believed.y + 2.0 * std::sin(believed.theta)));
   CHECK(std::abs(toolkit::difference(seen.theta, believed.theta + pi)) < 1e-12);
-  const dmrp_vec2 toward = odometry.direction_as_believed({std::cos(0.4), std::sin(0.4)});
+  const dmrp_vec2 toward = odometry.direction_to_estimated({std::cos(0.4), std::sin(0.4)});
   CHECK(toward.x == Approx(std::cos(believed.theta)));
 }
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Robots and their plans: progress over several paths, when to plan again, and the order in which cells are passed.
+#include "core/execution/action_dependencies.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <map>
 #include <optional>
 #include <vector>
-
-#include "core/execution/action_dependencies.hpp"
-#include "core/execution/progress.hpp"
-#include "core/execution/replanning.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
@@ -20,132 +18,13 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
-dmrp_waypoint waypoint(double x, double y, std::int64_t t_ns = 0) {
+dmrp_waypoint waypoint(double x, double y, std::int64_t t_ns) {
   dmrp_waypoint made{};
   made.x = x;
   made.y = y;
   made.t_ns = t_ns;
   return made;
 }
-
-std::vector<dmrp_waypoint> lane(double from, double to) {
-  std::vector<dmrp_waypoint> path;
-  for (double x = from; x <= to; x += 1.0) path.push_back(waypoint(x, 0));
-  return path;
-}
-
-}  // namespace
-
-TEST_CASE("a robot that is planned anew all the time gains what it drives") {
-  // every 0.3 m a new path begins at the next cell's centre
-  PathProgress progress;
-  progress.set_path(lane(0, 9), {0.0, 0.0});
-  for (int i = 1; i <= 70; ++i) {
-    const double x = 0.1 * i;
-    progress.update({x, 0.0}, 0);
-    if (i % 3 == 0) progress.set_path(lane(std::ceil(x), 9), {x, 0.0});
-  }
-  CHECK(progress.gained_m() == Approx(7.0));
-  CHECK(progress.off_path_m() == Approx(0.0).margin(1e-9));
-}
-
-TEST_CASE("a robot that swings to and fro gains nothing by new paths") {
-  PathProgress progress;
-  progress.set_path(lane(0, 9), {0.0, 0.0});
-  progress.update({2.0, 0.0}, 0);
-  for (int swing = 0; swing < 20; ++swing) {
-    progress.update({1.2, 0.0}, 0);
-    progress.set_path(lane(swing % 2 == 0 ? 1 : 2, 9), {1.2, 0.0});
-    progress.update({1.6, 0.0}, 0);
-    progress.update({2.0, 0.0}, 0);
-  }
-  CHECK(progress.gained_m() == Approx(2.0));
-  progress.update({2.5, 0.0}, 0);
-  CHECK(progress.gained_m() == Approx(2.5));
-}
-
-TEST_CASE("a path that begins elsewhere has begun when its first waypoint is passed") {
-  PathProgress progress;
-  progress.set_path(lane(2, 5), {1.0, 0.0});
-  CHECK_FALSE(progress.has_begun());
-  progress.update({1.5, 0.0}, 0);
-  CHECK_FALSE(progress.has_begun());
-  CHECK(progress.progress_m() == 0.0);
-  CHECK(progress.waypoint() == 0);
-  CHECK(progress.gained_m() == Approx(0.5));
-  progress.update({3.2, 0.0}, 0);
-  CHECK(progress.has_begun());
-  CHECK(progress.progress_m() == Approx(1.2));
-  CHECK(progress.waypoint() == 1);
-}
-
-namespace {
-
-// One robot on a lane of 20 m, at 10 Hz; the times at which it is to be planned anew. `place` gives where it is.
-template <class Place>
-std::vector<double> replans(const ReplanSettings& settings, double until_s, Place&& place) {
-  ReplanMonitor monitor(settings, 1);
-  std::vector<RobotState> robots(1);
-  std::vector<PathProgress> progress(1);
-  progress[0].set_path(lane(0, 20), {0.0, 0.0});
-  std::vector<double> times;
-  for (int tick = 0; tick <= std::lround(10.0 * until_s); ++tick) {
-    const double t_s = 0.1 * tick;
-    progress[0].update(place(t_s), 0);
-    if (monitor.due(tick * second_ns / 10, robots, progress)) times.push_back(t_s);
-  }
-  return times;
-}
-
-std::vector<double> approximately(const std::vector<double>& times) {
-  std::vector<double> rounded;
-  for (const double t : times) rounded.push_back(std::round(10.0 * t) / 10.0);
-  return rounded;
-}
-
-}  // namespace
-
-TEST_CASE("nobody plans anew unless told to") {
-  CHECK(replans({}, 60.0, [](double) { return dmrp_vec2{0.0, 3.0}; }).empty());
-}
-
-TEST_CASE("planning anew every few seconds, or at the next control tick") {
-  ReplanSettings settings;
-  settings.period_ns = 2 * second_ns;
-  const auto drives = [](double t_s) { return dmrp_vec2{0.5 * t_s, 0.0}; };
-  CHECK(approximately(replans(settings, 6.5, drives)) == std::vector<double>{2.0, 4.0, 6.0});
-  settings.period_ns = 1'750'000'000;
-  CHECK(approximately(replans(settings, 4.0, drives)) == std::vector<double>{1.8, 3.6});
-}
-
-TEST_CASE("planning anew when a robot strays, no sooner than allowed") {
-  ReplanSettings settings;
-  settings.stray_m = 1.0;
-  // 1.05 m off at 2.1 s; the planner was asked at 0 s first
-  const auto strays = [](double t_s) { return dmrp_vec2{2.0, 0.5 * t_s}; };
-  CHECK(approximately(replans(settings, 6.5, strays)) == std::vector<double>{2.1, 4.1, 6.1});
-  settings.min_interval_ns = 3 * second_ns;
-  CHECK(approximately(replans(settings, 6.5, strays)) == std::vector<double>{3.0, 6.0});
-}
-
-TEST_CASE("planning anew when a robot stalls, and again when that did not help") {
-  ReplanSettings settings;
-  settings.stall_ns = 5 * second_ns;
-  // drives for 3 s and 1.65 m; the last gain of 0.2 m was complete at 2.8 s
-  const auto stalls = [](double t_s) { return dmrp_vec2{0.55 * std::min(t_s, 3.0), 0.0}; };
-  CHECK(approximately(replans(settings, 15.0, stalls)) == std::vector<double>{7.8, 12.8});
-}
-
-TEST_CASE("robots that are not active give no reason to plan") {
-  ReplanSettings settings;
-  settings.period_ns = second_ns;
-  ReplanMonitor monitor(settings, 1);
-  std::vector<RobotState> robots(1);
-  robots[0].state = DMRP_ROBOT_FINISHED;
-  CHECK_FALSE(monitor.due(5 * second_ns, robots, std::vector<PathProgress>(1)));
-}
-
-namespace {
 
 // Cells of 1 m, a step a second.
 constexpr std::uint32_t side = 5;
@@ -188,7 +67,7 @@ using Stages = std::vector<std::uint32_t>;
 
 }  // namespace
 
-TEST_CASE("who comes second to a crossing waits until the first has left it") {
+TEST_CASE("the second robot at a crossing waits until the first has left it") {
   // the first passes (1, 1) at t = 1, the second, after a wait, at t = 3
   Ordered plan({{{0, 1}, {1, 1}, {2, 1}, {3, 1}}, {{1, 3}, {1, 2}, {1, 2}, {1, 1}, {1, 0}}});
   CHECK(plan.released() == Stages{3, 1});
@@ -210,7 +89,7 @@ TEST_CASE("robots in a row follow each other cell by cell") {
   CHECK(plan.released() == Stages{2, 2, 1});
 }
 
-TEST_CASE("a rotation is released when all stand in it") {
+TEST_CASE("a rotation is released when all its robots have reached it") {
   // the last of four gets to the ring a step before it turns
   const std::vector<Walk> walks = {
       {{1, 1}, {1, 1}, {2, 1}}, {{2, 1}, {2, 1}, {2, 2}}, {{2, 2}, {2, 2}, {1, 2}}, {{0, 2}, {1, 2}, {1, 1}}};
@@ -220,7 +99,7 @@ TEST_CASE("a rotation is released when all stand in it") {
   CHECK(plan.released() == Stages{1, 1, 1, 2});
 }
 
-TEST_CASE("a rotation waits as one for whom one of it waits") {
+TEST_CASE("a rotation waits as a whole if one of its robots must wait") {
   // a ring of diagonals, of which one passes a corner of (2, 2)
   Ordered plan({{{1, 0}, {1, 0}, {2, 1}},
                 {{2, 1}, {2, 1}, {1, 2}},
@@ -232,7 +111,7 @@ TEST_CASE("a rotation waits as one for whom one of it waits") {
   CHECK(plan.released() == Stages{1, 1, 1, 1, 1});
 }
 
-TEST_CASE("a diagonal has the cells beside it until it is done") {
+TEST_CASE("a diagonal move occupies the cells beside it until it ends") {
   Ordered plan({{{0, 0}, {1, 1}, {2, 2}}, {{3, 0}, {2, 0}, {1, 0}, {0, 0}}});
   CHECK(plan.released() == Stages{2, 1});
   plan.dependencies.reached(0, 1);
@@ -245,7 +124,7 @@ TEST_CASE("a diagonal has the cells beside it until it is done") {
   CHECK(other.released() == Stages{1, 2});
 }
 
-TEST_CASE("a robot on the way to its first cell still has the cell where it is") {
+TEST_CASE("a robot on the way to its first cell still occupies the cell where it is") {
   const std::vector<std::vector<dmrp_waypoint>> paths = {{waypoint(2.5, 0.5, 0), waypoint(3.5, 0.5, second_ns)},
                                                          {waypoint(1.5, 1.5, 0), waypoint(1.5, 0.5, second_ns)}};
   ActionDependencies dependencies;
@@ -345,7 +224,7 @@ Visits visits_of(const std::vector<Walk>& walks, std::vector<std::vector<std::ui
 
 }  // namespace
 
-TEST_CASE("however long robots take, they pass every cell in the plan's order, and none waits for ever") {
+TEST_CASE("with any delays robots pass every cell in the plan's order, and none waits forever") {
   const bool diagonal = GENERATE(false, true);
   std::size_t moves = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
