@@ -6,13 +6,13 @@
 
 namespace dmrp::planners {
 
-// Sharon et al. 2015, with what makes it CBSH2-RTC (Li et al. 2021): prioritized conflicts and bypass (Boyarski et al.
-// 2015), the weighted dependency graph heuristic (Li et al. 2019), rectangle, corridor and target reasoning (Li et al.
-// 2019, 2020). Each is a parameter. Disjoint splitting (Li et al. 2019) is a choice.
+// Sharon et al. 2015, with the improvements of CBSH2-RTC (Li et al. 2021): prioritized conflicts and bypass (Boyarski
+// et al. 2015), the weighted dependency graph heuristic (Li et al. 2019), and rectangle, corridor and target reasoning
+// (Li et al. 2019, 2020). Each has a parameter that disables it. Disjoint splitting (Li et al. 2019) is optional.
 //
-// The sum of costs is optimal: a robot's steps until it stays at its last goal for good; vertex and swap conflicts
-// count, and robots rest at their goals and where they are not active. Of paths of equal cost and conflicts those with
-// fewer turns are preferred. The reported `lower_bound` equals the cost.
+// The sum of costs is optimal. The cost of a robot is its number of steps until it rests at its last goal. Plans have
+// no vertex or swap conflicts; robots rest at their goals, and inactive robots where they are. Of paths with equal cost
+// and conflicts the search prefers those with fewer turns. The reported `lower_bound` equals the cost.
 class Cbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();

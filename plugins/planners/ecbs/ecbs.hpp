@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// ecbs.hpp: enhanced conflict-based search: paths without conflicts, of a sum of costs within a bound of the least.
+// ecbs.hpp: enhanced conflict-based search: paths without conflicts whose sum of costs is within a factor of the least.
 #pragma once
 
 #include "planners/conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 
-// ECBS(w) of Barer et al. 2014: focal search on the low level (a path within w of the least, with fewest conflicts)
-// and on the high level (the node within w of the lower bound with fewest pairs in conflict).
+// ECBS(w) of Barer et al. 2014: focal search on the low level (a path with few conflicts and a cost within a factor w
+// of the least) and on the high level (the node with fewest conflicting pairs within a factor w of the lower bound).
 //
-// cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
+// Reports `cost` and `lower_bound`: cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`.
 class Ecbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// eecbs.hpp: explicit estimation conflict-based search: paths without conflicts, of a sum of costs within a bound of
-// the least, found by estimating what the conflicts that are left will cost.
+// eecbs.hpp: explicit estimation conflict-based search: paths without conflicts whose sum of costs is within a factor
+// of the least. Estimates the cost of the remaining conflicts.
 #pragma once
 
 #include "planners/conflict_search/planner.hpp"
@@ -9,12 +9,12 @@ namespace dmrp::planners {
 
 // EECBS(w) of Li, Ruml, Koenig 2021: focal search on the low level, explicit estimation search on the high level, with
 // prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
-// Each is a parameter. Beyond the paper: robots in conflict are replanned as they are before a node is split
-// (`replan_in_place`), and searches that go on for long are restarted with the robots in another order
-// (`restart_after`; rapid randomized restarts, Cohen et al. 2018), what was proved of the lower bound being kept. From
-// then on the low level weighs conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
+// Each has a parameter. Beyond the paper: before a split, robots with conflicts are replanned without new constraints
+// (`replan_in_place`); long searches restart with the robots in another order and keep the proved lower bound
+// (`restart_after`; rapid randomized restarts, Cohen et al. 2018). After the first restart the low level weighs
+// conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
 //
-// cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
+// Reports `cost` and `lower_bound`: cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`.
 class Eecbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();
