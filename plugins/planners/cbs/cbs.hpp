@@ -19,18 +19,20 @@ class Cbs final : public ConflictSearchPlanner {
 
   Param<bool> prioritize_conflicts =
       param("prioritize_conflicts", true).doc("split first on conflicts that raise the cost of both children");
-  Param<bool> bypass = param("bypass", true).doc("adopt a path that has fewer conflicts at the same cost, unsplit");
+  Param<bool> bypass =
+      param("bypass", true).doc("adopt a path with fewer conflicts at the same cost instead of a split");
   Param<bool> weighted_dependency_graph =
-      param("weighted_dependency_graph", true).doc("bound the cost of a node by that of its pairs of robots");
+      param("weighted_dependency_graph", true)
+          .doc("raise the lower bound of a node by the dependencies between pairs of robots");
   Param<bool> rectangle_reasoning =
-      param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
-  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+      param("rectangle_reasoning", true).doc("resolve crossings on open ground by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("resolve meetings in a corridor by one split");
   Param<bool> target_reasoning =
-      param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
+      param("target_reasoning", true).doc("resolve conflicts at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
-      param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+      param("disjoint_splitting", false).doc("one child requires a robot to pass a place, the other forbids it");
   Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

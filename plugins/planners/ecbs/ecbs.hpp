@@ -15,9 +15,9 @@ class Ecbs final : public ConflictSearchPlanner {
   static Descriptor describe();
 
   Param<double> suboptimality =
-      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most so many times the least");
+      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most this factor times the least");
   Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

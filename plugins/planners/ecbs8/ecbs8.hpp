@@ -29,7 +29,7 @@ class Ecbs8 final : public GlobalPlanner {
   Param<double> suboptimality = param("suboptimality", 2.0)
                                     .unit("1")
                                     .range(1.0, 100.0)
-                                    .doc("how many times the lower bound the plan's cost may be");
+                                    .doc("the cost is at most this factor times the lower bound");
   Param<std::int64_t> node_limit = param("node_limit", 500000)
                                        .unit("1")
                                        .range(1, 100'000'000)
