@@ -6,7 +6,6 @@
 // Only the models' step() is timed, through the plugins' C entry. Best of three stretches of the same walk.
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,12 +53,12 @@ double agent_steps_per_second(const std::string& model, std::uint32_t people) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const Output output = output_options(argc, argv);
   std::vector<Row> rows;
   for (const char* model : {"social_force", "orca", "collision_free_speed"})
     for (const std::uint32_t people : {10u, 100u, 1000u, 10000u})
       rows.push_back({"pedestrian/" + std::string(model) + "/" + std::to_string(people),
                       agent_steps_per_second(model, people), "agent-steps/s"});
-  print_rows(rows, json);
+  write_rows(rows, output);
   return 0;
 }

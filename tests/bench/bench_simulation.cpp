@@ -9,7 +9,6 @@
 //   simulation/hall_bare/real_time_factor                 100 robots, 1,000 people, 50 Hz, no plugin
 //   simulation/hall_social_force/real_time_factor         people by the social force plugin
 #include <algorithm>
-#include <cstring>
 #include <dmrp/toolkit/vec2.hpp>
 #include <memory>
 #include <stdexcept>
@@ -134,7 +133,7 @@ double best_of_three(const Setup& setup) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const bench::Output output = bench::output_options(argc, argv);
   const core::Scenario mall = bench::shipped_mall();
   const core::Scenario hall = bench::make_hall(100, 1000);
   std::vector<bench::Row> rows;
@@ -148,6 +147,6 @@ int main(int argc, char** argv) {
   add("mall_social_force_lidar", {mall, Walking::social_force, Sensors::lidar, 120.0});
   add("hall_bare", {hall, Walking::straight, Sensors::none, 20.0});
   add("hall_social_force", {hall, Walking::social_force, Sensors::none, 20.0});
-  bench::print_rows(rows, json);
+  bench::write_rows(rows, output);
   return 0;
 }

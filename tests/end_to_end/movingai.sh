@@ -32,7 +32,7 @@ grep -qx "0,0,0,0" "$scratch/rooms.csv" || fail "robot 0 should begin at (0, 0):
 # the example, with the files that it asks for
 if [[ ! -d $data/movingai ]]; then
   echo "skipped: DMRP_TEST_DATA is not set"
-  exit 0
+  exit 77
 fi
 cp -r "$source_dir/examples/movingai.toml" "$source_dir/examples/movingai" "$scratch"
 cp "$data/movingai/maps/random-32-32-20.map" "$data/movingai/scens/random-32-32-20-random-1.scen" "$scratch/movingai" ||

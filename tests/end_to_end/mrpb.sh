@@ -9,7 +9,7 @@ sanitizers=${4:-}
 
 if [[ ! -d $data/mrpb ]]; then
   echo "skipped: DMRP_TEST_DATA is not set"
-  exit 0
+  exit 77
 fi
 cp -r "$data/mrpb" "$scratch/data" && chmod -R u+w "$scratch/data"
 [[ -z $sanitizers ]] || sed -i '3,$d' "$scratch"/data/*/starts_goals.csv

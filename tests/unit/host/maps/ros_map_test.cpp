@@ -398,7 +398,7 @@ TEST_CASE("damaged maps are told in one line or read, never worse") {
   }
 }
 
-TEST_CASE("public maps become few shapes that hold each blocked cell") {
+TEST_CASE("public maps become few shapes that hold each blocked cell", "[data]") {
   const auto data = test_data();
   if (!data || !std::filesystem::is_directory(*data / "mrpb")) {
     WARN("skipped: DMRP_TEST_DATA is not set");
