@@ -4,7 +4,7 @@
 
 #include "planners/conflict_search/low_level/safe_interval_search.hpp"
 #include "planners/conflict_search/low_level/space_time_search.hpp"
-#include "tests/unit/planners/conflict_search/low_level_case.hpp"
+#include "tests/unit/planners/conflict_search/low_level/low_level_case.hpp"
 
 using namespace dmrp::test;
 using namespace dmrp::planners;
@@ -16,7 +16,7 @@ constexpr Counting counting_of = Counting::by_step;
 template <>
 constexpr Counting counting_of<SafeIntervalSearch> = Counting::by_interval;
 
-// One search for many cases' agents would need one graph: each case has its own, and plans twice with it.
+// Each case has a graph and a search of its own, which plans twice.
 template <class Search>
 class Planning {
  public:
@@ -26,7 +26,8 @@ class Planning {
         constraints_(c.problem.graph),
         others_(c.problem.graph, c.others.size() + 1),
         search_(c.problem.graph) {
-    constraints_.fill(c.agent(), std::vector<Constraint>{avoid_vertex(0, 0, 30), finish_by(0, 0, 0)});  // forgotten
+    constraints_.fill(c.agent(),
+                      std::vector<Constraint>{avoid_vertex(0, 0, 30), finish_by(0, 0, 0)});  // must leave no trace
     constraints_.fill(c.agent(), c.constraints);
     for (std::size_t i = 0; i < c.others.size(); ++i) others_.set(static_cast<std::int32_t>(i), c.others[i]);
   }
@@ -51,7 +52,7 @@ class Planning {
   Search search_;
 };
 
-// That the path may be gone, makes the tour and has the conflicts said.
+// Checks that the path obeys the constraints, makes the tour and has the reported conflicts.
 void check_path(const LowLevelCase& c, Counting counting, const LowLevelPath& path) {
   const PathView locations = path.locations;
   REQUIRE(locations.front() == c.agent().start);
@@ -71,7 +72,7 @@ void check_path(const LowLevelCase& c, Counting counting, const LowLevelPath& pa
   REQUIRE(path.conflicts == c.conflicts_of(counting, locations));
 }
 
-// The best of what the costs within the bound offer.
+// The fewest conflicts over all costs within the bound.
 int least_weighed(const std::map<int, int>& conflicts_by_cost, int most, int conflict_steps) {
   int best = 1'000'000;
   for (const auto& [cost, conflicts] : conflicts_by_cost)
@@ -96,7 +97,7 @@ TEMPLATE_TEST_CASE("a low level finds a path of least cost, and of these one wit
     REQUIRE(result == (conflicts_by_cost.empty() ? LowLevelResult::none : LowLevelResult::found));
     if (conflicts_by_cost.empty()) continue;
     const auto [cost, conflicts] = *conflicts_by_cost.begin();
-    for (const int known : {0, cost}) {  // a bound from before, or none
+    for (const int known : {0, cost}) {  // a known bound, or none
       REQUIRE(planning.run(1, 0, known) == LowLevelResult::found);
       check_path(c, counting, planning.path);
       REQUIRE(cost_of(planning.path.locations) == cost);
@@ -107,7 +108,7 @@ TEMPLATE_TEST_CASE("a low level finds a path of least cost, and of these one wit
     with_conflicts += conflicts > 0 ? 1 : 0;
     late += cost > 6 ? 1 : 0;
   }
-  // The draw must hold enough of each kind to mean something.
+  // The random cases must contain enough of each kind.
   CHECK(with_path > 3000);
   CHECK(with_path < 5900);
   CHECK(with_conflicts > 500);
@@ -128,7 +129,7 @@ TEMPLATE_TEST_CASE("a low level stays within its bound, and there has the fewest
     Planning<TestType> planning(c);
     for (const double suboptimality : {1.0, 1.3, 2.0, 3.0})
       for (const int conflict_steps : {0, 1, 3}) {
-        const int known = static_cast<int>(seed % 2) * least;  // a bound known before
+        const int known = static_cast<int>(seed % 2) * least;  // a known bound
         CAPTURE(suboptimality, conflict_steps, known);
         REQUIRE(planning.run(suboptimality, conflict_steps, known) == LowLevelResult::found);
         const LowLevelPath& path = planning.path;
@@ -139,7 +140,7 @@ TEMPLATE_TEST_CASE("a low level stays within its bound, and there has the fewest
         REQUIRE(cost <= suboptimality * path.lower_bound + 1e-9);
         const int most = static_cast<int>(suboptimality * path.lower_bound + 1e-9);
         const int has = conflict_steps > 0 ? path.conflicts * conflict_steps + cost : path.conflicts;
-        // Single steps are not told apart once all others rest: then what comes earlier is kept.
+        // Over single steps, times are not distinguished once all others rest: the search keeps the earlier arrival.
         if (suboptimality > 1 && counting == Counting::by_step)
           REQUIRE(has >= least_weighed(conflicts_by_cost, most, conflict_steps));
         else
@@ -161,7 +162,7 @@ TEMPLATE_TEST_CASE("a low level ends when it is stopped", "", SafeIntervalSearch
 }
 
 TEST_CASE("over safe intervals a long wait costs nothing to find") {
-  // The corridor is closed for long beside the robot's start.
+  // The corridor beside the robot's start is closed for a long time.
   PlanningCase grid({"....."});
   grid.robot({0, 0}, {{4, 0}});
   const Problem problem = problem_of(grid);

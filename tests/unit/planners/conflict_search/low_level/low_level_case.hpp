@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One agent with constraints of all kinds among others that walk about, and exhaustive methods for what the low level
-// and the parts around it promise of it.
+// One agent with constraints of all kinds among others that walk at random, and exhaustive methods to check the low
+// level and its tables.
 #pragma once
 
 #include <algorithm>
@@ -13,25 +13,15 @@
 #include "planners/conflict_search/low_level/conflict_table.hpp"
 #include "planners/conflict_search/low_level/constraint.hpp"
 #include "planners/mapf/tour_table.hpp"
-#include "tests/unit/planners/planning_case.hpp"
+#include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
 namespace dmrp::test {
 
-inline planners::StopSignal& never() {
-  static planners::StopSignal stop([] { return false; });
-  return stop;
-}
-
-inline planners::Problem problem_of(const PlanningCase& c) {
-  const CProblem host(c);
-  return planners::make_problem(PlanningProblem(host.problem()), true);
-}
-
-// What the low level counts where others are met.
+// How a low level counts conflicts.
 enum class Counting {
-  by_step,      // everybody met, once a step
-  by_interval,  // the same, but a stay where somebody rests for good, once: as long as nothing else changes
+  by_step,      // each other agent once for each step
+  by_interval,  // the same, but a stay where an agent rests counts once, as long as nothing else changes
 };
 
 class LowLevelCase {
@@ -39,18 +29,18 @@ class LowLevelCase {
   using Location = planners::Location;
   using Constraint = planners::Constraint;
 
-  // Nothing exhaustive looks further than this time.
+  // The horizon of all exhaustive methods.
   static constexpr int horizon = 45;
 
   planners::Problem problem;
-  std::vector<std::vector<Location>> others;  // of agents 0, 1, ...; they end at different places
-  std::vector<Constraint> constraints;        // of agent number 0
+  std::vector<std::vector<Location>> others;  // of agents 0, 1, ..., which end at different places
+  std::vector<Constraint> constraints;        // on agent 0
 
   explicit LowLevelCase(uint64_t seed) : LowLevelCase(Random(seed)) {}
 
   const planners::Agent& agent() const { return problem.agents[0]; }
 
-  // The locations that can be reached in one step.
+  // The locations within one step.
   std::vector<Location> reach(Location from) const {
     std::vector<Location> out = {from};
     for (int d = 0; d < 4; ++d)
@@ -58,7 +48,7 @@ class LowLevelCase {
     return out;
   }
 
-  // Whether no constraint is broken by being at `at` at time t.
+  // Whether no constraint forbids to be at `at` at time t.
   bool may_be(Location at, int t) const {
     return std::none_of(constraints.begin(), constraints.end(), [&](const Constraint& c) {
       if (c.kind == Constraint::Kind::avoid_vertex) return c.location == at && c.t <= t && t < c.until;
@@ -70,7 +60,7 @@ class LowLevelCase {
              return c.kind == Constraint::Kind::avoid_move && c.location == to && c.from == from && c.t == t;
            });
   }
-  // Whether a path may have this cost, once it is at the last goal.
+  // Whether a path that is at the last goal may have this cost.
   bool may_rest(int t) const {
     for (int later = t; later < horizon; ++later)
       if (!may_be(agent().last_goal(), later)) return false;
@@ -79,7 +69,7 @@ class LowLevelCase {
              (c.kind == Constraint::Kind::finish_by && t > c.t);
     });
   }
-  // The earliest time that no constraint on the end speaks against: where the end may not be yet, it is told apart.
+  // The earliest end that the constraints allow. Times before it are distinguished from those after it.
   int rest_from() const {
     int from = horizon;
     for (int t = horizon; t-- > 0;) {
@@ -99,7 +89,7 @@ class LowLevelCase {
   static Location place(planners::PathView path, int t) {
     return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
   }
-  // Others at a place at time t, on their way or resting.
+  // The number of others at a place at time t, moving or resting.
   int others_at(Location at, int t) const {
     return static_cast<int>(
         std::count_if(others.begin(), others.end(), [&](const auto& path) { return place(path, t) == at; }));
@@ -116,8 +106,8 @@ class LowLevelCase {
     });
   }
 
-  // The conflicts of a step that ends at time t, on `leg` before. A stay is told apart where the end may begin, and
-  // where a step of it is one to the same goal again.
+  // The conflicts of a step that ends at time t, with `leg` before it. A stay is divided where the path may end, and
+  // where one of its steps reaches the same goal again.
   int conflicts_of_step(Counting counting, Location from, Location to, int leg, int t) const {
     const int last = agent().last_leg();
     const bool is_end = to == agent().last_goal() && leg == last;
@@ -126,7 +116,7 @@ class LowLevelCase {
                              (is_end && t == rest_from()) || (is_goal_twice && t <= rest_from());
     return tells_apart ? others_at(to, t) + others_swapping(from, to, t) : 0;
   }
-  // Of resting at the last goal from time t on: those who still pass there.
+  // The conflicts of resting at the last goal from time t on: with the agents that pass later.
   int conflicts_of_rest(int t) const {
     int count = 0;
     for (const auto& path : others)
@@ -134,7 +124,7 @@ class LowLevelCase {
         if (path[static_cast<std::size_t>(later)] == agent().last_goal()) ++count;
     return count;
   }
-  // Of a whole path, but for those at its start.
+  // The conflicts of a whole path, except those at its start.
   int conflicts_of(Counting counting, planners::PathView path) const {
     int count = 0;
     int leg = 0;
@@ -145,8 +135,8 @@ class LowLevelCase {
     return count + conflicts_of_rest(planners::cost_of(path));
   }
 
-  // The fewest conflicts of a path by its cost, where there is one of that cost: by dynamic programming over time.
-  // A path ends when it gets to its end, not later: it does not wait there first.
+  // By cost: the fewest conflicts of a path of that cost, if there is one; by dynamic programming over time. A path
+  // does not wait at its end.
   std::map<int, int> fewest_conflicts_by_cost(Counting counting) const {
     std::map<int, int> out;
     using State = std::tuple<Location, int, bool>;  // place, leg, whether the last step waited at the end

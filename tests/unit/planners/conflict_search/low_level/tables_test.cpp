@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The shared parts of the planners, against exhaustive methods.
+// Constraints, conflict tables and MDDs, against exhaustive methods.
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <set>
 
-#include "planners/conflict_search/high_level/vertex_cover.hpp"
 #include "planners/conflict_search/low_level/mdd.hpp"
-#include "planners/mapf/solvability.hpp"
-#include "tests/unit/planners/conflict_search/low_level_case.hpp"
+#include "tests/unit/planners/conflict_search/low_level/low_level_case.hpp"
 
 using namespace dmrp::test;
 using namespace dmrp::planners;
 
 namespace {
 
-// A walk on the case's grid; some are long, for tables that have to grow.
+// A walk on the case's grid. Some are long, so that tables have to grow.
 std::vector<Location> draw_walk(Random& random, const LowLevelCase& c) {
   std::vector<Location> walk = {random.one_in(2) ? 0 : 11};
   for (int steps = random.one_in(10) ? 60 + random.below(100) : random.below(10); steps > 0; --steps) {
@@ -24,7 +22,7 @@ std::vector<Location> draw_walk(Random& random, const LowLevelCase& c) {
   return walk;
 }
 
-// What a constraint asks of a path that rests at its end, by looking at all times there are.
+// Whether a path that rests at its end satisfies a constraint, by looking at all times.
 bool satisfies_by_definition(PathView path, const Constraint& c) {
   const int cost = cost_of(path);
   for (int t = 0; t < 200; ++t) {
@@ -56,7 +54,7 @@ std::multiset<ListedConflict> conflicts_by_definition(int agent, PathView path, 
   return out;
 }
 
-// Levels of places on some path of the cost: forward from the start, then back from the end.
+// By time: the places on paths of the cost, forward from the start, then back from the end.
 using Places = std::set<std::pair<Location, int>>;
 std::vector<Places> places_by_definition(const LowLevelCase& c, int cost) {
   std::vector<Places> levels(static_cast<std::size_t>(cost) + 1);
@@ -87,20 +85,6 @@ std::vector<Places> places_by_definition(const LowLevelCase& c, int cost) {
   return levels;
 }
 
-// By trying all values up to the greatest weight.
-int least_cover_by_trying(const std::vector<DependentPair>& pairs, int agents, int most) {
-  std::vector<int> value(static_cast<std::size_t>(agents), 0);
-  int best = agents * most;
-  for (std::size_t i = 0; i < value.size();) {
-    const bool covers = std::all_of(pairs.begin(), pairs.end(), [&](const DependentPair& pair) {
-      return value[static_cast<std::size_t>(pair.a)] + value[static_cast<std::size_t>(pair.b)] >= pair.weight;
-    });
-    if (covers) best = std::min(best, std::accumulate(value.begin(), value.end(), 0));
-    for (i = 0; i < value.size() && ++value[i] > most; ++i) value[i] = 0;
-  }
-  return best;
-}
-
 }  // namespace
 
 TEST_CASE("a path satisfies a constraint by its definition") {
@@ -121,7 +105,7 @@ TEST_CASE("a path satisfies a constraint by its definition") {
   CHECK(broken > 1000);
 }
 
-TEST_CASE("what an agent promises keeps the others away") {
+TEST_CASE("a constraint that binds others keeps them away") {
   const Constraint passes = pass_vertex(3, 7, 5);
   REQUIRE(passes.binds_others());
   CHECK(passes.for_another(4) == avoid_vertex(4, 7, 5));
@@ -133,13 +117,13 @@ TEST_CASE("what an agent promises keeps the others away") {
   CHECK_FALSE(avoid_move(3, 6, 7, 5).binds_others());
 }
 
-TEST_CASE("a constraint table says what is allowed, and for how long that stays so") {
+TEST_CASE("a constraint table knows what is allowed, and for how long") {
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     CAPTURE(seed);
     const LowLevelCase c(seed);
     ConstraintTable table(c.problem.graph);
     table.fill(c.agent(), std::vector<Constraint>{avoid_vertex(0, 3, 4), pass_vertex(0, 3, 2), finish_after(0, 3, 9)});
-    table.fill(c.agent(), c.constraints);  // and no more of those before
+    table.fill(c.agent(), c.constraints);  // replaces all earlier ones
     const bool ends = table.finish_from() < LowLevelCase::horizon;
     for (int t = 0; t < 30 && ends; ++t) {
       const bool is_in_time = table.finish_from() <= t && t <= table.finish_until();
@@ -169,7 +153,7 @@ TEST_CASE("a constraint table says what is allowed, and for how long that stays 
   }
 }
 
-TEST_CASE("a conflict table knows who is where, whoever came and went") {
+TEST_CASE("a conflict table knows all positions after paths are added and removed") {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
     const LowLevelCase c(seed);
@@ -224,7 +208,7 @@ TEST_CASE("a conflict table knows who is where, whoever came and went") {
   }
 }
 
-TEST_CASE("a conflict table lists every conflict once, in the order of time") {
+TEST_CASE("a conflict table lists every conflict once, by ascending time") {
   int listed = 0;
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     CAPTURE(seed);
@@ -282,61 +266,4 @@ TEST_CASE("an MDD holds exactly the places of all paths of least cost") {
       with_landmarks += constraint.kind == Constraint::Kind::pass_vertex ? 1 : 0;
   }
   CHECK(with_landmarks > 300);
-}
-
-TEST_CASE("a weighted vertex cover is the least there is") {
-  for (uint64_t seed = 0; seed < 1500; ++seed) {
-    CAPTURE(seed);
-    Random random(seed);
-    const int agents = 2 + random.below(4);
-    const int most = 1 + random.below(4);
-    std::vector<DependentPair> pairs;
-    for (int a = 0; a < agents; ++a)
-      for (int b = a + 1; b < agents; ++b)
-        if (random.one_in(2)) pairs.push_back({10 * a, 10 * b, 1 + random.below(most)});
-    std::vector<DependentPair> numbered = pairs;
-    for (DependentPair& pair : numbered) pair.a /= 10, pair.b /= 10;
-    REQUIRE(least_edge_weighted_cover(pairs, never()) == least_cover_by_trying(numbered, agents, most));
-  }
-}
-
-TEST_CASE("where the least weighted vertex cover takes long to find, a lower bound stands for it") {
-  std::vector<DependentPair> all;
-  for (int a = 0; a < 40; ++a)
-    for (int b = a + 1; b < 40; ++b) all.push_back({a, b, 1 + (a * 7 + b * 3) % 4});
-  const int cover = least_edge_weighted_cover(all, never());
-  CHECK(cover >= 4 * 10);  // of pairs without a common agent
-  CHECK(cover <= 40 * 2);  // two each cover all
-}
-
-TEST_CASE("a graph follows the edge mask both ways") {
-  PlanningCase c({"...", "..."});
-  c.close_one_way({0, 0}, {1, 0});
-  c.robot({0, 0}, {{2, 1}}).robot({2, 0}, {}, DMRP_ROBOT_FINISHED);
-  const Problem problem = problem_of(c);
-  const GridGraph& graph = problem.graph;
-  CHECK(graph.neighbor(0, 0) == nowhere);
-  CHECK(graph.predecessor(1, 0) == nowhere);
-  CHECK(graph.neighbor(1, 2) == 0);
-  CHECK(graph.predecessor(0, 2) == 1);
-  CHECK(graph.neighbor(1, 1) == 4);
-  CHECK(graph.neighbor(0, 2) == nowhere);
-  CHECK_FALSE(graph.is_open(2));  // where a robot rests
-  CHECK(graph.neighbor(1, 0) == nowhere);
-  CHECK(graph.neighbor(5, 3) == nowhere);
-  CHECK(problem.agents.size() == 1);
-}
-
-TEST_CASE("joint positions prove what cannot be, and nothing beyond their limit") {
-  // A T: three robots cannot all change places around one branch that is one cell deep.
-  PlanningCase c({"...", "#.#"});
-  c.robot({0, 0}, {{2, 0}}).robot({2, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
-  const Problem problem = problem_of(c);
-  CHECK_FALSE(find_obvious_obstruction(problem));
-  CHECK(find_joint_obstruction(problem, 64, never()));
-  CHECK_FALSE(find_joint_obstruction(problem, 63, never()));
-
-  PlanningCase solvable({"...", "#.#"});
-  solvable.robot({0, 0}, {{2, 0}}).robot({2, 0}, {{0, 0}});
-  CHECK_FALSE(find_joint_obstruction(problem_of(solvable), 1000, never()));
 }

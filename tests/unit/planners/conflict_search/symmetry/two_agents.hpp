@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two agents with constraints on a small grid, and exhaustive methods for all that symmetry reasoning promises of them.
+// Two agents with constraints on a small grid, and exhaustive methods to check symmetry reasoning.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "planners/conflict_search/low_level/mdd.hpp"
 #include "planners/conflict_search/symmetry/symmetry_split.hpp"
-#include "tests/unit/planners/planning_case.hpp"
+#include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
 namespace dmrp::test {
@@ -22,7 +22,7 @@ class TwoAgents {
   using Constraint = planners::Constraint;
   using Path = std::vector<Location>;
 
-  // Nothing exhaustive looks further than this time.
+  // The horizon of all exhaustive methods.
   static constexpr int horizon = 26;
 
   planners::Problem problem;
@@ -40,10 +40,10 @@ class TwoAgents {
   const planners::Agent& agent(int who) const { return problem.agents[static_cast<std::size_t>(who)]; }
   const std::vector<Constraint>& of(int who) const { return constraints[static_cast<std::size_t>(who)]; }
 
-  // The locations that can be reached in one step.
+  // The locations within one step.
   const Path& reach(Location from) const { return reach_[static_cast<std::size_t>(from)]; }
 
-  // Whether a step of the agent's (or being at its start) breaks no constraint in the list.
+  // Whether a step (or being at the start) satisfies all constraints of the list.
   static bool may_arrive(const std::vector<Constraint>& list, Location from, Location to, int t) {
     for (const Constraint& c : list) {
       const bool in_time = c.t <= t && t < c.until;
@@ -54,7 +54,7 @@ class TwoAgents {
     return true;
   }
 
-  // Whether the list asks the agent to come to rest later, or earlier.
+  // Whether the list requires the agent to come to rest later, or earlier.
   static bool ends_too_early(const std::vector<Constraint>& list, int t) {
     return std::any_of(list.begin(), list.end(),
                        [&](const Constraint& c) { return c.kind == Constraint::Kind::finish_after && t <= c.t; });
@@ -64,7 +64,7 @@ class TwoAgents {
                        [&](const Constraint& c) { return c.kind == Constraint::Kind::finish_by && t > c.t; });
   }
 
-  // By time: whether the agent, at its goal, may come to rest.
+  // By time: whether the agent may come to rest at its goal.
   std::vector<bool> times_to_rest(int who, const std::vector<Constraint>& list) const {
     std::vector<bool> may_rest(static_cast<std::size_t>(horizon) + 1);
     const Location goal = agent(who).last_goal();
@@ -76,8 +76,8 @@ class TwoAgents {
     return may_rest;
   }
 
-  // Calls visit(t, where) for the times up to the horizon, until it says true, with whether the agent can be at each
-  // location, without the move from `not_from` to `not_to`.
+  // Calls visit(t, where) for the times up to the horizon until it returns true. `where` says for each location whether
+  // the agent can be there, without the move from `not_from` to `not_to`.
   template <class Visit>
   void spread(int who, const std::vector<Constraint>& list, Location not_from, Location not_to, Visit visit) const {
     const Location start = agent(who).start;
@@ -103,7 +103,7 @@ class TwoAgents {
     return earliest;
   }
 
-  // The least cost from `at_least` on that a path can have: it ends with a move to its goal, or where it begins.
+  // The least cost of a path, from `at_least` on. A path ends with a move to its goal, or where it begins.
   std::optional<int> next_cost(int who, const std::vector<Constraint>& list, int at_least) const {
     std::optional<int> cost;
     const std::vector<bool> may_rest = times_to_rest(who, list);
@@ -128,9 +128,9 @@ class TwoAgents {
   }
   std::optional<int> least_cost(int who) const { return next_cost(who, of(who), 0); }
 
-  // A path of that cost under the agent's constraints; there is one.
+  // A path of that cost under the agent's constraints. There must be one.
   Path draw_path(Random& random, int who, int cost) const {
-    // By time: the locations from which it can still be made.
+    // By time: the locations from which the path can be completed.
     std::vector<std::vector<bool>> ways(static_cast<std::size_t>(cost) + 1);
     for (int t = cost; t >= 0; --t) {
       std::vector<bool>& here = ways[static_cast<std::size_t>(t)];
@@ -161,7 +161,7 @@ class TwoAgents {
     return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
   }
 
-  // In the order of time.
+  // By ascending time.
   static std::vector<planners::Conflict> conflicts(const Path& a, const Path& b) {
     std::vector<planners::Conflict> all;
     for (int t = 0; t < static_cast<int>(std::max(a.size(), b.size())); ++t) {
@@ -173,8 +173,8 @@ class TwoAgents {
     return all;
   }
 
-  // Whether two paths without a conflict, each at rest before the horizon and true to its agent's constraints, both
-  // break their set.
+  // Whether there are two paths without a conflict that satisfy their agents' constraints, come to rest before the
+  // horizon, and both violate their set.
   bool some_pair_breaks_both(const std::array<std::vector<Constraint>, 2>& sets) const {
     const Location count = problem.graph.location_count();
     const auto at = [&](Location a, Location b) { return static_cast<std::size_t>(a * count + b); };
@@ -190,7 +190,7 @@ class TwoAgents {
           States states = t == 0 ? States{1} : now[at(a.from, b.from)];
           if (states == 0) continue;
           for (const auto& [bit, step] : {std::pair{0, &a}, std::pair{1, &b}}) {
-            if (step->to != step->from) states &= static_cast<States>(~states_with(bit));  // who rests stays
+            if (step->to != step->from) states &= static_cast<States>(~states_with(bit));  // a resting agent stays
             if (step->breaks_set) states = switch_on(2 + bit, states);
             const auto who = static_cast<std::size_t>(bit);
             const bool arrives = step->to == agent(bit).last_goal() && (t == 0 || step->from != step->to);
@@ -205,13 +205,8 @@ class TwoAgents {
   }
 
  private:
-  static planners::Problem problem_of(const PlanningCase& c) {
-    const CProblem host(c);
-    return planners::make_problem(PlanningProblem(host.problem()), true);
-  }
-
-  // What two agents at a pair of locations may have done: bit i stands for state i, whose own bits say whether a rests,
-  // b rests, a broke its set, b broke its set.
+  // The possible histories of two agents at a pair of locations: bit i stands for state i, whose own bits say whether a
+  // rests, b rests, a violated its set, b violated its set.
   using States = std::uint16_t;
 
   static States states_with(int bit) {
@@ -232,7 +227,7 @@ class TwoAgents {
     Location to;
     bool breaks_set;
   };
-  // The steps that end at time t under the agent's constraints; at time 0 it is put to its start.
+  // The steps that end at time t under the agent's constraints; at time 0 a step to its start.
   std::vector<Step> steps_at(int who, const std::vector<Constraint>& set, int t) const {
     std::vector<Step> steps;
     for (Location from = 0; from < problem.graph.location_count(); ++from) {

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Pairwise symmetry reasoning: what a split promises, against exhaustive search over pairs of paths.
+// Pairwise symmetry reasoning, against exhaustive search over pairs of paths.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "planners/conflict_search/symmetry/corridor.hpp"
 #include "planners/conflict_search/symmetry/rectangle.hpp"
-#include "tests/unit/planners/conflict_search/two_agents.hpp"
+#include "tests/unit/planners/conflict_search/symmetry/two_agents.hpp"
 
 using namespace dmrp::test;
 using namespace dmrp::planners;
 
 namespace {
 
-StopSignal& never() {
-  static StopSignal stop([] { return false; });
-  return stop;
-}
-
-// The way a pair of robots goes on a grid.
+// The tasks of a pair of robots.
 enum class Traffic {
   any,
-  crossing,  // both from about one corner to about the opposite one
+  crossing,  // both from near one corner to near the opposite one
   head_on,   // one from west to east, one from east to west
 };
 
@@ -61,7 +56,7 @@ PlanningCase draw_grid(Random& random, Traffic traffic, int obstacles_one_in) {
   return c.robot(ends[0], {ends[2]}).robot(ends[1], {ends[3]});
 }
 
-// Up to four constraints that leave the agent some path.
+// Up to four constraints under which the agent still has a path.
 void draw_constraints(Random& random, TwoAgents& pair, int who) {
   std::vector<Constraint>& list = pair.constraints[static_cast<std::size_t>(who)];
   for (int n = random.below(5); n > 0; --n) {
@@ -85,8 +80,7 @@ struct ConflictCase {
   std::array<TwoAgents::Path, 2> paths;
   std::optional<Conflict> conflict;
 
-  // The paths are up to `slack` longer than need be. With `late_ends` the agents must not come to rest as soon as they
-  // could.
+  // The paths are up to `slack` steps longer than necessary. With `late_ends` constraints delay the agents' rest.
   ConflictCase(Random& random, const PlanningCase& grid, bool constrained, int slack, bool late_ends = false)
       : pair(grid) {
     for (int who = 0; who < 2; ++who) {
@@ -155,7 +149,7 @@ void check_split(const ConflictCase& c, const SymmetrySplit& split, Tally& tally
     REQUIRE_FALSE(is_satisfied(split, who, c.paths[i]));
     const bool raises = rules_out_the_least_cost(c, split, who);
     if (split.raises_cost[i]) REQUIRE(raises);
-    // An MDD may hold a little more than the paths that satisfy all constraints.
+    // An MDD may contain slightly more than the paths that satisfy all constraints.
     if (c.pair.of(who).empty()) REQUIRE(split.raises_cost[i] == raises);
     raising += split.raises_cost[i];
   }
@@ -226,13 +220,13 @@ CorridorTally draw_corridors(uint64_t seed, int draws, bool constrained, int sla
 
 }  // namespace
 
-TEST_CASE("the exhaustive search over pairs of paths finds a pair that breaks two sets") {
+TEST_CASE("the exhaustive search over pairs of paths finds a pair that violates both sets") {
   TwoAgents pair(PlanningCase({"...", "..."}).robot({0, 0}, {{2, 0}}).robot({2, 1}, {{0, 1}}));
   CHECK(pair.some_pair_breaks_both({{{avoid_vertex(0, 1, 1)}, {avoid_vertex(1, 4, 1)}}}));
   CHECK_FALSE(pair.some_pair_breaks_both({{{avoid_vertex(0, 1, 1)}, {avoid_vertex(1, 1, 1)}}}));
 }
 
-TEST_CASE("a rectangle split loses no pair of paths without conflict and names rises in cost") {
+TEST_CASE("a rectangle split loses no pair of paths without conflict and reports raised costs") {
   const Tally plain = draw_rectangles(1, 3000, false, 0);
   const Tally constrained = draw_rectangles(2, 6000, true, 0);
   const Tally longer = draw_rectangles(3, 20000, true, 3);
@@ -246,7 +240,7 @@ TEST_CASE("a rectangle split loses no pair of paths without conflict and names r
 }
 
 TEST_CASE("two agents that cross an open square are split by its far sides") {
-  // a from the west side to the east one, b from the south to the north; both may climb and go east on the way.
+  // a goes from the west side to the east side, b from south to north. Both may go north and east on the way.
   TwoAgents pair(
       PlanningCase({".....", ".....", ".....", ".....", "....."}).robot({0, 1}, {{4, 3}}).robot({1, 0}, {{3, 4}}));
   const TwoAgents::Path a = {5, 6, 7, 12, 17, 18, 19};
@@ -278,7 +272,7 @@ TEST_CASE("no rectangle where an agent waits, where both go the same way, or whe
   CHECK_FALSE(split_of(opposite, {4, 5, 6}, {7, 6, 5}, {0, 1, 6, 5, 2}));
 }
 
-TEST_CASE("a corridor split loses no pair of paths without conflict and names rises in cost") {
+TEST_CASE("a corridor split loses no pair of paths without conflict and reports raised costs") {
   const CorridorTally plain = draw_corridors(11, 2500, false, 0);
   const CorridorTally constrained = draw_corridors(12, 2500, true, 0);
   const CorridorTally longer = draw_corridors(13, 4000, true, 4);
@@ -313,44 +307,44 @@ void check_corridor(const ConflictCase& c, const Constraint& of_a, const Constra
 
 }  // namespace
 
-TEST_CASE("two agents that meet in a corridor are split by when each can be through") {
+TEST_CASE("two agents that meet in a corridor are split by the times at which each can leave it") {
   const TwoAgents::Path east = {8, 9, 10, 11, 12, 13, 14, 15};
   const TwoAgents::Path west = {15, 14, 13, 12, 11, 10, 9, 8};
   const ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}), east, west);
-  // Each can be at its exit at 6. The other one comes in at 7 then, and is through at 12.
+  // Each can be at its exit at 6. Then the other one enters at 7 and leaves at 12.
   check_corridor(c, avoid_vertex_range(0, 14, 0, 12), avoid_vertex_range(1, 9, 0, 12), {true, true});
 }
 
-TEST_CASE("two agents that meet in a corridor are split by when each can be there by another way") {
-  // The corridor is the row y = 2; the row y = 0 leads round, four steps longer.
+TEST_CASE("two agents that meet in a corridor are split by the times of the other way") {
+  // The corridor is the row y = 2. The other way, row y = 0, is four steps longer.
   PlanningCase grid({"........", "..####..", "........", "..####.."});
   grid.robot({0, 2}, {{7, 2}}).robot({7, 2}, {{0, 2}});
   const ConflictCase c = conflict_case(grid, {16, 17, 18, 19, 20, 21, 22, 23}, {23, 22, 21, 20, 19, 18, 17, 16});
   check_corridor(c, avoid_vertex_range(0, 22, 0, 10), avoid_vertex_range(1, 17, 0, 10), {true, true});
 }
 
-TEST_CASE("an agent whose goal is in a corridor is there behind the other or comes out for it") {
+TEST_CASE("an agent whose goal is in a corridor comes after the other or leaves for it") {
   const ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{2, 1}}),
                                        {8, 9, 10, 11, 12, 13, 14, 15}, {15, 14, 13, 12, 11, 10});
-  // b can be through at 6, make way for two steps and come back in one. There is no other way for a.
+  // b can leave at 6, give way for two steps and return in one. There is no other way for a.
   check_corridor(c, avoid_vertex_range(0, 14, 0, 6 + 64), finish_after(1, 10, 8), {true, true});
 }
 
-TEST_CASE("an agent that waits inside a corridor is met on the part it goes through") {
-  // b has to stay away from its exit 9 until 12, and waits for that at 11.
+TEST_CASE("an agent that waits inside a corridor meets the other in the part that it passes") {
+  // b must not be at its exit 9 before 12, and waits at 11.
   const TwoAgents::Path west = {15, 14, 13, 12, 11, 11, 11, 11, 11, 11, 11, 10, 9, 8};
   ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}),
                                  {8, 9, 10, 11, 12, 13, 14, 15}, west);
   c.pair.constraints[1] = {avoid_vertex_range(1, 9, 0, 12)};
   c.least[1] = 13;
-  // On the three steps from 11 to 14: a can be through at 6, b at 4. b may as well be at 11 at 10.
+  // The three steps from 11 to 14: a can leave at 6, b at 4. b can also be at 11 at 10.
   check_corridor(c, avoid_vertex_range(0, 14, 0, 8), avoid_vertex_range(1, 11, 0, 10), {true, false});
 }
 
 TEST_CASE("two agents that swap on open ground are split as in a corridor of one step") {
   const PlanningCase grid = PlanningCase({"....", "...."}).robot({0, 0}, {{3, 0}}).robot({3, 0}, {{0, 0}});
   const ConflictCase c = conflict_case(grid, {0, 1, 2, 3}, {3, 2, 1, 0});
-  // Round by the other row takes two steps more, as does the way behind the other.
+  // The other row takes two more steps, and so does the way behind the other agent.
   check_corridor(c, avoid_vertex_range(0, 2, 0, 4), avoid_vertex_range(1, 1, 0, 4), {true, true});
 }
 
@@ -361,7 +355,7 @@ TEST_CASE("no corridor split for agents that have passed each other, go the same
   };
   const PlanningCase meeting = narrow_grid().robot({2, 1}, {{7, 1}}).robot({3, 1}, {{0, 1}});
   CHECK(passage(meeting, {10, 11, 12, 13, 14, 15}, {11, 10, 9, 8})->ways[0].length == 5);
-  // Past each other in the corridor, they swap two times: they meet on that edge only.
+  // They have passed each other in the corridor and swap twice on one edge.
   const PlanningCase passed = narrow_grid().robot({3, 1}, {{7, 1}}).robot({2, 1}, {{0, 1}});
   const auto edge = passage(passed, {11, 10, 11, 12, 13, 14, 15}, {10, 11, 10, 9, 8});
   REQUIRE(edge);
