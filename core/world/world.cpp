@@ -75,7 +75,7 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
-      motion_(geometry_),
+      motion_(geometry_, simulation.step_ns),
       tracker_(robot.a_max, robot.v_max, command_latency_ns()) {
   proposed_poses_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
@@ -202,8 +202,9 @@ void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
   for (std::size_t i = 0; i < population_.people().size(); ++i) {
     const dmrp_person& person = population_.people()[i];
-    const auto bearing = population_.is_recorded(i) ? SolidBody::Bearing::unstoppable : SolidBody::Bearing::gives_way;
-    bodies_.push_back({person.position, person.radius_m, {}, bearing});
+    const auto response =
+        population_.is_recorded(i) ? SolidBody::ContactResponse::ignore : SolidBody::ContactResponse::yield;
+    bodies_.push_back({person.position, person.radius_m, {}, response});
   }
 }
 

@@ -66,7 +66,7 @@ CrossingCrowd::CrossingCrowd(const Square& square, const std::string& model, std
     : side_m_(square.scenario.upper.x),
       model_("libdmrp_pedestrians.so", model),
       geometry_(square.geometry),
-      motion_(geometry_) {
+      motion_(geometry_, step_ns) {
   place_people(square, seed);
   velocities_.resize(people_.size());
   if (model_.start(square.view.world(), seed) != DMRP_OK) throw std::runtime_error(model + " does not start");
@@ -90,7 +90,7 @@ void CrossingCrowd::place_people(const Square& square, std::uint64_t seed) {
         chance.truncated_normal(settings.speed_mean, settings.speed_sd, settings.speed_min, settings.speed_max);
     send_to(person, static_cast<std::uint32_t>(person.id % 4));
     people_.push_back(person);
-    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::Bearing::gives_way});
+    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::ContactResponse::yield});
   }
 }
 
