@@ -43,9 +43,9 @@ struct Overlap {
   dmrp_vec2 point{};  // in the middle of the overlap
 };
 
-// Keeps bodies solid: removes the part of each displacement that would deepen an overlap. Where two bodies approach each
-// other, both lose the same share of their approach; where one of them ignores contacts, the other takes the whole loss.
-// So robots neither push nor are pushed: a body that stands in front of a robot stays where it is.
+// Keeps bodies solid: removes the part of each displacement that would deepen an overlap. Where two bodies approach
+// each other, both lose the same share of their approach; where one of them ignores contacts, the other takes the whole
+// loss. So robots neither push nor are pushed: a body that stands in front of a robot stays where it is.
 //
 // People push people. Each of two people bears half of the displacement that would press them into each other: a moving
 // person slows down, a standing person moves, at most at max_push_speed, and never into a wall or a robot. This is the

@@ -65,11 +65,11 @@ class World {
   // Gives a robot up: it brakes and stands where it is.
   void fail(std::uint32_t robot);
 
-  // One physics step: robots follow their commands within their accelerations, people move at these velocities (parallel
-  // to people(), world frame, finite), bodies stop where they would get deeper into each other (people who
-  // press into each other push each other: see solid_motion.hpp), robots arrive, people reach
-  // their regions. Recorded people go along their tracks whatever velocities they are given: the track wins over
-  // everybody in the way, who can move no nearer but is not pushed. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
+  // One physics step: robots follow their commands within their accelerations, people move at these velocities
+  // (parallel to people(), world frame, finite), bodies stop where they would get deeper into each other (people who
+  // press into each other push each other: see solid_motion.hpp), robots arrive, people reach their regions. Recorded
+  // people go along their tracks whatever velocities they are given: the track wins over everybody in the way, who can
+  // move no nearer but is not pushed. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
 
   // Of the last step.
