@@ -9,7 +9,8 @@ libraries=(libboost-dev libeigen3-dev libfcl-dev libccd-dev libtomlplusplus-dev 
   nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libyaml-cpp-dev libpng-dev catch2
   coinor-libipopt-dev node-d3 libjs-three)
 # tool:package; a tool that is on the path is kept, wherever it came from
-tools=(g++:build-essential make:build-essential cmake:cmake ninja:ninja-build pkg-config:pkg-config sqlite3:sqlite3)
+tools=(g++:build-essential make:build-essential cmake:cmake ninja:ninja-build pkg-config:pkg-config sqlite3:sqlite3
+  esbuild:esbuild)
 
 missing=()
 for tool in "${tools[@]}"; do

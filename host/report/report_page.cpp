@@ -7,24 +7,16 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/files/read_file.hpp"
+#include "host/report/replay/page_packing.hpp"
 
 namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Files of that ending, in the order of their names but for those in `first`.
-std::vector<fs::path> parts(const fs::path& folder, std::string_view ending, std::span<const char* const> first) {
-  std::vector<fs::path> ordered;
-  for (const char* name : first) ordered.push_back(folder / name);
-  const auto begin = static_cast<std::ptrdiff_t>(ordered.size());
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ending &&
-        std::find(ordered.begin(), ordered.begin() + begin, entry.path()) == ordered.begin() + begin)
-      ordered.push_back(entry.path());
-  std::sort(ordered.begin() + begin, ordered.end());
-  return ordered;
+std::string part(const fs::path& folder, const char* name) {
+  const fs::path file = folder / name;
+  return read_file(file, file.string());
 }
 
 // "</script" would end the element that holds it; in a script, within a string or a regular expression, "<\/script"
@@ -50,6 +42,11 @@ std::string json_text(const std::string& json) {
   return text;
 }
 
+// A script element of a type that browsers do not run.
+std::string packed_element(const std::string& id, const std::string& base64) {
+  return "<script type=\"application/gzip\" id=\"" + id + "\">" + base64 + "</script>\n";
+}
+
 void replace_line(std::string& page, const std::string& line, const std::string& content, const fs::path& file) {
   const std::size_t at = page.find(line);
   if (at == std::string::npos) throw InputError(file.string() + ": has no line " + line);
@@ -59,20 +56,13 @@ void replace_line(std::string& page, const std::string& line, const std::string&
 }  // namespace
 
 std::string report_page(const fs::path& folder, const std::string& data_json, std::span<const EmbeddedReplay> replays) {
-  static constexpr const char* const styles_first[] = {"style.css"};
-  static constexpr const char* const libraries[] = {"d3.min.js", "three.min.js"};
   const fs::path file = folder / "page.html";
-  std::string page = read_file(file, file.string());
-
-  std::string styles;
-  for (const fs::path& part : parts(folder, ".css", styles_first))
-    styles += "<style>\n" + read_file(part, part.string()) + "</style>\n";
+  std::string page = part(folder, "page.html");
+  const std::string styles = "<style>\n" + part(folder, "page.css") + "</style>\n";
   std::string data = "<script type=\"application/json\" id=\"dmrp-data\">" + json_text(data_json) + "</script>\n";
-  for (const EmbeddedReplay& replay : replays)
-    data += "<script type=\"application/gzip\" id=\"" + replay.element + "\">" + replay.base64 + "</script>\n";
-  std::string scripts;
-  for (const fs::path& part : parts(folder, ".js", libraries))
-    scripts += "<script>\n" + script_text(read_file(part, part.string())) + "</script>\n";
+  for (const EmbeddedReplay& replay : replays) data += packed_element(replay.element, replay.base64);
+  if (!replays.empty()) data += packed_element("dmrp-three", base64(gzip(part(folder, "three.min.js"))));
+  const std::string scripts = "<script>\n" + script_text(part(folder, "page.js")) + "</script>\n";
 
   // from the page's end: what is put in is not searched again
   replace_line(page, "<!-- dmrp:scripts -->", scripts, file);

@@ -8,8 +8,8 @@
 
 namespace dmrp::host {
 
-// Of UTF-8 text without control characters: combining marks take none, East Asian wide characters and emoji two.
-// The locale does not matter.
+// The width of UTF-8 text without control characters, by the C library's wcwidth: combining marks take no column, East
+// Asian wide characters and emoji take two. Does not depend on the process's locale and does not change it.
 std::size_t display_width(std::string_view text);
 
 // The text with spaces after or before it, so that it takes at least `width` columns.

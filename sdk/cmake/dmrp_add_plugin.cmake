@@ -11,7 +11,7 @@ function(dmrp_add_plugin name)
   endif()
   add_library(${name} MODULE ${plugin_SOURCES})
   target_link_libraries(${name} PRIVATE dmrp::sdk ${plugin_LIBRARIES})
-  # What the C++ layer needs; a plugin in C is welcome to a project without C++.
+  # The C++ layer needs C++17; a plugin in C may belong to a project without C++.
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if(CXX IN_LIST languages)
     target_compile_features(${name} PRIVATE cxx_std_17)

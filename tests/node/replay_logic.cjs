@@ -2,15 +2,13 @@
 // What the report's replay works out without a browser: replay_logic.cjs PAGE_FOLDER.
 'use strict';
 const assert = require('node:assert');
-const fs = require('node:fs');
-const path = require('node:path');
-const vm = require('node:vm');
+const {page_modules} = require('./page_modules.cjs');
 
-const folder = process.argv[2];
-const context = vm.createContext({window: {}, console});
-for (const name of ['replay_data', 'replay_events', 'replay_view'])
-  vm.runInContext(fs.readFileSync(path.join(folder, `${name}.js`), 'utf8'), context);
-const {replay_data, replay_events, replay_view} = context.window.dmrp;
+const {recording, events, map_view} = page_modules(process.argv[2], {
+  recording: 'replay/recording.js',
+  events: 'replay/events.js',
+  map_view: 'replay/map_view.js',
+});
 
 const plain = (value) => JSON.parse(JSON.stringify(value));
 const near = (found, expected, what = '') =>
@@ -41,17 +39,18 @@ function packed() {
       upper: [8000, 4000],
       shapes: [
         {name: 'box', height: 900, vertices: [1000, 0, 2000, 0, 2000, 500]},
-        {name: 'post', height: 2500, center: [4000, 2000], radius: 300}
-      ]
+        {name: 'post', height: 2500, center: [4000, 2000], radius: 300},
+      ],
     },
     robots: [
-      robot(0), {
+      robot(0),
+      {
         ...robot(1),
         arrival: undefined,
         failure: 'deadlock',
         state: [0, 0, 2, 2],
-        scans: {first: 0, step: 1570796, beams: 4, samples: [0, 2], ranges: [100, -100, 200, 0, 0, 0, 0, 300]}
-      }
+        scans: {first: 0, step: 1570796, beams: 4, samples: [0, 2], ranges: [100, -100, 200, 0, 0, 0, 0, 300]},
+      },
     ],
     people: [{id: 41, group: 2, radius: 300, from: 1, x: [2000, 100], y: [2000, 0]}],
     plans: [
@@ -59,9 +58,12 @@ function packed() {
         revision: 1,
         made: 0,
         from: 0,
-        paths: [{x: [1000, 1000, 0, 1000], y: [500, 0, 0, 0], t: [0, 1000, 2000, 1000]}, {x: [], y: [], t: []}]
+        paths: [
+          {x: [1000, 1000, 0, 1000], y: [500, 0, 0, 0], t: [0, 1000, 2000, 1000]},
+          {x: [], y: [], t: []},
+        ],
       },
-      {revision: 2, made: 100, from: 200, paths: []}
+      {revision: 2, made: 100, from: 200, paths: []},
     ],
     plan: [0, 0],
     contacts: [
@@ -74,14 +76,24 @@ function packed() {
         at: [1500, 700],
         depth: 4,
         fault: 'both',
-        unavoidable: false
+        unavoidable: false,
       },
-      {kind: 'static', robot: 1, other: 2, from: 220, to: 220, at: [0, 0], depth: 1, fault: 'robot', unavoidable: false}
+      {
+        kind: 'static',
+        robot: 1,
+        other: 2,
+        from: 220,
+        to: 220,
+        at: [0, 0],
+        depth: 1,
+        fault: 'robot',
+        unavoidable: false,
+      },
     ],
     events: [
       {metric: 'blocking', from: 0, to: 200, robots: [0, 1], text: 'they block each other'},
       {metric: 'touches', from: 100, to: 200, robots: [0, 1], text: 'robot 0 and robot 1'},
-      {metric: 'done', from: 200, to: 200, robots: [1], text: 'robot 1 failed: deadlock'}
+      {metric: 'done', from: 200, to: 200, robots: [1], text: 'robot 1 failed: deadlock'},
     ],
     end: {t: 240, reason: 'time limit'},
   };
@@ -89,34 +101,44 @@ function packed() {
 
 const tests = {
   'a replay comes out in metres, radians and seconds'() {
-    const replay = replay_data.from_json(packed());
+    const replay = recording.from_json(packed());
     near(replay.end, 0.24);
     near(replay.robots[1].y[3], 1.5);
     near(replay.robots[0].theta[2], 3.3, 'past pi');
     assert.deepStrictEqual(plain(replay.robots[0].state), {0: 0, 1: 0, 2: 0, 3: 1});
     assert.ok(Number.isNaN(replay.robots[0].deviation[0]));
     near(replay.robots[0].deviation[2], 0.02);
-    assert.deepStrictEqual(plain(replay.shapes[0].vertices), [[1, 0], [2, 0], [2, 0.5]]);
+    assert.deepStrictEqual(plain(replay.shapes[0].vertices), [
+      [1, 0],
+      [2, 0],
+      [2, 0.5],
+    ]);
   },
 
   'a moment lies between two samples, and at most at the last'() {
-    const replay = replay_data.from_json(packed());
-    const at = replay_data.moment(replay, 0.15);
+    const replay = recording.from_json(packed());
+    const at = recording.moment(replay, 0.15);
     assert.strictEqual(at.k, 1);
     near(at.fraction, 0.5);
-    near(replay_data.robot_pose(replay.robots[0], at).x, 1.15);
-    assert.strictEqual(replay_data.moment(replay, 0.22).k, 2);
-    near(replay_data.moment(replay, 0.22).fraction, 0.5, 'the last samples are nearer');
-    assert.strictEqual(replay_data.moment(replay, 99).k, 3);
-    assert.strictEqual(replay_data.moment(replay, 99).fraction, 0);
-    assert.strictEqual(replay_data.moment(replay, 0).k, 0);
+    near(recording.robot_pose(replay.robots[0], at).x, 1.15);
+    assert.strictEqual(recording.moment(replay, 0.22).k, 2);
+    near(recording.moment(replay, 0.22).fraction, 0.5, 'the last samples are nearer');
+    assert.strictEqual(recording.moment(replay, 99).k, 3);
+    assert.strictEqual(recording.moment(replay, 99).fraction, 0);
+    assert.strictEqual(recording.moment(replay, 0).k, 0);
   },
 
   'a trial without a plan stands still, one without robots shows the world'() {
     const none = packed();
-    Object.assign(
-      none,
-      {times: [0], people: [], plans: [], plan: [0, -1], contacts: [], events: [], end: {t: 0, reason: 'no plan'}});
+    Object.assign(none, {
+      times: [0],
+      people: [],
+      plans: [],
+      plan: [0, -1],
+      contacts: [],
+      events: [],
+      end: {t: 0, reason: 'no plan'},
+    });
     for (const robot of none.robots)
       Object.assign(robot, {
         x: [1000],
@@ -128,23 +150,27 @@ const tests = {
         goal: [0, 0],
         arrival: undefined,
         failure: 'no plan',
-        scans: undefined
+        scans: undefined,
       });
-    const replay = replay_data.from_json(none);
+    const replay = recording.from_json(none);
     assert.strictEqual(replay.end, 0);
-    const at = replay_data.moment(replay, 0);
-    assert.deepStrictEqual(plain(replay_data.robot_pose(replay.robots[0], at)), {x: 1, y: 0.5, theta: 0});
-    assert.strictEqual(replay_data.path_in_force(replay, 0, at), null);
-    assert.deepStrictEqual(
-      plain(replay_events.all_events(replay).map((event) => event.text)),
-      ['robot 0 failed: no plan', 'robot 1 failed: no plan']);
-    const empty = replay_data.from_json({...none, robots: []});
-    assert.deepStrictEqual(plain(replay_data.lively_box(empty)), [[0, 0], [8, 4]]);
+    const at = recording.moment(replay, 0);
+    assert.deepStrictEqual(plain(recording.robot_pose(replay.robots[0], at)), {x: 1, y: 0.5, theta: 0});
+    assert.strictEqual(recording.path_in_force(replay, 0, at), null);
+    assert.deepStrictEqual(plain(events.all_events(replay).map((event) => event.text)), [
+      'robot 0 failed: no plan',
+      'robot 1 failed: no plan',
+    ]);
+    const empty = recording.from_json({...none, robots: []});
+    assert.deepStrictEqual(plain(recording.lively_box(empty)), [
+      [0, 0],
+      [8, 4],
+    ]);
   },
 
   'people are there from their first to their last sample'() {
-    const replay = replay_data.from_json(packed());
-    const person = (t) => replay_data.person_pose(replay.people[0], replay_data.moment(replay, t));
+    const replay = recording.from_json(packed());
+    const person = (t) => recording.person_pose(replay.people[0], recording.moment(replay, t));
     assert.strictEqual(person(0.05), null);
     near(person(0.15).x, 2.05);
     near(person(0.15).heading, 0);
@@ -153,29 +179,29 @@ const tests = {
   },
 
   'the planned place waits where the plan does, and rests at its end'() {
-    const path_of = replay_data.from_json(packed()).plans[0].paths[0];
-    near(replay_data.planned_place(path_of, 0.5)[0], 1.5);
-    near(replay_data.planned_place(path_of, 2)[0], 2);
-    near(replay_data.planned_place(path_of, 3.5)[0], 2.5);
-    near(replay_data.planned_place(path_of, 60)[0], 3);
-    assert.strictEqual(replay_data.planned_place({x: [], y: [], t: []}, 1), null);
+    const path_of = recording.from_json(packed()).plans[0].paths[0];
+    near(recording.planned_place(path_of, 0.5)[0], 1.5);
+    near(recording.planned_place(path_of, 2)[0], 2);
+    near(recording.planned_place(path_of, 3.5)[0], 2.5);
+    near(recording.planned_place(path_of, 60)[0], 3);
+    assert.strictEqual(recording.planned_place({x: [], y: [], t: []}, 1), null);
   },
 
   'hits of a scan lie in the world, as seen from where it was taken'() {
-    const replay = replay_data.from_json(packed());
+    const replay = recording.from_json(packed());
     const robot = replay.robots[1];
-    const hits = replay_data.scan_hits(robot, replay_data.moment(replay, 0));
-    assert.strictEqual(hits.length, 3);  // 1, none, 2, 2 m at 0, 90, 180, 270 degrees
+    const hits = recording.scan_hits(robot, recording.moment(replay, 0));
+    assert.strictEqual(hits.length, 3); // 1, none, 2, 2 m at 0, 90, 180, 270 degrees
     near(hits[0][0], 1 + Math.cos(3.1), 'x');
     near(hits[0][1], 1.5 + Math.sin(3.1), 'y');
     near(Math.hypot(hits[2][0] - 1, hits[2][1] - 1.5), 2);
-    assert.strictEqual(replay_data.scan_hits(robot, replay_data.moment(replay, 0.21)).length, 1);
-    assert.strictEqual(replay_data.scan_hits(replay.robots[0], replay_data.moment(replay, 0)).length, 0);
+    assert.strictEqual(recording.scan_hits(robot, recording.moment(replay, 0.21)).length, 1);
+    assert.strictEqual(recording.scan_hits(replay.robots[0], recording.moment(replay, 0)).length, 0);
   },
 
   'what happened is told once, in order'() {
-    const events = replay_events.all_events(replay_data.from_json(packed()));
-    assert.deepStrictEqual(plain(events.map((event) => [event.from, event.kind, event.text])), [
+    const found = events.all_events(recording.from_json(packed()));
+    assert.deepStrictEqual(plain(found.map((event) => [event.from, event.kind, event.text])), [
       [0, 'metric', 'they block each other'],
       [0.1, 'plan', 'the planner gave no plan'],
       [0.1, 'contact', 'robot 0 and robot 1 touch: both at fault'],
@@ -183,17 +209,20 @@ const tests = {
       [0.22, 'contact', 'robot 1 and the border touch: robot 1 at fault'],
       [0.24, 'arrival', 'robot 0 arrived'],
     ]);
-    assert.ok(replay_events.is_now(events[0], 0.2) && !replay_events.is_now(events[0], 0.21));
-    assert.ok(replay_events.is_now(events[2], 1.0), 'a contact is seen for a second');
+    assert.ok(events.is_now(found[0], 0.2) && !events.is_now(found[0], 0.21));
+    assert.ok(events.is_now(found[2], 1.0), 'a contact is seen for a second');
   },
 
   'the lively part of the world holds tracks and goals, and stays inside'() {
-    const [lower, upper] = replay_data.lively_box(replay_data.from_json(packed()));
-    assert.deepStrictEqual(plain([lower, upper]), [[0, 0], [6, 4]]);
+    const [lower, upper] = recording.lively_box(recording.from_json(packed()));
+    assert.deepStrictEqual(plain([lower, upper]), [
+      [0, 0],
+      [6, 4],
+    ]);
   },
 
   'zooming keeps what lies under the pointer, and the whole world is the least'() {
-    const view = replay_view.make_view();
+    const view = map_view.make_map_view();
     view.width = 400;
     view.height = 300;
     view.show_world([0, 0], [40, 30]);

@@ -5,12 +5,15 @@ const assert = require('node:assert');
 const path = require('node:path');
 const {run_experiment, scratch_folder, open_report, run_tests} = require('./report_browser.cjs');
 
+const {page_modules} = require('./page_modules.cjs');
+
 const project = process.argv[2];
+const {recording} = page_modules(path.join(project, 'host/report/page'), {recording: 'replay/recording.js'});
 const report = run_experiment(path.join(project, 'examples/quickstart.toml'), path.join(scratch_folder(), 'run'));
 
 async function open_replay(browser, options = {}) {
   const opened = await open_report(browser, report, options);
-  await opened.page.evaluate(() => dmrp.open_trial(dmrp.data.replays[0].trial));
+  await opened.page.evaluate(() => dmrp.open_replay(dmrp.data.replays[0].trial));
   await opened.page.locator('#replay[data-trial]').waitFor();
   return opened;
 }
@@ -60,15 +63,25 @@ tests['a robot is picked on the map, an event is jumped to'] = async (browser) =
   let hit = false;
   for (let y = 10; y < box.height && !hit; y += 12)
     for (let x = 10; x < box.width && !hit; x += 12) {
-      hit = await map.evaluate((canvas, at) => {
-        const where = canvas.getBoundingClientRect();
-        const send = (type) => canvas.dispatchEvent(
-          new PointerEvent(type, {pointerId: 1, clientX: where.left + at.x, clientY: where.top + at.y, bubbles: true}));
-        canvas.setPointerCapture = () => {};
-        send('pointerdown');
-        send('pointerup');
-        return document.querySelector('.replay-robot[aria-pressed="true"]') !== null;
-      }, {x, y});
+      hit = await map.evaluate(
+        (canvas, at) => {
+          const where = canvas.getBoundingClientRect();
+          const send = (type) =>
+            canvas.dispatchEvent(
+              new PointerEvent(type, {
+                pointerId: 1,
+                clientX: where.left + at.x,
+                clientY: where.top + at.y,
+                bubbles: true,
+              })
+            );
+          canvas.setPointerCapture = () => {};
+          send('pointerdown');
+          send('pointerup');
+          return document.querySelector('.replay-robot[aria-pressed="true"]') !== null;
+        },
+        {x, y}
+      );
     }
   assert.ok(hit, 'no robot can be picked on the map');
   const last = page.getByTestId('replay-events').locator('button').last();
@@ -88,27 +101,28 @@ tests['another trial begins at its beginning'] = async (browser) => {
   await page.getByTestId('replay-trial').selectOption(String(ids[1]));
   await page.locator(`#replay[data-trial="${ids[1]}"]`).waitFor();
   assert.strictEqual(await seconds(page), 0);
-  assert.strictEqual(await page.evaluate((id) => dmrp.replay.has(id), ids[1]), true);
-  assert.strictEqual(await page.evaluate(() => dmrp.replay.has(123456)), false);
+  assert.strictEqual(await page.evaluate(() => dmrp.open_replay(123456)), false);
   await close(opened);
 };
 
 tests['the time and the picture agree with the trace'] = async (browser) => {
   const opened = await open_replay(browser);
-  const found = await opened.page.evaluate(async () => {
+  const found = await opened.page.evaluate(() => {
     const entry = dmrp.data.replays[0];
-    const replay = await dmrp.replay_data.load(document.getElementById(entry.element));
     const row = dmrp.data.trials.id.indexOf(entry.trial);
     return {
-      end: replay.end,
+      packed: document.getElementById(entry.element).textContent,
       sim_time_s: dmrp.data.trials.sim_time_s[row],
-      arrived: replay.robots.filter((robot) => robot.arrival !== null).length,
-      robots: replay.robots.length,
-      success: dmrp.data.values.success[row]
+      success: dmrp.data.values.success[row],
     };
   });
-  assert.ok(Math.abs(found.end - found.sim_time_s) < 0.021, `${found.end} s, but the trial took ${found.sim_time_s} s`);
-  assert.strictEqual(found.arrived / found.robots, found.success);
+  const replay = await recording.load({textContent: found.packed});
+  const arrived = replay.robots.filter((robot) => robot.arrival !== null).length;
+  assert.ok(
+    Math.abs(replay.end - found.sim_time_s) < 0.021,
+    `${replay.end} s, but the trial took ${found.sim_time_s} s`
+  );
+  assert.strictEqual(arrived / replay.robots.length, found.success);
   await close(opened);
 };
 
@@ -117,11 +131,55 @@ tests['without WebGL the flat map stays, and it is said why'] = async (browser) 
   const {page} = opened;
   await page.evaluate(() => {
     const get = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function(
-      kind, ...rest) { return /webgl/.test(kind) ? null : get.call(this, kind, ...rest); };
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return /webgl/.test(kind) ? null : get.call(this, kind, ...rest);
+    };
   });
   await page.getByTestId('replay-3d').click();
   assert.match(await page.locator('.replay-message').textContent(), /no WebGL/);
+  assert.strictEqual(await page.getByTestId('replay-stage').getAttribute('data-mode'), '2d');
+  await close(opened);
+};
+
+tests['three.js is unpacked when the 3-D view opens, and once'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  const mode = () => page.getByTestId('replay-stage').getAttribute('data-mode');
+  assert.strictEqual(await page.evaluate(() => typeof window.THREE), 'undefined');
+  await page.getByTestId('replay-3d').click();
+  await page.locator('[data-testid=replay-stage][data-mode="3d"]').waitFor();
+  assert.strictEqual(await page.evaluate(() => typeof window.THREE), 'object');
+  await page.getByTestId('replay-2d').click();
+  assert.strictEqual(await mode(), '2d');
+  await page.evaluate(() => document.getElementById('dmrp-three').remove());
+  await page.getByTestId('replay-3d').click();
+  await page.locator('[data-testid=replay-stage][data-mode="3d"]').waitFor();
+  assert.strictEqual(await page.locator('canvas.solid').count(), 1);
+  await close(opened);
+};
+
+tests['a click on 2-D while three.js is unpacked keeps the flat map'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  await page.evaluate(() => {
+    for (const mode of ['3d', '3d', '2d']) document.querySelector(`[data-testid=replay-${mode}]`).click();
+  });
+  await page.waitForFunction(() => window.THREE);
+  await page.waitForTimeout(300);
+  assert.strictEqual(await page.getByTestId('replay-stage').getAttribute('data-mode'), '2d');
+  assert.ok((await page.locator('canvas.solid').count()) <= 1);
+  await close(opened);
+};
+
+tests['a damaged three.js is reported, the flat map stays'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  await page.evaluate(() => {
+    document.getElementById('dmrp-three').textContent = 'AAAA';
+  });
+  await page.getByTestId('replay-3d').click();
+  await page.locator('.replay-message:not([hidden])').waitFor();
+  assert.match(await page.locator('.replay-message').textContent(), /cannot be unpacked/);
   assert.strictEqual(await page.getByTestId('replay-stage').getAttribute('data-mode'), '2d');
   await close(opened);
 };
@@ -132,9 +190,9 @@ tests['a damaged replay is told, the others play'] = async (browser) => {
   await page.evaluate(() => {
     document.getElementById(dmrp.data.replays[1].element).textContent = 'AAAA';
   });
-  assert.strictEqual(await page.evaluate(() => dmrp.replay.open(dmrp.data.replays[1].trial)), false);
+  assert.strictEqual(await page.evaluate(() => dmrp.open_replay(dmrp.data.replays[1].trial)), false);
   assert.match(await page.locator('.replay-message').textContent(), /cannot be unpacked/);
-  assert.strictEqual(await page.evaluate(() => dmrp.replay.open(dmrp.data.replays[0].trial)), true);
+  assert.strictEqual(await page.evaluate(() => dmrp.open_replay(dmrp.data.replays[0].trial)), true);
   assert.ok(await page.locator('.replay-message').isHidden());
   await close(opened);
 };

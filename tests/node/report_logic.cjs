@@ -2,29 +2,34 @@
 // What the report's page works out without a browser: report_logic.cjs PAGE_FOLDER.
 'use strict';
 const assert = require('node:assert');
-const fs = require('node:fs');
-const path = require('node:path');
-const vm = require('node:vm');
+const {page_modules} = require('./page_modules.cjs');
 
-const folder = process.argv[2];
-const context = vm.createContext({window: {}, console});
-for (const name of [
-  'numbers',
-  'ranking',
-  'labels',
-  'verdict',
-  'table_model',
-  'trial_points',
-  'comparisons',
-  'faults',
-  'metrics_table',
-  'provenance',
-  'heat_map',
-])
-  vm.runInContext(fs.readFileSync(path.join(folder, `${name}.js`), 'utf8'), context);
-const {dmrp} = context.window;
+const {
+  numbers,
+  ranking,
+  labels,
+  verdict,
+  table_model,
+  trial_points,
+  comparisons,
+  faults,
+  metrics_table,
+  provenance,
+  heat_map,
+} = page_modules(process.argv[2], {
+  numbers: 'numbers.js',
+  ranking: 'ranking.js',
+  labels: 'labels.js',
+  verdict: 'run/verdict.js',
+  table_model: 'tables/table_model.js',
+  trial_points: 'plots/trial_points.js',
+  comparisons: 'tables/comparisons.js',
+  faults: 'run/faults.js',
+  metrics_table: 'tables/metrics_table.js',
+  provenance: 'run/provenance.js',
+  heat_map: 'tables/heat_map.js',
+});
 
-// values made in the other context have other prototypes
 const plain = (value) => JSON.parse(JSON.stringify(value));
 const same = (found, expected) => assert.deepStrictEqual(plain(found), expected);
 
@@ -121,7 +126,7 @@ function sample() {
 
 const tests = {
   'numbers carry a real minus, none before zero, and a dash where undefined'() {
-    const n = dmrp.numbers;
+    const n = numbers;
     same([n.fixed(-1.25, 1), n.fixed(-0.001, 2), n.fixed(null, 2), n.fixed(NaN, 2)], ['\u22121.3', '0.00', '—', '—']);
     same([n.signed(0.5, 1), n.signed(-0.5, 1), n.signed(0, 1)], ['+0.5', '\u22120.5', '0.0']);
     same(
@@ -142,23 +147,23 @@ const tests = {
     );
   },
   'undefined values come last both ways, equal ones keep their places'() {
-    same(dmrp.ranking.order([3, null, 1, 3], false), [2, 0, 3, 1]);
-    same(dmrp.ranking.order([3, null, 1, 3], true), [0, 3, 2, 1]);
-    same(dmrp.ranking.order(['a10', 'a9', 'b'], false), [1, 0, 2]);
+    same(ranking.order([3, null, 1, 3], false), [2, 0, 3, 1]);
+    same(ranking.order([3, null, 1, 3], true), [0, 3, 2, 1]);
+    same(ranking.order(['a10', 'a9', 'b'], false), [1, 0, 2]);
   },
   'the best follows the direction, and is nothing where most share it'() {
-    same([...dmrp.ranking.best([3, null, 1, 2], 'lower', 1)], [2]);
-    same([...dmrp.ranking.best([3, null, 1, 2], 'higher', 1)], [0]);
-    same([...dmrp.ranking.best([1, 1, 2, 2.04], 'higher', 1)], [2, 3]);
-    same([...dmrp.ranking.best([1, 1, 1, 2], 'lower', 1)], []);
-    same([...dmrp.ranking.best([1, 2], 'none', 1)], []);
-    same([...dmrp.ranking.best([1], 'lower', 1)], []);
-    same(dmrp.ranking.goodness([0, 5, 10, null], 'lower'), [1, 0.5, 0, null]);
-    same(dmrp.ranking.goodness([2, 2], 'higher'), [0.5, 0.5]);
+    same([...ranking.best([3, null, 1, 2], 'lower', 1)], [2]);
+    same([...ranking.best([3, null, 1, 2], 'higher', 1)], [0]);
+    same([...ranking.best([1, 1, 2, 2.04], 'higher', 1)], [2, 3]);
+    same([...ranking.best([1, 1, 1, 2], 'lower', 1)], []);
+    same([...ranking.best([1, 2], 'none', 1)], []);
+    same([...ranking.best([1], 'lower', 1)], []);
+    same(ranking.goodness([0, 5, 10, null], 'lower'), [1, 0.5, 0, null]);
+    same(ranking.goodness([2, 2], 'higher'), [0.5, 0.5]);
   },
   'a table has a group for each scenario, with the best of each'() {
     const data = sample();
-    const model = dmrp.table_model.make(data, data.layouts.report.tables[1], dmrp.labels.variants(data));
+    const model = table_model.make(data, data.layouts.report.tables[1], labels.variants(data));
     same(
       model.columns.map((column) => column.metric.name),
       ['time']
@@ -191,18 +196,18 @@ const tests = {
         [0, 2],
       ]
     );
-    same(dmrp.table_model.order(model, 0, false), [
+    same(table_model.order(model, 0, false), [
       [1, 3, 2, 0],
       [2, 1, 0, 3],
     ]);
-    same(dmrp.table_model.order(model, 'local_controller', true), [
+    same(table_model.order(model, 'local_controller', true), [
       [1, 3, 0, 2],
       [1, 3, 0, 2],
     ]);
   },
   'a table across scenarios repeats its columns'() {
     const data = sample();
-    const model = dmrp.table_model.make(data, data.layouts.report.tables[0], dmrp.labels.variants(data));
+    const model = table_model.make(data, data.layouts.report.tables[0], labels.variants(data));
     same(model.spans, [
       {title: 'mall · 2 robots', count: 1},
       {title: 'office · 2 robots', count: 1},
@@ -239,9 +244,9 @@ const tests = {
     });
     data.planners.push({scenario: 'mall', robots: 0, global_planner: ''});
     data.planner_summaries.push(data.planner_summaries[0]);
-    same(dmrp.labels.variants(data).length, 2);
-    same(dmrp.labels.values_of(data, 'global_planner'), ['P', 'Q']);
-    const model = dmrp.table_model.make(data, data.layouts.report.tables[0], dmrp.labels.variants(data));
+    same(labels.variants(data).length, 2);
+    same(labels.values_of(data, 'global_planner'), ['P', 'Q']);
+    const model = table_model.make(data, data.layouts.report.tables[0], labels.variants(data));
     same(
       model.groups[0].rows.map((row) => row.name),
       ['P', 'Q']
@@ -251,23 +256,23 @@ const tests = {
     const data = sample();
     data.values.arrived = data.trials.id.map(() => 1);
     same(
-      dmrp.verdict.lines(data).map((line) => line.kind),
+      verdict.lines(data).map((line) => line.kind),
       ['good']
     );
-    assert.match(dmrp.verdict.lines(data)[0].text, /32 of 32 robots arrived/);
+    assert.match(verdict.lines(data)[0].text, /32 of 32 robots arrived/);
     data.values.contacts = data.trials.id.map((id) => (id === 5 ? 2 : 0));
-    assert.match(dmrp.verdict.lines(data)[0].text, /^32 of 32 robots arrived, with 2 contacts; no faults/);
+    assert.match(verdict.lines(data)[0].text, /^32 of 32 robots arrived, with 2 contacts; no faults/);
     delete data.values.contacts;
     data.values.arrived[2] = 0.5;
     data.trials.outcome[2] = 'failed';
     same(
-      dmrp.verdict.lines(data).map((line) => line.text),
+      verdict.lines(data).map((line) => line.text),
       ['1 robot of 32 did not arrive, in 1 trial.', '16 trials without a fault, every one repeatable.']
     );
     data.trials.repeatable[3] = false;
     data.run.trials_planned = 20;
     data.faults = [{trial: 4}, {trial: 4}];
-    const lines = dmrp.verdict.lines(data);
+    const lines = verdict.lines(data);
     same(
       lines.map((line) => line.kind),
       ['bad', 'bad', 'warning', 'note']
@@ -276,14 +281,14 @@ const tests = {
     assert.match(lines[1].text, /^4 trials of 20 are missing/);
     assert.match(lines[2].text, /^1 trial is not repeatable/);
     data.values.arrived = data.trials.id.map(() => 0);
-    assert.ok(dmrp.verdict.lines(data).some((line) => line.text.startsWith('No robot arrived: all 32 failed')));
+    assert.ok(verdict.lines(data).some((line) => line.text.startsWith('No robot arrived: all 32 failed')));
   },
   'points are spread by their trial alone, evenly enough'() {
-    const spread = Array.from({length: 1000}, (_, id) => dmrp.trial_points.jitter(id));
+    const spread = Array.from({length: 1000}, (_, id) => trial_points.jitter(id));
     assert.ok(spread.every((value) => value >= -1 && value < 1));
     assert.ok(Math.abs(spread.reduce((sum, value) => sum + value, 0) / 1000) < 0.1);
     assert.ok(new Set(spread).size > 990);
-    same(dmrp.trial_points.jitter(17), dmrp.trial_points.jitter(17));
+    same(trial_points.jitter(17), trial_points.jitter(17));
   },
   'arrow keys reach the next point of a row, and the next row'() {
     const points = [
@@ -292,36 +297,36 @@ const tests = {
       {x: 9, y: 20},
       {x: 30, y: 0},
     ];
-    const next = (from, key) => dmrp.trial_points.neighbour(points, from, key);
+    const next = (from, key) => trial_points.neighbour(points, from, key);
     same([next(-1, 'ArrowRight'), next(0, 'ArrowRight'), next(1, 'ArrowRight'), next(3, 'ArrowRight')], [0, 1, 3, 3]);
     same([next(1, 'ArrowLeft'), next(1, 'ArrowDown'), next(2, 'ArrowUp'), next(0, 'ArrowUp')], [0, 2, 1, 0]);
   },
   'a difference is told by the estimate of its test'() {
     const comparison = {median_difference: 1, low: 0, high: 2, mean_difference: 5, mean_low: 4, mean_high: 6};
-    same(dmrp.comparisons.estimate_of({...comparison, test: 'signed_rank'}), {estimate: 1, low: 0, high: 2});
-    same(dmrp.comparisons.estimate_of({...comparison, test: 'sign_flip'}), {estimate: 5, low: 4, high: 6});
+    same(comparisons.estimate_of({...comparison, test: 'signed_rank'}), {estimate: 1, low: 0, high: 2});
+    same(comparisons.estimate_of({...comparison, test: 'sign_flip'}), {estimate: 5, low: 4, high: 6});
   },
   'faults of one kind in one function stand together'() {
     const fault = (trial, kind, plugin) => ({trial, kind, plugin, function: 'step'});
-    const faults = [fault(0, 'crash', 'a'), fault(1, 'hang', 'b'), fault(2, 'crash', 'a'), fault(3, 'crash', 'b')];
+    const all = [fault(0, 'crash', 'a'), fault(1, 'hang', 'b'), fault(2, 'crash', 'a'), fault(3, 'crash', 'b')];
     same(
-      dmrp.faults.groups(faults).map((group) => group.map((one) => one.trial)),
+      faults.groups(all).map((group) => group.map((one) => one.trial)),
       [[0, 2], [1], [3]]
     );
-    assert.strictEqual(dmrp.faults.count_words(faults), '3 crash, 1 hang');
+    assert.strictEqual(faults.count_words(all), '3 crash, 1 hang');
   },
 
   'metrics are found by all words'() {
     const data = sample();
-    same(dmrp.metrics_table.found(data, ''), [0, 1]);
-    same(dmrp.metrics_table.found(data, 'HOW time'), [1]);
-    same(dmrp.metrics_table.found(data, 'how share'), []);
+    same(metrics_table.found(data, ''), [0, 1]);
+    same(metrics_table.found(data, 'HOW time'), [1]);
+    same(metrics_table.found(data, 'how share'), []);
   },
   'the command line can be pasted into a shell'() {
-    same(dmrp.provenance.command_words(['dmrp-host', 'my run.toml', "it's"]), "dmrp-host 'my run.toml' 'it'\\''s'");
+    same(provenance.command_words(['dmrp-host', 'my run.toml', "it's"]), "dmrp-host 'my run.toml' 'it'\\''s'");
   },
   'a heat map has a cell for each pair'() {
-    const grids = dmrp.heat_map.grids(sample(), 'time');
+    const grids = heat_map.grids(sample(), 'time');
     same(
       grids.map((grid) => [grid.title, grid.cells.map((row) => row.map((cell) => cell.mean))]),
       [

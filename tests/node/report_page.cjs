@@ -220,7 +220,7 @@ tests['the replay plays, is scrubbed and turns to 3-D'] = async (browser) => {
   const {page} = opened;
   assert.ok((await page.evaluate(() => dmrp.data.replays.length)) > 0, 'the quickstart has no replay');
   const id = await page.evaluate(() => dmrp.data.replays[0].trial);
-  await page.evaluate((trial) => dmrp.open_trial(trial), id);
+  await page.evaluate((trial) => dmrp.open_replay(trial), id);
   const section = page.locator(`#replay[data-trial="${id}"]`);
   await section.waitFor();
   const time = () => page.getByTestId('replay-time').textContent();
@@ -258,7 +258,7 @@ function enlarged(report) {
     for (const [name, column] of Object.entries(data.trials)) {
       data.trials[name] = Array.from(
         {length: 960},
-        (_, i) => ({id: i, combination: Math.floor(i / 20), repetition: i % 20})[name] ?? column[i % from]
+        (_, i) => ({id: i, combination: Math.floor(i / 20), repetition: i % 20}[name] ?? column[i % from])
       );
     }
     for (const [name, column] of Object.entries(data.values))

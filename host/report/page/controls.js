@@ -1,113 +1,108 @@
 // SPDX-License-Identifier: MIT
 // controls.js: what the reader chooses by.
-window.dmrp = window.dmrp || {};
-(function (dmrp) {
-  'use strict';
-  const element = (...all) => dmrp.elements.element(...all);
+import {element} from './elements.js';
+import * as labels from './labels.js';
 
-  function row(...controls) {
-    return element('div', {class: 'controls'}, controls);
+export function row(...controls) {
+  return element('div', {class: 'controls'}, controls);
+}
+
+// options: [{value, label}]. `changed` gets the value; it is not called at first. Null where there is nothing to choose.
+export function select(title, options, value, changed) {
+  if (options.length < 2) return null;
+  const box = element('select', {onchange: () => changed(box.value)});
+  for (const option of options)
+    box.append(element('option', {value: option.value, selected: option.value === value}, option.label));
+  return element('label', {class: 'control'}, element('span', {}, title), box);
+}
+
+export function metric_select(data, title, metrics, value, changed) {
+  const options = metrics.map((metric) => ({
+    value: metric.name,
+    label: labels.metric_with_unit(data, metric.name),
+  }));
+  return select(title, options, value, changed);
+}
+
+// A row of buttons, one of them pressed; the same contract as select.
+export function segmented(title, options, value, changed) {
+  if (options.length < 2) return null;
+  const buttons = options.map((option) =>
+    element('button', {type: 'button', class: 'button', 'aria-pressed': String(option.value === value)}, option.label)
+  );
+  buttons.forEach((button, i) =>
+    button.addEventListener('click', () => {
+      buttons.forEach((one) => one.setAttribute('aria-pressed', String(one === button)));
+      changed(options[i].value);
+    })
+  );
+  return element(
+    'div',
+    {class: 'control', role: 'group', 'aria-label': title},
+    element('span', {}, title),
+    element('span', {class: 'segmented'}, buttons)
+  );
+}
+
+// More than a screenful of rows is shown a scenario at a time, at first.
+export function first_variant(variants, rows) {
+  return rows > 24 && variants.length > 1 ? variants[0].key : 'all';
+}
+
+// "all" stands first. Says how many robots only where that tells variants apart.
+export function variant_select(variants, value, changed) {
+  const names = labels.distinct(variants.map((variant) => variant.scenario.name));
+  const short = names.length === variants.length;
+  const options = variants.map((variant) => ({
+    value: variant.key,
+    label: short ? variant.scenario.name : variant.label,
+  }));
+  if (options.length > 1) options.unshift({value: 'all', label: 'all'});
+  return (short && options.length <= 6 ? segmented : select)('Scenario', options, value, changed);
+}
+
+export function checkbox(title, checked, changed) {
+  const box = element('input', {type: 'checkbox', checked, onchange: () => changed(box.checked)});
+  return element('label', {class: 'control check'}, box, element('span', {}, title));
+}
+
+export function search(title, changed) {
+  const box = element('input', {
+    type: 'search',
+    placeholder: title,
+    'aria-label': title,
+    oninput: () => changed(box.value),
+  });
+  return element('label', {class: 'control'}, box);
+}
+
+// A page opened by file:// may not write to the clipboard by the newer way.
+function copy_by_selection(text) {
+  const area = element('textarea', {class: 'visually-hidden', readonly: true});
+  area.value = text;
+  document.body.append(area);
+  area.select();
+  const copied = document.execCommand('copy');
+  area.remove();
+  return copied;
+}
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch (refused) {
+    return copy_by_selection(text);
   }
+}
 
-  // options: [{value, label}]. `changed` gets the value; it is not called at first. Null where there is nothing to choose.
-  function select(title, options, value, changed) {
-    if (options.length < 2) return null;
-    const box = element('select', {onchange: () => changed(box.value)});
-    for (const option of options)
-      box.append(element('option', {value: option.value, selected: option.value === value}, option.label));
-    return element('label', {class: 'control'}, element('span', {}, title), box);
-  }
-
-  function metric_select(data, title, metrics, value, changed) {
-    const options = metrics.map((metric) => ({
-      value: metric.name,
-      label: dmrp.labels.metric_with_unit(data, metric.name),
-    }));
-    return select(title, options, value, changed);
-  }
-
-  // A row of buttons, one of them pressed; the same contract as select.
-  function segmented(title, options, value, changed) {
-    if (options.length < 2) return null;
-    const buttons = options.map((option) =>
-      element('button', {type: 'button', class: 'button', 'aria-pressed': String(option.value === value)}, option.label)
-    );
-    buttons.forEach((button, i) =>
-      button.addEventListener('click', () => {
-        buttons.forEach((one) => one.setAttribute('aria-pressed', String(one === button)));
-        changed(options[i].value);
-      })
-    );
-    return element(
-      'div',
-      {class: 'control', role: 'group', 'aria-label': title},
-      element('span', {}, title),
-      element('span', {class: 'segmented'}, buttons)
-    );
-  }
-
-  // More than a screenful of rows is shown a scenario at a time, at first.
-  function first_variant(variants, rows) {
-    return rows > 24 && variants.length > 1 ? variants[0].key : 'all';
-  }
-
-  // "all" stands first. Says how many robots only where that tells variants apart.
-  function variant_select(variants, value, changed) {
-    const names = dmrp.labels.distinct(variants.map((variant) => variant.scenario.name));
-    const short = names.length === variants.length;
-    const options = variants.map((variant) => ({
-      value: variant.key,
-      label: short ? variant.scenario.name : variant.label,
-    }));
-    if (options.length > 1) options.unshift({value: 'all', label: 'all'});
-    return (short && options.length <= 6 ? segmented : select)('Scenario', options, value, changed);
-  }
-
-  function checkbox(title, checked, changed) {
-    const box = element('input', {type: 'checkbox', checked, onchange: () => changed(box.checked)});
-    return element('label', {class: 'control check'}, box, element('span', {}, title));
-  }
-
-  function search(title, changed) {
-    const box = element('input', {
-      type: 'search',
-      placeholder: title,
-      'aria-label': title,
-      oninput: () => changed(box.value),
-    });
-    return element('label', {class: 'control'}, box);
-  }
-
-  // A page opened by file:// may not write to the clipboard by the newer way.
-  function copy_by_selection(text) {
-    const area = element('textarea', {class: 'visually-hidden', readonly: true});
-    area.value = text;
-    document.body.append(area);
-    area.select();
-    const copied = document.execCommand('copy');
-    area.remove();
-    return copied;
-  }
-
-  async function copy(text) {
-    try {
-      await navigator.clipboard.writeText(text);
-      return true;
-    } catch (refused) {
-      return copy_by_selection(text);
-    }
-  }
-
-  function copy_button(text, what) {
-    const button = element('button', {type: 'button', class: 'button small', 'aria-label': `copy ${what}`}, 'Copy');
-    button.addEventListener('click', async () => {
-      button.textContent = (await copy(text)) ? 'Copied' : 'Select and copy by hand';
-      setTimeout(() => {
-        button.textContent = 'Copy';
-      }, 2000);
-    });
-    return button;
-  }
-
-  dmrp.controls = {row, select, segmented, metric_select, first_variant, variant_select, checkbox, search, copy_button};
-})(window.dmrp);
+export function copy_button(text, what) {
+  const button = element('button', {type: 'button', class: 'button small', 'aria-label': `copy ${what}`}, 'Copy');
+  button.addEventListener('click', async () => {
+    button.textContent = (await copy(text)) ? 'Copied' : 'Select and copy by hand';
+    setTimeout(() => {
+      button.textContent = 'Copy';
+    }, 2000);
+  });
+  return button;
+}

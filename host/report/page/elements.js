@@ -1,48 +1,42 @@
 // SPDX-License-Identifier: MIT
 // elements.js: builds the page's elements.
-window.dmrp = window.dmrp || {};
-(function (dmrp) {
-  'use strict';
 
-  function append(parent, child) {
-    if (child === null || child === undefined || child === false) return;
-    if (Array.isArray(child)) child.forEach((one) => append(parent, one));
-    else parent.append(child);
+function append(parent, child) {
+  if (child === null || child === undefined || child === false) return;
+  if (Array.isArray(child)) child.forEach((one) => append(parent, one));
+  else parent.append(child);
+}
+
+// element('td', {class: 'number', onclick: f}, 'text', [more, elements]). Attributes that are null or false are left out.
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (key.startsWith('on')) made.addEventListener(key.slice(2), value);
+    else made.setAttribute(key, value === true ? '' : value);
   }
+  append(made, children);
+  return made;
+}
 
-  // element('td', {class: 'number', onclick: f}, 'text', [more, elements]). Attributes that are null or false are left out.
-  function element(name, attributes = {}, ...children) {
-    const made = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) {
-      if (value === null || value === undefined || value === false) continue;
-      if (key.startsWith('on')) made.addEventListener(key.slice(2), value);
-      else made.setAttribute(key, value === true ? '' : value);
-    }
-    append(made, children);
-    return made;
-  }
+// Read out, not seen.
+export function hidden(text) {
+  return element('span', {class: 'visually-hidden'}, text);
+}
 
-  // Read out, not seen.
-  function hidden(text) {
-    return element('span', {class: 'visually-hidden'}, text);
-  }
+export function fill(parent, ...children) {
+  parent.textContent = '';
+  append(parent, children);
+}
 
-  function fill(parent, ...children) {
-    parent.textContent = '';
-    append(parent, children);
-  }
-
-  // A table under its title, in a box of its own that scrolls sideways where the screen is narrow.
-  function titled_table(id, title, note, table) {
-    table.setAttribute('aria-labelledby', id);
-    return element(
-      'div',
-      {class: 'titled'},
-      element('h3', {id}, title),
-      note && element('p', {class: 'about-table'}, note),
-      element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': id}, table)
-    );
-  }
-
-  dmrp.elements = {element, hidden, fill, titled_table};
-})(window.dmrp);
+// A table under its title, in a box of its own that scrolls sideways where the screen is narrow.
+export function titled_table(id, title, note, table) {
+  table.setAttribute('aria-labelledby', id);
+  return element(
+    'div',
+    {class: 'titled'},
+    element('h3', {id}, title),
+    note && element('p', {class: 'about-table'}, note),
+    element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': id}, table)
+  );
+}

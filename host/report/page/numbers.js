@@ -1,86 +1,66 @@
 // SPDX-License-Identifier: MIT
 // numbers.js: how numbers, intervals and units are written.
-window.dmrp = window.dmrp || {};
-(function (dmrp) {
-  'use strict';
 
-  const UNDEFINED = '—';
+export const UNDEFINED = '—';
 
-  function is_number(value) {
-    return typeof value === 'number' && Number.isFinite(value);
-  }
+export function is_number(value) {
+  return typeof value === 'number' && Number.isFinite(value);
+}
 
-  // With a real minus sign, and no minus before zero.
-  function fixed(value, decimals) {
-    if (!is_number(value)) return UNDEFINED;
-    const text = Math.abs(value).toFixed(decimals);
-    return value < 0 && Number(text) !== 0 ? '\u2212' + text : text;
-  }
+// With a real minus sign, and no minus before zero.
+export function fixed(value, decimals) {
+  if (!is_number(value)) return UNDEFINED;
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? '\u2212' + text : text;
+}
 
-  // As many decimals as give the largest of `values` three digits; none where all are whole numbers.
-  function decimals_of(values) {
-    const defined = values.filter(is_number);
-    if (defined.every(Number.isInteger)) return 0;
-    const largest = Math.max(...defined.map(Math.abs));
-    return Math.min(6, Math.max(0, 2 - Math.floor(Math.log10(largest))));
-  }
+// As many decimals as give the largest of `values` three digits; none where all are whole numbers.
+export function decimals_of(values) {
+  const defined = values.filter(is_number);
+  if (defined.every(Number.isInteger)) return 0;
+  const largest = Math.max(...defined.map(Math.abs));
+  return Math.min(6, Math.max(0, 2 - Math.floor(Math.log10(largest))));
+}
 
-  function general(value) {
-    return is_number(value) ? fixed(value, decimals_of([value])) : UNDEFINED;
-  }
+export function general(value) {
+  return is_number(value) ? fixed(value, decimals_of([value])) : UNDEFINED;
+}
 
-  function signed(value, decimals) {
-    const text = fixed(value, decimals);
-    return is_number(value) && value > 0 && Number(text) !== 0 ? '+' + text : text;
-  }
+export function signed(value, decimals) {
+  const text = fixed(value, decimals);
+  return is_number(value) && value > 0 && Number(text) !== 0 ? '+' + text : text;
+}
 
-  // Nothing where both ends are written alike.
-  function interval(low, high, decimals, write = fixed) {
-    if (!is_number(low) || !is_number(high) || fixed(low, decimals) === fixed(high, decimals)) return '';
-    return `[${write(low, decimals)}, ${write(high, decimals)}]`;
-  }
+// Nothing where both ends are written alike.
+export function interval(low, high, decimals, write = fixed) {
+  if (!is_number(low) || !is_number(high) || fixed(low, decimals) === fixed(high, decimals)) return '';
+  return `[${write(low, decimals)}, ${write(high, decimals)}]`;
+}
 
-  function p_value(p) {
-    if (!is_number(p)) return UNDEFINED;
-    return p < 0.001 ? '< 0.001' : p.toFixed(3);
-  }
+export function p_value(p) {
+  if (!is_number(p)) return UNDEFINED;
+  return p < 0.001 ? '< 0.001' : p.toFixed(3);
+}
 
-  function percent(share) {
-    return is_number(share) ? `${fixed(100 * share, 0)} %` : UNDEFINED;
-  }
+export function percent(share) {
+  return is_number(share) ? `${fixed(100 * share, 0)} %` : UNDEFINED;
+}
 
-  // "1" is how a dimensionless value is declared.
-  function unit(name) {
-    return name === '1' || name === '' ? '' : name;
-  }
+// "1" is how a dimensionless value is declared.
+export function unit(name) {
+  return name === '1' || name === '' ? '' : name;
+}
 
-  function with_unit(text, name) {
-    return unit(name) && text !== UNDEFINED ? `${text}\u00a0${name}` : text;
-  }
+export function with_unit(text, name) {
+  return unit(name) && text !== UNDEFINED ? `${text}\u00a0${name}` : text;
+}
 
-  function counted(count, noun, plural = noun + 's') {
-    return `${count.toLocaleString('en')} ${count === 1 ? noun : plural}`;
-  }
+export function counted(count, noun, plural = noun + 's') {
+  return `${count.toLocaleString('en')} ${count === 1 ? noun : plural}`;
+}
 
-  function duration(seconds) {
-    if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
-    if (seconds < 5400) return `${(seconds / 60).toFixed(0)} min`;
-    return `${(seconds / 3600).toFixed(1)} h`;
-  }
-
-  dmrp.numbers = {
-    UNDEFINED,
-    is_number,
-    fixed,
-    decimals_of,
-    general,
-    signed,
-    interval,
-    p_value,
-    percent,
-    unit,
-    with_unit,
-    counted,
-    duration,
-  };
-})(window.dmrp);
+export function duration(seconds) {
+  if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
+  if (seconds < 5400) return `${(seconds / 60).toFixed(0)} min`;
+  return `${(seconds / 3600).toFixed(1)} h`;
+}

@@ -1,54 +1,48 @@
 // SPDX-License-Identifier: MIT
 // ranking.js: what is better, what comes first. A metric's direction is "higher", "lower" (better) or "none".
-window.dmrp = window.dmrp || {};
-(function (dmrp) {
-  'use strict';
 
-  function is_defined(value) {
-    return value !== null && value !== undefined && !Number.isNaN(value);
-  }
+export function is_defined(value) {
+  return value !== null && value !== undefined && !Number.isNaN(value);
+}
 
-  // Undefined values come last, whichever way the others go.
-  function compare(a, b, descending) {
-    if (!is_defined(a) || !is_defined(b)) return Number(!is_defined(a)) - Number(!is_defined(b));
-    const order = typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a - b;
-    return descending ? -order : order;
-  }
+// Undefined values come last, whichever way the others go.
+export function compare(a, b, descending) {
+  if (!is_defined(a) || !is_defined(b)) return Number(!is_defined(a)) - Number(!is_defined(b));
+  const order = typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a - b;
+  return descending ? -order : order;
+}
 
-  // The indices of `values` in order; equal ones stay as they were.
-  function order(values, descending) {
-    return values.map((_, i) => i).sort((i, j) => compare(values[i], values[j], descending) || i - j);
-  }
+// The indices of `values` in order; equal ones stay as they were.
+export function order(values, descending) {
+  return values.map((_, i) => i).sort((i, j) => compare(values[i], values[j], descending) || i - j);
+}
 
-  // Indices of the best values, as they are written. None where no direction is better, or where more than half of the
-  // values are equally good.
-  function best(exact, direction, decimals) {
-    const values = exact.map((value) => (is_defined(value) ? Number(value.toFixed(decimals)) : null));
-    const defined = values.filter(is_defined);
-    if (direction === 'none' || defined.length < 2) return new Set();
-    const target = direction === 'higher' ? Math.max(...defined) : Math.min(...defined);
-    const found = values.map((value, i) => (value === target ? i : -1)).filter((i) => i >= 0);
-    return new Set(found.length > defined.length / 2 ? [] : found);
-  }
+// Indices of the best values, as they are written. None where no direction is better, or where more than half of the
+// values are equally good.
+export function best(exact, direction, decimals) {
+  const values = exact.map((value) => (is_defined(value) ? Number(value.toFixed(decimals)) : null));
+  const defined = values.filter(is_defined);
+  if (direction === 'none' || defined.length < 2) return new Set();
+  const target = direction === 'higher' ? Math.max(...defined) : Math.min(...defined);
+  const found = values.map((value, i) => (value === target ? i : -1)).filter((i) => i >= 0);
+  return new Set(found.length > defined.length / 2 ? [] : found);
+}
 
-  // How good each value is among its kind: 1 the best, 0 the worst, null where undefined. Higher counts as more where no
-  // direction is better; all equal is 0.5.
-  function goodness(values, direction) {
-    const defined = values.filter(is_defined);
-    const low = Math.min(...defined);
-    const high = Math.max(...defined);
-    return values.map((value) => {
-      if (!is_defined(value)) return null;
-      if (low === high) return 0.5;
-      const share = (value - low) / (high - low);
-      return direction === 'lower' ? 1 - share : share;
-    });
-  }
+// How good each value is among its kind: 1 the best, 0 the worst, null where undefined. Higher counts as more where no
+// direction is better; all equal is 0.5.
+export function goodness(values, direction) {
+  const defined = values.filter(is_defined);
+  const low = Math.min(...defined);
+  const high = Math.max(...defined);
+  return values.map((value) => {
+    if (!is_defined(value)) return null;
+    if (low === high) return 0.5;
+    const share = (value - low) / (high - low);
+    return direction === 'lower' ? 1 - share : share;
+  });
+}
 
-  // What a click on a column shows first.
-  function descending_first(direction) {
-    return direction === 'higher';
-  }
-
-  dmrp.ranking = {is_defined, compare, order, best, goodness, descending_first};
-})(window.dmrp);
+// What a click on a column shows first.
+export function descending_first(direction) {
+  return direction === 'higher';
+}

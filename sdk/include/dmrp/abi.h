@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-// abi.h: version numbers and the macros that the rules of the ABI are written with.
+// abi.h: version numbers, the rules of the ABI, and the macros that express them.
 //
-// The rules, once for all headers:
+// The rules apply to all headers:
 //
-// - Only fixed-width integers, double, float arrays, pointers and UTF-8 text cross. 64-bit, little-endian.
-// - *Values* (values.h) are frozen: no struct_size, never another field.
+// - Only fixed-width integers, double, float arrays, pointers and UTF-8 text cross the ABI. 64-bit, little-endian.
+// - *Values* (values.h) are frozen: they have no struct_size and never get another field.
 // - *Growable structs* begin with `uint32_t struct_size`, cross by pointer only and have no implicit padding.
-//   New fields are appended. Who made the struct sets struct_size to the sizeof it was compiled with; who reads
-//   it asks DMRP_HAS(pointer, field) for every field that is younger than v1.0.
-// - *Array elements* cross as pointer, count and the owner's stride in bytes; walk them with DMRP_AT, never with [].
-//   Elements grow like growable structs: the stride says which fields are there (DMRP_STRIDE_HAS).
+//   New fields are appended. The maker of a struct sets struct_size to the sizeof it was compiled with; the reader
+//   checks DMRP_HAS(pointer, field) for every field newer than v1.0.
+// - *Array elements* cross as pointer, count and the owner's stride in bytes; access them with DMRP_AT, never with [].
+//   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS).
 // - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size.
-// - Pointers in a struct that the host passes die when the call returns, except where the header says otherwise:
-//   dmrp_host lives until destroy() (or deinit() for the library's own) returns, dmrp_world and extensions until the
-//   next start() or destroy() begins: neither may look at what is over.
+// - Pointers in a struct that the host passes are valid until the call returns, unless the header says otherwise:
+//   a dmrp_host is valid until destroy() returns (the library's own until deinit() returns); dmrp_world and extensions
+//   are valid until the next start() or destroy() begins, and neither of these two may access them.
 // - Every function carries a thread tag:
 //     [main]  on the main thread of its process, no other call into the library at the same time
 //     [step]  inside a trial: one call at a time for an instance; instances may run concurrently and may move
@@ -21,20 +21,20 @@
 //     [any]   at any time, from any thread
 // - Results depend on the arguments, the parameters and the seed of start() alone: not on clocks, addresses,
 //   hash order, earlier trials, or other instances in the process.
-// - A plugin does not change locale, working directory, signal handlers, environment, floating-point control bits
-//   or descriptors it did not open, and starts no thread in a static initialiser.
+// - A plugin does not change the locale, working directory, signal handlers, environment, floating-point control bits
+//   or file descriptors that it did not open, and starts no thread in a static initialiser.
 #ifndef DMRP_ABI_H
 #define DMRP_ABI_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-// The major version is in the name of the exported symbol (dmrp_entry_v1).
+// The major version is part of the name of the exported symbol (dmrp_entry_v1).
 #define DMRP_ABI_MAJOR 1
 #define DMRP_ABI_MINOR 0
 
-// Until v1 is frozen the contract may still change: host and plugin must then carry the same draft number.
-// Zero from the freeze on.
+// Until v1 is frozen the contract may change, so host and plugin must have the same draft number.
+// It becomes zero with the freeze.
 #define DMRP_ABI_DRAFT 1
 
 // Whether the struct behind `pointer` is long enough to hold `field`.
@@ -57,7 +57,7 @@
 #define DMRP_STATIC_ASSERT(condition, name) typedef char dmrp_assert_##name[(condition) ? 1 : -1]
 #endif
 
-// States the size that a struct has without padding: the sum of its fields. A compiler that pads fails here.
+// Asserts that a struct has no padding: its size is the sum of its fields. Compilation fails where a compiler pads.
 #define DMRP_ASSERT_SIZE(type, bytes) DMRP_STATIC_ASSERT(sizeof(type) == (bytes), size_of_##type)
 
 DMRP_STATIC_ASSERT(sizeof(void*) == 8 && sizeof(double) == 8, dmrp_needs_a_64_bit_platform);

@@ -1,63 +1,63 @@
 /* SPDX-License-Identifier: MIT */
-// descriptor.h: what a plugin says about itself. Static data, readable before init().
+// descriptor.h: the description of a plugin. Static data, readable before init().
 #ifndef DMRP_DESCRIPTOR_H
 #define DMRP_DESCRIPTOR_H
 
 #include "parameter.h"
 
-// Kinds of plugin; each has an interface of its own, named in brackets.
+// Kinds of plugin; the comment names the interface of each.
 #define DMRP_KIND_GLOBAL_PLANNER 1    // dmrp_global_planner
 #define DMRP_KIND_LOCAL_CONTROLLER 2  // dmrp_local_controller
 #define DMRP_KIND_PEDESTRIAN_MODEL 3  // dmrp_pedestrian_model
 #define DMRP_KIND_METRIC 4            // dmrp_metric
 
-// Which moves a global planner's paths use; the host checks plans accordingly.
+// The moves that a global planner's paths use; the host checks plans accordingly.
 #define DMRP_CONNECTIVITY_NONE 0   // not a planner
-#define DMRP_CONNECTIVITY_4 4      // waits and orthogonal moves between cell centres, one a step
+#define DMRP_CONNECTIVITY_4 4      // waits and orthogonal moves between cell centres, one per step
 #define DMRP_CONNECTIVITY_8 8      // diagonal moves too
 #define DMRP_CONNECTIVITY_ANY 255  // straight motions at any angle and speed; checked as moving discs
 
 // Flags of a global planner.
 #define DMRP_PLANNER_UNCOORDINATED 1u  // its paths ignore each other: conflicts are recorded, not a fault
 
-// Which way is better, for marking the best value of a column.
+// Which values are better; used to mark the best value of a column.
 #define DMRP_DIRECTION_NONE 0
 #define DMRP_DIRECTION_LOWER 1
 #define DMRP_DIRECTION_HIGHER 2
 
-// Whom a value of a metric speaks of.
+// The subject of a metric value.
 #define DMRP_SUBJECT_SYSTEM 0
 #define DMRP_SUBJECT_ROBOT 1
 #define DMRP_SUBJECT_PEDESTRIAN 2
 
-// Parts of the trace that a metric needs beside robots, plan and contacts: descriptor.channels.
+// Parts of the trace that a metric needs besides robots, plan and contacts: descriptor.channels.
 #define DMRP_CHANNEL_PEOPLE 1u  // positions and velocities of people
 #define DMRP_CHANNEL_CALLS 2u   // durations of plugin calls
-#define DMRP_CHANNEL_SCANS 4u   // lidar scans; reserved: samples of v1.0 have none
+#define DMRP_CHANNEL_SCANS 4u   // lidar scans; reserved: samples of v1.0 contain none
 
-// One value that a metric gives. Array element.
+// One value that a metric computes. Array element.
 typedef struct dmrp_metric_value_spec {
   const char* name;         // unique among all metrics of an experiment, as in results.sqlite: "pfd_initial"
   const char* unit;         // "m", "s", "1"
   const char* description;  // one line
   uint32_t direction;       // DMRP_DIRECTION_*
-  uint32_t subjects;        // bit (1u << DMRP_SUBJECT_*) for each kind of subject it is given for
+  uint32_t subjects;        // one bit (1u << DMRP_SUBJECT_*) for each kind of subject that has this value
   uint32_t wall_clock;      // 1 if it depends on measured run times, and so is not repeatable to the bit
-  uint32_t curve;           // 1 if it is given for several coordinates
+  uint32_t curve;           // 1 if it has several points, each with a coordinate
 } dmrp_metric_value_spec;
 
 typedef struct dmrp_descriptor {
   uint32_t struct_size;
   uint32_t kind;        // DMRP_KIND_*
-  const char* id;       // reverse DNS; "dmrp." is ours
-  const char* name;     // for people
+  const char* id;       // reverse DNS; "dmrp." is reserved for the built-in plugins
+  const char* name;     // for display
   const char* version;  // of the plugin, semantic
   const char* vendor;
   const char* license;           // SPDX expression
   const char* summary;           // one line
   const char* source;            // paper, section, equation; "" where there is none
-  const char* const* requires_;  // extensions without which it cannot run; requires_count
-  const char* const* uses;       // extensions that it uses when there; uses_count
+  const char* const* requires_;  // requires_count extensions without which it cannot run
+  const char* const* uses;       // uses_count extensions that it uses when available
   uint32_t requires_count;
   uint32_t uses_count;
   const dmrp_param_spec* params;  // may be NULL when param_count is 0

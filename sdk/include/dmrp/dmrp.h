@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// dmrp.h: the whole contract in C.
+// dmrp.h: includes the whole C contract.
 #ifndef DMRP_DMRP_H
 #define DMRP_DMRP_H
 

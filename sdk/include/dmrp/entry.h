@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// entry.h: the one symbol that a plugin library exports, dmrp_entry_v1.
+// entry.h: dmrp_entry_v1, the only symbol that a plugin library exports.
 #ifndef DMRP_ENTRY_H
 #define DMRP_ENTRY_H
 
@@ -7,12 +7,12 @@
 
 typedef struct dmrp_entry {
   uint32_t struct_size;
-  uint32_t abi_minor;       // that it was built with; informational
-  uint32_t min_host_minor;  // the host must have at least this; refused otherwise, with both versions printed
+  uint32_t abi_minor;       // the minor version that the library was built with; informational
+  uint32_t min_host_minor;  // the lowest minor version it accepts; an older host refuses it and prints both versions
   uint32_t abi_draft;       // must equal the host's until v1 is frozen
 
-  // Called once after loading, before create(). `host` lives until deinit(). Returns DMRP_OK or DMRP_FATAL. A host may
-  // try it in a process of its own first, init() and deinit() alone, to tell of a failure before a run begins.
+  // Called once after loading, before create(). `host` is valid until deinit() returns. Returns DMRP_OK or DMRP_FATAL.
+  // A host may first call only init() and deinit() in a separate process, to report a failure before a run begins.
   // [main]
   int32_t (*init)(const dmrp_host* host);
 
@@ -20,14 +20,14 @@ typedef struct dmrp_entry {
   // [main]
   void (*deinit)(void);
 
-  // Number of plugins in this library, and the descriptor of each: static data, also before init().
+  // Number of plugins in this library, and the descriptor of each: static data, available before init().
   // [any]
   uint32_t (*plugin_count)(void);
   const dmrp_descriptor* (*descriptor)(uint32_t index);
 
-  // Makes an instance of the plugin `id`. `host` is the instance's own and lives until its destroy(); `params` has
-  // every declared key and dies when the call returns; `out` is filled in on DMRP_OK.
-  // Returns DMRP_OK, DMRP_ERROR (with set_error), DMRP_OUT_OF_MEMORY or DMRP_FATAL.
+  // Creates an instance of the plugin `id`. `host` belongs to this instance and is valid until its destroy() returns;
+  // `params` has every declared key and is valid until the call returns; the plugin fills in `out` before it returns
+  // DMRP_OK. Returns DMRP_OK, DMRP_ERROR (with set_error), DMRP_OUT_OF_MEMORY or DMRP_FATAL.
   // [main]
   int32_t (*create)(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out);
 } dmrp_entry;
@@ -37,7 +37,7 @@ DMRP_ASSERT_SIZE(dmrp_entry, 56);
 #define DMRP_ENTRY_SYMBOL "dmrp_entry_v1"
 
 // Begins the definition of the exported object: `DMRP_ENTRY = { sizeof(dmrp_entry), ... };`
-// (A const object in C++ has internal linkage unless it was declared extern before.)
+// (In C++ a const object has internal linkage unless it was declared extern before.)
 #if defined(__cplusplus)
 #define DMRP_ENTRY_DECLARATION extern "C" __attribute__((visibility("default"))) const dmrp_entry dmrp_entry_v1
 #else

@@ -5,8 +5,8 @@
 
 #include "values.h"
 
-// Bits of an edge mask: the eight moves out of a cell, counter-clockwise from +x. Mutual: a move that is open one way
-// is open the other way.
+// Bits of an edge mask: the eight moves out of a cell, counter-clockwise from +x. Edges are mutual: if a move is open,
+// so is the move back.
 #define DMRP_EDGE_E 0x01u
 #define DMRP_EDGE_NE 0x02u
 #define DMRP_EDGE_N 0x04u
@@ -18,7 +18,7 @@
 
 // Cells are row-major from the lower left: index = row * width + column; +column is +x, +row is +y.
 // The centre of a cell is origin + ((column + 0.5), (row + 0.5)) * resolution_m.
-// Arrays have width * height elements and live as long as the struct.
+// Arrays have width * height elements and are valid as long as the struct.
 typedef struct dmrp_grid {
   uint32_t struct_size;
   uint32_t width;   // columns
@@ -27,8 +27,8 @@ typedef struct dmrp_grid {
   double resolution_m;
   dmrp_vec2 origin;        // lower left corner of the lower left cell
   const uint8_t* free;     // 1: a robot's centre may stand on this cell's centre
-  const uint8_t* edges;    // bit DMRP_EDGE_*: the robot's footprint swept along the move stays free; both cells free.
-                           // A diagonal bit also says that both cells beside the diagonal are free
+  const uint8_t* edges;    // bit DMRP_EDGE_*: the footprint swept along the move stays free, and both cells are free;
+                           // for a diagonal move the two cells beside it are free too
   const float* clearance;  // m from the cell's centre to the nearest static shape or border; 0 inside a shape
 } dmrp_grid;
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-// host.h: what the host offers to a plugin.
+// host.h: the functions that the host provides to a plugin.
 //
-// The library gets a host at init(), each instance one of its own at create(): log lines, errors and extensions are
-// attributed to the instance whose host they went through.
+// The library gets a host at init(), and each instance gets its own at create(): the host attributes log lines, errors
+// and extensions to the instance whose dmrp_host was used.
 #ifndef DMRP_HOST_H
 #define DMRP_HOST_H
 
@@ -21,21 +21,21 @@ struct dmrp_host {
   const char* name;     // "dmrp-host"
   const char* version;  // of the host, semantic
 
-  // A line for the log. `text` is copied.
+  // Writes a line to the log. `text` is copied.
   // [any]
   void (*log)(const dmrp_host* host, int32_t level, const char* text);
 
-  // Why the call that is under way is about to return a status other than OK. `text` is copied; the last one counts.
+  // Explains the status other than DMRP_OK that the current call will return. `text` is copied; the last one counts.
   // [any]
   void (*set_error)(const dmrp_host* host, const char* text);
 
-  // Whether the call under way should return soon: 1 once its time budget is used up.
-  // Costs a few nanoseconds; ask at least every millisecond. A trial in which this has said 1 is not repeatable.
+  // Returns 1 once the time budget of the current call is used up: the call should then return soon; 0 before.
+  // Costs a few nanoseconds; ask at least every millisecond. A trial in which this returned 1 is not repeatable.
   // [any]
   int32_t (*should_stop)(const dmrp_host* host);
 
-  // An extension of the host (ext/*.h) by its id, or NULL. Ask in start(): extensions belong to the trial, and some
-  // (the costmap) are only computed for those who asked then. Valid until the next start() or destroy().
+  // An extension of the host (ext/*.h) by its id, or NULL. Ask in start(): extensions belong to the trial, and the host
+  // computes some (the costmap) only for instances that asked there. Valid until the next start() or destroy() begins.
   // [step]
   const void* (*get_extension)(const dmrp_host* host, const char* id);
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// observation.h: what a local controller knows at a control tick.
+// observation.h: the input of a local controller at a control tick.
 #ifndef DMRP_OBSERVATION_H
 #define DMRP_OBSERVATION_H
 
@@ -8,7 +8,7 @@
 #define DMRP_AGENT_ROBOT 1
 #define DMRP_AGENT_PERSON 2
 
-// Somebody who moves. Array element.
+// A moving robot or person. Array element.
 typedef struct dmrp_agent {
   uint64_t id;         // stable through the trial, unique within its kind; a respawned person has a new one
   uint32_t kind;       // DMRP_AGENT_*
@@ -20,28 +20,28 @@ typedef struct dmrp_agent {
 
 // Made by the host for one call of step().
 //
-// Where the experiment gives robots odometry noise, `pose` is where the robot believes to be and `velocity` what it read;
-// agents, lidar and costmap then lie about the believed pose, as in a robot's own map. Goal and path lie where they are;
-// progress, arrival and metrics are by the true pose.
+// If the experiment sets odometry noise, `pose` is the robot's estimate and `velocity` its odometry reading; agents,
+// lidar and costmap are then placed relative to the estimated pose, as in a robot's own map. Goal and path keep their
+// true places; progress, arrival and metrics use the true pose.
 typedef struct dmrp_observation {
   uint32_t struct_size;
   uint32_t robot;       // index; always world.self
   int64_t t_ns;         // simulated time
   int64_t dt_ns;        // the control period
-  dmrp_pose pose;       // believed
+  dmrp_pose pose;       // estimated
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
-  // The current goal; under dispatch = "waypoint" the waypoint on the way there that was handed over, with the goal's
-  // tolerances. (Frozen inside this struct: it cannot grow here.)
+  // The current goal; with dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
+  // (Embedded by value, so dmrp_goal cannot grow.)
   dmrp_goal goal;
   uint32_t goal_index;
   uint32_t goal_count;
-  double progress_m;           // arc length along the path of the point that the robot has reached; never falls
+  double progress_m;           // arc length along the path of the point that the robot has reached; never decreases
   uint32_t progress_waypoint;  // last waypoint passed
-  uint32_t released_waypoint;  // last waypoint that may be passed: the path's last under execution = "free"
+  uint32_t released_waypoint;  // last waypoint that may be passed; the last of the path with execution = "free"
   const dmrp_limits* limits;
   const dmrp_footprint* footprint;
-  const dmrp_agent* agents;  // visible others, as `tracking` allows, with its noise; ordered by kind, then id
+  const dmrp_agent* agents;  // other agents that `tracking` makes visible, with its noise; ordered by kind, then id
   uint32_t agent_count;
   uint32_t agent_stride;
 } dmrp_observation;

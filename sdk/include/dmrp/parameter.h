@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 // parameter.h: the parameters that a plugin declares, and the values that the host passes to create().
 //
-// The host checks an experiment file against the declared table before anything is constructed: unknown keys,
+// The host checks an experiment file against the declared table before it creates any instance: unknown keys,
 // wrong types and values out of range never reach a plugin. create() gets the *complete* table, defaults filled in.
 #ifndef DMRP_PARAMETER_H
 #define DMRP_PARAMETER_H
 
 #include "abi.h"
 
-// Types of a parameter. PATH is a string that the host resolves against the experiment file and whose file it hashes
-// into the manifest.
+// Types of a parameter. PATH is a path that the host resolves against the folder of the experiment file; the manifest
+// lists the file's hash.
 #define DMRP_PARAM_BOOL 1          // integer 0 or 1
 #define DMRP_PARAM_INT 2           // integer
 #define DMRP_PARAM_DOUBLE 3        // number
@@ -20,7 +20,7 @@
 #define DMRP_PARAM_STRING_ARRAY 8  // texts, count
 
 // One value. Only the field of its type is meaningful; the others are zero.
-// Owned by whoever made it; the host's die when create() returns.
+// Owned by its maker; values made by the host are valid until create() returns.
 typedef struct dmrp_param_value {
   const char* key;
   uint32_t type;   // DMRP_PARAM_*
@@ -32,7 +32,7 @@ typedef struct dmrp_param_value {
   const char* const* texts;
 } dmrp_param_value;
 
-// The table handed to create(): exactly the declared keys, in the declared order.
+// The table passed to create(): exactly the declared keys, in the declared order.
 typedef struct dmrp_params {
   uint32_t struct_size;
   uint32_t count;
@@ -43,11 +43,11 @@ typedef struct dmrp_params {
 
 // One declared parameter. Static data of the plugin. Array element.
 typedef struct dmrp_param_spec {
-  dmrp_param_value fallback;   // key, type and the default. (Frozen inside this struct: it cannot grow here.)
-  const char* unit;            // "m", "rad/s", "1" for a ratio, "" where there is none
+  dmrp_param_value fallback;   // key, type and the default. (Embedded by value, so dmrp_param_value cannot grow.)
+  const char* unit;            // "m", "rad/s", "1" for a ratio, "" if there is none
   const char* doc;             // one line
-  double minimum;              // for INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY where there is none
-  double maximum;              // likewise, INFINITY
+  double minimum;              // of INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY if there is none
+  double maximum;              // of the same types; INFINITY if there is none
   const char* const* choices;  // for CHOICE, choice_count texts
   uint32_t choice_count;
   uint32_t reserved;

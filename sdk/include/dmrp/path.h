@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// path.h: a timed path.
+// path.h: timed paths.
 #ifndef DMRP_PATH_H
 #define DMRP_PATH_H
 
@@ -9,13 +9,13 @@
 typedef struct dmrp_waypoint {
   double x;             // m
   double y;             // m
-  double theta;         // heading on arrival; NaN: free
-  int64_t t_ns;         // planned time of arrival since the trial's start; cost is not time: see global_planner.h
-  uint32_t goal_index;  // the goal that this waypoint leads to (counts up along a tour)
+  double theta;         // heading on arrival; NaN: any
+  int64_t t_ns;         // planned time of arrival since the start of the trial; for cost see global_planner.h
+  uint32_t goal_index;  // the goal that this waypoint leads to (increases along a tour)
   uint32_t reserved;
 } dmrp_waypoint;
 
-// One robot's path. Waits stand in it as repeated positions. The robot rests at the last waypoint.
+// One robot's path. Repeated positions are waits. The robot rests at the last waypoint.
 // Growable; an array of paths has a stride like every array.
 typedef struct dmrp_path {
   uint32_t struct_size;

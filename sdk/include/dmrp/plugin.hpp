@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // plugin.hpp: the contract for C++17: a base class for each kind of plugin, parameters bound to members, spans for
-// arrays, and trampolines that let no exception out. No linked code.
+// arrays, and trampolines that turn every exception into a status. Headers alone, nothing to link.
 //
 //   class Mine final : public dmrp::LocalController {
 //    public:
@@ -11,7 +11,7 @@
 //   };
 //   DMRP_PLUGINS(Mine)
 //
-// A plugin class has a default constructor that does nothing costly: the host makes one to read the parameters.
+// A plugin class has a cheap default constructor: the library makes one object to read the parameter table.
 #ifndef DMRP_PLUGIN_HPP
 #define DMRP_PLUGIN_HPP
 

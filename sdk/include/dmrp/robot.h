@@ -9,10 +9,10 @@
 #define DMRP_KINEMATICS_HOLONOMIC 2     // (v_x, v_y, omega); reserved, not simulated by v1.0 hosts
 
 #define DMRP_ROBOT_ACTIVE 0    // still has a goal
-#define DMRP_ROBOT_FINISHED 1  // arrived at its last goal: latched and parked
-#define DMRP_ROBOT_FAILED 2    // given up by the host; stands where it is
+#define DMRP_ROBOT_FINISHED 1  // arrived at its last goal; parked there until the end of the trial
+#define DMRP_ROBOT_FAILED 2    // declared failed by the host; stands where it is
 
-// What the host enforces on every command. Equal for all plugins: no controller has limits of its own.
+// The limits that the host enforces on every command. Equal for all plugins: no controller has limits of its own.
 typedef struct dmrp_limits {
   uint32_t struct_size;
   uint32_t reserved;
@@ -24,25 +24,25 @@ typedef struct dmrp_limits {
   double alpha_max;  // rad/s^2
 } dmrp_limits;
 
-// The outline of a robot in its own frame: a disc about the origin, or a convex polygon.
+// The outline of a robot in its own frame: a disc around the origin, or a convex polygon.
 typedef struct dmrp_footprint {
   uint32_t struct_size;
   uint32_t vertex_count;      // 0: a disc
-  double radius_m;            // of the disc, or of the circle about the origin that holds the polygon
-  double inscribed_radius_m;  // of the largest disc about the origin inside it
+  double radius_m;            // of the disc, or of the circle around the origin that contains the polygon
+  double inscribed_radius_m;  // of the largest disc around the origin inside it
   const dmrp_vec2* vertices;  // counter-clockwise; NULL for a disc
 } dmrp_footprint;
 
 // A goal pose. Array element.
 typedef struct dmrp_goal {
   dmrp_pose pose;          // theta NaN: any heading
-  double tolerance_m;      // arrived when nearer than this ...
-  double tolerance_rad;    // ... and turned nearer than this, if theta is given ...
-  double tolerance_speed;  // ... and slower than this (m/s), held for ...
-  int64_t settle_ns;       // ... this long
+  double tolerance_m;      // the robot has arrived when its distance is below this (m),
+  double tolerance_rad;    // its heading error is below this (rad), if theta is given,
+  double tolerance_speed;  // and its speed is below this (m/s),
+  int64_t settle_ns;       // for this long
 } dmrp_goal;
 
-// A robot as the trial begins. Array element.
+// A robot at the start of the trial. Array element.
 typedef struct dmrp_robot {
   const char* name;
   uint32_t kinematics;  // DMRP_KINEMATICS_*

@@ -11,7 +11,7 @@ typedef struct dmrp_vec2 {
   double y;
 } dmrp_vec2;
 
-// A position in metres and a heading in (-pi, pi]. A heading that is free is NaN, where a header allows that.
+// A position in metres and a heading in (-pi, pi]. NaN means any heading, where a header allows it.
 typedef struct dmrp_pose {
   double x;
   double y;

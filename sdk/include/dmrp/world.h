@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// world.h: the static world of a trial, handed to start().
+// world.h: the static world of a trial, passed to start().
 #ifndef DMRP_WORLD_H
 #define DMRP_WORLD_H
 
@@ -20,16 +20,16 @@ typedef struct dmrp_shape {
   double height_m;
 } dmrp_shape;
 
-// Lives, with all it points to, from start() until the next start() or destroy(); never changes in between.
+// Valid, with all it points to, from start() until the next start() or destroy() begins; constant in between.
 typedef struct dmrp_world {
   uint32_t struct_size;
-  uint32_t person_count;      // at most, at any time
-  dmrp_vec2 lower;            // the world is the rectangle from lower ...
-  dmrp_vec2 upper;            // ... to upper; its border is a wall
+  uint32_t person_count;      // the most people present at any time
+  dmrp_vec2 lower;            // lower left corner of the world, a rectangle
+  dmrp_vec2 upper;            // upper right corner; the border is a wall
   int64_t step_ns;            // one physics step
   int64_t control_period_ns;  // between two calls of a controller's step()
   int64_t time_limit_ns;      // of the trial, simulated
-  int64_t call_budget_ns;     // wall time for one call other than plan(); should_stop() says 1 after it
+  int64_t call_budget_ns;     // wall time for one call other than plan(); should_stop() returns 1 after it
   const dmrp_robot* robots;
   uint32_t robot_count;
   uint32_t robot_stride;
@@ -38,9 +38,9 @@ typedef struct dmrp_world {
   uint32_t shape_stride;
   const dmrp_segment* segments;  // outlines of all shapes and of the border, as walls for people; circles as polygons
   uint32_t segment_count;
-  int32_t self;                    // index of the robot that this local controller drives; -1 for the other kinds
-  const dmrp_grid* planning_grid;  // cells of the global planners; free for every robot of the trial
-  const dmrp_grid* walking_grid;   // finer cells for the way-finding of people; free for the scenario's people
+  int32_t self;                    // index of the robot that this local controller drives; -1 for other plugin kinds
+  const dmrp_grid* planning_grid;  // cells for global planners; `free` holds for every robot of the trial
+  const dmrp_grid* walking_grid;   // finer cells for the navigation of people; `free` holds for the scenario's people
 } dmrp_world;
 
 DMRP_ASSERT_SIZE(dmrp_shape, 56);

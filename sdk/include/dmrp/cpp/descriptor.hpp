@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cpp/descriptor.hpp: what a plugin class says about itself, built in its static describe().
+// cpp/descriptor.hpp: the description of a plugin class, built in its static describe().
 #ifndef DMRP_CPP_DESCRIPTOR_HPP
 #define DMRP_CPP_DESCRIPTOR_HPP
 
@@ -19,7 +19,7 @@ enum class Direction : std::uint32_t {
   higher_is_better = DMRP_DIRECTION_HIGHER
 };
 
-// Whom a metric's value is given for; the system value is always given.
+// The subjects of a metric's value; the system always has a value.
 enum class Subjects : std::uint32_t {
   system = 1u << DMRP_SUBJECT_SYSTEM,
   system_and_robots = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT,
@@ -36,7 +36,8 @@ class Descriptor {
   Descriptor& summary(std::string line) { return summary_ = std::move(line), *this; }
   Descriptor& source(std::string paper) { return source_ = std::move(paper), *this; }
 
-  // Extensions of the host, by id (DMRP_EXT_*): without which it cannot run, or which it uses when they are there.
+  // Extensions of the host, by id (DMRP_EXT_*): the plugin cannot run without those that it needs, and uses the others
+  // when they are available.
   Descriptor& needs(std::string id) { return requires_.push_back(std::move(id)), *this; }
   Descriptor& uses(std::string id) { return uses_.push_back(std::move(id)), *this; }
 
@@ -44,14 +45,14 @@ class Descriptor {
   Descriptor& connectivity(std::uint32_t connectivity) { return connectivity_ = connectivity, *this; }
   Descriptor& uncoordinated() { return planner_flags_ |= DMRP_PLANNER_UNCOORDINATED, *this; }
 
-  // Metrics: the values given, and the channels (DMRP_CHANNEL_* bits) needed for them.
+  // Metrics: the values computed, and the channels (DMRP_CHANNEL_* bits) needed for them.
   Descriptor& value(std::string name, std::string unit, Direction direction, Subjects subjects,
                     std::string description) {
     values_.push_back({std::move(name), std::move(unit), std::move(description), direction, subjects, 0, 0});
     return *this;
   }
-  Descriptor& wall_clock() { return values_.back().wall_clock = 1, *this; }  // of the value named last
-  Descriptor& curve() { return values_.back().curve = 1, *this; }            // likewise
+  Descriptor& wall_clock() { return values_.back().wall_clock = 1, *this; }  // marks the value added last
+  Descriptor& curve() { return values_.back().curve = 1, *this; }            // marks the value added last
   Descriptor& channels(std::uint32_t bits) { return channels_ = bits, *this; }
 
  private:
@@ -70,7 +71,7 @@ class Descriptor {
   std::uint32_t channels_ = 0;
 };
 
-// A descriptor and a parameter table as the C structs that the host reads. Owns all of it; never moves.
+// A descriptor and a parameter table as the C structs that the host reads. Owns all the data; cannot be moved.
 class PublishedDescriptor {
  public:
   PublishedDescriptor(Descriptor descriptor, std::uint32_t kind,

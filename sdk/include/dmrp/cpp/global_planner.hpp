@@ -13,7 +13,7 @@ namespace dmrp {
 
 using PlanningRobot = dmrp_planning_robot;
 
-// dmrp_planning_problem with spans for arrays. Dies when plan() returns.
+// dmrp_planning_problem with spans for arrays. Valid until plan() returns.
 struct PlanningProblem {
   explicit PlanningProblem(const dmrp_planning_problem& c)
       : revision(c.revision),

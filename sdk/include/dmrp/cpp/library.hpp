@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cpp/library.hpp: makes a plugin library of plugin classes: DMRP_PLUGINS(A, B), once in a library.
+// cpp/library.hpp: defines the entry of a plugin library: DMRP_PLUGINS(A, B), once per library.
 #ifndef DMRP_CPP_LIBRARY_HPP
 #define DMRP_CPP_LIBRARY_HPP
 
@@ -33,7 +33,7 @@ class Library {
     }
   }
 
-  // The parameter table is what a prototype of the class declares.
+  // The parameter table comes from a prototype of the class.
   template <class P>
   static const dmrp_descriptor& describe() {
     static const PublishedDescriptor published(P::describe(), P::kind, [] {

@@ -11,7 +11,7 @@ namespace dmrp {
 
 using Agent = dmrp_agent;
 
-// dmrp_observation with references and spans. Dies when step() returns.
+// dmrp_observation with references and spans. Valid until step() returns.
 struct Observation {
   explicit Observation(const dmrp_observation& c)
       : robot(c.robot),

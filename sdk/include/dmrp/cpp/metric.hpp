@@ -19,15 +19,15 @@ using Call = dmrp_call;
 using RobotEnd = dmrp_robot_end;
 using Statistic = dmrp_statistic;
 
-// A value that does not exist for this trial: NULL in the results.
+// A value that is undefined for this trial: NULL in the results.
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-// dmrp_plan with spans. The plan lives until finish() returns; an object of this class is a cheap view.
+// dmrp_plan with spans. The plan is valid until finish() returns; an object of this class is a cheap view.
 class Plan {
  public:
   explicit Plan(const dmrp_plan& c) : c_(&c) {}
 
-  std::size_t size() const { return c_->path_count; }  // paths, one a robot
+  std::size_t size() const { return c_->path_count; }  // paths, one per robot
   Path path(std::size_t robot) const { return Path(*DMRP_AT(dmrp_path, c_->paths, c_->path_stride, robot)); }
   Span<Statistic> statistics() const { return {c_->statistics, c_->statistic_count, c_->statistic_stride}; }
   const dmrp_plan* operator->() const { return c_; }  // revision, from_ns, step_duration_ns, planning_ns, status
@@ -36,7 +36,7 @@ class Plan {
   const dmrp_plan* c_;
 };
 
-// dmrp_sample with spans. Dies when observe() returns.
+// dmrp_sample with spans. Valid until observe() returns.
 struct Sample {
   explicit Sample(const dmrp_sample& c)
       : t_ns(c.t_ns),
@@ -79,7 +79,7 @@ class MetricSink {
   void pedestrian(const char* name, std::uint64_t id, double value) {
     give(name, DMRP_SUBJECT_PEDESTRIAN, id, undefined, value);
   }
-  // One point of a curve of the system.
+  // One point of a curve whose subject is the system.
   void curve(const char* name, double coordinate, double value) {
     give(name, DMRP_SUBJECT_SYSTEM, 0, coordinate, value);
   }

@@ -3,7 +3,7 @@
 //
 //   dmrp::Param<double> gain = param("gain", 2.0).unit("1/s").range(0.0, 10.0).doc("turn rate per radian of error");
 //
-// The declarations of a class are its parameter table; values are there before start() is called.
+// The declarations of a class form its parameter table; the values are set before start() is called.
 #ifndef DMRP_CPP_PARAMETERS_HPP
 #define DMRP_CPP_PARAMETERS_HPP
 
@@ -20,7 +20,7 @@
 
 namespace dmrp {
 
-// What a class declared about one parameter, and where its value goes.
+// The declaration of one parameter, and the member that takes its value.
 struct ParamDefinition {
   std::string key;
   std::string unit;
@@ -34,7 +34,7 @@ struct ParamDefinition {
   std::vector<std::string> choices;
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  void* target = nullptr;  // the member, of the type that `assign` knows
+  void* target = nullptr;  // the member; `assign` knows its type
   void (*assign)(void* target, const dmrp_param_value& value) = nullptr;
 };
 
@@ -80,7 +80,7 @@ inline void fall_back(ParamDefinition& d, std::vector<std::string> value) {
 
 }  // namespace detail
 
-// Declares one parameter; made by Plugin::param(), ends in a Param.
+// Declares one parameter; made by Plugin::param(), converted to a Param.
 template <class T>
 class ParamBuilder {
  public:
@@ -92,7 +92,7 @@ class ParamBuilder {
     value_ = std::move(value);
   }
 
-  // (Moved from a temporary: assigning a literal makes gcc 12 warn of an overlap that cannot be, -Wrestrict.)
+  // (Moved from a temporary: gcc 12 gives a false -Wrestrict warning if a literal is assigned.)
   ParamBuilder& unit(const char* unit) { return definition_->unit = std::string(unit), *this; }
   ParamBuilder& doc(const char* doc) { return definition_->doc = std::string(doc), *this; }
   ParamBuilder& range(double minimum, double maximum) {
@@ -100,13 +100,13 @@ class ParamBuilder {
     definition_->maximum = maximum;
     return *this;
   }
-  // Of a text: one of these.
+  // For a text: the accepted values.
   ParamBuilder& choices(std::vector<std::string> choices) {
     definition_->type = DMRP_PARAM_CHOICE;
     definition_->choices = std::move(choices);
     return *this;
   }
-  // Of a text: the path of a file, resolved against the experiment file.
+  // For a text: it is the path of a file; the host resolves it against the folder of the experiment file.
   ParamBuilder& path() { return definition_->type = DMRP_PARAM_PATH, *this; }
 
  private:
@@ -116,7 +116,7 @@ class ParamBuilder {
   T value_;
 };
 
-// A parameter's value: a T to whoever reads it. Lives in the plugin object, which never moves.
+// A parameter's value, readable as a T. A member of the plugin object, which never moves.
 template <class T>
 class Param {
  public:

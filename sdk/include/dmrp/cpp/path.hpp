@@ -10,7 +10,7 @@ namespace dmrp {
 
 using Waypoint = dmrp_waypoint;
 
-// Valid as long as the dmrp_path's waypoints.
+// Valid as long as the waypoints of the dmrp_path.
 class Path : public Span<Waypoint> {
  public:
   explicit Path(const dmrp_path& c) : Span(c.waypoints, c.count, c.stride) {}

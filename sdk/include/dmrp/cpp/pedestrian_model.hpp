@@ -11,7 +11,7 @@ namespace dmrp {
 using Agent = dmrp_agent;
 using Person = dmrp_person;
 
-// dmrp_crowd with spans. Dies when step() returns.
+// dmrp_crowd with spans. Valid until step() returns.
 struct Crowd {
   explicit Crowd(const dmrp_crowd& c)
       : t_ns(c.t_ns),

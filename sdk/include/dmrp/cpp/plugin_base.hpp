@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cpp/plugin_base.hpp: the base of every plugin class: parameters, the host, the world of the trial.
+// cpp/plugin_base.hpp: the base class of every plugin class: parameters, the host, the world of the trial.
 #ifndef DMRP_CPP_PLUGIN_BASE_HPP
 #define DMRP_CPP_PLUGIN_BASE_HPP
 
@@ -65,8 +65,8 @@ class World {
   const dmrp_world* c_ = nullptr;
 };
 
-// The host and the parameters' values are there from start() on: a constructor has neither. One more object of each
-// class is made to read its parameter table from, and never started.
+// The host and the parameters' values are available from start() on, not in the constructor. The library makes one more
+// object of each class to read its parameter table; that object is never started.
 class Plugin {
  public:
   Plugin() = default;
@@ -74,10 +74,10 @@ class Plugin {
   Plugin& operator=(const Plugin&) = delete;
   virtual ~Plugin() = default;
 
-  // Begins a trial: forget everything of an earlier one. world() is set, extensions can be asked for.
+  // Begins a trial: reset all state of an earlier one. world() is set, extension() may be called.
   virtual Status start(const World&, std::uint64_t /*seed*/) { return Status::ok; }
 
-  // An extension that the plugin offers to the host, or nullptr.
+  // An extension that the plugin provides to the host, or nullptr.
   virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
 
  protected:
@@ -113,7 +113,7 @@ class Plugin {
   World world_;
 };
 
-// What the trampolines may do to a Plugin.
+// Gives the trampolines access to private members of Plugin.
 struct PluginAccess {
   static std::vector<std::unique_ptr<ParamDefinition>>& parameters(Plugin& p) { return p.parameters_; }
 
@@ -131,7 +131,7 @@ struct PluginAccess {
     return plugin.start(plugin.world_, seed);
   }
 
-  // Runs `call`, which returns a Status; no exception gets past here.
+  // Runs `call`, which returns a Status, and turns every exception into a status.
   template <class Call>
   static std::int32_t guarded(const dmrp_host* host, Call&& call) noexcept {
     try {

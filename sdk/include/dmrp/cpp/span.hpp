@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cpp/span.hpp: a read-only view of an array that crossed the ABI: pointer, count and the owner's stride.
+// cpp/span.hpp: a read-only view of an array that crosses the ABI: pointer, count and the owner's stride.
 #ifndef DMRP_CPP_SPAN_HPP
 #define DMRP_CPP_SPAN_HPP
 
@@ -10,7 +10,7 @@
 
 namespace dmrp {
 
-// Valid as long as the array behind it. Elements may be longer than T: the address of [0] is no array of T.
+// Valid as long as the array. Elements may be longer than T, so &span[0] does not point to an array of T.
 template <class T>
 class Span {
  public:

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-// ext/distance_field.h: the Euclidean distance to the nearest obstacle of the local costmap, derived on demand, at
-// most once a scan. An extension of the host for local controllers.
+// ext/distance_field.h: the Euclidean distance to the nearest obstacle of the local costmap, computed on demand, at
+// most once per scan. An extension of the host for local controllers.
 #ifndef DMRP_EXT_DISTANCE_FIELD_H
 #define DMRP_EXT_DISTANCE_FIELD_H
 
@@ -14,7 +14,7 @@ typedef struct dmrp_field {
   uint32_t width;
   uint32_t height;
   uint32_t reserved;
-  int64_t t_ns;  // of the scan behind it
+  int64_t t_ns;  // of the scan that it was computed from
   double resolution_m;
   dmrp_vec2 origin;
   double distance_max_m;     // distances are capped at this
@@ -27,7 +27,7 @@ struct dmrp_distance_field {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The field of the instance's robot. Valid until the call of step() that asks returns.
+  // The field of the instance's robot. Valid until the current call of step() returns.
   // [step]
   const dmrp_field* (*field)(const dmrp_distance_field* extension);
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// ext/lidar.h: the robot's planar range scan, with the noise that the experiment sets. An extension of the host for
+// ext/lidar.h: the robot's planar laser scan, with the noise that the experiment sets. An extension of the host for
 // local controllers.
 #ifndef DMRP_EXT_LIDAR_H
 #define DMRP_EXT_LIDAR_H
@@ -26,7 +26,7 @@ struct dmrp_lidar {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The latest scan of the instance's robot. Valid until the call of step() that asks returns.
+  // The latest scan of the instance's robot. Valid until the current call of step() returns.
   // [step]
   const dmrp_scan* (*scan)(const dmrp_lidar* lidar);
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// ext/local_costmap.h: a rolling window of obstacles about the robot, built by marking and clearing on every scan.
+// ext/local_costmap.h: a rolling window of obstacles around the robot, built by marking and clearing on every scan.
 // Costs as in ROS costmap_2d. An extension of the host for local controllers.
 #ifndef DMRP_EXT_LOCAL_COSTMAP_H
 #define DMRP_EXT_LOCAL_COSTMAP_H
@@ -9,7 +9,7 @@
 #define DMRP_EXT_LOCAL_COSTMAP "dmrp.local_costmap/1"
 
 #define DMRP_COST_FREE 0
-#define DMRP_COST_INSCRIBED 253  // the robot's centre here surely collides
+#define DMRP_COST_INSCRIBED 253  // a robot whose centre is in the cell certainly collides
 #define DMRP_COST_LETHAL 254     // an obstacle is in the cell
 
 // Cells as in dmrp_grid: row-major from the lower left, aligned with the world's axes.
@@ -18,7 +18,7 @@ typedef struct dmrp_costmap {
   uint32_t width;
   uint32_t height;
   uint32_t reserved;
-  int64_t t_ns;  // of the scan that it was last updated by
+  int64_t t_ns;  // of the scan of the last update
   double resolution_m;
   dmrp_vec2 origin;           // lower left corner of the lower left cell
   double inscribed_radius_m;  // cells nearer to an obstacle have DMRP_COST_INSCRIBED
@@ -33,7 +33,7 @@ struct dmrp_local_costmap {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The costmap of the instance's robot. Valid until the call of step() that asks returns.
+  // The costmap of the instance's robot. Valid until the current call of step() returns.
   // [step]
   const dmrp_costmap* (*costmap)(const dmrp_local_costmap* extension);
 };

@@ -8,7 +8,7 @@
 
 #define DMRP_EXT_OBSTACLE_CLUSTERS "dmrp.obstacle_clusters/1"
 
-// A convex shape over lethal cells that hang together. Array element.
+// A convex shape that covers connected lethal cells. Array element.
 typedef struct dmrp_obstacle_cluster {
   uint32_t vertex_count;  // 1: a point; 2: a segment; more: a convex polygon, counter-clockwise
   uint32_t reserved;
@@ -16,14 +16,14 @@ typedef struct dmrp_obstacle_cluster {
 } dmrp_obstacle_cluster;
 
 // Every lethal cell's centre lies within tolerance_m of a cluster, and no point of a cluster is farther than
-// tolerance_m from the centre of a lethal cell: a room's corner is two segments, never a triangle across it.
-// Cells that an agent of the observation accounts for are left out: agents are known with their velocity.
+// tolerance_m from the centre of a lethal cell: the corner of a room becomes two segments, never a triangle across it.
+// Cells covered by an agent of the observation are excluded: the controller knows agents with their velocity.
 typedef struct dmrp_obstacle_cluster_list {
   uint32_t struct_size;
   uint32_t count;
   uint32_t stride;  // of clusters
   uint32_t reserved;
-  int64_t t_ns;  // of the scan behind them
+  int64_t t_ns;  // of the scan that they were computed from
   double tolerance_m;
   const dmrp_obstacle_cluster* clusters;
 } dmrp_obstacle_cluster_list;
@@ -34,8 +34,8 @@ struct dmrp_obstacle_clusters {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The clusters about the instance's robot, derived on demand, at most once a scan. Valid until the call of step()
-  // that asks returns.
+  // The clusters around the instance's robot, computed on demand, at most once per scan. Valid until the current call
+  // of step() returns.
   // [step]
   const dmrp_obstacle_cluster_list* (*clusters)(const dmrp_obstacle_clusters* extension);
 };

@@ -18,13 +18,13 @@ inline double wrap(double angle) {
   return turned <= -pi ? pi : turned;
 }
 
-// How far to turn from heading `from` to heading `to` by the shorter way, in (-pi, pi].
+// The turn from heading `from` to heading `to` in the shorter direction, in (-pi, pi].
 inline double difference(double from, double to) {
   return wrap(to - from);
 }
 
-// The direction in which `to` lies as seen from `from`, in (-pi, pi]; 0 where both are the same point. Takes anything
-// that has x and y: dmrp_vec2, dmrp_pose, dmrp_waypoint.
+// The direction from `from` to `to`, in (-pi, pi]; 0 if both are the same point. Takes any type with x and y:
+// dmrp_vec2, dmrp_pose, dmrp_waypoint.
 template <class From, class To>
 double bearing(const From& from, const To& to) {
   return wrap(std::atan2(to.y - from.y, to.x - from.x));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // disc_sweep.hpp: whether a disc may move straight from one place to another among static shapes.
 //
-// Exact, not sampled: the disc swept along a segment stays clear of a shape when the segment is as far from it as the
-// disc's radius. Touching counts as clear. `shapes` is any range of dmrp_shape; metres.
+// Exact, not sampled: a disc swept along a segment stays clear of a shape if the segment is at least the disc's radius
+// away from it. Touching counts as clear. `shapes` is any range of dmrp_shape; metres.
 #ifndef DMRP_TOOLKIT_DISC_SWEEP_HPP
 #define DMRP_TOOLKIT_DISC_SWEEP_HPP
 
@@ -14,10 +14,10 @@
 
 namespace dmrp::toolkit {
 
-// Whether a disc of this radius swept along `motion` stays clear of every shape and inside `border`.
+// Whether a disc of this radius, swept along `motion`, stays clear of every shape and inside `border`.
 template <class Shapes>
 bool disc_sweep_is_clear(const dmrp_segment& motion, double radius_m, const Shapes& shapes, const Rectangle& border) {
-  // The border is convex: it holds the motion when it holds the ends.
+  // The border is convex: it contains the motion if it contains both ends.
   if (depth(border, motion.from) < radius_m || depth(border, motion.to) < radius_m) return false;
   const Rectangle reach = {
       {std::min(motion.from.x, motion.to.x) - radius_m, std::min(motion.from.y, motion.to.y) - radius_m},
@@ -31,8 +31,8 @@ bool disc_sweep_is_clear(const dmrp_segment& motion, double radius_m, const Shap
   return true;
 }
 
-// The same for a disc that may stand too close at the start, as a robot does after a contact: it must come no closer
-// than it already is.
+// The same for a disc that may start too close to a shape, as a robot does after a contact: it must not come closer
+// than it starts.
 template <class Shapes>
 bool disc_retreat_is_clear(const dmrp_segment& motion, double radius_m, const Shapes& shapes, const Rectangle& border) {
   const double nanometre = 1e-9;  // more than the rounding of either distance

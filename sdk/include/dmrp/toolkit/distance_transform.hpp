@@ -2,9 +2,9 @@
 // distance_transform.hpp: the exact Euclidean distance of every cell to the nearest obstacle cell.
 //
 // Felzenszwalb and Huttenlocher: Distance transforms of sampled functions, Theory of Computing 8 (2012): linear in the
-// number of cells. Columns first, by two running counts, which is what their lower envelope comes to for a mask; then
-// every row as the lower envelope of parabolas. Squared distances are integers, so the answer is exact up to the last
-// rounding to float.
+// number of cells. Columns first, by two running counts, the lower envelope's special case for a mask; then every row
+// as the lower envelope of parabolas. Squared distances are integers, so the result is exact up to the final rounding
+// to float.
 #ifndef DMRP_TOOLKIT_DISTANCE_TRANSFORM_HPP
 #define DMRP_TOOLKIT_DISTANCE_TRANSFORM_HPP
 
@@ -21,9 +21,9 @@ namespace dmrp::toolkit {
 // Keeps its buffers: no allocation after the first call on the largest grid.
 class DistanceTransform {
  public:
-  // Row-major cells, index = row * width + column, up to 30,000 a side. `is_obstacle(index)` is asked once a cell, in
-  // the order of the indices. Gives metres between cell centres, 0 in an obstacle, `cap_m` where the nearest is
-  // further away or there is none (infinity by default). The reference holds until the next call.
+  // Row-major cells, index = row * width + column, at most 30,000 per side. Calls `is_obstacle(index)` once per cell,
+  // in the order of the indices. Returns metres between cell centres: 0 in an obstacle, `cap_m` (infinity by default)
+  // where the nearest obstacle is farther away or there is none. The reference is valid until the next call.
   template <class IsObstacle, class = std::enable_if_t<std::is_invocable_v<const IsObstacle&, std::size_t>>>
   const std::vector<float>& compute(std::uint32_t width, std::uint32_t height, double resolution_m,
                                     const IsObstacle& is_obstacle,
@@ -87,8 +87,8 @@ class DistanceTransform {
     }
   }
 
-  // The lower envelope of one parabola a column: apexes_ are their columns, begins_[k] is the first column where number
-  // k is the lowest.
+  // The lower envelope of one parabola per column: apexes_ holds the columns of the parabolas in the envelope,
+  // begins_[k] the first column where parabola k is the lowest.
   std::size_t build_envelope(const std::int32_t* column_distances) {
     const auto width = static_cast<std::int64_t>(width_);
     std::size_t count = 0;
@@ -107,7 +107,7 @@ class DistanceTransform {
         const std::int64_t dividend = height + square(apex) - heights_[count - 1] - square(other);
         const std::int64_t divisor = 2 * (apex - other);
         if (dividend >= divisor * (width - 1)) continue;  // nowhere the lowest
-        // a double holds the quotient well enough: it is a whole number or far from the next one
+        // A double is exact enough: the quotient is an integer or far from the next one.
         begin = static_cast<std::int64_t>(static_cast<double>(dividend) / static_cast<double>(divisor)) + 1;
       }
       apexes_[count] = apex;
@@ -145,7 +145,7 @@ class DistanceTransform {
   std::vector<std::int64_t> apexes_;
   std::vector<std::int64_t> heights_;
   std::vector<std::int64_t> begins_;
-  std::vector<float> tabled_m_;  // by squared distances in cells
+  std::vector<float> tabled_m_;  // metres, indexed by the squared distance in cells
 };
 
 }  // namespace dmrp::toolkit

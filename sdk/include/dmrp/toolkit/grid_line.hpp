@@ -13,9 +13,9 @@
 
 namespace dmrp::toolkit {
 
-// Calls visit(cell) for every cell from that of `from` to that of `to`, in order, while visit answers true; cells may
-// lie outside the grid. Where the line goes through a corner, both cells beside the corner are visited too. Returns
-// whether all answered true. (Amanatides and Woo 1987.)
+// Calls visit(cell) for every cell from that of `from` to that of `to`, in order, while visit returns true; cells may
+// lie outside the grid. If the line passes through a corner, both cells beside the corner are visited too. Returns
+// whether all calls returned true. (Amanatides and Woo 1987.)
 template <class Visit>
 bool for_each_cell_on_line(const GridView& grid, dmrp_vec2 from, dmrp_vec2 to, const Visit& visit) {
   Cell cell = grid.cell_of(from);
@@ -25,7 +25,7 @@ bool for_each_cell_on_line(const GridView& grid, dmrp_vec2 from, dmrp_vec2 to, c
   std::int64_t columns_left = std::abs(std::int64_t{last.column} - cell.column);
   std::int64_t rows_left = std::abs(std::int64_t{last.row} - cell.row);
 
-  // Fractions of the line at which it leaves the cell by a side, and those that one cell takes.
+  // Fractions of the line: at which it leaves the cell through a side, and per cell.
   const double never = std::numeric_limits<double>::infinity();
   const double per_column = columns_left > 0 ? grid.resolution_m() / std::abs(to.x - from.x) : never;
   const double per_row = rows_left > 0 ? grid.resolution_m() / std::abs(to.y - from.y) : never;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grid_view.hpp: a dmrp_grid read with cells, indices and points. The layout is told in ../grid.h.
+// grid_view.hpp: access to a dmrp_grid by cells, indices and points. See ../grid.h for the layout.
 #ifndef DMRP_TOOLKIT_GRID_VIEW_HPP
 #define DMRP_TOOLKIT_GRID_VIEW_HPP
 
@@ -13,7 +13,7 @@
 
 namespace dmrp::toolkit {
 
-// A column and a row, from the lower left. May lie outside a grid.
+// Column and row, from the lower left. May lie outside a grid.
 struct Cell {
   std::int32_t column = 0;
   std::int32_t row = 0;
@@ -26,7 +26,7 @@ constexpr bool operator!=(Cell a, Cell b) {
   return !(a == b);
 }
 
-// Directions are numbered as the bits of an edge mask, counter-clockwise from +x: E, NE, N, NW, W, SW, S, SE.
+// Directions have the numbers of the bits of an edge mask, counter-clockwise from +x: E, NE, N, NW, W, SW, S, SE.
 inline constexpr int direction_count = 8;
 inline constexpr std::array<std::int32_t, 8> direction_dx = {1, 1, 0, -1, -1, -1, 0, 1};
 inline constexpr std::array<std::int32_t, 8> direction_dy = {0, 1, 1, 1, 0, -1, -1, -1};
@@ -40,7 +40,7 @@ constexpr int opposite_direction(int direction) {
   return (direction + 4) & 7;
 }
 
-// The direction of a step by one cell; -1 for no step or a longer one.
+// The direction of a step to one of the eight neighbours; -1 for no step or a longer one.
 constexpr int direction_of(std::int32_t dx, std::int32_t dy) {
   for (int direction = 0; direction < direction_count; ++direction)
     if (direction_dx[static_cast<std::size_t>(direction)] == dx &&
@@ -49,11 +49,11 @@ constexpr int direction_of(std::int32_t dx, std::int32_t dy) {
   return -1;
 }
 
-// No cell of any grid.
+// An index that no cell of any grid has.
 inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
 
-// A view: copy it freely. The grid's arrays must outlive it; the struct dmrp_grid need not.
-// A function that takes an index needs one of a cell in the grid.
+// A cheap view. The grid's arrays must outlive it; the struct dmrp_grid need not.
+// An index passed to a function must be that of a cell in the grid.
 class GridView {
  public:
   GridView() = default;
@@ -88,13 +88,13 @@ class GridView {
     return {static_cast<std::int32_t>(column(index)), static_cast<std::int32_t>(row(index))};
   }
 
-  // The cell that holds the point, in the grid or not; a point on a common border belongs to the upper or right cell.
-  // NaN gives a cell outside.
+  // The cell that contains the point, in the grid or outside; a point on a common border belongs to the upper or right
+  // cell. NaN gives a cell outside.
   Cell cell_of(dmrp_vec2 point) const {
     return {whole((point.x - origin_.x) / resolution_m_), whole((point.y - origin_.y) / resolution_m_)};
   }
 
-  // The index of the cell that holds the point; no_cell outside the grid.
+  // The index of the cell that contains the point; no_cell outside the grid.
   std::uint32_t index_of(dmrp_vec2 point) const {
     const Cell at = cell_of(point);
     return contains(at) ? index(at) : no_cell;
@@ -112,7 +112,7 @@ class GridView {
   std::uint8_t edges(std::uint32_t index) const { return edges_[index]; }
   bool edge(std::uint32_t index, int direction) const { return (edges_[index] >> direction & 1) != 0; }
 
-  // The cell beside this one, whether or not an edge leads there; no_cell outside the grid.
+  // The neighbouring cell, whether or not an edge leads there; no_cell outside the grid.
   std::uint32_t neighbour(std::uint32_t index, int direction) const {
     const auto d = static_cast<std::size_t>(direction);
     const Cell from = cell(index);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// navigation_field.hpp: how far it is from everywhere to a target, and which way to go.
+// navigation_field.hpp: the length of the shortest way to a target, and its direction, from every point.
 //
 // The fast marching method (Sethian 1996): solves |grad T| = cost on the free cells of a grid, so that T is the length
-// of the shortest way (not of a zigzag of grid moves) times the cost of a metre along it. First order: within a few
-// per cent of the true length, and at cell centres never shorter than the straight line but by rounding. It goes from
-// cell to cell only along edges E, N, W, S of the grid's mask, which are mutual, and cuts no corner. Cells that are
-// equally near are settled in the order of their indices, so equal grids give equal fields.
+// of the shortest way (not of a zigzag of grid moves) times the cost per metre. First order: within a few per cent of
+// the true length, and at cell centres never shorter than the straight line except by rounding. It moves between cells
+// only along edges E, N, W, S of the grid's mask, which are mutual, and cuts no corner. Cells at equal distance are
+// settled in the order of their indices, so equal grids give equal fields.
 #ifndef DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
 #define DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
 
@@ -26,18 +26,18 @@
 
 namespace dmrp::toolkit {
 
-// What makes ways near walls longer: a metre in clearance c costs 1 + wall_cost * (1 - c / comfort_m)^2 where
-// c < comfort_m, and 1 elsewhere. The default keeps to the shortest way.
+// A cost for ways near walls: a metre in clearance c costs 1 + wall_cost * (1 - c / comfort_m)^2 where c < comfort_m,
+// and 1 elsewhere. The default gives the shortest way.
 struct NavigationCost {
   double comfort_m = 0.0;
   double wall_cost = 0.0;
 };
 
-// Keeps its buffers from one compute() to the next. The grid's arrays must outlive the field.
+// Keeps its buffers between calls of compute(). The grid's arrays must outlive the field.
 class NavigationField {
  public:
-  // The field toward the nearest of the targets; a point is a rectangle without extent. A target is reached through
-  // the free cells that it touches: where it touches none, it counts for nothing.
+  // The field towards the nearest of the targets; a point is a rectangle without extent. A target is reached through
+  // the free cells that it touches: a target that touches none has no effect.
   void compute(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost = {}) {
     grid_ = grid;
     for (std::size_t i = 0; i < strides_.size(); ++i)
@@ -67,11 +67,11 @@ class NavigationField {
   double value(std::uint32_t cell) const { return values_[cell]; }
   bool reachable(std::uint32_t cell) const { return values_[cell] < unreachable; }
 
-  // The unit direction of steepest descent at a cell's centre; zero in a target and where there is no way.
+  // The unit direction of steepest descent at a cell's centre; zero in a target and where no way leads to one.
   dmrp_vec2 direction(std::uint32_t cell) const { return directions_[cell]; }
 
-  // At any point: bilinear between cell centres, from the point's own cell alone where a neighbour is cut off. From a
-  // point in no reachable cell (pushed against a wall) the way to the nearest such cell's centre is added.
+  // At any point: bilinear between cell centres, or the value of the point's own cell where a neighbour is cut off. For
+  // a point in no reachable cell (pushed against a wall) the distance to the nearest reachable cell's centre is added.
   double value(dmrp_vec2 point) const {
     const std::uint32_t own = nearest_reachable(point);
     if (own == no_cell) return unreachable;
@@ -90,9 +90,9 @@ class NavigationField {
     return sum;
   }
 
-  // The unit direction to walk at any point: interpolated between cells that are joined to the point's own; straight to
+  // The unit direction to walk at any point: interpolated between the cells connected to the point's own; straight to
   // the target in a cell that touches it; to the nearest reachable cell from a point in none. Zero inside a target and
-  // where there is no way.
+  // where no way leads to one.
   dmrp_vec2 direction(dmrp_vec2 point) const {
     const std::uint32_t own = nearest_reachable(point);
     if (own == no_cell) return {0.0, 0.0};
@@ -102,14 +102,14 @@ class NavigationField {
     return patch(own).direction(point);
   }
 
-  // What direction() makes of a cell and those around it: a copy for those who ask often on their way through one cell,
-  // as the field of a large world lies in no cache.
+  // The directions of a cell and its neighbours, all that direction() reads: a copy for frequent calls inside one cell,
+  // because the field of a large world does not fit in a cache.
   struct Patch {
     dmrp_vec2 center;  // of the cell
     double resolution_m;
-    std::array<dmrp_vec2, 9> directions;  // by rows, the cell's own in the middle; zero where it is not joined
+    std::array<dmrp_vec2, 9> directions;  // by rows, the cell's own in the middle; zero for cells not connected to it
 
-    // As the field's own, for a point in the cell.
+    // The same as NavigationField::direction(), for a point in the cell.
     dmrp_vec2 direction(dmrp_vec2 point) const {
       const dmrp_vec2 offset = (point - center) / resolution_m;
       const std::size_t across = offset.x < 0.0 ? 3 : 5;
@@ -121,19 +121,19 @@ class NavigationField {
       sum += far_x * (1.0 - far_y) * directions[across];
       sum += (1.0 - far_x) * far_y * directions[up];
       sum += far_x * far_y * directions[across + up - 4];
-      // Where ways part, neighbours may pull apart: then the point's own cell decides.
+      // Where ways part, the neighbours' directions may cancel: then the point's own cell decides.
       return norm(sum) > 0.1 ? normalized(sum) : directions[4];
     }
   };
 
-  // Whether direction() follows from the cell's patch at every point of it: it can be reached and touches no target.
+  // Whether the cell's patch gives direction() at every point of the cell: it is reachable and touches no target.
   bool has_patch(std::uint32_t cell) const { return reachable(cell) && touching_target(cell) == nullptr; }
 
   Patch patch(std::uint32_t cell) const {
     Patch patch = {grid_.center(cell), grid_.resolution_m(), {}};
     patch.directions[4] = directions_[cell];
     for (std::size_t d = 0; d < strides_.size(); ++d) {
-      // an edge always leads to a cell in the grid; the direction is zero in one that cannot be reached
+      // An edge always leads to a cell in the grid; the direction is zero in an unreachable cell.
       if (grid_.edge(cell, static_cast<int>(d)))
         patch.directions[static_cast<std::size_t>(4 + direction_dx[d] + 3 * direction_dy[d])] =
             directions_[cell + strides_[d]];
@@ -144,8 +144,8 @@ class NavigationField {
  private:
   using Entry = std::pair<double, std::uint32_t>;  // value, cell: the order of settling
 
-  // The four cells whose centres surround a point, with their bilinear weights; no_cell for one that is not joined to
-  // the point's own cell.
+  // The four cells whose centres surround a point, with their bilinear weights; no_cell for a cell that is not
+  // connected to the point's own cell.
   struct Corners {
     std::array<std::uint32_t, 4> cells;
     std::array<double, 4> weights;
@@ -186,8 +186,8 @@ class NavigationField {
             std::clamp(cell.row, 0, static_cast<std::int32_t>(grid_.height()) - 1)};
   }
 
-  // The cells that a target touches, and those around it that see it: their distance is known exactly, and the
-  // method's error is made near a source.
+  // Initialises the cells that a target touches and nearby cells that see it: their distance is known exactly, and the
+  // method's error arises near a source.
   void seed(const Rectangle& target) {
     if (grid_.size() == 0) return;
     const std::int32_t exact_ring = 8;
@@ -207,14 +207,15 @@ class NavigationField {
           offer(index, away * metre_cost(index), normalized(aim - center));
         } else if (static_cast<double>(grid_.clearance(index)) - away >= cost_.comfort_m &&
                    line_is_free(grid_, center, aim)) {
-          // No shape is as near as the target, and comfort reigns all the way: it is straight and costs its length.
+          // No shape is as near as the target, and the clearance stays above comfort_m: the way is straight and costs
+          // its length.
           offer(index, away, normalized(aim - center));
         }
       }
     }
   }
 
-  // `direction` is zero where the slope of the finished field is to give it.
+  // A zero `direction` is computed later from the slope of the finished field.
   void offer(std::uint32_t cell, double value, dmrp_vec2 direction) {
     if (!(value < values_[cell])) return;
     values_[cell] = value;
@@ -238,7 +239,7 @@ class NavigationField {
     }
   }
 
-  // The cell on the other side of an edge: always in the grid, so no bounds to look at.
+  // The cell on the other side of an edge: always in the grid, so there is no bounds check.
   std::uint32_t across(std::uint32_t cell, int direction) const {
     return cell + strides_[static_cast<std::size_t>(direction)];
   }
@@ -261,7 +262,7 @@ class NavigationField {
     return 0.5 * (along_x + along_y + std::sqrt(2.0 * step * step - apart * apart));
   }
 
-  // The direction whose upwind differences made the value; zero in a target.
+  // The direction of the upwind differences that gave the value; zero in a target.
   dmrp_vec2 descent(std::uint32_t cell) const {
     if (!reachable(cell)) return {0.0, 0.0};
     const auto slope = [&](int positive, int negative) {
@@ -288,8 +289,8 @@ class NavigationField {
             {(1.0 - far_x) * (1.0 - far_y), far_x * (1.0 - far_y), (1.0 - far_x) * far_y, far_x * far_y}};
   }
 
-  // The reachable cell that holds the point, or the one whose centre is nearest, the lowest index of several; no_cell
-  // where none is reachable. Looks at square rings of cells until no further one can be nearer.
+  // The reachable cell that contains the point, or the one whose centre is nearest, with the lowest index among equals;
+  // no_cell if none is reachable. Searches square rings of cells until no further one can be nearer.
   std::uint32_t nearest_reachable(dmrp_vec2 point) const {
     const std::uint32_t holding = grid_.index_of(point);
     if (holding != no_cell && reachable(holding)) return holding;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// polygon.hpp: convex polygons, metres. Vertices counter-clockwise, the border belongs to the polygon; what is no
-// convex counter-clockwise polygon (is_convex_ccw) gives meaningless answers from everything but signed_area().
+// polygon.hpp: convex polygons, metres. Vertices counter-clockwise; the border belongs to the polygon. All functions
+// but signed_area() require a convex counter-clockwise polygon (is_convex_ccw) and give meaningless results otherwise.
 #ifndef DMRP_TOOLKIT_POLYGON_HPP
 #define DMRP_TOOLKIT_POLYGON_HPP
 
@@ -18,7 +18,7 @@
 
 namespace dmrp::toolkit {
 
-// A view of vertices that somebody else keeps: a vector, an array, a dmrp_shape's.
+// A view of vertices owned by a vector, an array or a dmrp_shape.
 class PolygonView {
  public:
   PolygonView(const dmrp_vec2* vertices, std::size_t count) : vertices_(vertices), count_(count) {}
@@ -39,15 +39,15 @@ class PolygonView {
   std::size_t count_;
 };
 
-// m^2, positive when the vertices run counter-clockwise; of any polygon that does not cross itself.
+// m^2, positive if the vertices run counter-clockwise; for any polygon that does not cross itself.
 inline double signed_area(PolygonView polygon) {
   double twice = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) twice += orientation(polygon[0], polygon[i], polygon[i + 1]);
   return 0.5 * twice;
 }
 
-// Whether there are three vertices or more that run once around a convex area, counter-clockwise, none of them twice
-// in a row. Vertices along a straight side are fine, within a nanometre.
+// Whether at least three vertices run once around a convex area, counter-clockwise, without repeating one in a row.
+// Vertices along a straight side are accepted, within a nanometre.
 inline bool is_convex_ccw(PolygonView polygon) {
   if (polygon.size() < 3 || !(signed_area(polygon) > 0.0)) return false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -68,7 +68,7 @@ inline bool contains(PolygonView polygon, dmrp_vec2 point) {
   return true;
 }
 
-// The point of the border that is nearest to `point`, from inside too; of several the one on the first edge.
+// The point of the border nearest to `point`, which may lie inside; among equals the one on the first edge.
 inline dmrp_vec2 closest_border_point(PolygonView polygon, dmrp_vec2 point) {
   dmrp_vec2 best = polygon[0];
   double best_distance = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ inline dmrp_vec2 closest_border_point(PolygonView polygon, dmrp_vec2 point) {
   return best;
 }
 
-// The point of the polygon that is nearest: `point` itself inside.
+// The nearest point of the polygon: `point` itself if it lies inside.
 inline dmrp_vec2 closest_point(PolygonView polygon, dmrp_vec2 point) {
   return contains(polygon, point) ? point : closest_border_point(polygon, point);
 }
@@ -99,7 +99,7 @@ inline double distance(PolygonView polygon, dmrp_vec2 point) {
   return distance(closest_point(polygon, point), point);
 }
 
-// 0 where they touch or the segment lies inside.
+// 0 if they touch or the segment lies inside.
 inline double distance(PolygonView polygon, const dmrp_segment& segment) {
   if (contains(polygon, segment.from)) return 0.0;
   double nearest = std::numeric_limits<double>::infinity();
@@ -107,8 +107,8 @@ inline double distance(PolygonView polygon, const dmrp_segment& segment) {
   return nearest;
 }
 
-// `count` >= 3 vertices on the circle, the first at angle 0: a polygon inside the circle, its sides as deep as
-// radius_m * (1 - cos(pi / count)) below it.
+// `count` >= 3 vertices on the circle, the first at angle 0: a polygon inside the circle, whose sides lie at most
+// radius_m * (1 - cos(pi / count)) inside it.
 inline std::vector<dmrp_vec2> polygon_of_circle(dmrp_vec2 center, double radius_m, std::size_t count) {
   std::vector<dmrp_vec2> vertices(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -116,7 +116,7 @@ inline std::vector<dmrp_vec2> polygon_of_circle(dmrp_vec2 center, double radius_
   return vertices;
 }
 
-// The vertices of a polygon given in a frame, in world coordinates: a footprint at a pose.
+// The vertices of a polygon given in a frame, in world coordinates; for example a footprint at a pose.
 inline std::vector<dmrp_vec2> to_world(const dmrp_pose& frame, PolygonView local) {
   std::vector<dmrp_vec2> vertices;
   vertices.reserve(local.size());

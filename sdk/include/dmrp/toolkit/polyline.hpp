@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// polyline.hpp: measuring along a path and finding places on it.
+// polyline.hpp: arc lengths and projections on a path.
 //
-// A path is anything with size() and operator[] whose elements have x and y in metres: a std::vector<dmrp_vec2>, a
-// span of dmrp_waypoint. Repeated points (waits) are fine. Segment i leads from point i to point i + 1.
+// A path is any type with size() and operator[] whose elements have x and y in metres: a std::vector<dmrp_vec2>, a
+// span of dmrp_waypoint. Repeated points (waits) are allowed. Segment i leads from point i to point i + 1.
 // Arc length is measured from the first point, in metres; `arcs` are the arc lengths of all points (arc_lengths()).
-// Functions that return a place need at least one point, where they do not say otherwise.
+// Functions that return a place need at least one point, unless stated otherwise.
 #ifndef DMRP_TOOLKIT_POLYLINE_HPP
 #define DMRP_TOOLKIT_POLYLINE_HPP
 
@@ -24,7 +24,7 @@ struct PathPlace {
   std::size_t segment = 0;  // the last segment if the place is the end of the path; 0 on a path of one point
   double fraction = 0.0;    // of that segment, in [0, 1]
   double arc_m = 0.0;       // arc length of `point`
-  double distance_m = 0.0;  // from the point that was projected; 0 where none was
+  double distance_m = 0.0;  // from the projected point; 0 if none was projected
 };
 
 template <class Path>
@@ -34,7 +34,7 @@ double length(const Path& path) {
   return sum;
 }
 
-// Fills `arcs` with the arc length of every point: as many as points, the first 0, never falling.
+// Fills `arcs` with the arc length of every point: the first is 0, they never decrease.
 template <class Path>
 void arc_lengths(const Path& path, std::vector<double>& arcs) {
   arcs.resize(path.size());
@@ -52,7 +52,7 @@ std::vector<double> arc_lengths(const Path& path) {
   return arcs;
 }
 
-// The place at this arc length, which is clamped to the path. On a wait it is the wait's end.
+// The place at this arc length, which is clamped to the path. On a wait it is the end of the wait.
 template <class Path>
 PathPlace place_at(const Path& path, const std::vector<double>& arcs, double arc_m) {
   PathPlace place;
@@ -75,13 +75,12 @@ dmrp_vec2 point_at(const Path& path, const std::vector<double>& arcs, double arc
   return place_at(path, arcs, arc_m).point;
 }
 
-// The nearest place whose arc length is in [from_m, to_m] (both clamped to the path); the first of several equally
-// near. The window keeps a path that crosses or doubles itself from drawing the place to another lap. Progress that
-// never falls is
+// The nearest place whose arc length is in [from_m, to_m] (both clamped to the path); the first among equals. Where a
+// path crosses or repeats itself, the window keeps the place on the present lap. Progress that never decreases is
 //
 //   progress_m = project(path, arcs, robot, progress_m, progress_m + window_m).arc_m;
 //
-// Costs as many steps as there are segments in the window, and a binary search.
+// Takes time linear in the number of segments in the window, plus a binary search.
 template <class Path>
 PathPlace project(const Path& path, const std::vector<double>& arcs, dmrp_vec2 point, double from_m, double to_m) {
   PathPlace best = place_at(path, arcs, from_m);
@@ -110,9 +109,9 @@ PathPlace project(const Path& path, const std::vector<double>& arcs, dmrp_vec2 p
   return project(path, arcs, point, 0.0, std::numeric_limits<double>::infinity());
 }
 
-// The point that lies `look_ahead_m` >= 0 further along the path than the place nearest to `from` (a pose or a point);
-// the path's end where less is left. Of several places equally near it takes the first. On an empty path: `from`
-// itself. Needs no table and does not allocate; looks at the whole path.
+// The point that lies `look_ahead_m` >= 0 beyond the place nearest to `from` (a pose or a point) along the path, or the
+// end of the path if that is nearer. Takes the first of several nearest places. Returns `from` for an empty path. Needs
+// no arc lengths and does not allocate; visits the whole path.
 template <class Path, class From>
 dmrp_vec2 point_ahead(const Path& path, const From& from, double look_ahead_m) {
   if (path.size() == 0) return position(from);
@@ -136,8 +135,8 @@ dmrp_vec2 point_ahead(const Path& path, const From& from, double look_ahead_m) {
   return at;
 }
 
-// The direction of travel at this arc length in (-pi, pi]: of the segment that begins there, or at the path's end of
-// the last one that has a length. `fallback` where no segment has one.
+// The direction of travel at this arc length in (-pi, pi]: of the segment that begins there, or at the end of the path
+// of the last segment with a length. `fallback` if no segment has a length.
 template <class Path>
 double heading_at(const Path& path, const std::vector<double>& arcs, double arc_m, double fallback) {
   if (path.size() < 2) return fallback;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// random.hpp: random numbers that are the same everywhere.
+// random.hpp: reproducible random numbers.
 //
-// A Stream is named, not seeded: by a seed, a purpose and any number of indices. Equal names give equal numbers,
-// different names independent ones, so that one part may draw more or fewer without moving any other part:
+// A Stream is identified by its name: a seed, a purpose and any number of indices. Equal names give equal numbers,
+// different names independent ones, so that one part may draw more or fewer numbers without affecting any other part:
 //
 //   Stream speeds(world_seed, "pedestrian.speed", repetition, person);
 //   const double speed = speeds.truncated_normal(1.2, 0.2, 0.5, 2.0);
@@ -11,8 +11,8 @@
 // a bijection of a 128-bit counter under a 64-bit key. The name gives the key and the counter's upper half, 128 bits
 // in all; the lower half counts blocks. Two names share numbers only if all those bits collide.
 //
-// normal() and truncated_normal() go through log, exp and cos, so they repeat to the bit under the same libm; all the
-// others repeat on every machine.
+// normal() and truncated_normal() use log, exp and cos, so their results are equal to the bit with the same libm; the
+// results of all others are equal on every machine.
 #ifndef DMRP_TOOLKIT_RANDOM_HPP
 #define DMRP_TOOLKIT_RANDOM_HPP
 
@@ -55,7 +55,7 @@ class KeyChain {
     state_ = z ^ (z >> 31);
   }
 
-  // Eight bytes a value, little-endian, then the length: so no two texts chain alike.
+  // Eight bytes per value, little-endian, then the length, so that different texts give different chains.
   constexpr void add(std::string_view text) {
     for (std::size_t begin = 0; begin < text.size(); begin += 8) {
       std::uint64_t word = 0;
@@ -72,7 +72,7 @@ class KeyChain {
   std::uint64_t state_;
 };
 
-// A small value type: copy it to fork the rest of a stream.
+// A small value type; a copy continues with the same numbers.
 class Stream {
  public:
   // Indices are integers (negative ones too) or text.
@@ -88,7 +88,7 @@ class Stream {
   // In [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(next_u64() >> 11) * 0x1.0p-53; }
 
-  // In [low, high), for finite low < high; low if they are equal. Rounding never makes it `high`.
+  // In [low, high), for finite low < high; low if they are equal. Never `high`, despite rounding.
   double uniform(double low, double high) {
     const double value = low + (high - low) * uniform();
     return value < high ? value : std::nextafter(high, low);
@@ -105,9 +105,9 @@ class Stream {
   // True with this probability.
   bool chance(double probability) { return uniform() < probability; }
 
-  // Standard normal (Box-Muller, the cosine half): always two draws, so that streams stay aligned.
+  // Standard normal (Box-Muller, the cosine half). Always takes two draws, so that streams stay aligned.
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));  // the logarithm of (0, 1]
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));  // the argument of log is in (0, 1]
     return radius * std::cos(6.28318530717958647692 * uniform());
   }
 
@@ -171,7 +171,8 @@ class Stream {
   static std::uint32_t low_half(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
   static std::uint32_t high_half(std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); }
 
-  // Standard normal in [from, to], from <= 0 <= to: from the normal where that accepts often, else from the uniform.
+  // Standard normal in [from, to], from <= 0 <= to: by rejection from the normal if that accepts often, otherwise from
+  // the uniform distribution.
   double around_zero(double from, double to) {
     if (to - from > 2.50662827463100050242) {  // sqrt(2 pi)
       for (;;) {
@@ -185,9 +186,10 @@ class Stream {
     }
   }
 
-  // Standard normal in [from, to], from > 0: from a translated exponential, or from the uniform where that is narrow.
+  // Standard normal in [from, to], from > 0: by rejection from a translated exponential, or from the uniform
+  // distribution if the interval is narrow.
   double truncated_tail(double from, double to) {
-    if (from > 1e8) return from;  // the tail is thinner than the spacing of doubles
+    if (from > 1e8) return from;  // the tail is narrower than the spacing of doubles
     const double root = std::sqrt(from * from + 4.0);
     const double rate = 0.5 * (from + root);
     if (to - from > std::exp(0.5 + 0.25 * (from * from - from * root)) / rate) {

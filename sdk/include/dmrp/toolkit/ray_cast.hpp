@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// ray_cast.hpp: how far a ray goes until it meets something, metres.
+// ray_cast.hpp: the distance at which a ray hits a body, metres.
 //
-// A ray is an origin and a unit direction. Every function returns the distance to the first common point; 0 when the
-// origin lies in the body; infinity when the ray misses. Touching is meeting, as far as doubles tell.
+// A ray is an origin and a unit direction. Every function returns the distance to the first common point; 0 if the
+// origin lies in the body; infinity if the ray misses. Touching counts as a hit, within the precision of doubles.
 #ifndef DMRP_TOOLKIT_RAY_CAST_HPP
 #define DMRP_TOOLKIT_RAY_CAST_HPP
 
@@ -35,7 +35,7 @@ inline double ray_to_circle(const Ray& ray, dmrp_vec2 center, double radius_m) {
   return std::max(0.0, along - std::sqrt(squared_half_chord));
 }
 
-// A segment along the ray is met at its nearer end.
+// The ray hits a segment on its own line at the segment's nearer end.
 inline double ray_to_segment(const Ray& ray, const dmrp_segment& segment) {
   const dmrp_vec2 to_from = segment.from - ray.origin;
   const dmrp_vec2 to_to = segment.to - ray.origin;
@@ -47,7 +47,7 @@ inline double ray_to_segment(const Ray& ray, const dmrp_segment& segment) {
     return far_end < 0.0 ? ray_misses : std::max(0.0, near_end);
   }
   if ((from_side > 0.0 && to_side > 0.0) || (from_side < 0.0 && to_side < 0.0)) return ray_misses;
-  // The ends lie on both sides of the ray's line: it crosses the segment at this fraction.
+  // The ends lie on opposite sides of the ray's line, which crosses the segment at this fraction.
   const double fraction = from_side / (from_side - to_side);
   const double along = dot(lerp(to_from, to_to, fraction), ray.direction);
   return along < 0.0 ? ray_misses : along;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// rectangle.hpp: upright rectangles, metres; the border belongs to them.
+// rectangle.hpp: axis-aligned rectangles, metres; the border belongs to the rectangle.
 #ifndef DMRP_TOOLKIT_RECTANGLE_HPP
 #define DMRP_TOOLKIT_RECTANGLE_HPP
 
@@ -9,7 +9,7 @@
 
 namespace dmrp::toolkit {
 
-// lower.x <= upper.x and lower.y <= upper.y; a point or a line where they are equal.
+// lower.x <= upper.x and lower.y <= upper.y; a point or a line if they are equal.
 struct Rectangle {
   dmrp_vec2 lower = {0.0, 0.0};
   dmrp_vec2 upper = {0.0, 0.0};
@@ -30,7 +30,8 @@ inline double distance(const Rectangle& rectangle, dmrp_vec2 point) {
   return distance(closest_point(rectangle, point), point);
 }
 
-// From a point inside to the nearest side; negative outside by the distance to the rectangle's nearest side line.
+// The distance from a point inside to the nearest side. Outside it is negative: the largest distance by which the point
+// lies beyond the line of a side.
 constexpr double depth(const Rectangle& rectangle, dmrp_vec2 point) {
   return std::min(std::min(point.x - rectangle.lower.x, rectangle.upper.x - point.x),
                   std::min(point.y - rectangle.lower.y, rectangle.upper.y - point.y));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// segment.hpp: distances and crossings of straight segments, metres. A segment of length zero counts as a point.
+// segment.hpp: distances and intersections of straight segments, metres. A segment of length zero counts as a point.
 #ifndef DMRP_TOOLKIT_SEGMENT_HPP
 #define DMRP_TOOLKIT_SEGMENT_HPP
 
@@ -14,7 +14,7 @@ inline double length(const dmrp_segment& segment) {
   return distance(segment.from, segment.to);
 }
 
-// Where on the segment the point nearest to `point` lies: 0 at `from`, 1 at `to`.
+// The position on the segment of the point nearest to `point`: 0 at `from`, 1 at `to`.
 inline double closest_fraction(const dmrp_segment& segment, dmrp_vec2 point) {
   const dmrp_vec2 along = segment.to - segment.from;
   const double squared_length = squared_norm(along);
@@ -34,13 +34,13 @@ inline double distance(const dmrp_segment& segment, dmrp_vec2 point) {
   return distance(closest_point(segment, point), point);
 }
 
-// Which side of the line a -> b the point is on: positive left, negative right, 0 on the line; twice the area of the
-// triangle.
+// The side of the line a -> b on which the point lies: positive left, negative right, 0 on the line. The value is twice
+// the signed area of the triangle.
 constexpr double orientation(dmrp_vec2 a, dmrp_vec2 b, dmrp_vec2 point) {
   return cross(b - a, point - a);
 }
 
-// Whether the two have a point in common, touching included. Decided by the signs of orientations as doubles give them.
+// Whether the segments have a common point; touching counts. Decided by the signs of orientations in double precision.
 inline bool intersects(const dmrp_segment& a, const dmrp_segment& b) {
   const double b_from = orientation(a.from, a.to, b.from);
   const double b_to = orientation(a.from, a.to, b.to);
@@ -50,7 +50,7 @@ inline bool intersects(const dmrp_segment& a, const dmrp_segment& b) {
     return (one < 0.0 && other > 0.0) || (one > 0.0 && other < 0.0);
   };
   if (opposite(b_from, b_to) && opposite(a_from, a_to)) return true;
-  // An end on the other's line touches it where it also lies between its ends.
+  // An end on the line of the other segment touches that segment if it also lies between its ends.
   const auto within = [](const dmrp_segment& box, dmrp_vec2 point) {
     return std::min(box.from.x, box.to.x) <= point.x && point.x <= std::max(box.from.x, box.to.x) &&
            std::min(box.from.y, box.to.y) <= point.y && point.y <= std::max(box.from.y, box.to.y);
@@ -59,7 +59,7 @@ inline bool intersects(const dmrp_segment& a, const dmrp_segment& b) {
          (a_from == 0.0 && within(b, a.from)) || (a_to == 0.0 && within(b, a.to));
 }
 
-// The common point; of an overlap along a line, the one nearest to a.from. Nothing where they have none.
+// The common point; for an overlap along a line, the one nearest to a.from. Empty if there is none.
 inline std::optional<dmrp_vec2> intersection(const dmrp_segment& a, const dmrp_segment& b) {
   if (!intersects(a, b)) return std::nullopt;
   const dmrp_vec2 along_a = a.to - a.from;
@@ -75,7 +75,7 @@ inline std::optional<dmrp_vec2> intersection(const dmrp_segment& a, const dmrp_s
   return lerp(a.from, a.to, std::clamp(nearer_end, 0.0, 1.0));
 }
 
-// 0 where they cross or touch.
+// 0 if they cross or touch.
 inline double distance(const dmrp_segment& a, const dmrp_segment& b) {
   if (intersects(a, b)) return 0.0;
   const double nearest = std::min(

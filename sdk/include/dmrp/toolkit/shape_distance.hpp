@@ -17,7 +17,7 @@ inline PolygonView polygon_of(const dmrp_shape& shape) {
   return {shape.vertices, shape.vertex_count};
 }
 
-// The smallest upright rectangle around a shape.
+// The axis-aligned bounding box of a shape.
 inline Rectangle bounds(const dmrp_shape& shape) {
   if (shape.kind == DMRP_SHAPE_CIRCLE) {
     const dmrp_vec2 reach = {shape.radius_m, shape.radius_m};
@@ -43,13 +43,13 @@ inline double distance(const dmrp_shape& shape, dmrp_vec2 point) {
   return distance(polygon_of(shape), point);
 }
 
-// 0 where they touch or the segment lies inside.
+// 0 if they touch or the segment lies inside.
 inline double distance(const dmrp_shape& shape, const dmrp_segment& segment) {
   if (shape.kind == DMRP_SHAPE_CIRCLE) return std::max(0.0, distance(segment, shape.center) - shape.radius_m);
   return distance(polygon_of(shape), segment);
 }
 
-// From a point to the nearest shape or to the border around the world; 0 inside a shape or outside the border.
+// The distance from a point to the nearest shape or to the border of the world; 0 inside a shape or outside the border.
 // `shapes` is any range of dmrp_shape.
 template <class Shapes>
 double clearance(const Shapes& shapes, const Rectangle& border, dmrp_vec2 point) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// snap.hpp: puts robots that stand anywhere on cells of a planning grid, as planning from where they are needs it.
+// snap.hpp: assigns robots at any position to cells of a planning grid, for planning from their present poses.
 #ifndef DMRP_TOOLKIT_SNAP_HPP
 #define DMRP_TOOLKIT_SNAP_HPP
 
@@ -21,8 +21,8 @@ struct SnapRequest {
   std::uint32_t preferred = no_cell;  // the next cell of the plan in force, if there is one
 };
 
-// The free cell whose centre is nearest to `position` among those within `reach_m` that `can_move(from, to)` says can
-// be driven to straight; the lowest index of several equally near; no_cell where there is none.
+// The nearest free cell to `position`, by its centre, within `reach_m`, to which `can_move(from, to)` allows a straight
+// motion; the lowest index among equals; no_cell if there is none.
 template <class CanMove>
 std::uint32_t nearest_free_cell(const GridView& grid, dmrp_vec2 position, double reach_m, const CanMove& can_move) {
   struct Candidate {
@@ -49,9 +49,10 @@ std::uint32_t nearest_free_cell(const GridView& grid, dmrp_vec2 position, double
   return no_cell;
 }
 
-// One cell a request, all different: the preferred one if it is free, nobody else prefers it and it can be driven to
-// straight; else the nearest free one that can. Nothing at all if a robot finds none within `reach_m` or two would
-// share one: the plans in force then stay the better answer. Does not depend on the order of the requests.
+// One cell per request, all different: the preferred cell if it is free, no other request prefers it and a straight
+// motion to it is possible; otherwise the nearest free cell with a straight motion. Empty if a robot has no such cell
+// within `reach_m` or two robots would share one; the plan in force is then the better choice. Does not depend on the
+// order of the requests.
 template <class CanMove>
 std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
                                                         double reach_m, const CanMove& can_move) {
@@ -70,8 +71,8 @@ std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, co
   return cells;
 }
 
-// The same for discs among static shapes: a cell can be driven to when the disc swept to its centre stays clear, or
-// comes no closer to anything than it already is. `shapes` is any range of dmrp_shape.
+// The same for discs among static shapes: a straight motion is possible if the disc swept to the cell's centre stays
+// clear, or comes no closer to anything than it starts. `shapes` is any range of dmrp_shape.
 template <class Shapes>
 std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
                                                         double reach_m, double radius_m, const Shapes& shapes,

@@ -7,12 +7,12 @@
 //   plan.text({3.0, 4.5}, "R1", {"label"});
 //   file << plan.document();
 //
-// World coordinates in metres, y up; the page's own are told to nobody. What is drawn later lies on top. Equal calls
-// give equal bytes, whatever the locale.
+// All coordinates are world coordinates in metres, y up. Later elements lie on top. Equal calls give equal bytes in
+// every locale.
 //
-// Looks come by class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
-// `label`, `heading`; another class name is left to the reader's own style sheet. Line widths and text sizes are those
-// of the page, not of the world.
+// Elements have a CSS class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
+// `label`, `heading`; the document has a style for each of these, and none for other names. Line widths and text sizes
+// are in pixels of the page, not in metres.
 #ifndef DMRP_TOOLKIT_SVG_HPP
 #define DMRP_TOOLKIT_SVG_HPP
 
@@ -30,14 +30,14 @@
 
 namespace dmrp::toolkit {
 
-// The palette of Okabe and Ito (2008), which stays distinct under colour blindness; it repeats after eight.
+// The palette of Okabe and Ito (2008), whose colours differ under colour blindness; it repeats after eight.
 inline std::string_view series_color(std::size_t index) {
   constexpr std::array<std::string_view, 8> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000", "#f0e442"};
   return colors[index % colors.size()];
 }
 
-// Text as it may stand between tags and in attributes. Control characters, which XML forbids, become spaces.
+// Escapes text for use between tags and in attributes. Control characters, which XML forbids, become spaces.
 inline std::string escape_xml(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -75,7 +75,7 @@ inline std::string format_svg_number(double value) {
   return text;
 }
 
-// `color` stands in for the class's own: of the line where that is drawn as a line, of the fill otherwise.
+// `color` overrides the class's colour: the stroke of a line, the fill of any other element.
 struct SvgStyle {
   std::string_view name;
   std::string_view color = {};
@@ -83,7 +83,7 @@ struct SvgStyle {
 
 class SvgPlan {
  public:
-  // A page that shows the rectangle `world`, `page_width` pixels wide without its margin. `heading` may be empty.
+  // A page that shows the rectangle `world`, `page_width` pixels wide without the margin. `heading` may be empty.
   explicit SvgPlan(const Rectangle& world, std::string_view heading = {}, double page_width = 800.0)
       : world_(world),
         scale_(page_width / (world.upper.x - world.lower.x)),
@@ -94,7 +94,7 @@ class SvgPlan {
     if (!heading.empty()) page_text({margin, 2.0 * margin}, heading, "heading");
   }
 
-  // `title` is what a browser shows while the pointer rests on the figure.
+  // A browser shows `title` while the pointer rests on the figure.
   void rectangle(const Rectangle& box, SvgStyle style, std::string_view title = {}) {
     const dmrp_vec2 corner = page({box.lower.x, box.upper.y});
     element("rect",
@@ -135,7 +135,7 @@ class SvgPlan {
     page_text(page(at), words, style.name, style.color);
   }
 
-  // A bar of so many metres, below the plan.
+  // A scale bar of this length, below the plan.
   void scale_bar(double length_m) {
     const dmrp_vec2 from = page(world_.lower) + dmrp_vec2{0.0, 1.2 * margin};
     const double length = scale_ * length_m;
@@ -178,7 +178,7 @@ class SvgPlan {
 
   static std::string number(double value) { return format_svg_number(value); }
 
-  // Concatenation is spelt out because gcc 12 warns of overlapping memory in `"text" + std::string` (its bug 105651).
+  // Written out because gcc 12 falsely warns of overlapping memory in `"text" + std::string` (its bug 105651).
   static std::string joined(std::initializer_list<std::string_view> parts) {
     std::string whole;
     for (const std::string_view part : parts) whole += part;

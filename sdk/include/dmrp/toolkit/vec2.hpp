@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // vec2.hpp: arithmetic on dmrp_vec2.
 //
-// dmrp_vec2 is a C type in the global namespace, so its operators stand there too: only so does argument-dependent
-// lookup find them. They name no other type, so they cannot clash with operators of anybody else's vectors.
+// dmrp_vec2 is a C type in the global namespace; its operators are there too, so that argument-dependent lookup finds
+// them. They take no other type, so they cannot clash with the operators of other vector types.
 #ifndef DMRP_TOOLKIT_VEC2_HPP
 #define DMRP_TOOLKIT_VEC2_HPP
 
@@ -49,7 +49,7 @@ constexpr dmrp_vec2& operator/=(dmrp_vec2& a, double divisor) {
 
 namespace dmrp::toolkit {
 
-// The position of anything that has x and y: a pose, a waypoint, an agent's pose.
+// The position of any type with x and y: a pose, a waypoint.
 template <class Point>
 constexpr dmrp_vec2 position(const Point& at) {
   return {at.x, at.y};
@@ -59,7 +59,7 @@ constexpr double dot(dmrp_vec2 a, dmrp_vec2 b) {
   return a.x * b.x + a.y * b.y;
 }
 
-// The z component of a x b: positive when b lies to the left of a.
+// The z component of a x b: positive if b lies to the left of a.
 constexpr double cross(dmrp_vec2 a, dmrp_vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
@@ -84,12 +84,12 @@ inline dmrp_vec2 normalized(dmrp_vec2 a) {
   return length > 0.0 ? a / length : dmrp_vec2{0.0, 0.0};
 }
 
-// `a` turned by a quarter counter-clockwise.
+// `a` rotated by 90 degrees counter-clockwise.
 constexpr dmrp_vec2 perpendicular(dmrp_vec2 a) {
   return {-a.y, a.x};
 }
 
-// `a` turned by `angle` radians counter-clockwise.
+// `a` rotated by `angle` radians counter-clockwise.
 inline dmrp_vec2 rotate(dmrp_vec2 a, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -101,7 +101,7 @@ inline dmrp_vec2 from_angle(double heading) {
   return {std::cos(heading), std::sin(heading)};
 }
 
-// `a` at fraction 0, `b` at fraction 1, exactly so at both ends.
+// `a` at fraction 0, `b` at fraction 1, exact at both ends.
 constexpr dmrp_vec2 lerp(dmrp_vec2 a, dmrp_vec2 b, double fraction) {
   return (1.0 - fraction) * a + fraction * b;
 }

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host/results/database.hpp"
 
-#include <sys/stat.h>
-
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 
 #include "host/files/atomic_file.hpp"
-#include "host/files/sha256.hpp"
-#include "host/results/csv.hpp"
-#include "host/results/manifest.hpp"
-#include "host/results/trials_csv.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
 using namespace dmrp::host;
@@ -182,106 +176,4 @@ TEST_CASE("databases that cannot be used say why", "[results]") {
   CHECK_THROWS_WITH(ResultsDatabase::create(folder / "text.sqlite", example_metrics()), Catch::Contains("exists"));
   SqliteConnection(folder / "other.sqlite", SqliteMode::create).execute("PRAGMA user_version = 7");
   CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 1"));
-}
-
-TEST_CASE("CSV fields are quoted where they must be", "[results]") {
-  CsvWriter csv;
-  csv.field("plain").field("a,b").field("say \"hi\"").field("two\nlines").field("").field(std::optional<double>());
-  csv.end_line();
-  csv.field(0.1).field(1e300).field(-0.0).field(100.0).field(std::numeric_limits<double>::quiet_NaN()).field(7);
-  csv.end_line();
-  CHECK(csv.text() == "plain,\"a,b\",\"say \"\"hi\"\"\",\"two\nlines\",,\n0.1,1e+300,-0,100,,7\n");
-}
-
-TEST_CASE("trials.csv has a line for each trial and a column for each metric", "[results]") {
-  TrialRecord curved = example_trial(1, "A, B", 0, std::nullopt, 0.1 + 0.2);
-  curved.values.insert(curved.values.begin(), {"time", DMRP_SUBJECT_SYSTEM, std::nullopt, 3.0, 99.0});
-  const std::vector<TrialRecord> trials{curved, example_trial(4, "C", 1, 41.5, 0.5)};
-  CHECK(trials_csv(example_metrics(), trials) ==
-        "trial,scenario,robots,global_planner,local_controller,pedestrian_model,repetition,seed,outcome,repeatable,"
-        "sim_time_s,wall_time_s,done,time,speed,speed_sd,touches,cpu\n"
-        "1,mall,2,\"A, B\",DWA,crowd,0,1000,failed,1,180,0.125,0.5,,0.30000000000000004,0.17,0,\n"
-        "4,mall,2,C,DWA,crowd,1,1001,succeeded,1,41.5,0.125,1,41.5,0.5,0.17,0,\n");
-}
-
-TEST_CASE("files are replaced at once, with the permissions of others", "[results]") {
-  const ScratchFolder folder;
-  write_file_atomically(folder / "a.txt", "old");
-  write_file_atomically(folder / "a.txt", "new");
-  CHECK(content_of(folder / "a.txt") == "new");
-  const auto entries = std::filesystem::directory_iterator(folder.path());
-  CHECK(std::distance(begin(entries), end(entries)) == 1);  // nothing lies beside it
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  struct stat status {};
-  REQUIRE(::stat((folder / "a.txt").c_str(), &status) == 0);
-  CHECK((status.st_mode & 0777u) == (0666u & ~mask));
-  CHECK_THROWS_WITH(write_file_atomically(folder / "no/folder.txt", "x"), Catch::Contains("no/folder.txt"));
-}
-
-TEST_CASE("SHA-256", "[results]") {
-  // FIPS 180-4's examples
-  CHECK(sha256_of_bytes("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  CHECK(sha256_of_bytes("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  const ScratchFolder folder;
-  const std::string large(1'000'000, 'a');
-  write_file_atomically(folder / "large", large);
-  CHECK(sha256_of_file(folder / "large") == "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-  CHECK_THROWS_AS(sha256_of_file(folder / "none"), std::system_error);
-}
-
-TEST_CASE("the manifest comes back from its file", "[results]") {
-  const ScratchFolder folder;
-  write_file_atomically(folder / "map.yaml", "abc");
-  const auto begun = std::chrono::system_clock::time_point(std::chrono::seconds(1'700'000'000));
-  Manifest manifest = new_manifest("0.1.0", {"dmrp-host", "a b.toml", "--jobs", "2"}, begun);
-  manifest.files.push_back(hashed_file("map", folder / "map.yaml"));
-  write_file_atomically(folder / "manifest.json", to_json_text(manifest));
-  const Manifest read = read_manifest(folder / "manifest.json");
-
-  CHECK(read.dmrp_version == "0.1.0");
-  CHECK(read.command_line == manifest.command_line);
-  CHECK(read.started_at == "2023-11-14T22:13:20Z");
-  CHECK_FALSE(read.machine.libc.empty());
-  CHECK_FALSE(read.machine.compiler.empty());
-  REQUIRE(read.files.size() == 1);
-  CHECK(read.files[0].role == "map");
-  CHECK(read.files[0].sha256 == sha256_of_bytes("abc"));
-  CHECK(differences(manifest, read).empty());
-
-  write_file_atomically(folder / "half.json", "{\"dmrp_version\": \"0.1.0\"");
-  CHECK_THROWS_WITH(read_manifest(folder / "half.json"), Catch::Contains("half.json"));
-}
-
-TEST_CASE("manifests tell what may change bits, and nothing else", "[results]") {
-  Manifest before;
-  before.machine = {"glibc 2.36", "x86-64-v3", {"avx", "avx2", "erms", "fma"}, "gcc 12.2.0"};
-  before.files = {{"plugin library", "/a/libx.so", "11"}, {"map", "/a/m.yaml", "22"}};
-  Manifest now = before;
-  now.command_line = {"other"};
-  now.started_at = "later";
-  now.files[0].path = "/b/libx.so";
-  now.machine.cpu_features = {"avx", "avx2", "fma", "tsc"};
-  CHECK(differences(before, now).empty());
-
-  now.machine.libc = "glibc 2.37";
-  now.machine.cpu_features = {"avx", "avx2", "tsc"};
-  now.files[1].sha256 = "23";
-  CHECK(differences(before, now) == std::vector<std::string>{"libc: glibc 2.36, now glibc 2.37",
-                                                             "CPU feature fma is missing now",
-                                                             "map /a/m.yaml has changed"});
-}
-
-TEST_CASE("the level of a CPU is the highest whose features are all there", "[results]") {
-  const std::string v2 = "cx16 lahf_lm popcnt pni sse4_1 sse4_2 ssse3";
-  const std::string v3 = v2 + " avx avx2 bmi1 bmi2 f16c fma abm movbe";
-  const auto level = [](const std::string& flags) {
-    return x86_64_level_of(cpu_features_of("processor\t: 0\nflags\t\t: " + flags + "\nbugs\t\t: some\n"));
-  };
-  CHECK(level("fpu sse sse2") == "x86-64-v1");
-  CHECK(level(v2) == "x86-64-v2");
-  CHECK(level(v3) == "x86-64-v3");
-  CHECK(level(v3 + " avx512f") == "x86-64-v3");
-  CHECK(level(v3 + " avx512f avx512bw avx512cd avx512dq avx512vl") == "x86-64-v4");
-  CHECK(cpu_features_of("Features\t: fp asimd\n") == std::vector<std::string>{"asimd", "fp"});
 }

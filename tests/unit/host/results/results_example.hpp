@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::test {
@@ -74,6 +75,27 @@ inline host::TrialRecord example_trial(std::uint64_t id, const std::string& plan
                   system_number("speed_sd", 0.17),
                   system_number("touches", 0.0)};
   return trial;
+}
+
+// Two trials of each of two planners, in one scenario.
+inline std::vector<host::TrialRecord> two_planners() {
+  return {example_trial(0, "CBS", 0, 40.0, 0.5), example_trial(1, "CBS", 1, 43.5, 0.52),
+          example_trial(2, "A*", 0, 50.0, 0.6), example_trial(3, "A*", 1, 52.0, 0.61)};
+}
+
+inline host::SummaryLayout example_layout() {
+  return host::parse_summary_layout(R"({
+    "columns": [
+      {"metric": "done", "header": "success", "decimals": 2},
+      {"metric": "time", "decimals": 1},
+      {"metric": "not measured", "header": "gone"},
+      {"metric": "speed", "decimals": 2, "spread": "speed_sd"},
+      {"metric": "cpu", "header": "plan", "decimals": 2}
+    ],
+    "arrived": "done",
+    "contacts": "touches"
+  })",
+                                    "layout");
 }
 
 }  // namespace dmrp::test

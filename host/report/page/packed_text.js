@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// packed_text.js: large text in the page, gzip in base64 (host/report/replay/page_packing.hpp).
+
+// Rejects where the browser has no DecompressionStream or the data are damaged.
+export async function unpacked_text(element) {
+  const bytes = Uint8Array.from(atob(element.textContent.trim()), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).text();
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// completion.js: when robots arrive, those that never do included.
+import {scaleLinear} from 'd3-scale';
+import {curveStepAfter, line} from 'd3-shape';
+
+import * as controls from '../controls.js';
+import {element, fill, hidden, titled_table} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as ranking from '../ranking.js';
+import * as plots from './plots.js';
+import * as small_plots from './small_plots.js';
+
+// Somewhat after the last arrival, since nothing changes from there to the time limit.
+function last_of_interest(rows) {
+  const last = Math.max(...rows.map((row) => row.steps[row.steps.length - 1][0]));
+  return Math.min(1.15 * last, Math.max(...rows.map((row) => row.horizon_s)));
+}
+
+function draw_panel(data, rows, until, title, holder, width) {
+  const {svg, x, y} = small_plots.frame(
+    holder,
+    width,
+    {
+      x: (pixels) => scaleLinear().domain([0, until]).range(pixels),
+      y: (pixels) => scaleLinear().domain([0, 1]).range(pixels),
+    },
+    {all: title, x: 'time (s)'},
+    [0.5, 1]
+  );
+  const steps_line = line()
+    .x((step) => x(step[0]))
+    .y((step) => y(step[1]))
+    .curve(curveStepAfter);
+  for (const row of rows) {
+    const series = labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
+    const last = row.steps[row.steps.length - 1];
+    svg
+      .append('path')
+      .attr('class', 'line')
+      .style('stroke', series.colour)
+      .style('stroke-dasharray', series.dash)
+      .attr('d', steps_line([[0, 0], ...row.steps, [until, last[1]]]));
+    svg
+      .append('path')
+      .attr('class', 'mark')
+      .style('fill', series.colour)
+      .attr('d', plots.symbol(series.symbol, 50))
+      .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
+  }
+}
+
+function table(data, rows, variants) {
+  const column = (text, unit) =>
+    element(
+      'th',
+      {scope: 'col', class: 'number'},
+      element('span', {class: 'header'}, text),
+      element('span', {class: 'unit'}, unit)
+    );
+  const made = element(
+    'table',
+    {class: 'results with-intervals'},
+    element(
+      'thead',
+      {},
+      element(
+        'tr',
+        {},
+        element('th', {scope: 'col'}, 'combination'),
+        column('restricted mean', 's'),
+        column('time limit', 's'),
+        column('arrived', '%'),
+        column('robots', '–')
+      )
+    )
+  );
+  for (const variant of variants) {
+    const own = rows.filter((row) => variant.combinations.includes(row.combination));
+    if (own.length === 0) continue;
+    const best = ranking.best(
+      own.map((row) => row.restricted_mean_s),
+      'lower',
+      1
+    );
+    made.append(
+      element(
+        'tbody',
+        {},
+        data.scenarios.length > 1 &&
+          element(
+            'tr',
+            {class: 'group'},
+            element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))
+          ),
+        own.map((row, i) =>
+          element(
+            'tr',
+            {},
+            element('th', {scope: 'row'}, labels.combination(data, row.combination)),
+            element(
+              'td',
+              {class: best.has(i) ? 'number best' : 'number'},
+              element(
+                'span',
+                {class: 'mean'},
+                best.has(i) && hidden('best: '),
+                numbers.fixed(row.restricted_mean_s, 1)
+              ),
+              element('span', {class: 'interval'}, numbers.interval(row.low, row.high, 1))
+            ),
+            element('td', {class: 'number'}, numbers.fixed(row.horizon_s, 0)),
+            element('td', {class: 'number'}, numbers.fixed(100 * row.arrived_share, 1)),
+            element('td', {class: 'number'}, row.robots)
+          )
+        )
+      )
+    );
+  }
+  return titled_table(
+    'title-completion',
+    'Restricted mean time to arrive',
+    'The mean over all robots, where one that has not arrived counts with the time limit; 95 % intervals over seeds.',
+    made
+  );
+}
+
+function show_variants(data, rows, variants, holder) {
+  fill(holder);
+  const keys = variants.map((variant) => variant.key);
+  const seen = labels
+    .strata(data)
+    .filter((stratum) => keys.includes(stratum.variant.key))
+    .map((stratum) => ({
+      stratum,
+      rows: rows.filter((row) => stratum.combinations.includes(row.combination) && (row.steps || []).length > 0),
+    }))
+    .filter((one) => one.rows.length > 0);
+  const draw = (one, plot, width) => {
+    const until = last_of_interest(
+      seen.filter((other) => other.stratum.variant === one.stratum.variant).flatMap((other) => other.rows)
+    );
+    draw_panel(data, one.rows, until, `Arrivals over time: ${one.stratum.title}`, plot, width);
+  };
+  if (seen.length > 0) small_plots.panels(holder, 'share of robots that have arrived', seen, draw);
+  holder.append(table(data, rows, variants));
+}
+
+export function mount(body, data) {
+  const rows = data.completion.filter((row) => numbers.is_number(row.restricted_mean_s));
+  if (rows.length === 0) return 'times of completion were not measured';
+  const variants = labels.variants(data);
+  const first = controls.first_variant(variants, rows.length);
+  const holder = element('div');
+  const show = (key) =>
+    show_variants(
+      data,
+      rows,
+      variants.filter((variant) => key === 'all' || variant.key === key),
+      holder
+    );
+  fill(
+    body,
+    controls.row(controls.variant_select(variants, first, show)),
+    plots.field_legend(data, 'local_controller', true),
+    holder
+  );
+  show(first);
+  return null;
+}

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// diagnosis.js: one metric against another, trial by trial, each scenario and planner on its own, with rank
+// correlations.
+import * as controls from '../controls.js';
+import {element, fill, titled_table} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as ranking from '../ranking.js';
+import * as plots from './plots.js';
+import * as small_plots from './small_plots.js';
+import * as trial_points from './trial_points.js';
+
+// Rows of data.trials in which both are defined.
+export function points_of(data, stratum, chosen) {
+  const inside = new Set(stratum.combinations);
+  const of = (name, i) => data.values[name][i];
+  return data.trials.id
+    .map((_, i) => i)
+    .filter(
+      (i) =>
+        inside.has(data.trials.combination[i]) &&
+        ranking.is_defined(of(chosen.x, i)) &&
+        ranking.is_defined(of(chosen.y, i))
+    );
+}
+
+export function correlation_of(data, stratum, x, y) {
+  return data.correlations.find(
+    (one) =>
+      labels.is_of(stratum.variant.scenario, one) &&
+      one.x === x &&
+      one.y === y &&
+      one.global_planner === stratum.global_planner &&
+      (one.pedestrian_model === undefined || one.pedestrian_model === stratum.pedestrian_model)
+  );
+}
+
+function correlation_words(found) {
+  if (!found) return '';
+  if (!numbers.is_number(found.rho)) return `no correlation: too few trials, or all equal (n ${found.n})`;
+  const {interval, signed} = numbers;
+  return `ρ ${signed(found.rho, 2)} ${interval(found.low, found.high, 2, signed)}, n ${found.n}`;
+}
+
+function draw_panel(data, trials, chosen, domains, holder, width, detail) {
+  const titles = {x: labels.metric_with_unit(data, chosen.x), y: labels.metric_with_unit(data, chosen.y)};
+  const {svg, x, y} = small_plots.frame(
+    holder,
+    width,
+    {x: (pixels) => plots.linear(domains.x, pixels), y: (pixels) => plots.linear(domains.y, pixels)},
+    {all: `${titles.y} against ${titles.x}`, x: titles.x, y_unit: labels.metric_unit(data, chosen.y)}
+  );
+  const points = trials.map((row) => {
+    const at = {x: x(data.values[chosen.x][row]), y: y(data.values[chosen.y][row])};
+    return {...at, row, node: trial_points.draw_mark(svg, data, row, at.x, at.y)};
+  });
+  trial_points.choosable(svg, data, points, [chosen.x, chosen.y], detail);
+}
+
+function correlation_cell(found) {
+  if (!found || !numbers.is_number(found.rho)) {
+    return element(
+      'td',
+      {class: 'number', title: found ? `too few trials, or all equal (n ${found.n})` : null},
+      numbers.UNDEFINED,
+      found && element('span', {class: 'interval'}, `n ${found.n}`)
+    );
+  }
+  return element(
+    'td',
+    {class: 'number'},
+    element('span', {class: 'mean'}, numbers.signed(found.rho, 2)),
+    element('span', {class: 'interval'}, numbers.interval(found.low, found.high, 2, numbers.signed)),
+    element(
+      'span',
+      {class: 'interval'},
+      `p ${numbers.p_value(found.p)} · n ${found.n} · ties ${numbers.percent(found.ties_share)}`
+    )
+  );
+}
+
+// Strata by the declared pairs.
+function correlation_table(data, strata) {
+  const pairs = labels
+    .distinct(data.correlations.map((one) => JSON.stringify([one.x, one.y])))
+    .map((text) => JSON.parse(text));
+  if (pairs.length === 0) return null;
+  const title = ([x, y]) => `${labels.metric_title(data, x)}, ${labels.metric_title(data, y)}`;
+  const note =
+    'Spearman\u2019s ρ over the trials in which both are defined, of all controllers together; 95 % intervals over ' +
+    'seeds. p by permutation within each controller: controllers that differ in both make ρ large, but not p small. ' +
+    'Ties: the share of pairs of trials that are equal in one of the two.';
+  return titled_table(
+    'title-correlations',
+    'Rank correlations',
+    note,
+    element(
+      'table',
+      {class: 'results with-intervals'},
+      element(
+        'thead',
+        {},
+        element(
+          'tr',
+          {},
+          element('th', {scope: 'col'}, 'scenario and planner'),
+          pairs.map((pair) =>
+            element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
+          )
+        )
+      ),
+      element(
+        'tbody',
+        {},
+        strata.map((stratum) =>
+          element(
+            'tr',
+            {},
+            element('th', {scope: 'row'}, stratum.title),
+            pairs.map(([x, y]) => correlation_cell(correlation_of(data, stratum, x, y)))
+          )
+        )
+      )
+    )
+  );
+}
+
+function first_choice(data, measured) {
+  const layout = data.layouts.report.diagnosis || {};
+  const known = (name) => measured.some((metric) => metric.name === name);
+  const x = known(layout.x) ? layout.x : measured[0].name;
+  const y = (layout.y || []).find((name) => known(name)) || measured.find((metric) => metric.name !== x).name;
+  return {x, y};
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
+  if (data.trials.id.length < 3)
+    return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be seen`;
+  if (measured.length < 2) return 'fewer than two metrics have values';
+  const strata = labels.strata(data);
+  const chosen = first_choice(data, measured);
+  const holder = element('div');
+  const detail = trial_points.detail_line();
+  const show = () => {
+    fill(holder);
+    fill(detail);
+    const seen = strata
+      .map((stratum) => ({
+        stratum,
+        trials: points_of(data, stratum, chosen),
+        line: correlation_words(correlation_of(data, stratum, chosen.x, chosen.y)),
+      }))
+      .filter((one) => one.trials.length > 0);
+    if (seen.length === 0) {
+      fill(holder, element('p', {class: 'note'}, 'In no trial are both defined.'));
+      return;
+    }
+    const values = (name, variant) =>
+      seen
+        .filter((one) => one.stratum.variant === variant)
+        .flatMap((one) => one.trials.map((i) => data.values[name][i]));
+    small_plots.panels(holder, labels.metric_with_unit(data, chosen.y), seen, (one, plot, width) => {
+      const {variant} = one.stratum;
+      const domains = {x: values(chosen.x, variant), y: values(chosen.y, variant)};
+      draw_panel(data, one.trials, chosen, domains, plot, width, detail);
+    });
+  };
+  const choose = (key) => (value) => {
+    chosen[key] = value;
+    show();
+  };
+  fill(
+    body,
+    controls.row(
+      controls.metric_select(data, 'Sideways', measured, chosen.x, choose('x')),
+      controls.metric_select(data, 'Upwards', measured, chosen.y, choose('y'))
+    ),
+    trial_points.mark_legend(data),
+    holder,
+    detail,
+    correlation_table(data, strata)
+  );
+  show();
+  return null;
+}

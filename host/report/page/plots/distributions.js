@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// distributions.js: every trial of every combination as a point, so that nothing hides behind a mean.
+import {median} from 'd3-array';
+
+import * as controls from '../controls.js';
+import {element, fill} from '../elements.js';
+import * as labels from '../labels.js';
+import * as ranking from '../ranking.js';
+import * as plots from './plots.js';
+import * as trial_points from './trial_points.js';
+
+const ROW = 24; // px, a combination
+const SPREAD = 7; // px, points up and down from their row's middle
+const UNDEFINED = 40; // px, the column of trials without a value
+const TOP = 26;
+const BOTTOM = 46;
+
+// {rows: [{label, trials: [row of data.trials], median}], has_undefined}
+export function model(data, variant, metric) {
+  const values = data.values[metric];
+  const of = new Map(variant.combinations.map((combination) => [combination, []]));
+  data.trials.combination.forEach((combination, i) => {
+    if (of.has(combination) && data.trials.outcome[i] !== 'skipped') of.get(combination).push(i);
+  });
+  const rows = variant.combinations.map((combination) => {
+    const trials = of.get(combination);
+    const defined = trials.map((i) => values[i]).filter(ranking.is_defined);
+    return {
+      label: labels.combination(data, combination),
+      trials,
+      median: defined.length > 1 ? median(defined) : null,
+    };
+  });
+  return {rows, has_undefined: rows.some((row) => row.trials.some((i) => !ranking.is_defined(values[i])))};
+}
+
+function draw_rows(svg, rows, left, right) {
+  rows.forEach((row, r) => {
+    const y = TOP + (r + 0.5) * ROW;
+    const text = svg
+      .append('text')
+      .attr('x', left - 10)
+      .attr('y', y)
+      .attr('dy', '0.32em')
+      .attr('text-anchor', 'end');
+    plots.fit_text(text, row.label, left - 10);
+    svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
+  });
+}
+
+function draw_undefined_column(svg, right, bottom, trials_without) {
+  if (!trials_without) return;
+  svg
+    .append('text')
+    .attr('class', 'soft')
+    .attr('x', right + UNDEFINED / 2 + 4)
+    .attr('y', 14)
+    .attr('text-anchor', 'middle')
+    .style('font-size', '11px')
+    .text('undefined');
+  svg
+    .append('g')
+    .attr('class', 'grid')
+    .append('line')
+    .attr('x1', right + 10)
+    .attr('x2', right + 10)
+    .attr('y1', TOP - 6)
+    .attr('y2', bottom);
+}
+
+// Over the points, with a rim that sets them off.
+function draw_medians(svg, rows, x) {
+  rows.forEach((row, r) => {
+    if (row.median === null) return;
+    const middle = TOP + (r + 0.5) * ROW;
+    for (const kind of ['median rim', 'median']) {
+      svg
+        .append('line')
+        .attr('class', kind)
+        .attr('x1', x(row.median))
+        .attr('x2', x(row.median))
+        .attr('y1', middle - ROW / 2 + 2)
+        .attr('y2', middle + ROW / 2 - 2);
+    }
+  });
+}
+
+function draw_panel(data, shown, domain, metric, holder, width, detail) {
+  fill(holder);
+  const values = data.values[metric];
+  const left = Math.min(plots.text_width(shown.rows.map((row) => row.label)) + 14, width * 0.48);
+  const right = width - 8 - (shown.has_undefined ? UNDEFINED + 14 : 4);
+  const bottom = TOP + shown.rows.length * ROW;
+  const x = plots.linear(domain, [left, right]);
+  const title = labels.metric_with_unit(data, metric);
+  const svg = plots.frame(holder, width, bottom + BOTTOM, `${title} of every trial, by combination`);
+  draw_rows(svg, shown.rows, left, right);
+  draw_undefined_column(svg, right, bottom, shown.has_undefined);
+  plots.axis_bottom(svg, x, bottom, title);
+  const points = [];
+  shown.rows.forEach((row, r) => {
+    const middle = TOP + (r + 0.5) * ROW;
+    for (const trial of row.trials) {
+      const jitter = trial_points.jitter(data.trials.id[trial]);
+      const defined = ranking.is_defined(values[trial]);
+      const at = defined
+        ? x(values[trial])
+        : right + 10 + UNDEFINED / 2 + trial_points.jitter(data.trials.id[trial], 1) * (UNDEFINED / 2 - 8);
+      const y = middle + (row.trials.length > 1 ? jitter * SPREAD : 0);
+      points.push({x: at, y: middle, row: trial, node: trial_points.draw_mark(svg, data, trial, at, y)});
+    }
+  });
+  draw_medians(svg, shown.rows, x);
+  trial_points.choosable(svg, data, points, [metric], detail);
+}
+
+function default_metric(data, measured) {
+  const wanted = (data.layouts.report.distributions || {}).metric;
+  return measured.some((metric) => metric.name === wanted) ? wanted : measured[0].name;
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
+  if (measured.length === 0) return 'no metric has a value in any trial';
+  const variants = labels.variants(data).filter((variant) => variant.combinations.length > 0);
+  const chosen = {metric: default_metric(data, measured), variant: 'all'};
+  const holder = element('div');
+  const detail = trial_points.detail_line();
+  const show = () => {
+    fill(holder);
+    fill(detail);
+    const seen = variants.filter((variant) => chosen.variant === 'all' || variant.key === chosen.variant);
+    const panels = plots.panels(
+      holder,
+      seen.map((variant) => (variants.length > 1 ? variant.label : null)),
+      {least: 340, most: 760, most_columns: 3}
+    );
+    const domain = data.values[chosen.metric];
+    seen.forEach((variant, i) => {
+      const shown = model(data, variant, chosen.metric);
+      plots.responsive(panels[i].querySelector('.plot'), (plot, width) =>
+        draw_panel(data, shown, domain, chosen.metric, plot, width, detail)
+      );
+    });
+  };
+  fill(
+    body,
+    controls.row(
+      controls.metric_select(data, 'Metric', measured, chosen.metric, (name) => {
+        chosen.metric = name;
+        show();
+      }),
+      controls.variant_select(variants, 'all', (key) => {
+        chosen.variant = key;
+        show();
+      })
+    ),
+    trial_points.mark_legend(data),
+    holder,
+    detail
+  );
+  show();
+  return null;
+}

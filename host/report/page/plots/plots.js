@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// plots.js: what all plots share: frames, axes, shapes, the tip, panels side by side.
+import {extent} from 'd3-array';
+import {axisBottom, axisLeft} from 'd3-axis';
+import {scaleLinear} from 'd3-scale';
+import {select} from 'd3-selection';
+import {
+  symbol as shape,
+  symbolCircle,
+  symbolCross,
+  symbolDiamond,
+  symbolSquare,
+  symbolStar,
+  symbolTriangle,
+  symbolWye,
+} from 'd3-shape';
+
+import {element, fill} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+
+// Draws now and again when the width changes. draw(holder, width) fills the holder.
+export function responsive(holder, draw) {
+  let drawn = 0;
+  const redraw = () => {
+    const width = Math.floor(holder.clientWidth);
+    if (width === 0 || width === drawn) return;
+    drawn = width;
+    draw(holder, width);
+  };
+  new ResizeObserver(() => window.requestAnimationFrame(redraw)).observe(holder);
+  redraw();
+  return () => {
+    drawn = 0;
+    redraw();
+  };
+}
+
+export function frame(holder, width, height, label) {
+  return select(holder)
+    .append('svg')
+    .attr('viewBox', `0 0 ${width} ${height}`)
+    .attr('width', width)
+    .attr('height', height)
+    .attr('role', 'img')
+    .attr('aria-label', label);
+}
+
+// Not more ticks than there is room for.
+function ticks_for(length, each) {
+  return Math.max(2, Math.floor(length / each));
+}
+
+function number_format(value) {
+  return numbers.fixed(value, Math.min(6, (String(value).split('.')[1] || '').length));
+}
+
+export function axis_bottom(parent, scale, y, title, options = {}) {
+  const [left, right] = scale.range();
+  const axis = axisBottom(scale)
+    .ticks(ticks_for(right - left, 48))
+    .tickSize(4)
+    .tickPadding(5)
+    .tickFormat(number_format);
+  const made = parent.append('g').attr('class', 'axis').attr('transform', `translate(0,${y})`).call(axis);
+  if (title) {
+    made
+      .append('text')
+      .attr('class', 'title')
+      .attr('x', options.title_x === undefined ? (left + right) / 2 : options.title_x)
+      .attr('y', 34)
+      .attr('text-anchor', 'middle')
+      .text(title);
+  }
+  return made;
+}
+
+export function axis_left(parent, scale, x) {
+  const [bottom, top] = scale.range();
+  const axis = axisLeft(scale)
+    .ticks(ticks_for(bottom - top, 36))
+    .tickSize(4)
+    .tickPadding(4)
+    .tickFormat(number_format);
+  return parent.append('g').attr('class', 'axis').attr('transform', `translate(${x},0)`).call(axis);
+}
+
+// With room at both ends; a scale of a single value is widened.
+export function linear(values, range, {zero = false} = {}) {
+  let [low, high] = extent(values.filter(numbers.is_number));
+  if (low === undefined) [low, high] = [0, 1];
+  if (zero) [low, high] = [Math.min(0, low), Math.max(0, high)];
+  const room = low === high ? Math.max(0.5, Math.abs(low) * 0.1) : (high - low) * (zero ? 0 : 0.05);
+  return scaleLinear()
+    .domain([low >= 0 ? Math.max(0, low - room) : low - room, high + room])
+    .range(range)
+    .nice();
+}
+
+const SYMBOLS = [symbolCircle, symbolTriangle, symbolSquare, symbolDiamond, symbolStar, symbolWye, symbolCross];
+
+export function symbol(index, size = 44) {
+  return shape()
+    .type(SYMBOLS[index % SYMBOLS.length])
+    .size(size)();
+}
+
+// What a trial that failed is drawn as.
+export function cross(radius = 3.6) {
+  return `M${-radius},${-radius}L${radius},${radius}M${-radius},${radius}L${radius},${-radius}`;
+}
+
+// entries: [{label, colour, path, failed?, line?, dash?}]
+export function legend(entries) {
+  const list = element('ul', {class: 'legend'});
+  for (const entry of entries) {
+    const item = element('li');
+    const width = entry.line ? 28 : 14;
+    const svg = select(item).append('svg').attr('width', width).attr('height', 14).attr('aria-hidden', 'true');
+    if (entry.line)
+      svg
+        .append('line')
+        .attr('x1', 0)
+        .attr('x2', width)
+        .attr('y1', 7)
+        .attr('y2', 7)
+        .attr('class', 'line')
+        .style('stroke', entry.colour)
+        .style('stroke-dasharray', entry.dash);
+    svg
+      .append('path')
+      .attr('transform', `translate(${width / 2},7)`)
+      .attr('d', entry.path)
+      .attr('class', entry.failed ? 'mark failed' : 'mark')
+      .style('--colour', entry.colour)
+      .style('fill', entry.failed ? 'none' : entry.colour);
+    item.append(entry.label);
+    list.append(item);
+  }
+  return list;
+}
+
+// A legend of one kind's labels: empty where there is only one.
+export function field_legend(data, field, line = false) {
+  const values = labels.values_of(data, field);
+  if (values.length < 2) return null;
+  return legend(
+    values.map((value) => {
+      const series = labels.series(data, field, value);
+      return {
+        label: labels.named(value),
+        colour: series.colour,
+        path: symbol(series.symbol),
+        line,
+        dash: series.dash,
+      };
+    })
+  );
+}
+
+// Near `target`'s box, inside the window.
+export function show_tip(target, ...content) {
+  const tip = document.getElementById('tip');
+  fill(tip, content);
+  tip.hidden = false;
+  const of = target.getBoundingClientRect();
+  const own = tip.getBoundingClientRect();
+  const left = Math.min(Math.max(8, of.left + of.width / 2 - own.width / 2), window.innerWidth - own.width - 8);
+  const above = of.top - own.height - 8;
+  tip.style.left = `${left}px`;
+  tip.style.top = `${above > 8 ? above : of.bottom + 8}px`;
+}
+
+export function hide_tip() {
+  document.getElementById('tip').hidden = true;
+}
+
+const text_measure = () => document.createElement('canvas').getContext('2d');
+
+// Width in pixels of the longest of `texts` at the size of labels.
+export function text_width(texts) {
+  const context = text_measure();
+  context.font = `12px ${window.getComputedStyle(document.body).fontFamily}`;
+  return Math.max(0, ...texts.map((text) => context.measureText(text).width));
+}
+
+// Cut to `width` pixels; the whole of it for who points at it.
+export function fit_text(text, words, width) {
+  let shown = words;
+  while (shown.length > 4 && text_width([shown]) > width) shown = `${shown.slice(0, -2).trimEnd()}…`;
+  text.text(shown);
+  if (shown !== words) text.append('title').text(words);
+}
+
+export const SMALL_PANELS = {least: 240, most: 520, most_columns: 4};
+
+// Panels in columns of `least` to `most` pixels. Returns their elements.
+export function panels(holder, titles, {least, most, most_columns}) {
+  const columns = Math.max(1, Math.min(most_columns, titles.length));
+  const grid = element('div', {class: 'facets'});
+  grid.style.maxWidth = `${columns * most}px`;
+  const share = `calc((100% - ${columns - 1} * 1.75rem) / ${columns})`;
+  grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), ${share}), 1fr))`;
+  const made = titles.map((title) => {
+    const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), element('div', {class: 'plot'}));
+    grid.append(panel);
+    return panel;
+  });
+  holder.append(grid);
+  return made;
+}

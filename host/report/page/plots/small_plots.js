@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// small_plots.js: panels side by side, one for each scenario and planner, and the frame, grid and axes of each.
+import {element, fill} from '../elements.js';
+import * as plots from './plots.js';
+
+const BODY = 148; // px, the height between the axis and the top of the grid
+const UNIT = 12; // px, room for y's unit
+const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
+
+// An empty plot: {svg, x, y}, the axes' scales. `x`, `y`: (pixels) => scale, y's from the bottom up.
+// titles: {all, x, y_unit}; lines: where the grid has them, by default at the ticks.
+export function frame(holder, width, {x, y}, titles, lines) {
+  fill(holder);
+  const top = MARGIN.top + (titles.y_unit ? UNIT : 0);
+  const bottom = top + BODY;
+  const scales = {x: x([MARGIN.left, width - MARGIN.right]), y: y([bottom, top])};
+  const svg = plots.frame(holder, width, bottom + MARGIN.bottom, titles.all);
+  svg
+    .append('g')
+    .attr('class', 'grid')
+    .selectAll('line')
+    .data(lines || scales.y.ticks(4))
+    .enter()
+    .append('line')
+    .attr('x1', MARGIN.left)
+    .attr('x2', width - MARGIN.right)
+    .attr('y1', scales.y)
+    .attr('y2', scales.y);
+  plots.axis_bottom(svg, scales.x, bottom, titles.x);
+  const left = plots.axis_left(svg, scales.y, MARGIN.left);
+  if (titles.y_unit)
+    left
+      .append('text')
+      .attr('class', 'title')
+      .attr('x', -8)
+      .attr('y', top - 11)
+      .attr('text-anchor', 'end')
+      .text(titles.y_unit);
+  return {svg, ...scales};
+}
+
+// seen: [{stratum, line}], `line` being a word above the plot, if there is one; draw(one, holder, width).
+export function panels(holder, upwards, seen, draw) {
+  fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${upwards}`));
+  const made = plots.panels(
+    holder,
+    seen.map((one) => one.stratum.title),
+    plots.SMALL_PANELS
+  );
+  seen.forEach((one, i) => {
+    const plot = made[i].querySelector('.plot');
+    if (one.line !== undefined) made[i].insertBefore(element('p', {class: 'figure-line'}, one.line), plot);
+    plots.responsive(plot, (inside, width) => draw(one, inside, width));
+  });
+}

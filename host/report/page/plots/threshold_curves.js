@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// threshold_curves.js: lines with bands, a panel for each scenario and planner, a line for each controller: metrics over their
+// thresholds.
+import {extent} from 'd3-array';
+import {scaleLinear} from 'd3-scale';
+import {area, line} from 'd3-shape';
+
+import * as controls from '../controls.js';
+import {element, fill} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as plots from './plots.js';
+import * as small_plots from './small_plots.js';
+
+// What the layout says of a metric's coordinate: {metric, coordinate, coordinate_unit}.
+function layout_of(data, metric) {
+  return (data.layouts.report.curves || []).find((one) => one.metric === metric) || {};
+}
+
+// What the axes must hold.
+function extents_of(data, curves) {
+  const points = curves.flatMap((curve) => curve.points);
+  const unit = numbers.unit(curves[0].coordinate_unit || '');
+  return {
+    title: (layout_of(data, curves[0].metric).coordinate || 'threshold') + (unit ? ` (${unit})` : ''),
+    coordinates: points.map((point) => point[0]),
+    values: points.flatMap((point) => point.slice(1, 4)).filter(numbers.is_number),
+  };
+}
+
+function has_values(curve) {
+  return curve.points.some((point) => numbers.is_number(point[1]));
+}
+
+function series_of(data, curve) {
+  return labels.series(data, 'local_controller', data.combinations[curve.combination].local_controller);
+}
+
+function draw_curve(svg, curve, series, x, y) {
+  const defined = (point) => numbers.is_number(point[1]);
+  const banded = (point) => numbers.is_number(point[2]) && numbers.is_number(point[3]);
+  svg
+    .append('path')
+    .attr('class', 'band')
+    .style('fill', series.colour)
+    .attr(
+      'd',
+      area()
+        .defined(banded)
+        .x((point) => x(point[0]))
+        .y0((point) => y(point[2]))
+        .y1((point) => y(point[3]))(curve.points)
+    );
+  svg
+    .append('path')
+    .attr('class', 'line')
+    .style('stroke', series.colour)
+    .style('stroke-dasharray', series.dash)
+    .attr(
+      'd',
+      line()
+        .defined(defined)
+        .x((point) => x(point[0]))
+        .y((point) => y(point[1]))(curve.points)
+    );
+  for (const point of curve.points.filter(defined)) {
+    svg
+      .append('path')
+      .attr('class', 'mark')
+      .style('fill', series.colour)
+      .attr('d', plots.symbol(series.symbol, 34))
+      .attr('transform', `translate(${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)})`);
+  }
+}
+
+function draw_panel(data, metric, one, extents, holder, width) {
+  const {svg, x, y} = small_plots.frame(
+    holder,
+    width,
+    {
+      x: (pixels) => scaleLinear().domain(extent(extents.coordinates)).range(pixels),
+      y: (pixels) => plots.linear(extents.values, pixels, {zero: true}),
+    },
+    {
+      all: `${labels.metric_title(data, metric)} over its threshold: ${one.stratum.title}`,
+      x: extents.title,
+      y_unit: labels.metric_unit(data, metric),
+    }
+  );
+  for (const curve of one.curves) draw_curve(svg, curve, series_of(data, curve), x, y);
+}
+
+function show_metric(data, metric, holder, note) {
+  const found = data.curves.filter((curve) => curve.metric === metric && has_values(curve));
+  const seen = labels
+    .strata(data)
+    .map((stratum) => ({
+      stratum,
+      curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
+    }))
+    .filter((one) => one.curves.length > 0);
+  const extents = (stratum) =>
+    extents_of(
+      data,
+      found.filter((curve) => stratum.variant.combinations.includes(curve.combination))
+    );
+  small_plots.panels(holder, labels.metric_with_unit(data, metric), seen, (one, plot, width) =>
+    draw_panel(data, metric, one, extents(one.stratum), plot, width)
+  );
+  const about = labels.metric(data, metric);
+  fill(note, about ? `${about.description} (${labels.direction_words(about.direction)}).` : '');
+}
+
+export function mount(body, data) {
+  const names = labels.distinct(data.curves.filter(has_values).map((curve) => curve.metric));
+  if (names.length === 0) return 'no metric was measured over a range of thresholds';
+  const holder = element('div');
+  const note = element('p', {class: 'note'});
+  const options = names.map((name) => ({value: name, label: labels.metric_with_unit(data, name)}));
+  fill(
+    body,
+    controls.row(controls.select('Metric', options, names[0], (name) => show_metric(data, name, holder, note))),
+    plots.field_legend(data, 'local_controller', true),
+    holder,
+    note
+  );
+  show_metric(data, names[0], holder, note);
+  return null;
+}

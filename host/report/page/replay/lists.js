@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// lists.js: beside the map: the robots with what they do right now, and what happened in the trial.
+import {element} from '../elements.js';
+import * as numbers from '../numbers.js';
+import {is_now} from './events.js';
+import * as look from './look.js';
+import * as recording from './recording.js';
+
+const UPDATE_S = 0.1; // what is written changes no more often than this, in the trial's time
+
+// Whether so much time has passed, or the replay stands, that what is written should be brought up to date.
+function make_pace() {
+  let last = null;
+  return (t, is_playing) => {
+    const due = !is_playing || last === null || Math.abs(t - last) >= UPDATE_S;
+    if (due) last = t;
+    return due;
+  };
+}
+
+function state_words(robot, k) {
+  if (robot.state[k] === recording.FINISHED) return 'arrived';
+  if (robot.state[k] === recording.FAILED) return robot.failure ? `failed: ${robot.failure}` : 'failed';
+  return robot.goals.length > 1
+    ? `to goal ${Math.min(robot.goal[k] + 1, robot.goals.length)} of ${robot.goals.length}`
+    : 'driving';
+}
+
+// handlers: pick(robot index).
+export function make_robot_list(handlers) {
+  const body = element('tbody');
+  const node = element(
+    'div',
+    {class: 'replay-robots'},
+    element(
+      'table',
+      {},
+      element(
+        'thead',
+        {},
+        element(
+          'tr',
+          {},
+          element('th', {scope: 'col'}, 'Robot'),
+          element('th', {scope: 'col'}, 'State'),
+          element('th', {scope: 'col', class: 'number'}, 'm/s'),
+          element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)')
+        )
+      ),
+      body
+    )
+  );
+  let rows = [];
+  let replay = null;
+  const is_due = make_pace();
+
+  function robot_row(robot) {
+    const number = element(
+      'span',
+      {class: 'replay-number', style: `--colour: ${look.robot_variable(robot.index)}`},
+      String(robot.index)
+    );
+    const button = element(
+      'button',
+      {
+        type: 'button',
+        class: 'replay-robot',
+        'aria-pressed': 'false',
+        'data-testid': `replay-robot-${robot.index}`,
+        'aria-label': `robot ${robot.index}, ${robot.name}`,
+        onclick: () => handlers.pick(robot.index),
+      },
+      number,
+      element('span', {class: 'replay-robot-name'}, robot.name)
+    );
+    const cells = {
+      state: element('td'),
+      speed: element('td', {class: 'number'}),
+      deviation: element('td', {class: 'number'}),
+    };
+    return {
+      button,
+      cells,
+      row: element('tr', {}, element('th', {scope: 'row'}, button), cells.state, cells.speed, cells.deviation),
+    };
+  }
+
+  function show(shown) {
+    replay = shown;
+    rows = replay.robots.map(robot_row);
+    body.textContent = '';
+    body.append(...rows.map((one) => one.row));
+  }
+
+  function write(cell, text) {
+    if (cell.textContent !== text) cell.textContent = text;
+  }
+
+  function draw(at, is_playing) {
+    if (!is_due(at.t, is_playing)) return;
+    rows.forEach(({cells}, i) => {
+      const robot = replay.robots[i];
+      write(cells.state, state_words(robot, at.k));
+      write(cells.speed, at.k < robot.speed.length ? numbers.fixed(robot.speed[at.k], 2) : numbers.UNDEFINED);
+      write(
+        cells.deviation,
+        at.k < robot.deviation.length ? numbers.fixed(robot.deviation[at.k], 2) : numbers.UNDEFINED
+      );
+    });
+  }
+
+  function pick(picked) {
+    rows.forEach(({button, row}, i) => {
+      button.setAttribute('aria-pressed', String(i === picked));
+      row.classList.toggle('picked', i === picked);
+    });
+  }
+
+  return {node, show, draw, pick};
+}
+
+const SYMBOLS = {
+  contact: '✕',
+  arrival: '✓',
+  failure: '■',
+  plan: '↻',
+  metric: '▬',
+};
+
+// handlers: jump(event).
+export function make_event_list(handlers) {
+  const list = element('ol', {class: 'replay-events', 'data-testid': 'replay-events'});
+  const nothing = element('p', {class: 'note'}, 'Nothing was noticed in this trial.');
+  const node = element('div', {class: 'replay-happened'}, element('h3', {}, 'What happened'), list, nothing);
+  const is_due = make_pace();
+  let buttons = [];
+  let events = [];
+
+  function show(its_events) {
+    events = its_events;
+    list.textContent = '';
+    nothing.hidden = events.length > 0;
+    list.hidden = events.length === 0;
+    buttons = events.map((event) =>
+      element(
+        'button',
+        {type: 'button', class: `replay-event ${event.kind}`, onclick: () => handlers.jump(event)},
+        element('span', {class: 'number'}, `${event.from.toFixed(1)} s`),
+        element('span', {class: 'replay-symbol', 'aria-hidden': 'true'}, SYMBOLS[event.kind]),
+        element(
+          'span',
+          {},
+          event.text,
+          event.to - event.from >= 0.1
+            ? element('span', {class: 'soft'}, ` for ${(event.to - event.from).toFixed(1)} s`)
+            : null
+        )
+      )
+    );
+    buttons.forEach((button) => list.append(element('li', {}, button)));
+  }
+
+  function draw(t, is_playing) {
+    if (!is_due(t, is_playing)) return;
+    buttons.forEach((button, i) => button.classList.toggle('now', is_now(events[i], t)));
+  }
+
+  return {node, show, draw};
+}

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// player.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
+//
+// For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
+// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the
+// id of the trial that is shown as data-trial once it can be played.
+import {element} from '../elements.js';
+import {choice_words, left_out_words, make_chooser, trial_summary} from './chooser.js';
+import {make_clock} from './clock.js';
+import {make_curves} from './curves.js';
+import {all_events} from './events.js';
+import {make_event_list, make_robot_list} from './lists.js';
+import * as look from './look.js';
+import * as recording from './recording.js';
+import {make_stage} from './stage.js';
+import {make_time_line} from './time_line.js';
+import {follow_keys, make_transport} from './transport.js';
+
+const KEY =
+  'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot now. ' +
+  'Large rings: goals. Grey: people.';
+const SCANS_KEY = " Dots in a robot's colour: what its lidar hit.";
+let player = null;
+
+function make_player(section, data, make_3d_view) {
+  const clock = make_clock();
+  const layers = {plans: true, trails: true, people: true, scans: true};
+  const scene = {
+    replay: null,
+    at: null,
+    picked: null,
+    follow: false,
+    layers,
+    events: [],
+    colours: null,
+    whole_trails: false,
+  };
+  let latest = 0; // number of the last request: an older one that comes late is dropped
+
+  const stage = make_stage({pick, redraw}, make_3d_view);
+  const time_line = make_time_line(data, {jump, go: seek});
+  const curves = make_curves({pick, go: seek});
+  const robots = make_robot_list({pick});
+  const happened = make_event_list({jump});
+  const chooser = make_chooser(data, open);
+  const summary = element('p', {class: 'note replay-summary', 'aria-live': 'polite'});
+
+  function layer_box(name, title) {
+    const box = element('input', {
+      type: 'checkbox',
+      checked: layers[name],
+      'data-testid': `replay-${name}`,
+      onchange: () => {
+        layers[name] = box.checked;
+        redraw();
+      },
+    });
+    return element('label', {class: 'control check'}, box, element('span', {}, title));
+  }
+
+  const follow_box = element('input', {
+    type: 'checkbox',
+    'data-testid': 'replay-follow',
+    onchange: () => {
+      scene.follow = follow_box.checked;
+      if (scene.follow) prepare_following();
+      redraw();
+    },
+  });
+  const scan_box = layer_box('scans', 'lidar');
+  const boxes = element(
+    'div',
+    {class: 'replay-layers'},
+    layer_box('plans', 'plans'),
+    layer_box('trails', 'trails'),
+    layer_box('people', 'people'),
+    scan_box,
+    element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow'))
+  );
+
+  const key = element('p', {class: 'note replay-key'});
+  const controls = element('div', {class: 'replay-controls'}, make_transport(clock), stage.tools, boxes);
+  const node = element(
+    'div',
+    {class: 'replay-player'},
+    element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, key),
+    element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node)
+  );
+  follow_keys(node, clock, {pick, zoom: stage.zoom});
+
+  function redraw() {
+    if (!scene.replay) return;
+    scene.at = recording.moment(scene.replay, clock.t);
+    stage.draw(scene);
+    time_line.draw(clock.t);
+    curves.draw(scene.at, scene.picked);
+    robots.draw(scene.at, clock.playing);
+    happened.draw(clock.t, clock.playing);
+  }
+
+  function pick(index) {
+    if (index !== null && (!scene.replay || index >= scene.replay.robots.length)) return;
+    scene.picked = index === scene.picked ? null : index;
+    robots.pick(scene.picked);
+    curves.pick(scene.picked);
+    redraw();
+  }
+
+  function prepare_following() {
+    if (scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
+    if (stage.node.dataset.mode === '2d') stage.zoom(2.5);
+  }
+
+  function seek(t) {
+    clock.pause();
+    clock.go(t);
+  }
+
+  // A little before, so that it can be seen coming.
+  function jump(event) {
+    seek(event.from);
+    if (event.robots.length > 0 && scene.picked !== event.robots[0]) pick(event.robots[0]);
+  }
+
+  function show(replay) {
+    scene.replay = replay;
+    scene.picked = null;
+    scene.events = all_events(replay);
+    scene.at = recording.moment(replay, 0);
+    scene.colours = look.read_colours();
+    scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
+    key.textContent = KEY + (scan_box.hidden ? '' : SCANS_KEY);
+    robots.node.hidden = replay.robots.length === 0;
+    curves.node.hidden = robots.node.hidden || replay.end === 0; // without a plan nothing moved
+    robots.show(replay);
+    robots.pick(null);
+    happened.show(scene.events);
+    stage.show(scene);
+    time_line.show(replay, scene.events);
+    curves.show(replay, scene.events);
+    clock.begin(replay.end);
+  }
+
+  async function open(trial) {
+    const entry = data.replays.find((one) => one.trial === trial);
+    if (!entry) return false;
+    const request = ++latest;
+    clock.pause();
+    chooser.show(trial);
+    delete section.dataset.trial;
+    try {
+      const replay = await recording.load(document.getElementById(entry.element));
+      if (request !== latest) return false;
+      stage.say('');
+      show(replay);
+    } catch (error) {
+      if (request === latest) stage.say(`This replay cannot be unpacked here: ${error.message}`);
+      return false;
+    }
+    summary.textContent = `${trial_summary(data, entry)}: ended after ${scene.replay.end.toFixed(1)} s, ${
+      scene.replay.reason
+    }.`;
+    section.dataset.trial = trial;
+    return true;
+  }
+
+  function relook() {
+    scene.colours = look.read_colours();
+    stage.forget();
+    redraw();
+  }
+
+  function resize() {
+    stage.resize();
+    time_line.resize();
+    curves.resize();
+    curves.pick(scene.picked);
+    redraw();
+  }
+
+  // Paper shows the beginning, and where everybody went from there.
+  let t_before_printing = 0;
+  function print(begins) {
+    clock.pause();
+    if (begins) t_before_printing = clock.t;
+    scene.whole_trails = begins;
+    clock.go(begins ? 0 : t_before_printing);
+    relook();
+  }
+
+  let width = 0;
+  new ResizeObserver(() => {
+    if (node.clientWidth === width) return;
+    width = node.clientWidth;
+    requestAnimationFrame(resize);
+  }).observe(node);
+  window.addEventListener('resize', () => requestAnimationFrame(resize));
+  window.addEventListener('beforeprint', () => print(true));
+  window.addEventListener('afterprint', () => print(false));
+  document.addEventListener('dmrp:theme', relook);
+  clock.on_change(redraw);
+  return {node, chooser: chooser.node, summary, open};
+}
+
+function notes(data) {
+  const words = [
+    ...left_out_words(data),
+    'Any other trial with a trace comes in by: dmrp-host report RUN_DIR --replay TRIAL',
+  ];
+  return words.map((sentence) => element('p', {class: 'note'}, sentence));
+}
+
+// make_3d_view: replay_3d/view.js's make_view. Returns why there is nothing to show, or null.
+export function mount(body, data, make_3d_view) {
+  if (data.replays.length === 0 && data.replays_left_out.length === 0) return 'no trace was recorded';
+  if (data.replays.length === 0) {
+    body.append(element('p', {class: 'note'}, 'No trial can be replayed.'), ...notes(data));
+    return null;
+  }
+  player = make_player(body.closest('section'), data, make_3d_view);
+  const choice = choice_words(data);
+  body.append(
+    choice ? element('p', {class: 'lead'}, choice) : '',
+    player.chooser,
+    player.summary,
+    player.node,
+    ...notes(data)
+  );
+  const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
+  player.open(first.trial);
+  return null;
+}
+
+// Resolves to whether the trial can be played now.
+export function open(trial) {
+  return player ? player.open(trial) : Promise.resolve(false);
+}

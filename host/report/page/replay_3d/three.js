@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// three.js: loads the library three.js, which lies packed in the page as #dmrp-three until the 3-D view opens.
+import {unpacked_text} from '../packed_text.js';
+
+export let THREE = null; // set by load_three()
+
+// Runs the library's script once. Rejects where it cannot be unpacked.
+export async function load_three() {
+  if (THREE) return;
+  const text = await unpacked_text(document.getElementById('dmrp-three'));
+  const script = document.createElement('script');
+  script.textContent = text;
+  document.head.append(script);
+  script.remove();
+  THREE = window.THREE;
+}

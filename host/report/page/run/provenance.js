@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// provenance.js: by what, on what and from what the results were made, and how to make them again.
+import * as controls from '../controls.js';
+import {element, fill, titled_table} from '../elements.js';
+import * as overview from './overview.js';
+
+// For a shell.
+function quoted(argument) {
+  return /^[\w./:=,@%+-]+$/.test(argument) ? argument : `'${argument.replace(/'/g, `'\\''`)}'`;
+}
+
+export function command_words(command_line) {
+  return command_line.map(quoted).join(' ');
+}
+
+function facts(data) {
+  const {run} = data;
+  const machine = run.manifest.machine || {};
+  const pairs = [
+    ['dmrp', `${run.version}${run.manifest.abi ? `, plugin ABI ${run.manifest.abi}` : ''}`],
+    ['started', overview.date_words(run.started)],
+    ['compiler', machine.compiler],
+    ['C library', machine.libc],
+    ['processor', machine.cpu_level],
+    ['seed', run.seed],
+  ].filter(([, value]) => value);
+  return element(
+    'dl',
+    {class: 'choices facts'},
+    pairs.map(([title, value]) => [element('dt', {}, title), element('dd', {}, value)])
+  );
+}
+
+function files(data) {
+  const all = data.run.manifest.files || [];
+  if (all.length === 0) return null;
+  return titled_table(
+    'title-files',
+    'Files that were read',
+    null,
+    element(
+      'table',
+      {class: 'files'},
+      element(
+        'thead',
+        {},
+        element(
+          'tr',
+          {},
+          ['what', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))
+        )
+      ),
+      element(
+        'tbody',
+        {},
+        all.map((file) =>
+          element(
+            'tr',
+            {},
+            element('th', {scope: 'row'}, file.role),
+            element('td', {}, element('code', {}, file.path)),
+            element('td', {}, element('code', {class: 'hash'}, file.sha256))
+          )
+        )
+      )
+    )
+  );
+}
+
+function command(text, what) {
+  return element('div', {class: 'command'}, element('code', {}, text), controls.copy_button(text, what));
+}
+
+function repeating(data) {
+  const line = command_words(data.run.command_line);
+  return element(
+    'div',
+    {class: 'repeating'},
+    element('h3', {}, 'To repeat it'),
+    element('p', {}, 'The run was started by'),
+    command(line, 'the command line'),
+    element(
+      'p',
+      {},
+      'The experiment with every default written out is effective.toml, below and in the run directory. With the same ' +
+        'libraries, C library and processor level it gives the same bits in every value but clock times:'
+    ),
+    command('dmrp-host effective.toml', 'the command that repeats the run')
+  );
+}
+
+function folded(title, text) {
+  return element(
+    'details',
+    {class: 'folded'},
+    element('summary', {}, title),
+    controls.copy_button(text, title),
+    element('pre', {tabindex: '0'}, element('code', {}, text))
+  );
+}
+
+export function mount(body, data) {
+  fill(
+    body,
+    facts(data),
+    repeating(data),
+    folded('effective.toml', data.run.effective_toml),
+    folded('manifest.json', JSON.stringify(data.run.manifest, null, 2)),
+    files(data)
+  );
+  return null;
+}

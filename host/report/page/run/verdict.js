@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// verdict.js: what went wrong in a run, or that nothing did: the first thing a reader must know.
+import * as numbers from '../numbers.js';
+
+function sum(values) {
+  return values.reduce((total, value) => total + (value || 0), 0);
+}
+
+// Counts over all trials that ran. The layout says which metrics tell of arrivals and contacts.
+export function tally(data) {
+  const {trials, values, combinations, run} = data;
+  const ran = trials.id.map((_, i) => i).filter((i) => trials.outcome[i] !== 'skipped');
+  const robots = (i) => combinations[trials.combination[i]].robots;
+  const {arrived, contacts} = data.layouts.summary;
+  const known = (name) => ran.filter((i) => (values[name] || [])[i] !== null && (values[name] || [])[i] !== undefined);
+  return {
+    planned: run.trials_planned,
+    ran: ran.length,
+    missing: Math.max(0, run.trials_planned - ran.length),
+    fault_trials: new Set(data.faults.map((fault) => fault.trial)).size,
+    faults: data.faults.length,
+    failed_trials: ran.filter((i) => trials.outcome[i] === 'failed').length,
+    not_repeatable: ran.filter((i) => !trials.repeatable[i]).length,
+    robots: sum(known(arrived).map(robots)),
+    arrived: Math.round(sum(known(arrived).map((i) => values[arrived][i] * robots(i)))),
+    contacts: known(contacts).length ? sum(known(contacts).map((i) => values[contacts][i])) : null,
+    simulated_s: sum(ran.map((i) => trials.sim_time_s[i])),
+    wall_s: sum(ran.map((i) => trials.wall_time_s[i])),
+  };
+}
+
+function all_well(t) {
+  if (t.robots === 0) return 'All is well: no faults, every trial repeatable.';
+  const arrived = `${t.robots} of ${t.robots} robots arrived`;
+  return t.contacts > 0
+    ? `${arrived}, with ${numbers.counted(t.contacts, 'contact')}; no faults, every trial repeatable.`
+    : `All is well: ${arrived}, no faults, every trial repeatable.`;
+}
+
+// [{kind: "bad"|"warning"|"note"|"good", text, section}], the worst first.
+export function lines(data) {
+  const t = tally(data);
+  const found = [];
+  const add = (kind, text, section = null) => found.push({kind, text, section});
+  if (t.ran === 0) add('bad', 'No trial was run: there is nothing to show.');
+  if (t.faults > 0)
+    add(
+      'bad',
+      `${numbers.counted(t.faults, 'fault')} in ${numbers.counted(
+        t.fault_trials,
+        'trial'
+      )}: what a plugin did not give is missing from the numbers below.`,
+      'faults'
+    );
+  if (t.missing > 0 && t.ran > 0)
+    add(
+      'bad',
+      `${numbers.counted(t.missing, 'trial')} of ${t.planned} ${
+        t.missing === 1 ? 'is' : 'are'
+      } missing: the run was not finished.`
+    );
+  if (t.not_repeatable > 0)
+    add(
+      'warning',
+      `${numbers.counted(t.not_repeatable, 'trial')} ${
+        t.not_repeatable === 1 ? 'is' : 'are'
+      } not repeatable to the bit: something was stopped by the clock.`
+    );
+  if (t.robots > 0 && t.arrived === 0)
+    add('note', `No robot arrived: all ${t.robots} failed. Times of completion are undefined.`, 'distributions');
+  else if (t.arrived < t.robots)
+    add(
+      'note',
+      `${numbers.counted(t.robots - t.arrived, 'robot')} of ${t.robots} did not arrive, in ${numbers.counted(
+        t.failed_trials,
+        'trial'
+      )}.`,
+      'distributions'
+    );
+  if (found.length === 0) add('good', all_well(t));
+  else if (t.ran > 0 && found.every((line) => line.kind === 'note'))
+    add('good', `${numbers.counted(t.ran, 'trial')} without a fault, every one repeatable.`);
+  return found;
+}

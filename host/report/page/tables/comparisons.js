@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// comparisons.js: differences between what was tried with the same seeds, as a forest plot.
+import * as controls from '../controls.js';
+import {element, fill} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as interval_rows from './interval_rows.js';
+
+const SIGNIFICANT = 0.05;
+const TESTS = {
+  signed_rank: {
+    estimate: 'median difference',
+    name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann',
+  },
+  sign_flip: {estimate: 'mean difference', name: 'test by flipping signs'},
+};
+
+// The estimate that belongs to the test.
+export function estimate_of(comparison) {
+  return comparison.test === 'sign_flip'
+    ? {estimate: comparison.mean_difference, low: comparison.mean_low, high: comparison.mean_high}
+    : {estimate: comparison.median_difference, low: comparison.low, high: comparison.high};
+}
+
+// Those of one metric and one choice varied, in `variant` or, if that is null, in all.
+export function chosen_rows(data, chosen) {
+  return data.comparisons.filter(
+    (one) =>
+      one.metric === chosen.metric &&
+      one.varied === chosen.varied &&
+      (chosen.variant === 'all' || `${one.scenario}/${one.robots}` === chosen.variant)
+  );
+}
+
+function given_words(data, comparison) {
+  const naming = labels.naming_fields(data);
+  return Object.entries(comparison.given)
+    .filter(([field]) => naming.includes(field))
+    .map(([, label]) => labels.named(label))
+    .join(' + ');
+}
+
+function row_element(data, comparison, x, decimals) {
+  const estimate = estimate_of(comparison);
+  const sure = numbers.is_number(comparison.p_holm) && comparison.p_holm < SIGNIFICANT;
+  const given = given_words(data, comparison);
+  const number = (label, ...content) => element('td', {class: 'number', 'data-label': label}, content);
+  return element(
+    'tr',
+    {class: sure ? 'sure' : null},
+    element(
+      'th',
+      {scope: 'row'},
+      `${labels.named(comparison.b)} \u2212 ${labels.named(comparison.a)}`,
+      given && element('span', {class: 'given'}, ` with ${given}`)
+    ),
+    interval_rows.cell(estimate, x, sure),
+    number(
+      'difference',
+      element('span', {class: 'mean'}, numbers.signed(estimate.estimate, decimals)),
+      element('span', {class: 'interval'}, numbers.interval(estimate.low, estimate.high, decimals, numbers.signed))
+    ),
+    number('p', numbers.p_value(comparison.p)),
+    number('p (Holm)', numbers.p_value(comparison.p_holm)),
+    number('effect', numbers.signed(comparison.effect, 2)),
+    number(
+      'pairs',
+      `${comparison.pairs}`,
+      comparison.ties > 0 && element('span', {class: 'given'}, ` (${numbers.counted(comparison.ties, 'tie')})`)
+    )
+  );
+}
+
+function side_words(direction) {
+  return {
+    lower: ['← first better', 'second better →'],
+    higher: ['← second better', 'first better →'],
+    none: ['', ''],
+  }[direction];
+}
+
+function head(metric, title, x) {
+  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+  const unit = numbers.unit(metric.unit);
+  return element(
+    'thead',
+    {},
+    element(
+      'tr',
+      {},
+      element('th', {scope: 'col'}, 'first \u2212 second'),
+      interval_rows.axis(x, ...side_words(metric.direction)),
+      column(title, unit && element('span', {class: 'unit'}, unit)),
+      column('p'),
+      column('p (Holm)'),
+      column('effect'),
+      column('pairs')
+    )
+  );
+}
+
+function table(data, rows, chosen) {
+  const metric = labels.metric(data, chosen.metric);
+  const estimates = rows.map(estimate_of);
+  const x = interval_rows.scale(estimates);
+  const decimals = labels.decimals(
+    data,
+    chosen.metric,
+    estimates.map((one) => one.estimate)
+  );
+  const {estimate} = TESTS[rows[0].test] || {estimate: 'difference'};
+  const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x));
+  for (const variant of labels.variants(data)) {
+    const own = rows.filter((row) => labels.is_of(variant.scenario, row));
+    if (own.length === 0) continue;
+    made.append(
+      element(
+        'tbody',
+        {},
+        data.scenarios.length > 1 &&
+          element(
+            'tr',
+            {class: 'group'},
+            element('th', {scope: 'rowgroup', colspan: 7}, element('span', {}, variant.label))
+          ),
+        own.map((row) => row_element(data, row, x, decimals))
+      )
+    );
+  }
+  return element('div', {class: 'table-scroll'}, made);
+}
+
+function note_words(data, rows, chosen) {
+  const metric = labels.metric(data, chosen.metric);
+  const test = TESTS[rows[0].test];
+  const empty = rows.filter((row) => row.pairs === 0).length;
+  const declared = (data.layouts.report.comparisons || []).filter((one) => one.metric === chosen.metric);
+  const censored = declared.some((one) => one.censored);
+  const successes = declared.some((one) => one.both_succeeded);
+  return (
+    `${labels.metric_with_unit(data, chosen.metric)}, ${labels.direction_words(metric.direction)}; ` +
+    `${
+      test ? `${test.name}, two-sided` : rows[0].test
+    }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, over all ` +
+    'comparisons of the metric in the scenario between the same kind. Effect: matched-pairs rank-biserial correlation, ' +
+    `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both have'}.` +
+    (censored ? ' A trial that was not completed counts with the time limit.' : '') +
+    (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '')
+  );
+}
+
+export function mount(body, data) {
+  if (data.comparisons.length === 0)
+    return data.combinations.length < 2
+      ? 'there is one combination and nothing to compare it with'
+      : 'no two combinations share a seed';
+  const distinct = (key) => labels.distinct(data.comparisons.map((one) => one[key]));
+  const variants = labels.variants(data);
+  const chosen = {
+    metric: distinct('metric')[0],
+    varied: distinct('varied').includes('local_controller') ? 'local_controller' : distinct('varied')[0],
+    variant: controls.first_variant(variants, data.comparisons.length / distinct('metric').length),
+  };
+  const holder = element('div');
+  const note = element('p', {class: 'note'});
+  const show = () => {
+    const rows = chosen_rows(data, chosen);
+    fill(
+      holder,
+      rows.length > 0 ? table(data, rows, chosen) : element('p', {class: 'note'}, 'Nothing was compared here.')
+    );
+    fill(note, rows.length > 0 && note_words(data, rows, chosen));
+  };
+  const choose = (key) => (value) => {
+    chosen[key] = value;
+    show();
+  };
+  fill(
+    body,
+    controls.row(
+      controls.select(
+        'Metric',
+        distinct('metric').map((name) => ({value: name, label: labels.metric_with_unit(data, name)})),
+        chosen.metric,
+        choose('metric')
+      ),
+      controls.segmented(
+        'Between',
+        distinct('varied').map((field) => ({
+          value: field,
+          label: labels.SHORT_TITLES[field].replace(/s?$/, 's'),
+        })),
+        chosen.varied,
+        choose('varied')
+      ),
+      controls.variant_select(variants, chosen.variant, choose('variant'))
+    ),
+    holder,
+    note
+  );
+  show();
+  return null;
+}

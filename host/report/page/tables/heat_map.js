@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// heat_map.js: planner by controller for one metric; a real table, so that it is read out and printed as one.
+import {scaleLinear} from 'd3-scale';
+
+import * as controls from '../controls.js';
+import {element, fill, hidden} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as ranking from '../ranking.js';
+
+const STRONGEST = 0.7; // more would make the numbers hard to read
+
+// One grid for each variant and pedestrian model: {title, planners, controllers, cells: [[summary or null]]}.
+export function grids(data, metric) {
+  const index = data.metrics.findIndex((candidate) => candidate.name === metric);
+  const models = labels.values_of(data, 'pedestrian_model');
+  return labels
+    .variants(data)
+    .flatMap((variant) =>
+      models.map((model) => {
+        const inside = variant.combinations.filter((i) => data.combinations[i].pedestrian_model === model);
+        const names = (field) => labels.distinct(inside.map((i) => data.combinations[i][field]));
+        const at = (planner, controller) =>
+          inside.find(
+            (i) =>
+              data.combinations[i].global_planner === planner && data.combinations[i].local_controller === controller
+          );
+        const planners = names('global_planner');
+        const controllers = names('local_controller');
+        const cells = planners.map((planner) =>
+          controllers.map((controller) => {
+            const i = at(planner, controller);
+            return i === undefined ? null : {...data.summaries[i][index], combination: i};
+          })
+        );
+        const title = variant.label + (models.length > 1 ? ` · ${labels.named(model)}` : '');
+        return {title, planners, controllers, cells};
+      })
+    )
+    .filter((grid) => grid.planners.length > 0);
+}
+
+function cell_element(cell, good, best, decimals, unit) {
+  if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', title: 'not run'}, '\u00a0'));
+  if (!ranking.is_defined(cell.mean)) {
+    return element(
+      'td',
+      {},
+      element('span', {class: 'cell nothing', title: 'undefined in every trial'}, numbers.UNDEFINED)
+    );
+  }
+  const about = numbers.with_unit(numbers.interval(cell.low, cell.high, decimals), unit);
+  const made = element(
+    'span',
+    {class: best ? 'cell best-cell' : 'cell', title: `${about} from ${numbers.counted(cell.defined, 'trial')}`},
+    element('span', {}, best && hidden('best: '), numbers.fixed(cell.mean, decimals))
+  );
+  made.style.setProperty('--strength', scaleLinear().range([0.03, STRONGEST])(good).toFixed(3));
+  return element('td', {}, made);
+}
+
+// From the worst to the best value of a grid.
+function scale_key(means, decimals, direction) {
+  const defined = means.filter(ranking.is_defined);
+  const ends = [Math.min(...defined), Math.max(...defined)];
+  if (defined.length === 0 || ends[0] === ends[1]) return null;
+  if (direction === 'lower') ends.reverse();
+  const bar = element('span', {class: 'bar'});
+  bar.style.setProperty('--strongest', STRONGEST);
+  return element(
+    'p',
+    {class: 'heat-key number', 'aria-hidden': 'true'},
+    numbers.fixed(ends[0], decimals),
+    bar,
+    numbers.fixed(ends[1], decimals),
+    direction !== 'none' && ' best'
+  );
+}
+
+function grid_table(grid, metric, decimals) {
+  const flat = grid.cells.flat();
+  const means = flat.map((cell) => (cell === null ? null : cell.mean));
+  const goodness = ranking.goodness(means, metric.direction);
+  const best = ranking.best(means, metric.direction, decimals);
+  const width = grid.controllers.length;
+  return element(
+    'div',
+    {class: 'facet'},
+    element(
+      'div',
+      {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
+      element(
+        'table',
+        {class: 'heat'},
+        element('caption', {}, element('h4', {}, grid.title)),
+        element(
+          'thead',
+          {},
+          element(
+            'tr',
+            {},
+            element('td'),
+            grid.controllers.map((name) => element('th', {scope: 'col'}, name))
+          )
+        ),
+        element(
+          'tbody',
+          {},
+          grid.planners.map((name, r) =>
+            element(
+              'tr',
+              {},
+              element('th', {scope: 'row'}, name),
+              grid.cells[r].map((cell, c) =>
+                cell_element(cell, goodness[r * width + c], best.has(r * width + c), decimals, metric.unit)
+              )
+            )
+          )
+        )
+      )
+    ),
+    scale_key(means, decimals, metric.direction)
+  );
+}
+
+function key_words(data, metric) {
+  const better = {
+    higher: 'Stronger: higher, which is better.',
+    lower: 'Stronger: lower, which is better.',
+    none: 'Stronger: higher; neither is better.',
+  }[metric.direction];
+  const framed = metric.direction === 'none' ? '' : ' Framed: the best of its scenario.';
+  return `${labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
+}
+
+function default_metric(data, measured) {
+  const wanted = (data.layouts.report.heat_map || {}).metric;
+  return measured.some((metric) => metric.name === wanted) ? wanted : measured[0].name;
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
+  const pairs = Math.max(
+    labels.values_of(data, 'global_planner').length,
+    labels.values_of(data, 'local_controller').length
+  );
+  if (pairs < 2 || measured.length === 0) return 'there is one planner and one controller';
+  const holder = element('div', {class: 'facets heat-grids'});
+  const note = element('p', {class: 'note'});
+  const show = (name) => {
+    const metric = labels.metric(data, name);
+    const all = grids(data, name);
+    const decimals = labels.decimals(
+      data,
+      name,
+      all.flatMap((grid) => grid.cells.flat().map((cell) => cell && cell.mean))
+    );
+    fill(
+      holder,
+      all.map((grid) => grid_table(grid, metric, decimals))
+    );
+    fill(note, key_words(data, metric));
+  };
+  const first = default_metric(data, measured);
+  show(first);
+  fill(body, controls.row(controls.metric_select(data, 'Metric', measured, first, show)), holder, note);
+  return null;
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// pedestrian_delay.js: what robots cost the people, from pairs of trials with and without robots.
+import * as controls from '../controls.js';
+import {element, fill} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as interval_rows from './interval_rows.js';
+
+const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
+
+function table_of(data, rows, variants) {
+  const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
+  const x = interval_rows.scale(estimates);
+  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+  const table = element(
+    'table',
+    {class: 'forest with-intervals'},
+    element(
+      'thead',
+      {},
+      element(
+        'tr',
+        {},
+        element('th', {scope: 'col'}, 'combination'),
+        interval_rows.axis(x, '← sooner', 'later →'),
+        column('delay', element('span', {class: 'unit'}, 's')),
+        column('pairs')
+      )
+    )
+  );
+  for (const variant of variants) {
+    const own = rows.map((row, i) => i).filter((i) => variant.combinations.includes(rows[i].combination));
+    if (own.length === 0) continue;
+    table.append(
+      element(
+        'tbody',
+        {},
+        data.scenarios.length > 1 &&
+          element(
+            'tr',
+            {class: 'group'},
+            element('th', {scope: 'rowgroup', colspan: 4}, element('span', {}, variant.label))
+          ),
+        own.map((i) =>
+          element(
+            'tr',
+            {},
+            element('th', {scope: 'row'}, labels.combination(data, rows[i].combination)),
+            interval_rows.cell(
+              estimates[i],
+              x,
+              rows[i].pairs >= fewest_to_judge && (rows[i].low > 0 || rows[i].high < 0)
+            ),
+            element(
+              'td',
+              {class: 'number', 'data-label': 'delay'},
+              element('span', {class: 'mean'}, numbers.signed(rows[i].mean_s, 2)),
+              element('span', {class: 'interval'}, numbers.interval(rows[i].low, rows[i].high, 2, numbers.signed))
+            ),
+            element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)
+          )
+        )
+      )
+    );
+  }
+  return element('div', {class: 'table-scroll'}, table);
+}
+
+export function mount(body, data) {
+  const rows = data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
+  if (rows.length === 0) return 'it takes the same scenario with robots = 0 in the experiment, to compare with';
+  const variants = labels.variants(data);
+  const first = controls.first_variant(variants, rows.length);
+  const holder = element('div');
+  const show = (key) =>
+    fill(
+      holder,
+      table_of(
+        data,
+        rows,
+        variants.filter((variant) => key === 'all' || variant.key === key)
+      )
+    );
+  show(first);
+  fill(
+    body,
+    controls.row(controls.variant_select(variants, first, show)),
+    holder,
+    element(
+      'p',
+      {class: 'note'},
+      'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero, from six pairs on; ' +
+        'that of fewer is too narrow to judge by.'
+    )
+  );
+  return null;
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// result_tables.js: the tables of the layouts, sorted by their headers.
+import * as controls from '../controls.js';
+import {element, fill, hidden, titled_table} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import * as ranking from '../ranking.js';
+import * as metrics_table from './metrics_table.js';
+import * as table_model from './table_model.js';
+
+function defined_words(cell) {
+  return `defined in ${cell.defined} of ${numbers.counted(cell.trials, 'trial')}`;
+}
+
+function paper_line(cell, column) {
+  const text = ranking.is_defined(cell.paper_mean)
+    ? numbers.fixed(cell.paper_mean, column.decimals)
+    : numbers.UNDEFINED;
+  return element(
+    'span',
+    {class: 'paper'},
+    `${text} (${cell.paper_count})`,
+    cell.paper_trimmed_all_nonzero &&
+      element('abbr', {class: 'flag', title: 'the rule removed every value that is not zero'}, '†')
+  );
+}
+
+function cell_element(cell, column) {
+  if (cell === null) return element('td', {class: 'number'});
+  const defined = ranking.is_defined(cell.mean);
+  const partly = cell.defined < cell.trials;
+  return element(
+    'td',
+    {class: cell.best ? 'number best' : 'number', title: partly || !defined ? defined_words(cell) : null},
+    element(
+      'span',
+      {class: 'mean'},
+      cell.best && hidden('best: '),
+      numbers.fixed(cell.mean, column.decimals),
+      ranking.is_defined(cell.spread) &&
+        element('span', {class: 'spread'}, ` ±${numbers.fixed(cell.spread, column.decimals)}`)
+    ),
+    element(
+      'span',
+      {class: 'interval'},
+      numbers.interval(cell.low, cell.high, column.decimals),
+      partly && element('span', {class: 'partly'}, ` ${cell.defined}/${cell.trials}`)
+    ),
+    paper_line(cell, column)
+  );
+}
+
+function row_element(row, columns) {
+  const name =
+    row.combination === null
+      ? row.name
+      : element(
+          'a',
+          {
+            href: '#metrics',
+            title: 'all metrics of this combination',
+            onclick: () => metrics_table.show(row.combination),
+          },
+          row.name
+        );
+  return element(
+    'tr',
+    {},
+    element('th', {scope: 'row'}, name),
+    row.cells.map((cell, c) => cell_element(cell, columns[c]))
+  );
+}
+
+function field_buttons(model, sort_by) {
+  return element(
+    'th',
+    {scope: 'col', class: 'names', 'data-key': 'names'},
+    model.fields.map((field, i) => [
+      i > 0 && ' + ',
+      element(
+        'button',
+        {type: 'button', class: 'sort', 'data-sort': field, onclick: () => sort_by(field)},
+        labels.SHORT_TITLES[field]
+      ),
+    ])
+  );
+}
+
+function column_button(column, c, starts, sort_by) {
+  const about = `${column.metric.description} (${labels.direction_words(column.metric.direction)})`;
+  return element(
+    'th',
+    {scope: 'col', class: starts ? 'number starts' : 'number', 'data-key': c, 'aria-sort': 'none'},
+    element(
+      'button',
+      {type: 'button', class: 'sort', 'data-sort': c, title: about, onclick: () => sort_by(c)},
+      element('span', {class: 'header'}, column.header),
+      element('span', {class: 'unit'}, numbers.unit(column.metric.unit) || '\u2013')
+    )
+  );
+}
+
+function head(model, sort_by) {
+  const made = element('thead');
+  const per_span = model.spans.length ? model.spans[0].count : 0;
+  if (model.spans.length > 0) {
+    made.append(
+      element(
+        'tr',
+        {class: 'spans'},
+        element('td'),
+        model.spans.map((span) => element('th', {scope: 'colgroup', colspan: span.count}, span.title))
+      )
+    );
+  }
+  made.append(
+    element(
+      'tr',
+      {},
+      field_buttons(model, sort_by),
+      model.columns.map((column, c) => column_button(column, c, per_span > 0 && c % per_span === 0, sort_by))
+    )
+  );
+  return made;
+}
+
+function show_sorting(table, key, descending) {
+  const word = descending ? 'descending' : 'ascending';
+  for (const header of table.querySelectorAll('thead th[data-key]')) {
+    const button = [...header.querySelectorAll('.sort')].find((one) => one.dataset.sort === String(key));
+    header.setAttribute('aria-sort', button ? word : 'none');
+    for (const one of header.querySelectorAll('.sort')) one.classList.toggle('sorted', one === button);
+  }
+}
+
+// Rows are moved, not made again.
+function sorter(table, model, bodies) {
+  let sorted_key = null;
+  let descending = false;
+  return (key) => {
+    const first = typeof key === 'number' && ranking.descending_first(model.columns[key].metric.direction);
+    descending = key === sorted_key ? !descending : first;
+    sorted_key = key;
+    table_model.order(model, key, descending).forEach((order, g) => {
+      for (const index of order) bodies[g].body.append(bodies[g].rows[index]);
+    });
+    show_sorting(table, key, descending);
+  };
+}
+
+function table_element(data, layout, variants) {
+  const model = table_model.make(data, layout, variants);
+  if (model.columns.length === 0) return null;
+  const table = element('table', {class: 'results', id: `table-${layout.id}`});
+  const bodies = model.groups
+    .filter((group) => group.rows.length > 0)
+    .map((group) => {
+      const rows = group.rows.map((row) => row_element(row, model.columns));
+      const title =
+        group.title &&
+        data.scenarios.length > 1 &&
+        element(
+          'tr',
+          {class: 'group'},
+          element('th', {scope: 'rowgroup', colspan: model.columns.length + 1}, element('span', {}, group.title))
+        );
+      return {rows, body: element('tbody', {}, title, rows)};
+    });
+  table.append(
+    head(model, (key) => sort(key)),
+    ...bodies.map((one) => one.body)
+  );
+  const sort = sorter(table, model, bodies);
+  return titled_table(`title-${layout.id}`, layout.title, layout.note, table);
+}
+
+const KEY =
+  'Dot and bold: the best mean of its column within a scenario, unless most share it. Brackets: 95 % interval over ' +
+  'seeds, none where all trials agree to the digits shown; a fraction after it says in how many trials the value is defined. Differences between rows are judged under Paired differences. ' +
+  'Choose a header to sort.';
+const PAPER_KEY =
+  'Third line: the mean by the paper\u2019s rule and, in parentheses, over how many trials: failed trials ' +
+  'left out (but where failures count), values beyond two standard deviations left out. † the rule removed every value that ' +
+  'is not zero.';
+
+export function mount(body, data) {
+  const variants = labels.variants(data);
+  const holder = element('div', {class: 'tables with-intervals'});
+  const show = (key) =>
+    fill(
+      holder,
+      data.layouts.report.tables.map((layout) =>
+        table_element(
+          data,
+          layout,
+          variants.filter((variant) => key === 'all' || variant.key === key || layout.across)
+        )
+      )
+    );
+  const paper_key = element('p', {class: 'note', hidden: true}, PAPER_KEY);
+  const first = controls.first_variant(variants, data.combinations.length);
+  show(first);
+  fill(
+    body,
+    controls.row(
+      controls.variant_select(variants, first, show),
+      controls.checkbox('95 % intervals', true, (on) => holder.classList.toggle('with-intervals', on)),
+      controls.checkbox('the paper\u2019s rule', false, (on) => {
+        holder.classList.toggle('with-paper', on);
+        paper_key.hidden = !on;
+      })
+    ),
+    holder,
+    element('p', {class: 'note'}, KEY),
+    paper_key
+  );
+  return data.combinations.length > 0 ? null : 'no trial was run';
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// table_model.js: what stands in a table of a layout: its columns, its groups of rows, the best of each column, the order.
+import * as labels from '../labels.js';
+import * as ranking from '../ranking.js';
+
+// Rows by planner alone are over all controllers and crowds.
+function source(data, layout) {
+  const by_planner = layout.rows.length === 1 && layout.rows[0] === 'global_planner';
+  const rows = by_planner ? data.planners : data.combinations;
+  const fields = ['scenario', 'robots', 'global_planner'].concat(
+    by_planner ? [] : ['local_controller', 'pedestrian_model']
+  );
+  const key = (row) => JSON.stringify(fields.map((field) => row[field]));
+  const trials = new Map(rows.map((row) => [key(row), 0]));
+  data.trials.combination.forEach((combination, i) => {
+    const of = key(data.combinations[combination]);
+    if (data.trials.outcome[i] !== 'skipped') trials.set(of, trials.get(of) + 1);
+  });
+  return {
+    rows,
+    by_planner,
+    summaries: by_planner ? data.planner_summaries : data.summaries,
+    trials: rows.map((row) => trials.get(key(row))),
+  };
+}
+
+// The layout's columns of metrics that the run has: [{metric, index, header, decimals, spread_index, variant}].
+function columns_of(data, layout, variant) {
+  const index_of = (name) => data.metrics.findIndex((metric) => metric.name === name);
+  return layout.columns
+    .filter((column) => index_of(column.metric) >= 0)
+    .map((column) => ({
+      metric: data.metrics[index_of(column.metric)],
+      index: index_of(column.metric),
+      header: column.header,
+      decimals: column.decimals,
+      spread_index: column.spread ? index_of(column.spread) : -1,
+      variant,
+    }));
+}
+
+function fields_of(data, layout) {
+  const naming = labels.naming_fields(data);
+  return layout.rows.filter((field) => naming.includes(field));
+}
+
+function label_of(row, fields) {
+  return fields.map((field) => labels.named(row[field])).join(' + ');
+}
+
+function cell_of(from, row, column) {
+  const summary = from.summaries[row][column.index];
+  const spread = column.spread_index >= 0 ? from.summaries[row][column.spread_index].mean : null;
+  return {...summary, spread, trials: from.trials[row]};
+}
+
+// A block of rows for each variant (Table III's form).
+function grouped(data, layout, variants) {
+  const from = source(data, layout);
+  const {rows, by_planner} = from;
+  const fields = fields_of(data, layout);
+  const columns = columns_of(data, layout, null);
+  const groups = variants.map((variant) => ({
+    title: variant.label,
+    rows: rows
+      .map((row, i) => i)
+      .filter((i) => labels.is_of(variant.scenario, rows[i]))
+      .map((i) => ({
+        labels: rows[i],
+        name: label_of(rows[i], fields),
+        combination: by_planner ? null : i,
+        cells: columns.map((column) => cell_of(from, i, column)),
+      })),
+  }));
+  return {fields, columns, groups, spans: []};
+}
+
+// The columns repeated for each variant (Table II's form); a cell is null where the row has nothing there.
+function across(data, layout, variants) {
+  const from = source(data, layout);
+  const {rows} = from;
+  const fields = fields_of(data, layout);
+  const columns = variants.flatMap((variant) => columns_of(data, layout, variant));
+  const shown = rows.filter((row) => variants.some((variant) => labels.is_of(variant.scenario, row)));
+  const names = labels.distinct(shown.map((row) => label_of(row, fields)));
+  const found = (name, variant) =>
+    rows.findIndex((row) => label_of(row, fields) === name && labels.is_of(variant.scenario, row));
+  const table_rows = names.map((name) => ({
+    labels: rows.find((row) => label_of(row, fields) === name),
+    name,
+    combination: null,
+    cells: columns.map((column) => {
+      const row = found(name, column.variant);
+      return row < 0 ? null : cell_of(from, row, column);
+    }),
+  }));
+  const per_variant = variants.length === 0 ? 0 : columns.length / variants.length;
+  return {
+    fields,
+    columns,
+    groups: [{title: null, rows: table_rows}],
+    spans: variants.map((variant) => ({title: variant.label, count: per_variant})),
+  };
+}
+
+function mean(cell) {
+  return cell === null ? null : cell.mean;
+}
+
+// Adds to each cell whether it is the best of its column in its group.
+function mark_best(model) {
+  for (const group of model.groups) {
+    model.columns.forEach((column, c) => {
+      const best = ranking.best(
+        group.rows.map((row) => mean(row.cells[c])),
+        column.metric.direction,
+        column.decimals
+      );
+      group.rows.forEach((row, r) => {
+        if (row.cells[c]) row.cells[c].best = best.has(r);
+      });
+    });
+  }
+  return model;
+}
+
+export function make(data, layout, variants) {
+  const model = (layout.across || []).includes('scenario')
+    ? across(data, layout, variants)
+    : grouped(data, layout, variants);
+  return mark_best(model);
+}
+
+// key: a field's name or the index of a column. The rows of each group in order, as indices.
+export function order(model, key, descending) {
+  const value = (row) => (typeof key === 'number' ? mean(row.cells[key]) : row.labels[key]);
+  return model.groups.map((group) => ranking.order(group.rows.map(value), descending));
+}

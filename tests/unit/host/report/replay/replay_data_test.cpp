@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "host/report/replay/replay_data.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/trace/trace_reader.hpp"
+#include "tests/unit/core/trace/trace_example.hpp"
+#include "tests/unit/core/trace/trace_in_memory.hpp"
+
+namespace dmrp::host {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::int64_t> summed(const json& differences) {
+  std::vector<std::int64_t> values;
+  std::int64_t sum = 0;
+  for (const json& difference : differences) values.push_back(sum += difference.get<std::int64_t>());
+  return values;
+}
+
+json replay_of(const core::TraceBytes& bytes, const TrialRecord& trial = {}) {
+  core::TraceReader trace(bytes);
+  return json::parse(replay_json(trace, trial));
+}
+
+TEST_CASE("A replay holds ten samples a second and the last, to half a millimetre", "[report]") {
+  const core::TraceBytes bytes = test::example_trace(23);  // 50 Hz: 0 to 440 ms
+  const json replay = replay_of(bytes);
+  const std::vector<std::int64_t> times = summed(replay["times"]);
+  CHECK(times == std::vector<std::int64_t>{0, 100, 200, 300, 400, 440});
+
+  core::TraceReader trace(bytes);
+  std::size_t kept = 0;
+  while (const dmrp_sample* sample = trace.next_sample()) {
+    if (kept == times.size() || sample->t_ns != times[kept] * 1'000'000) continue;
+    for (std::uint32_t i = 0; i < sample->robot_count; ++i) {
+      const json& robot = replay["robots"][i];
+      CHECK(static_cast<double>(summed(robot["x"])[kept]) / 1000.0 == Approx(sample->robots[i].pose.x).margin(0.00051));
+      CHECK(static_cast<double>(summed(robot["y"])[kept]) / 1000.0 == Approx(sample->robots[i].pose.y).margin(0.00051));
+    }
+    const json& first_person = replay["people"][0];
+    CHECK(static_cast<double>(summed(first_person["y"])[kept]) / 1000.0 ==
+          Approx(sample->people[0].position.y).margin(0.00051));
+    ++kept;
+  }
+  CHECK(kept == times.size());
+}
+
+TEST_CASE("A replay tells the plan in force, the states, and the curves up to the end of a robot's task", "[report]") {
+  const json replay = replay_of(test::example_trace(20));  // the second plan is in force from sample 10, 200 ms
+  CHECK(replay["plan"] == json{0, 0, 2, 2});               // the second of three records gave no plan
+  CHECK(replay["plans"].size() == 3);
+  CHECK(replay["plans"][1]["paths"].empty());
+  CHECK(summed(replay["plans"][0]["paths"][0]["x"]) == std::vector<std::int64_t>{500, 1500});
+  CHECK(summed(replay["plans"][0]["paths"][1]["t"]) == std::vector<std::int64_t>{0, 1800, 3600});
+
+  const json& first = replay["robots"][0];
+  CHECK(first["state"] == json{0, DMRP_ROBOT_ACTIVE});
+  CHECK(summed(first["speed"]) == std::vector<std::int64_t>{500, 500, 500, 500, 500});
+  // at (k / 3, 0.1), off the path from (0.5, 0.5) to (1.5, 0.5); the last kept sample is k = 19
+  const double off_both = std::hypot(19.0 / 3.0 - 1.5, 0.4);
+  CHECK(summed(first["deviation"]) == std::vector<std::int64_t>{std::llround(1000 * std::hypot(0.5, 0.4)),
+                                                                std::llround(1000 * std::hypot(5 / 3.0 - 1.5, 0.4)),
+                                                                std::llround(1000 * std::hypot(10 / 3.0 - 1.5, 0.4)),
+                                                                std::llround(1000 * std::hypot(5.0 - 1.5, 0.4)),
+                                                                std::llround(1000 * off_both)});
+  CHECK(first["failure"] == "time limit");
+  CHECK_FALSE(first.contains("arrival"));
+
+  const json& second = replay["robots"][1];  // finished from the beginning
+  CHECK(second["speed"].size() == 1);
+  CHECK(second["outline"].size() == 6);
+  CHECK(second["arrival"] == 0);
+  CHECK(replay["end"]["reason"] == "time limit");
+}
+
+TEST_CASE("Without a plan there are no samples: the robots stand at their starts", "[report]") {
+  const test::ExampleWorld world;
+  test::TraceInMemory trace(world.world);
+  const json replay = replay_of(trace.bytes());
+  CHECK(replay["times"] == json::array({0}));
+  CHECK(replay["plan"] == json{0, -1});
+  CHECK(replay["people"].empty());
+  CHECK(replay["robots"][1]["x"] == json::array({5500}));
+  CHECK(replay["robots"][1]["theta"] == json::array({3100}));
+  CHECK(replay["robots"][1]["state"] == json{0, DMRP_ROBOT_FAILED});
+}
+
+TEST_CASE("People have a track each from entering to leaving", "[report]") {
+  const json replay = replay_of(test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
+  const json& people = replay["people"];
+  REQUIRE(people.size() == 4);  // one stays; the other place is somebody else's at each sample
+  CHECK(people[0]["id"] == 41);
+  CHECK(people[0]["group"] == 3);
+  CHECK(people[0]["x"].size() == 3);
+  CHECK(people[2]["id"] == 105);
+  CHECK(people[2]["from"] == 1);
+  CHECK(people[2]["x"].size() == 1);
+}
+
+TEST_CASE("Headings go on past pi, the shorter way round", "[report]") {
+  const test::ExampleWorld world;
+  test::TraceInMemory trace(world.world);
+  for (std::int64_t k = 0; k < 4; ++k) {
+    test::ExampleSample at(5 * k, nullptr);
+    at.sample.contact_count = 0;
+    at.robots[0].pose.theta = std::remainder(3.0 + 0.2 * static_cast<double>(k), 2.0 * std::acos(-1.0));
+    trace->sample(at.sample);
+  }
+  const json replay = replay_of(trace.bytes());
+  CHECK(summed(replay["robots"][0]["theta"]) == std::vector<std::int64_t>{3000, 3200, 3400, 3600});
+  CHECK(replay["plan"] == json{0, -1});
+  CHECK(summed(replay["robots"][0]["deviation"]) == std::vector<std::int64_t>{-1, -1, -1, -1});
+  CHECK_FALSE(replay.contains("end"));
+}
+
+TEST_CASE("Scans come along in centimetres, at most 180 beams each", "[report]") {
+  const test::ExampleWorld world;
+  test::TraceInMemory trace(world.world);
+  std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
+  for (std::int64_t k = 0; k <= 10; ++k) {  // every 20 ms; scans at 0 and at 200 ms, of the second robot
+    test::ExampleSample at(k, nullptr);
+    at.sample.contact_count = 0;
+    trace->sample(at.sample);
+    if (k % 10 != 0) continue;
+    ranges[0] = 1.0F + 0.1F * static_cast<float>(k);
+    ranges[1] = 7.0F;  // between two of the kept beams
+    ranges[4] = 2.5F;
+    dmrp_scan scan{};
+    scan.struct_size = sizeof(scan);
+    scan.count = 360;
+    scan.t_ns = k * 20'000'000;
+    scan.angle_min = -1.5;
+    scan.angle_increment = 0.01;
+    scan.range_max = 10.0;
+    scan.ranges = ranges.data();
+    trace->scan(1, scan);
+  }
+  const json replay = replay_of(trace.bytes());
+  CHECK_FALSE(replay["robots"][0].contains("scans"));
+  const json& scans = replay["robots"][1]["scans"];
+  CHECK(scans["first"] == -1'500'000);
+  CHECK(scans["step"] == 20'000);
+  CHECK(scans["beams"] == 180);
+  CHECK(summed(scans["samples"]) == std::vector<std::int64_t>{0, 2});
+  REQUIRE(scans["ranges"].size() == 360);
+  CHECK(std::vector<std::int64_t>(scans["ranges"].begin(), scans["ranges"].begin() + 5) ==
+        std::vector<std::int64_t>{100, -100, 250, -250, 0});
+  CHECK(scans["ranges"][180] == 200);  // begins anew
+}
+
+TEST_CASE("Contacts are events with fault and depth; metrics' events come along", "[report]") {
+  TrialRecord trial;
+  trial.id = 5;
+  trial.events = {{"blocking", 1'500'000'000, 2'250'000'000, {0, 1}, "they block each other"}};
+  const json replay = replay_of(test::example_trace(4), trial);  // contacts in samples 0 and 3
+  const json& contacts = replay["contacts"];
+  REQUIRE(contacts.size() == 4);  // the first begins anew each time; the person is another one each time
+  CHECK(contacts[0] == json{{"kind", "static"},
+                            {"robot", 0},
+                            {"other", 2},
+                            {"from", 0},
+                            {"to", 0},
+                            {"at", {0, 500}},
+                            {"depth", 1},
+                            {"fault", "robot"},
+                            {"unavoidable", false}});
+  CHECK(contacts[1]["kind"] == "person");
+  CHECK(contacts[1]["other"] == 100);
+  CHECK(contacts[1]["fault"] == "other");
+  CHECK(contacts[3]["other"] == 103);
+  CHECK(replay["events"] == json::array({{{"metric", "blocking"},
+                                          {"from", 1500},
+                                          {"to", 2250},
+                                          {"robots", {0, 1}},
+                                          {"text", "they block each other"}}}));
+}
+
+TEST_CASE("A contact that lasts is one event", "[report]") {
+  const test::ExampleWorld world;
+  test::TraceInMemory trace(world.world);
+  for (std::int64_t k = 0; k < 5; ++k) {
+    test::ExampleSample at(k, nullptr);
+    at.contacts[0] = {
+        DMRP_CONTACT_ROBOT, k == 0 ? DMRP_CONTACT_BEGINS : 0U, 0, 1, 0.002 + 0.001 * static_cast<double>(k), {1, 1}};
+    at.sample.contact_count = 1;
+    trace->sample(at.sample);
+  }
+  const json contacts = replay_of(trace.bytes())["contacts"];
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0]["to"] == 80);
+  CHECK(contacts[0]["depth"] == 6);
+  CHECK(contacts[0]["fault"] == "none");
+}
+
+}  // namespace
+}  // namespace dmrp::host

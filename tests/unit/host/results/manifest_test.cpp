@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "host/results/manifest.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "host/files/atomic_file.hpp"
+#include "host/files/sha256.hpp"
+#include "tests/unit/host/results/results_example.hpp"
+
+using namespace dmrp::host;
+using dmrp::test::ScratchFolder;
+
+TEST_CASE("the manifest comes back from its file", "[results]") {
+  const ScratchFolder folder;
+  write_file_atomically(folder / "map.yaml", "abc");
+  const auto begun = std::chrono::system_clock::time_point(std::chrono::seconds(1'700'000'000));
+  Manifest manifest = new_manifest("0.1.0", {"dmrp-host", "a b.toml", "--jobs", "2"}, begun);
+  manifest.files.push_back(hashed_file("map", folder / "map.yaml"));
+  write_file_atomically(folder / "manifest.json", to_json_text(manifest));
+  const Manifest read = read_manifest(folder / "manifest.json");
+
+  CHECK(read.dmrp_version == "0.1.0");
+  CHECK(read.command_line == manifest.command_line);
+  CHECK(read.started_at == "2023-11-14T22:13:20Z");
+  CHECK_FALSE(read.machine.libc.empty());
+  CHECK_FALSE(read.machine.compiler.empty());
+  REQUIRE(read.files.size() == 1);
+  CHECK(read.files[0].role == "map");
+  CHECK(read.files[0].sha256 == sha256_of_bytes("abc"));
+  CHECK(differences(manifest, read).empty());
+
+  write_file_atomically(folder / "half.json", "{\"dmrp_version\": \"0.1.0\"");
+  CHECK_THROWS_WITH(read_manifest(folder / "half.json"), Catch::Contains("half.json"));
+}
+
+TEST_CASE("manifests tell what may change bits, and nothing else", "[results]") {
+  Manifest before;
+  before.machine = {"glibc 2.36", "x86-64-v3", {"avx", "avx2", "erms", "fma"}, "gcc 12.2.0"};
+  before.files = {{"plugin library", "/a/libx.so", "11"}, {"map", "/a/m.yaml", "22"}};
+  Manifest now = before;
+  now.command_line = {"other"};
+  now.started_at = "later";
+  now.files[0].path = "/b/libx.so";
+  now.machine.cpu_features = {"avx", "avx2", "fma", "tsc"};
+  CHECK(differences(before, now).empty());
+
+  now.machine.libc = "glibc 2.37";
+  now.machine.cpu_features = {"avx", "avx2", "tsc"};
+  now.files[1].sha256 = "23";
+  CHECK(differences(before, now) == std::vector<std::string>{"libc: glibc 2.36, now glibc 2.37",
+                                                             "CPU feature fma is missing now",
+                                                             "map /a/m.yaml has changed"});
+}

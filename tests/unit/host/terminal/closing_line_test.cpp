@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "host/terminal/closing_line.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/host/results/results_example.hpp"
+
+using namespace dmrp::host;
+using dmrp::test::example_layout;
+using dmrp::test::example_trial;
+using dmrp::test::two_planners;
+
+TEST_CASE("the closing line counts", "[terminal]") {
+  const SummaryLayout layout = example_layout();
+  std::vector<TrialRecord> trials = two_planners();
+  trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
+  CHECK(closing_line(layout, trials) == "7 of 8 robots arrived · 0 contacts · 0 faults · repeatable");
+
+  trials[0].repeatable = false;
+  trials[0].values.back().value = 1.0;
+  trials[1].outcome = trial_outcome::fault;
+  trials[1].faults.push_back({"crash", "x", "step", 1, 0, 11, "", ""});
+  trials[2].outcome = trial_outcome::skipped;
+  CHECK(closing_line(layout, trials) ==
+        "5 of 6 robots arrived · 1 contact · 1 fault · 1 trial skipped · 1 trial not repeatable");
+
+  for (TrialRecord& trial : trials) trial.values.clear();
+  trials[0].repeatable = true;
+  CHECK(closing_line(layout, trials) == "1 fault · 1 trial skipped · repeatable");
+}
+
+TEST_CASE("the run directory comes with its files", "[terminal]") {
+  const std::vector<std::string> files{"results.sqlite", "traces/"};
+  CHECK(files_line("runs/quickstart", files) == "runs/quickstart   results.sqlite  traces/");
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "host/terminal/summary_table.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "host/results/summary.hpp"
+#include "tests/unit/host/results/results_example.hpp"
+
+using namespace dmrp::host;
+using dmrp::test::example_layout;
+using dmrp::test::example_metrics;
+using dmrp::test::example_trial;
+using dmrp::test::two_planners;
+
+namespace {
+
+std::string table_of(const std::vector<TrialRecord>& trials, const TableStyle& style = {}) {
+  const auto metrics = example_metrics();
+  return summary_table(example_layout(), metrics, summarise(metrics, trials, {}), style);
+}
+
+}  // namespace
+
+TEST_CASE("the table of one combination is aligned and marks nothing", "[terminal]") {
+  CHECK(table_of({example_trial(0, "CBS", 0, 40.0, 0.5), example_trial(1, "CBS", 1, 43.5, 0.52)}) ==
+        "              success   time s    speed m/s   plan ms\n"
+        "  CBS + DWA      1.00     41.8   0.51 ±0.17         –\n");
+}
+
+TEST_CASE("the best of several is marked", "[terminal]") {
+  SECTION("by an asterisk") {
+    CHECK(table_of(two_planners()) ==
+          "              success   time s     speed m/s   plan ms\n"
+          "  CBS + DWA      1.00    41.8*   0.51 ±0.17          –\n"
+          "  A* + DWA       1.00    51.0    0.60 ±0.17*         –\n");
+  }
+  SECTION("in bold on a terminal") {
+    const std::string table = table_of(two_planners(), {0, true});
+    CHECK(table.find("\x1b[1m  41.8\x1b[0m") != std::string::npos);
+    CHECK(table.find("\x1b[1m0.60 ±0.17\x1b[0m") != std::string::npos);
+    CHECK(table.find('*') == table.find("A*") + 1);
+  }
+  SECTION("but not where all look alike") {
+    const std::string table =
+        table_of({example_trial(0, "CBS", 0, 40.01, 0.5), example_trial(1, "PBS", 0, 40.02, 0.5)});
+    CHECK(table.find('*') == std::string::npos);
+  }
+}
+
+TEST_CASE("only what is comparable is compared", "[terminal]") {
+  std::vector<TrialRecord> trials = two_planners();
+  trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
+  trials[1].scenario = trials[3].scenario = "office";
+  trials[1].robots = trials[3].robots = 1;
+  CHECK(table_of(trials) ==
+        "                success   time s     speed m/s   plan ms\n"
+        "  mall · 2 robots\n"
+        "    CBS + DWA     1.00     40.0*   0.50 ±0.17          –\n"
+        "    A* + DWA      1.00     50.0    0.60 ±0.17*         –\n"
+        "  office · 1 robot\n"
+        "    CBS + DWA     1.00*    43.5    0.52 ±0.17          –\n"
+        "    A* + DWA      0.50        –    0.61 ±0.17          –\n");
+}
+
+TEST_CASE("a table that is too wide goes on below", "[terminal]") {
+  const std::string table = table_of({example_trial(0, "CBS", 0, 41.75, 0.51)}, {45, false});
+  CHECK(table ==
+        "              success   time s    speed m/s\n"
+        "  CBS + DWA      1.00     41.8   0.51 ±0.17\n"
+        "\n"
+        "              plan ms\n"
+        "  CBS + DWA         –\n");
+}
+
+TEST_CASE("no trials, no table", "[terminal]") {
+  CHECK(table_of({}).empty());
+}
