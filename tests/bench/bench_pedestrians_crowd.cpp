@@ -15,7 +15,7 @@ namespace dmrp::bench {
 namespace {
 
 constexpr double people_per_m2 = 0.25;
-constexpr double block_m = 10.0;  // of the furniture's pattern
+constexpr double block_m = 10.0;  // period of the furniture
 constexpr double side_depth_m = 1.5;
 constexpr std::int64_t step_ns = 20'000'000;
 
@@ -94,7 +94,7 @@ void CrossingCrowd::place_people(const Square& square, std::uint64_t seed) {
   }
 }
 
-// West, south, east, north: 0 to 3. Everybody keeps to their own line.
+// Sides 0 to 3: west, south, east, north. Everybody walks along a straight line.
 void CrossingCrowd::send_to(dmrp_person& person, std::uint32_t side) const {
   const double near_m = side < 2 ? 0.0 : side_m_ - side_depth_m;
   const double along_m = side < 2 ? 0.5 : side_m_ - 0.5;
@@ -105,7 +105,7 @@ void CrossingCrowd::send_to(dmrp_person& person, std::uint32_t side) const {
   person.target = across_x ? dmrp_vec2{along_m, person.position.y} : dmrp_vec2{person.position.x, along_m};
 }
 
-void CrossingCrowd::ask_model() {
+void CrossingCrowd::step_model() {
   dmrp_crowd crowd{};
   crowd.struct_size = sizeof(crowd);
   crowd.person_count = static_cast<std::uint32_t>(people_.size());

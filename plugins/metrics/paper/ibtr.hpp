@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ibtr.hpp: the share of the mission in which robots that are near each other both crawl.
+// ibtr.hpp: inter-robot blocking time ratio: the share of the mission in which two robots near each other both crawl.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,8 @@ class Ibtr final : public Metric {
   double blocked_percent(double reach_m, double fraction, std::int64_t mission_ns) const;
   std::vector<Congestion> congestions() const;
 
-  // The thresholds are known only at the end. Until then the metric keeps the speeds of robots that are near each other.
+  // The thresholds are known only at the end. Until then the metric keeps the speeds of robots that are near each
+  // other.
   std::size_t robot_count_ = 0;
   ActiveSteps active_;
   std::vector<TimeMoments> pace_;
