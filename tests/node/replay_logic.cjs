@@ -156,13 +156,13 @@ const tests = {
     assert.strictEqual(replay.end, 0);
     const at = recording.moment(replay, 0);
     assert.deepStrictEqual(plain(recording.robot_pose(replay.robots[0], at)), {x: 1, y: 0.5, theta: 0});
-    assert.strictEqual(recording.path_in_force(replay, 0, at), null);
+    assert.strictEqual(recording.current_path(replay, 0, at), null);
     assert.deepStrictEqual(plain(events.all_events(replay).map((event) => event.text)), [
       'robot 0 failed: no plan',
       'robot 1 failed: no plan',
     ]);
     const empty = recording.from_json({...none, robots: []});
-    assert.deepStrictEqual(plain(recording.lively_box(empty)), [
+    assert.deepStrictEqual(plain(recording.active_box(empty)), [
       [0, 0],
       [8, 4],
     ]);
@@ -178,13 +178,13 @@ const tests = {
     assert.strictEqual(person(0.24), null);
   },
 
-  'the planned place waits where the plan does, and rests at its end'() {
+  'the planned position waits where the plan does, and rests at its end'() {
     const path_of = recording.from_json(packed()).plans[0].paths[0];
-    near(recording.planned_place(path_of, 0.5)[0], 1.5);
-    near(recording.planned_place(path_of, 2)[0], 2);
-    near(recording.planned_place(path_of, 3.5)[0], 2.5);
-    near(recording.planned_place(path_of, 60)[0], 3);
-    assert.strictEqual(recording.planned_place({x: [], y: [], t: []}, 1), null);
+    near(recording.planned_position(path_of, 0.5)[0], 1.5);
+    near(recording.planned_position(path_of, 2)[0], 2);
+    near(recording.planned_position(path_of, 3.5)[0], 2.5);
+    near(recording.planned_position(path_of, 60)[0], 3);
+    assert.strictEqual(recording.planned_position({x: [], y: [], t: []}, 1), null);
   },
 
   'hits of a scan lie in the world, as seen from where it was taken'() {
@@ -199,11 +199,11 @@ const tests = {
     assert.strictEqual(recording.scan_hits(replay.robots[0], recording.moment(replay, 0)).length, 0);
   },
 
-  'what happened is told once, in order'() {
+  'each event is listed once, in order'() {
     const found = events.all_events(recording.from_json(packed()));
     assert.deepStrictEqual(plain(found.map((event) => [event.from, event.kind, event.text])), [
       [0, 'metric', 'they block each other'],
-      [0.1, 'plan', 'the planner gave no plan'],
+      [0.1, 'plan', 'the planner returned no plan'],
       [0.1, 'contact', 'robot 0 and robot 1 touch: both at fault'],
       [0.2, 'failure', 'robot 1 failed: deadlock'],
       [0.22, 'contact', 'robot 1 and the border touch: robot 1 at fault'],
@@ -213,8 +213,8 @@ const tests = {
     assert.ok(events.is_now(found[2], 1.0), 'a contact is seen for a second');
   },
 
-  'the lively part of the world holds tracks and goals, and stays inside'() {
-    const [lower, upper] = recording.lively_box(recording.from_json(packed()));
+  'the active part of the world holds tracks and goals, and stays inside'() {
+    const [lower, upper] = recording.active_box(recording.from_json(packed()));
     assert.deepStrictEqual(plain([lower, upper]), [
       [0, 0],
       [6, 4],

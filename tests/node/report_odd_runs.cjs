@@ -73,7 +73,7 @@ const tests = {
       assert.ok(
         contents.includes('Every trial') &&
           !contents.includes('Planner by controller') &&
-          !contents.includes('Diagnosis')
+          !contents.includes('Correlations')
       );
       assert.match(left_out, /Planner by controller: there is one planner and one controller/);
       assert.match(left_out, /Paired differences: there is one combination/);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// controls.js: what the reader chooses by.
+// controls.js: selects, buttons, checkboxes and search fields.
 import {element} from './elements.js';
 import * as labels from './labels.js';
 
@@ -7,7 +7,7 @@ export function row(...controls) {
   return element('div', {class: 'controls'}, controls);
 }
 
-// options: [{value, label}]. `changed` gets the value; it is not called at first. Null where there is nothing to choose.
+// options: [{value, label}]. Calls `changed` with each new value. Null if there are fewer than two options.
 export function select(title, options, value, changed) {
   if (options.length < 2) return null;
   const box = element('select', {onchange: () => changed(box.value)});
@@ -24,7 +24,7 @@ export function metric_select(data, title, metrics, value, changed) {
   return select(title, options, value, changed);
 }
 
-// A row of buttons, one of them pressed; the same contract as select.
+// A row of buttons, one of them pressed; the contract is that of select.
 export function segmented(title, options, value, changed) {
   if (options.length < 2) return null;
   const buttons = options.map((option) =>
@@ -44,12 +44,12 @@ export function segmented(title, options, value, changed) {
   );
 }
 
-// More than a screenful of rows is shown a scenario at a time, at first.
+// The first choice: all scenarios, or the first alone where there are more rows than fit on a screen.
 export function first_variant(variants, rows) {
   return rows > 24 && variants.length > 1 ? variants[0].key : 'all';
 }
 
-// "all" stands first. Says how many robots only where that tells variants apart.
+// The first option is "all". Labels give the number of robots only where variants differ in it.
 export function variant_select(variants, value, changed) {
   const names = labels.distinct(variants.map((variant) => variant.scenario.name));
   const short = names.length === variants.length;
@@ -76,7 +76,7 @@ export function search(title, changed) {
   return element('label', {class: 'control'}, box);
 }
 
-// A page opened by file:// may not write to the clipboard by the newer way.
+// Browsers deny navigator.clipboard to some pages opened by file://.
 function copy_by_selection(text) {
   const area = element('textarea', {class: 'visually-hidden', readonly: true});
   area.value = text;

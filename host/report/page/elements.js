@@ -7,7 +7,7 @@ function append(parent, child) {
   else parent.append(child);
 }
 
-// element('td', {class: 'number', onclick: f}, 'text', [more, elements]). Attributes that are null or false are left out.
+// element('td', {class: 'number', onclick: f}, 'text', [more, elements]). Omits attributes that are null or false.
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
@@ -19,7 +19,7 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-// Read out, not seen.
+// For screen readers alone.
 export function hidden(text) {
   return element('span', {class: 'visually-hidden'}, text);
 }
@@ -29,7 +29,7 @@ export function fill(parent, ...children) {
   append(parent, children);
 }
 
-// A table under its title, in a box of its own that scrolls sideways where the screen is narrow.
+// A table below its title, in a box that scrolls horizontally on a narrow screen.
 export function titled_table(id, title, note, table) {
   table.setAttribute('aria-labelledby', id);
   return element(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// labels.js: what combinations, scenarios and metrics are called, and which colour and shape stands for which.
+// labels.js: names of combinations, scenarios and metrics, and the colour and symbol of each label.
 import * as numbers from './numbers.js';
 import * as ranking from './ranking.js';
 
@@ -14,15 +14,15 @@ export const SHORT_TITLES = {
   local_controller: 'controller',
   pedestrian_model: 'pedestrians',
 };
-const DASHES = ['none', '7 4', '2 3', '9 3 2 3']; // so that lines on top of each other are both seen
-const SERIES = 8; // colours in base.css, each with a shape and a dash of its own
+const DASHES = ['none', '7 4', '2 3', '9 3 2 3']; // so that coinciding lines stay visible
+const SERIES = 8; // number of series colours in base.css
 
 export function distinct(values) {
   return [...new Set(values)];
 }
 
-// Scenario and number of robots: what combinations are compared within. `combinations`: their indices. Worlds without
-// robots are left out where there are others: they are there to be compared with.
+// A variant is a scenario with a number of robots; combinations are compared within a variant. `combinations`: their
+// indices. Omits variants without robots, which serve as a reference, if there are others.
 export function variants(data) {
   const with_robots = data.scenarios.filter((scenario) => scenario.robots > 0);
   return (with_robots.length > 0 ? with_robots : data.scenarios).map((scenario) => ({
@@ -35,23 +35,23 @@ export function variants(data) {
   }));
 }
 
-// Whether a row of any kind is about this scenario and number of robots.
+// Whether a row of any table belongs to this scenario and number of robots.
 export function is_of(scenario, row) {
   return row.scenario === scenario.name && row.robots === scenario.robots;
 }
 
-// Worlds without robots have no planner and no controller.
+// The distinct labels of a field; variants without robots have no planner and no controller.
 export function values_of(data, field) {
   const with_robots = data.combinations.filter((combination) => combination.robots > 0);
   return distinct((with_robots.length > 0 ? with_robots : data.combinations).map((combination) => combination[field]));
 }
 
-// The fields that tell combinations apart; pedestrian models only where there are several.
+// The fields that identify a combination; the pedestrian model only if there are several.
 export function naming_fields(data) {
   return FIELDS.filter((field) => field !== 'pedestrian_model' || values_of(data, field).length > 1);
 }
 
-// What correlations and curves are kept apart by: variant, planner, pedestrian model.
+// Correlations and curves have one stratum for each variant, planner and pedestrian model.
 export function strata(data) {
   const several = (field) => values_of(data, field).length > 1;
   return variants(data).flatMap((variant) => {
@@ -71,7 +71,7 @@ export function strata(data) {
   });
 }
 
-// Labels are empty where nobody plans, drives or walks.
+// The label is empty if there is no planner, controller or pedestrian model.
 export function named(label) {
   return label === '' ? 'none' : label;
 }
@@ -89,7 +89,7 @@ export function metric(data, name) {
   return data.metrics.find((candidate) => candidate.name === name);
 }
 
-// "completion time", "IBTR by distance": abbreviations as the layouts write them.
+// "completion time", "IBTR by distance": abbreviations are spelled as in the layouts.
 export function metric_title(data, name) {
   const headers = data.layouts.report.tables.flatMap((table) => table.columns.map((column) => column.header));
   const written = new Map(
@@ -114,19 +114,19 @@ export function direction_words(direction) {
   return {higher: 'higher is better', lower: 'lower is better', none: 'neither is better'}[direction];
 }
 
-// Metrics with a value in at least one trial, as they were declared.
+// Metrics with a value in at least one trial, in the order of declaration.
 export function measured_metrics(data) {
   return data.metrics.filter((candidate) => (data.values[candidate.name] || []).some(ranking.is_defined));
 }
 
-// Decimals that a layout gives a metric; else by its values.
+// The decimals of a metric: from the layout, else from its values.
 export function decimals(data, name, values) {
   const columns = data.layouts.report.tables.flatMap((table) => table.columns);
   const written = columns.find((column) => column.metric === name);
   return written ? written.decimals : numbers.decimals_of(values);
 }
 
-// Which colour, symbol and dash a label has among its kind: the same in every plot.
+// The colour, symbol and dash pattern of a label, the same in every plot.
 export function series(data, field, label) {
   const index = values_of(data, field).indexOf(label);
   return {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// numbers.js: how numbers, intervals and units are written.
+// numbers.js: formats numbers, intervals and units.
 
 export const UNDEFINED = '—';
 
@@ -7,14 +7,14 @@ export function is_number(value) {
   return typeof value === 'number' && Number.isFinite(value);
 }
 
-// With a real minus sign, and no minus before zero.
+// With the character U+2212 as minus sign, and without a sign for zero.
 export function fixed(value, decimals) {
   if (!is_number(value)) return UNDEFINED;
   const text = Math.abs(value).toFixed(decimals);
   return value < 0 && Number(text) !== 0 ? '\u2212' + text : text;
 }
 
-// As many decimals as give the largest of `values` three digits; none where all are whole numbers.
+// The decimals with which the largest of `values` has three significant digits; 0 if all are integers.
 export function decimals_of(values) {
   const defined = values.filter(is_number);
   if (defined.every(Number.isInteger)) return 0;
@@ -31,7 +31,7 @@ export function signed(value, decimals) {
   return is_number(value) && value > 0 && Number(text) !== 0 ? '+' + text : text;
 }
 
-// Nothing where both ends are written alike.
+// Empty if both ends round to the same text.
 export function interval(low, high, decimals, write = fixed) {
   if (!is_number(low) || !is_number(high) || fixed(low, decimals) === fixed(high, decimals)) return '';
   return `[${write(low, decimals)}, ${write(high, decimals)}]`;
@@ -46,7 +46,7 @@ export function percent(share) {
   return is_number(share) ? `${fixed(100 * share, 0)} %` : UNDEFINED;
 }
 
-// "1" is how a dimensionless value is declared.
+// Dimensionless values have the unit "1".
 export function unit(name) {
   return name === '1' || name === '' ? '' : name;
 }

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// ranking.js: what is better, what comes first. A metric's direction is "higher", "lower" (better) or "none".
+// ranking.js: sorts values and finds the best. A metric's direction is "higher", "lower" (better) or "none".
 
 export function is_defined(value) {
   return value !== null && value !== undefined && !Number.isNaN(value);
 }
 
-// Undefined values come last, whichever way the others go.
+// Undefined values come last in both directions.
 export function compare(a, b, descending) {
   if (!is_defined(a) || !is_defined(b)) return Number(!is_defined(a)) - Number(!is_defined(b));
   const order = typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a - b;
   return descending ? -order : order;
 }
 
-// The indices of `values` in order; equal ones stay as they were.
+// The indices of `values` in sorted order. The sort is stable.
 export function order(values, descending) {
   return values.map((_, i) => i).sort((i, j) => compare(values[i], values[j], descending) || i - j);
 }
 
-// Indices of the best values, as they are written. None where no direction is better, or where more than half of the
-// values are equally good.
+// Indices of the best values after rounding. Empty if the metric has no direction, or if more than half of the values
+// are equally good.
 export function best(exact, direction, decimals) {
   const values = exact.map((value) => (is_defined(value) ? Number(value.toFixed(decimals)) : null));
   const defined = values.filter(is_defined);
@@ -28,8 +28,8 @@ export function best(exact, direction, decimals) {
   return new Set(found.length > defined.length / 2 ? [] : found);
 }
 
-// How good each value is among its kind: 1 the best, 0 the worst, null where undefined. Higher counts as more where no
-// direction is better; all equal is 0.5.
+// Scales values to 0 (worst) to 1 (best), null if undefined, 0.5 if all are equal. Without a direction the highest
+// value gets 1.
 export function goodness(values, direction) {
   const defined = values.filter(is_defined);
   const low = Math.min(...defined);
@@ -42,7 +42,7 @@ export function goodness(values, direction) {
   });
 }
 
-// What a click on a column shows first.
+// The order after the first click on a column.
 export function descending_first(direction) {
   return direction === 'higher';
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// start.js: reads the data and fills the page: what is seen first at once, the rest when it comes near or the browser is
-// idle, so that a large run opens quickly.
+// start.js: reads the data and fills the page. The head and the first section come at once, the others when the reader
+// scrolls near them or when the browser is idle, so that the report of a large run opens quickly.
 import {element, fill} from './elements.js';
 import * as completion from './plots/completion.js';
 import * as diagnosis from './plots/diagnosis.js';
@@ -19,8 +19,8 @@ import * as result_tables from './tables/result_tables.js';
 import * as theme from './theme.js';
 import './page.css';
 
-// Each fills the body of its section. One that has nothing to show returns why: its section is left out, and the reason
-// stands at the end of the page.
+// Each function fills the body of its section. If there are no data it returns the reason: the section is removed and
+// the reason listed at the end of the page.
 function parts() {
   return [
     ['tables', result_tables.mount],
@@ -46,9 +46,9 @@ function mount_part(part, data) {
   try {
     reason = part.mount(body, data);
   } catch (error) {
-    // a part that fails must not take the others with it
+    // an error in one section must not stop the others
     console.error(error);
-    fill(body, element('p', {class: 'note'}, `This part could not be shown: ${error.message}`));
+    fill(body, element('p', {class: 'note'}, `This section could not be shown: ${error.message}`));
   }
   part.section.classList.add('ready');
   if (typeof reason !== 'string') return;
@@ -70,7 +70,7 @@ function fill_contents(all) {
   contents.append(list);
 }
 
-// Sideways alone: the page must not move.
+// Scrolls the list horizontally; the page must not move.
 function bring_into_sight(link) {
   const list = link.parentElement;
   const room = list.clientWidth - link.offsetWidth;
@@ -78,7 +78,7 @@ function bring_into_sight(link) {
     list.scrollLeft = link.offsetLeft - room / 2;
 }
 
-// Marks in the contents where the reader is.
+// Marks the current section in the contents.
 function follow_reading(all) {
   const seen = new Set();
   const observer = new IntersectionObserver(
@@ -124,7 +124,7 @@ function mount_when_idle(all, data) {
   );
 }
 
-// A jump to a section must not be undone by others that grow above it.
+// Sections above the target of a jump are filled first, since they grow.
 function mount_before_jumps(all, data) {
   document.addEventListener('click', (event) => {
     const link = event.target.closest('a[href^="#"]');
@@ -145,7 +145,7 @@ function open_replay(all, data, trial) {
   return player.open(trial);
 }
 
-// Other scripts and tests find the data and open_replay(trial) at window.dmrp.
+// window.dmrp offers the data and open_replay(trial) to tests and other scripts.
 function begin() {
   theme.follow_system();
   theme.follow_printing();

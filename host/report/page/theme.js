@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// theme.js: light or dark, as the reader's system has it until told otherwise.
+// theme.js: the light and the dark theme; the system's preference until the reader chooses.
 import {element} from './elements.js';
 
 export function set(theme) {
@@ -13,7 +13,7 @@ export function follow_system() {
   dark.addEventListener('change', () => set(dark.matches ? 'dark' : 'light'));
 }
 
-// Paper is white.
+// Prints in the light theme.
 export function follow_printing() {
   let before = 'light';
   window.addEventListener('beforeprint', () => {

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "planners/conflict_search/high_level/high_level.hpp"
 #include "planners/mapf/solvability.hpp"
 #include "planners/mapf/straighten.hpp"
 
@@ -25,10 +26,12 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
   const ConflictSearchOptions chosen = options();
   MddCache mdds(problem, *tables, &stop);
   CorridorReasoning corridors(problem, *tables, stop);
-  ConflictSearch search(problem, *tables, corridors, mdds, chosen, stop);
-  std::vector<std::int32_t> everybody(problem.agents.size());
-  std::iota(everybody.begin(), everybody.end(), 0);
-  const ConflictSearch::Result result = search.run(everybody, {});
+  const SearchContext context = {problem, *tables, corridors, mdds, stop};
+  PairWeights weights(context, chosen);
+  HighLevel search(context, chosen, chosen.dependency_graph ? &weights : nullptr);
+  std::vector<std::int32_t> all_agents(problem.agents.size());
+  std::iota(all_agents.begin(), all_agents.end(), 0);
+  const HighLevel::Result result = search.run(all_agents, {});
 
   const ConflictSearchStatistics statistics = search.statistics();
   sink.statistic("lower_bound", statistics.lower_bound);
@@ -36,7 +39,7 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
   sink.statistic("high_level_generated", static_cast<double>(statistics.high_level_generated));
   sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
   switch (result) {
-    case ConflictSearch::Result::solved: {
+    case HighLevel::Result::solved: {
       std::vector<std::vector<Location>> paths;
       double cost = 0;
       for (const AgentPath& path : search.solution()) {
@@ -48,13 +51,13 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
       write_paths(host_problem, problem, {paths.begin(), paths.end()}, sink);
       return Status::ok;
     }
-    case ConflictSearch::Result::unsolvable:
+    case HighLevel::Result::unsolvable:
       set_error(search.obstruction());
       return Status::no_solution;
-    case ConflictSearch::Result::stopped:
+    case HighLevel::Result::stopped:
       set_error("stopped by the host");
       return Status::timeout;
-    case ConflictSearch::Result::node_limit:
+    case HighLevel::Result::node_limit:
       set_error("no plan within node_limit = " + std::to_string(chosen.node_limit) + " nodes");
       return Status::timeout;
   }

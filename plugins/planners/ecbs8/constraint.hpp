@@ -9,9 +9,6 @@
 
 namespace dmrp::planners::ecbs8 {
 
-// Far beyond all times, and a step can be added.
-constexpr std::int32_t forever = INT32_MAX / 2;
-
 // Uses of the grid, from time `from` until time `until`; a move counts by the time at which it arrives.
 struct Constraint {
   enum class Use : std::uint8_t {

@@ -30,6 +30,7 @@ Search::Search(const Problem& problem, const std::vector<TourDistances>& distanc
       node_limit_(node_limit),
       stop_(stop),
       tree_(problem.agents.size()),
+      paths_(problem.agents.size()),
       occupied_(problem.graph, problem.agents.size()),
       low_level_(problem.graph),
       constraint_table_(problem.graph) {}
@@ -38,7 +39,8 @@ Search::Result Search::run() {
   if (!plan_root()) return Result::stopped;
   for (;;) {
     const NodeId best = choose();
-    if (best < 0) return obstruction_ = "every way to resolve the robots' conflicts was tried", Result::unsolvable;
+    if (best == no_node)
+      return obstruction_ = "every way to resolve the robots' conflicts was tried", Result::unsolvable;
     if (expand(best)) return Result::solved;
     if (stop_.poll_now()) return Result::stopped;
     if (statistics_.high_level_generated >= node_limit_) return Result::node_limit;
@@ -84,7 +86,7 @@ std::vector<std::size_t> Search::by_distance() const {
   return order;
 }
 
-// The node of FOCAL with fewest conflicts, or -1 if there is none left. Raises the lower bound.
+// The node of FOCAL with fewest conflicts, or no_node if none is left. Raises the lower bound.
 //
 // Every path keeps to the limit of its own lower bound, so the node of the least lower bound is always in FOCAL.
 NodeId Search::choose() {
@@ -92,7 +94,7 @@ NodeId Search::choose() {
     std::pop_heap(open_.begin(), open_.end(), IsWorse{});
     open_.pop_back();
   }
-  if (open_.empty()) return -1;
+  if (open_.empty()) return no_node;
   statistics_.lower_bound = std::max(statistics_.lower_bound, open_.front().lower_bound);
   const Cost bound = suboptimality_.limit(statistics_.lower_bound);
   while (!waiting_.empty() && waiting_.front().cost <= bound) {
@@ -224,7 +226,7 @@ std::int32_t Search::count_pairs(const Child& child) const {
 
 NodeId Search::add(const Child& child) {
   const AgentPath path{child.node.constrained_agent, child.path.locations, child.path.cost, child.path.lower_bound};
-  return tree_.add(child.node, {path}, child.conflicts);
+  return tree_.add(child.node, {&path, 1}, child.conflicts);
 }
 
 // A lower bound that the constraint raised holds no longer.
@@ -235,7 +237,7 @@ NodeId Search::add_without_constraint(const Child& child, NodeId parent) {
   Node node = child.node;
   node.constrained_agent = -1;
   node.lower_bound = tree_.node(parent).lower_bound;
-  return tree_.add(node, {path}, child.conflicts);
+  return tree_.add(node, {&path, 1}, child.conflicts);
 }
 
 void Search::push(NodeId id) {

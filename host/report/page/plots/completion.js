@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// completion.js: when robots arrive, those that never do included.
+// completion.js: arrivals over time and the restricted mean, which includes robots that never arrive.
 import {scaleLinear} from 'd3-scale';
 import {curveStepAfter, line} from 'd3-shape';
 
@@ -11,7 +11,7 @@ import * as ranking from '../ranking.js';
 import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 
-// Somewhat after the last arrival, since nothing changes from there to the time limit.
+// The end of the time axis: a little after the last arrival.
 function last_of_interest(rows) {
   const last = Math.max(...rows.map((row) => row.steps[row.steps.length - 1][0]));
   return Math.min(1.15 * last, Math.max(...rows.map((row) => row.horizon_s)));
@@ -120,7 +120,7 @@ function table(data, rows, variants) {
   return titled_table(
     'title-completion',
     'Restricted mean time to arrive',
-    'The mean over all robots, where one that has not arrived counts with the time limit; 95 % intervals over seeds.',
+    'The mean over all robots; a robot that has not arrived counts with the time limit. 95 % intervals over seeds.',
     made
   );
 }
@@ -148,7 +148,7 @@ function show_variants(data, rows, variants, holder) {
 
 export function mount(body, data) {
   const rows = data.completion.filter((row) => numbers.is_number(row.restricted_mean_s));
-  if (rows.length === 0) return 'times of completion were not measured';
+  if (rows.length === 0) return 'completion times were not measured';
   const variants = labels.variants(data);
   const first = controls.first_variant(variants, rows.length);
   const holder = element('div');

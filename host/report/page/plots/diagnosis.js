@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// diagnosis.js: one metric against another, trial by trial, each scenario and planner on its own, with rank
-// correlations.
+// diagnosis.js: scatter plots of two metrics, one panel for each scenario and planner, with rank correlations.
 import * as controls from '../controls.js';
 import {element, fill, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
@@ -10,7 +9,7 @@ import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 import * as trial_points from './trial_points.js';
 
-// Rows of data.trials in which both are defined.
+// Rows of data.trials in which both metrics are defined.
 export function points_of(data, stratum, chosen) {
   const inside = new Set(stratum.combinations);
   const of = (name, i) => data.values[name][i];
@@ -37,7 +36,7 @@ export function correlation_of(data, stratum, x, y) {
 
 function correlation_words(found) {
   if (!found) return '';
-  if (!numbers.is_number(found.rho)) return `no correlation: too few trials, or all equal (n ${found.n})`;
+  if (!numbers.is_number(found.rho)) return `no correlation: too few trials, or equal values (n ${found.n})`;
   const {interval, signed} = numbers;
   return `ρ ${signed(found.rho, 2)} ${interval(found.low, found.high, 2, signed)}, n ${found.n}`;
 }
@@ -54,14 +53,14 @@ function draw_panel(data, trials, chosen, domains, holder, width, detail) {
     const at = {x: x(data.values[chosen.x][row]), y: y(data.values[chosen.y][row])};
     return {...at, row, node: trial_points.draw_mark(svg, data, row, at.x, at.y)};
   });
-  trial_points.choosable(svg, data, points, [chosen.x, chosen.y], detail);
+  trial_points.selectable(svg, data, points, [chosen.x, chosen.y], detail);
 }
 
 function correlation_cell(found) {
   if (!found || !numbers.is_number(found.rho)) {
     return element(
       'td',
-      {class: 'number', title: found ? `too few trials, or all equal (n ${found.n})` : null},
+      {class: 'number', title: found ? `too few trials, or equal values (n ${found.n})` : null},
       numbers.UNDEFINED,
       found && element('span', {class: 'interval'}, `n ${found.n}`)
     );
@@ -79,7 +78,7 @@ function correlation_cell(found) {
   );
 }
 
-// Strata by the declared pairs.
+// One row for each stratum, one column for each pair of metrics in the layout.
 function correlation_table(data, strata) {
   const pairs = labels
     .distinct(data.correlations.map((one) => JSON.stringify([one.x, one.y])))
@@ -87,9 +86,10 @@ function correlation_table(data, strata) {
   if (pairs.length === 0) return null;
   const title = ([x, y]) => `${labels.metric_title(data, x)}, ${labels.metric_title(data, y)}`;
   const note =
-    'Spearman\u2019s ρ over the trials in which both are defined, of all controllers together; 95 % intervals over ' +
-    'seeds. p by permutation within each controller: controllers that differ in both make ρ large, but not p small. ' +
-    'Ties: the share of pairs of trials that are equal in one of the two.';
+    'Spearman\u2019s ρ over the trials of all controllers in which both metrics are defined; 95 % intervals over ' +
+    'seeds. p is from permutations within each controller: differences between controllers enlarge ρ, but do not ' +
+    'lower p. ' +
+    'Ties: the share of pairs of trials with equal values of one of the metrics.';
   return titled_table(
     'title-correlations',
     'Rank correlations',
@@ -136,7 +136,7 @@ function first_choice(data, measured) {
 export function mount(body, data) {
   const measured = labels.measured_metrics(data);
   if (data.trials.id.length < 3)
-    return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be seen`;
+    return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be computed`;
   if (measured.length < 2) return 'fewer than two metrics have values';
   const strata = labels.strata(data);
   const chosen = first_choice(data, measured);
@@ -153,7 +153,7 @@ export function mount(body, data) {
       }))
       .filter((one) => one.trials.length > 0);
     if (seen.length === 0) {
-      fill(holder, element('p', {class: 'note'}, 'In no trial are both defined.'));
+      fill(holder, element('p', {class: 'note'}, 'No trial has values of both metrics.'));
       return;
     }
     const values = (name, variant) =>
@@ -173,8 +173,8 @@ export function mount(body, data) {
   fill(
     body,
     controls.row(
-      controls.metric_select(data, 'Sideways', measured, chosen.x, choose('x')),
-      controls.metric_select(data, 'Upwards', measured, chosen.y, choose('y'))
+      controls.metric_select(data, 'Horizontal', measured, chosen.x, choose('x')),
+      controls.metric_select(data, 'Vertical', measured, chosen.y, choose('y'))
     ),
     trial_points.mark_legend(data),
     holder,

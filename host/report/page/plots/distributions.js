@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// distributions.js: every trial of every combination as a point, so that nothing hides behind a mean.
+// distributions.js: one point for each trial, one row for each combination.
 import {median} from 'd3-array';
 
 import * as controls from '../controls.js';
@@ -10,8 +10,8 @@ import * as plots from './plots.js';
 import * as trial_points from './trial_points.js';
 
 const ROW = 24; // px, a combination
-const SPREAD = 7; // px, points up and down from their row's middle
-const UNDEFINED = 40; // px, the column of trials without a value
+const SPREAD = 7; // px, vertical jitter of the points of a row
+const UNDEFINED = 40; // px, column of the trials without a value
 const TOP = 26;
 const BOTTOM = 46;
 
@@ -68,7 +68,7 @@ function draw_undefined_column(svg, right, bottom, trials_without) {
     .attr('y2', bottom);
 }
 
-// Over the points, with a rim that sets them off.
+// The median bar, with a rim in the background colour.
 function draw_medians(svg, rows, x) {
   rows.forEach((row, r) => {
     if (row.median === null) return;
@@ -111,7 +111,7 @@ function draw_panel(data, shown, domain, metric, holder, width, detail) {
     }
   });
   draw_medians(svg, shown.rows, x);
-  trial_points.choosable(svg, data, points, [metric], detail);
+  trial_points.selectable(svg, data, points, [metric], detail);
 }
 
 function default_metric(data, measured) {

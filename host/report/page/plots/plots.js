@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plots.js: what all plots share: frames, axes, shapes, the tip, panels side by side.
+// plots.js: frames, axes, scales, symbols, legends, the tooltip and grids of panels.
 import {extent} from 'd3-array';
 import {axisBottom, axisLeft} from 'd3-axis';
 import {scaleLinear} from 'd3-scale';
@@ -19,7 +19,7 @@ import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 
-// Draws now and again when the width changes. draw(holder, width) fills the holder.
+// Draws now and after every change of width. draw(holder, width) fills the holder.
 export function responsive(holder, draw) {
   let drawn = 0;
   const redraw = () => {
@@ -46,7 +46,7 @@ export function frame(holder, width, height, label) {
     .attr('aria-label', label);
 }
 
-// Not more ticks than there is room for.
+// The number of ticks that fit.
 function ticks_for(length, each) {
   return Math.max(2, Math.floor(length / each));
 }
@@ -85,7 +85,7 @@ export function axis_left(parent, scale, x) {
   return parent.append('g').attr('class', 'axis').attr('transform', `translate(${x},0)`).call(axis);
 }
 
-// With room at both ends; a scale of a single value is widened.
+// A linear scale with a margin at both ends; the scale of a single value is widened.
 export function linear(values, range, {zero = false} = {}) {
   let [low, high] = extent(values.filter(numbers.is_number));
   if (low === undefined) [low, high] = [0, 1];
@@ -105,7 +105,7 @@ export function symbol(index, size = 44) {
     .size(size)();
 }
 
-// What a trial that failed is drawn as.
+// The mark of a failed trial.
 export function cross(radius = 3.6) {
   return `M${-radius},${-radius}L${radius},${radius}M${-radius},${radius}L${radius},${-radius}`;
 }
@@ -140,7 +140,7 @@ export function legend(entries) {
   return list;
 }
 
-// A legend of one kind's labels: empty where there is only one.
+// The legend of a field's labels; null if there is only one.
 export function field_legend(data, field, line = false) {
   const values = labels.values_of(data, field);
   if (values.length < 2) return null;
@@ -158,7 +158,7 @@ export function field_legend(data, field, line = false) {
   );
 }
 
-// Near `target`'s box, inside the window.
+// Places the tooltip near `target`, inside the window.
 export function show_tip(target, ...content) {
   const tip = document.getElementById('tip');
   fill(tip, content);
@@ -177,14 +177,14 @@ export function hide_tip() {
 
 const text_measure = () => document.createElement('canvas').getContext('2d');
 
-// Width in pixels of the longest of `texts` at the size of labels.
+// Width in pixels of the longest of `texts` in the font of labels.
 export function text_width(texts) {
   const context = text_measure();
   context.font = `12px ${window.getComputedStyle(document.body).fontFamily}`;
   return Math.max(0, ...texts.map((text) => context.measureText(text).width));
 }
 
-// Cut to `width` pixels; the whole of it for who points at it.
+// Shortens the text to `width` pixels; a tooltip shows all of it.
 export function fit_text(text, words, width) {
   let shown = words;
   while (shown.length > 4 && text_width([shown]) > width) shown = `${shown.slice(0, -2).trimEnd()}…`;
@@ -194,7 +194,7 @@ export function fit_text(text, words, width) {
 
 export const SMALL_PANELS = {least: 240, most: 520, most_columns: 4};
 
-// Panels in columns of `least` to `most` pixels. Returns their elements.
+// A grid of panels, each `least` to `most` pixels wide. Returns their elements.
 export function panels(holder, titles, {least, most, most_columns}) {
   const columns = Math.max(1, Math.min(most_columns, titles.length));
   const grid = element('div', {class: 'facets'});

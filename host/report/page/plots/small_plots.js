@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// small_plots.js: panels side by side, one for each scenario and planner, and the frame, grid and axes of each.
+// small_plots.js: a grid of panels, one for each scenario and planner, with frame, grid lines and axes.
 import {element, fill} from '../elements.js';
 import * as plots from './plots.js';
 
-const BODY = 148; // px, the height between the axis and the top of the grid
-const UNIT = 12; // px, room for y's unit
+const BODY = 148; // px, height of the grid
+const UNIT = 12; // px, for the unit of y
 const MARGIN = {top: 8, right: 12, bottom: 42, left: 46};
 
 // An empty plot: {svg, x, y}, the axes' scales. `x`, `y`: (pixels) => scale, y's from the bottom up.
-// titles: {all, x, y_unit}; lines: where the grid has them, by default at the ticks.
+// titles: {all, x, y_unit}; lines: values of the grid lines, by default the ticks.
 export function frame(holder, width, {x, y}, titles, lines) {
   fill(holder);
   const top = MARGIN.top + (titles.y_unit ? UNIT : 0);
@@ -39,9 +39,9 @@ export function frame(holder, width, {x, y}, titles, lines) {
   return {svg, ...scales};
 }
 
-// seen: [{stratum, line}], `line` being a word above the plot, if there is one; draw(one, holder, width).
+// seen: [{stratum, line}]; `line`: optional text above the plot; draw(one, holder, width).
 export function panels(holder, upwards, seen, draw) {
-  fill(holder, element('p', {class: 'axis-note'}, `Upwards: ${upwards}`));
+  fill(holder, element('p', {class: 'axis-note'}, `Vertical axis: ${upwards}`));
   const made = plots.panels(
     holder,
     seen.map((one) => one.stratum.title),

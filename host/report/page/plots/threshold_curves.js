@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// threshold_curves.js: lines with bands, a panel for each scenario and planner, a line for each controller: metrics over their
-// thresholds.
+// threshold_curves.js: metrics over their thresholds: one panel for each scenario and planner, one line with a band for
+// each controller.
 import {extent} from 'd3-array';
 import {scaleLinear} from 'd3-scale';
 import {area, line} from 'd3-shape';
@@ -12,12 +12,12 @@ import * as numbers from '../numbers.js';
 import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 
-// What the layout says of a metric's coordinate: {metric, coordinate, coordinate_unit}.
+// The layout's entry for a metric: {metric, coordinate, coordinate_unit}.
 function layout_of(data, metric) {
   return (data.layouts.report.curves || []).find((one) => one.metric === metric) || {};
 }
 
-// What the axes must hold.
+// The domains of the axes.
 function extents_of(data, curves) {
   const points = curves.flatMap((curve) => curve.points);
   const unit = numbers.unit(curves[0].coordinate_unit || '');

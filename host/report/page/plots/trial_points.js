@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// trial_points.js: points that stand for trials: chosen by pointer or by keys, each leads to its trial's replay.
+// trial_points.js: points that represent trials. The reader selects them by pointer or keys and opens the replay.
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
 import * as plots from './plots.js';
 
-// A number in [-1, 1) that depends on the trial alone, so that a plot looks the same each time. `axis`: 0 or 1, for
-// numbers that have nothing to do with each other.
+// A number in [-1, 1) that depends on the trial alone, so that a plot always looks the same. `axis`: 0 or 1, for two
+// independent numbers.
 export function jitter(id, axis = 0) {
   let hash = Math.imul(id + 1, axis === 0 ? 0x9e3779b1 : 0x27d4eb2f);
   hash = Math.imul(hash ^ (hash >>> 15), 0x85ebca6b);
@@ -19,7 +19,7 @@ function has_replay(data, id) {
   return data.replays.some((replay) => replay.trial === id);
 }
 
-// The page opens it (start.js).
+// start.js opens the replay.
 function open_replay(id) {
   document.dispatchEvent(new CustomEvent('dmrp:open-replay', {detail: id}));
 }
@@ -47,11 +47,11 @@ function tip_of(data, row, metrics) {
     metrics.map((metric) => value_words(data, row, metric)).join(', '),
     element('br'),
     OUTCOMES[data.trials.outcome[row]],
-    has_replay(data, data.trials.id[row]) && [element('br'), 'Choose it to see its replay'],
+    has_replay(data, data.trials.id[row]) && [element('br'), 'Click to open the replay'],
   ];
 }
 
-// The line under a plot that tells of the chosen trial.
+// The line below a plot about the selected trial.
 function detail_of(data, row, metrics) {
   const id = data.trials.id[row];
   const words =
@@ -60,12 +60,13 @@ function detail_of(data, row, metrics) {
   return [
     element('span', {class: 'number'}, words),
     has_replay(data, id)
-      ? element('button', {type: 'button', class: 'button small', onclick: () => open_replay(id)}, 'Open its replay')
+      ? element('button', {type: 'button', class: 'button small', onclick: () => open_replay(id)}, 'Open the replay')
       : element('span', {class: 'none'}, 'no replay in this report'),
   ];
 }
 
-// The next of `points` ({x, y}) in the direction of an arrow key: along a row to the nearest in x, else to the nearest row.
+// The next of `points` ({x, y}) in the direction of an arrow key: left and right along the row, up and down to the
+// nearest row.
 export function neighbour(points, current, key) {
   if (current < 0) return points.length > 0 ? 0 : -1;
   const sideways = key === 'ArrowLeft' || key === 'ArrowRight';
@@ -84,8 +85,9 @@ export function neighbour(points, current, key) {
   return best;
 }
 
-// Makes the marks of `svg` choosable. points: [{x, y, row, node}] in the plot's coordinates; `metrics` are told of each.
-export function choosable(svg, data, points, metrics, detail) {
+// Makes the marks of `svg` selectable. points: [{x, y, row, node}] in the plot's coordinates; the tooltip shows the
+// values of `metrics`.
+export function selectable(svg, data, points, metrics, detail) {
   let current = -1;
   const point_at = (index) => {
     if (current >= 0) points[current].node.classList.remove('chosen');
@@ -126,7 +128,7 @@ export function detail_line() {
   return element('p', {class: 'detail', 'aria-live': 'polite'});
 }
 
-// Puts a trial's mark at (x, y): its controller's shape and colour, or a cross if not all robots arrived.
+// Draws a trial's mark at (x, y): symbol and colour of its controller, or a cross if a robot did not arrive.
 export function draw_mark(parent, data, row, x, y) {
   const combination = data.combinations[data.trials.combination[row]];
   const series = labels.series(data, 'local_controller', combination.local_controller);
@@ -141,7 +143,7 @@ export function draw_mark(parent, data, row, x, y) {
     .node();
 }
 
-// What the marks mean.
+// The legend of the marks.
 export function mark_legend(data) {
   const values = labels.values_of(data, 'local_controller');
   const entries = values.map((value) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// chooser.js: which trial is replayed: a combination, then one of its trials, each with why it is here.
+// chooser.js: selects the replayed trial: a combination, then one of its trials, with the reason for its replay.
 import {element} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
@@ -24,7 +24,7 @@ function trial_words(data, replay) {
   return `trial ${replay.trial}: ${replay.why.join(', ')}, ${numbers.fixed(data.trials.sim_time_s[row], 1)} s`;
 }
 
-// One line about a trial.
+// A summary of a trial in one line.
 export function trial_summary(data, replay) {
   const row = row_of(data, replay.trial);
   return [
@@ -39,7 +39,7 @@ function labelled(title, box) {
   return element('label', {class: 'control'}, element('span', {}, title), box);
 }
 
-// `choose` gets the id of a trial.
+// Calls `choose` with the id of a trial.
 export function make_chooser(data, choose) {
   const with_replays = labels
     .distinct(data.replays.map((replay) => combination_of(data, replay.trial)))
@@ -79,25 +79,26 @@ export function make_chooser(data, choose) {
   return {node, show};
 }
 
-// How the trials were chosen; "" where the layout does not say.
+// The rule that selected the trials; "" if the layout has none.
 export function choice_words(data) {
   const rank_by = (data.layouts.report.replays || {rank_by: []}).rank_by;
   if (rank_by.length === 0) return '';
   const titles = rank_by.map((name) => labels.metric_title(data, name)).join(', or where that is undefined by ');
-  return `Of each combination: the median and the worst trial by ${titles}; then trials that failed or ended in a fault.`;
+  const ranked = `the median and the worst trial by ${titles}`;
+  return `For each combination: ${ranked}; then trials that failed or ended in a fault.`;
 }
 
-// What is not here, in a sentence each.
+// One sentence for each kind of omitted replay.
 export function left_out_words(data) {
   const kinds = {
     median: 'median trial',
     worst: 'worst trial',
     failure: 'failed trial',
     fault: 'trial with a fault',
-    asked: 'trial that was asked for',
+    asked: 'requested trial',
   };
   return data.replays_left_out.map((one) => {
     const noun = kinds[one.why] || 'trial';
-    return `${numbers.counted(one.trials, noun, noun.replace('trial', 'trials'))} left out: ${one.reason}.`;
+    return `${numbers.counted(one.trials, noun, noun.replace('trial', 'trials'))} without a replay: ${one.reason}.`;
   });
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// clock.js: the replay's time: it plays, stands and jumps, and tells everybody who shows it.
+// clock.js: the time of the replay: it plays, pauses and jumps, and notifies its listeners.
 
 export function make_clock() {
   const listeners = [];
   const clock = {t: 0, end: 0, playing: false, speed: 1};
-  let last = null; // the frame before, ms
+  let last = null; // time of the previous frame, ms
 
-  const tell = () => listeners.forEach((listener) => listener(clock));
+  const notify = () => listeners.forEach((listener) => listener(clock));
 
   function frame(now) {
     if (!clock.playing) return;
@@ -14,7 +14,7 @@ export function make_clock() {
     last = now;
     clock.t = Math.min(clock.end, clock.t + passed * clock.speed);
     if (clock.t >= clock.end) clock.playing = false;
-    tell();
+    notify();
     if (clock.playing) requestAnimationFrame(frame);
   }
 
@@ -25,24 +25,24 @@ export function make_clock() {
     if (clock.t >= clock.end) clock.t = 0;
     clock.playing = true;
     last = null;
-    tell();
+    notify();
     requestAnimationFrame(frame);
   };
 
   clock.pause = () => {
     if (!clock.playing) return;
     clock.playing = false;
-    tell();
+    notify();
   };
 
   clock.toggle = () => (clock.playing ? clock.pause() : clock.play());
 
   clock.go = (t) => {
     clock.t = Math.min(clock.end, Math.max(0, t));
-    tell();
+    notify();
   };
 
-  // Stands at whole samples, so that a step shows what was recorded.
+  // Rounds to the time of a sample, so that a step shows a recorded state.
   clock.step = (seconds) => {
     clock.playing = false;
     clock.go(Math.round((clock.t + seconds) * 10) / 10);

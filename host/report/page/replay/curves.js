@@ -22,7 +22,7 @@ const KINDS = [
   {key: 'speed', title: 'Speed (m/s)', top: (replay) => Math.max(0.1, ...replay.robots.map((robot) => robot.v_max))},
   {
     key: 'deviation',
-    title: 'Distance from the path in force (m)',
+    title: 'Distance from the current path (m)',
     top: (replay) => Math.max(0.5, largest(replay, 'deviation')),
   },
 ];
@@ -39,7 +39,7 @@ function smallest(replay, key) {
   return least;
 }
 
-// As many samples as can be seen, of every few the one farthest from zero.
+// Reduces `values` to at most `most` indices: of each block the value farthest from zero.
 function thinned(values, most) {
   const every = Math.max(1, Math.ceil(values.length / most));
   const kept = [];
@@ -92,7 +92,7 @@ export function make_curves(handlers) {
       .remove();
   }
 
-  // When metrics noticed something.
+  // The intervals of metric events.
   function draw_spans(svg) {
     svg
       .append('g')

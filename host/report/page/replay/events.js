@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// events.js: what happened in a trial, in order: contacts, what metrics noticed, arrivals, failures, new plans.
+// events.js: the events of a trial in order: contacts, metric events, arrivals, failures, new plans.
 import {FAILED} from './recording.js';
 
 const SAME_S = {
   contact: 0.05,
   arrival: 0.15,
   failure: 0.15,
-}; // a robot's state is known every 0.1 s
+}; // states are sampled every 0.1 s
 
 function other_body(replay, contact) {
   if (contact.kind === 'robot') return `robot ${contact.other}`;
@@ -16,9 +16,9 @@ function other_body(replay, contact) {
 }
 
 function fault_words(contact) {
-  if (contact.unavoidable) return 'could not be avoided';
+  if (contact.unavoidable) return 'unavoidable';
   return {
-    none: 'nobody at fault',
+    none: 'neither at fault',
     both: 'both at fault',
     robot: `robot ${contact.robot} at fault`,
     other: `${contact.kind} ${contact.other} at fault`,
@@ -76,11 +76,11 @@ function plan_events(replay) {
       to: plan.made,
       robots: [],
       at: null,
-      text: plan.paths.length > 0 ? `new plan, in force from ${plan.from.toFixed(1)} s` : 'the planner gave no plan',
+      text: plan.paths.length > 0 ? `new plan, valid from ${plan.from.toFixed(1)} s` : 'the planner returned no plan',
     }));
 }
 
-// A metric that speaks of the same moment and robot as what the trace itself tells says nothing new.
+// Whether a metric event repeats an event of the trace: same robots, same time.
 function is_known(event, known) {
   const same_robots = (other) =>
     other.robots.length === event.robots.length && other.robots.every((robot) => event.robots.includes(robot));
@@ -93,14 +93,14 @@ function is_known(event, known) {
   );
 }
 
-// lane: events of one lane stand in one row of the time line.
+// lane: the row of the time line.
 export function all_events(replay) {
   const known = [
     ...replay.contacts.map((contact) => contact_event(replay, contact)),
     ...robot_events(replay),
     ...plan_events(replay),
   ];
-  const noticed = replay.events.map((event) => ({
+  const metric_events = replay.events.map((event) => ({
     kind: 'metric',
     lane: event.metric,
     from: event.from,
@@ -109,12 +109,12 @@ export function all_events(replay) {
     at: null,
     text: event.text,
   }));
-  return [...known, ...noticed.filter((event) => !is_known(event, known))].sort(
+  return [...known, ...metric_events.filter((event) => !is_known(event, known))].sort(
     (a, b) => a.from - b.from || a.to - b.to
   );
 }
 
-// At this moment; what has no length is seen for a while.
+// Whether the event is at this time. A contact counts for at least a second.
 export function is_now(event, t) {
   return t >= event.from - 1e-6 && t <= Math.max(event.to, event.from + (event.kind === 'contact' ? 1 : 0)) + 1e-6;
 }

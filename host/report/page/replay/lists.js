@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// lists.js: beside the map: the robots with what they do right now, and what happened in the trial.
+// lists.js: the lists beside the map: robots with their current state, and events.
 import {element} from '../elements.js';
 import * as numbers from '../numbers.js';
 import {is_now} from './events.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
 
-const UPDATE_S = 0.1; // what is written changes no more often than this, in the trial's time
+const UPDATE_S = 0.1; // time between updates of the text, in simulated time
 
-// Whether so much time has passed, or the replay stands, that what is written should be brought up to date.
+// Returns a function that says whether the text is due for an update: paused, or UPDATE_S after the last one.
 function make_pace() {
   let last = null;
   return (t, is_playing) => {
@@ -44,7 +44,7 @@ export function make_robot_list(handlers) {
           element('th', {scope: 'col'}, 'Robot'),
           element('th', {scope: 'col'}, 'State'),
           element('th', {scope: 'col', class: 'number'}, 'm/s'),
-          element('th', {scope: 'col', class: 'number', title: 'distance from its path in force'}, 'off path (m)')
+          element('th', {scope: 'col', class: 'number', title: 'distance from its current path'}, 'off path (m)')
         )
       ),
       body
@@ -130,8 +130,8 @@ const SYMBOLS = {
 // handlers: jump(event).
 export function make_event_list(handlers) {
   const list = element('ol', {class: 'replay-events', 'data-testid': 'replay-events'});
-  const nothing = element('p', {class: 'note'}, 'Nothing was noticed in this trial.');
-  const node = element('div', {class: 'replay-happened'}, element('h3', {}, 'What happened'), list, nothing);
+  const nothing = element('p', {class: 'note'}, 'This trial has no events.');
+  const node = element('div', {class: 'replay-event-list'}, element('h3', {}, 'Events'), list, nothing);
   const is_due = make_pace();
   let buttons = [];
   let events = [];

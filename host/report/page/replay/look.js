@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// look.js: the colours of the replay, taken from the page's style sheet, for canvases that know no style sheet.
+// look.js: the colours of the replay, read from the style sheet for the canvases.
 
 const SERIES = 8;
 
@@ -30,12 +30,12 @@ export function read_colours() {
 export const robot_colour = (colours, index) => colours.series[index % SERIES];
 export const robot_variable = (index) => `var(--series-${(index % SERIES) + 1})`;
 
-// Black or white, whichever can be read on it.
+// Black or white, the more legible one on `colour`.
 export function text_on(colour) {
   const value = parseInt(colour.replace('#', ''), 16);
   const light = 0.299 * (value >> 16) + 0.587 * ((value >> 8) & 255) + 0.114 * (value & 255);
   return light > 140 ? '#111111' : '#ffffff';
 }
 
-const WALL_M = 2.0; // shapes this tall are walls, lower ones furniture
+const WALL_M = 2.0; // shapes of at least this height are walls, others furniture
 export const is_wall = (shape) => shape.height >= WALL_M;

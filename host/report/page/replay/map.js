@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// map.js: the flat map of a replay, drawn on a canvas: what stands still on one of its own, the rest every
-// frame.
+// map.js: the flat map of a replay on a canvas. Static shapes are drawn once to a second canvas, the rest every frame.
 import {is_now} from './events.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
 import {make_map_view} from './map_view.js';
 
-const MANY_ROBOTS = 12; // above this, only the picked robot shows all of its plan and trail
+const MANY_ROBOTS = 12; // above this, only the picked robot shows its whole plan and trail
 const SHORT_TRAIL = 100; // samples
 const CONTACT_SEEN_S = 1.0;
-const TOGETHER_M = 4; // people of a group this near are joined by a line
+const TOGETHER_M = 4; // members of a group closer than this are joined by a line
 
 function trace_line(context, view, xs, ys, from, to) {
   context.beginPath();
@@ -44,7 +43,7 @@ function holds(shape, x, y) {
   });
 }
 
-// A round distance whose bar is not longer than 100 px.
+// A round length whose bar is at most 100 px long.
 function scale_bar_m(scale) {
   return [50, 20, 10, 5, 2, 1, 0.5, 0.2].find((length) => length * scale <= 100) || 0.1;
 }
@@ -136,10 +135,10 @@ function draw_plan(context, view, path, colour, strong) {
   context.globalAlpha = 1;
 }
 
-function draw_planned_place(context, view, path, t, colour) {
-  const place = recording.planned_place(path, t);
-  if (!place) return;
-  circle(context, view.x(place[0]), view.y(place[1]), 4.5);
+function draw_planned_position(context, view, path, t, colour) {
+  const position = recording.planned_position(path, t);
+  if (!position) return;
+  circle(context, view.x(position[0]), view.y(position[1]), 4.5);
   context.strokeStyle = colour;
   context.lineWidth = 1.75;
   context.stroke();
@@ -225,7 +224,7 @@ function trace_robot(context, robot, radius, scale) {
 
 function draw_robot(context, view, robot, pose, state, colours, picked) {
   const colour = look.robot_colour(colours, robot.index);
-  const scale = Math.max(view.scale(), 6.5 / robot.radius); // never too small to be seen
+  const scale = Math.max(view.scale(), 6.5 / robot.radius); // at least 6.5 px radius
   const radius = robot.radius * scale;
   context.save();
   context.translate(view.x(pose.x), view.y(pose.y));
@@ -260,7 +259,7 @@ function draw_robot(context, view, robot, pose, state, colours, picked) {
   context.restore();
 }
 
-// Robots that a metric names together right now are joined.
+// Joins the robots of current metric events by a band.
 function draw_relations(context, view, scene, poses) {
   for (const event of scene.events) {
     if (event.kind !== 'metric' || event.robots.length < 2 || !is_now(event, scene.at.t)) continue;
@@ -302,7 +301,7 @@ function draw_contacts(context, view, scene) {
   }
 }
 
-// What moves. `scene`: {replay, at, picked, layers, events, colours}.
+// Draws what moves. `scene`: {replay, at, picked, layers, events, colours}.
 function draw_moving(context, view, scene) {
   const {replay, at, picked, layers, colours} = scene;
   const few = replay.robots.length <= MANY_ROBOTS;
@@ -313,7 +312,7 @@ function draw_moving(context, view, scene) {
 
   for (const robot of ordered) {
     const strong = robot.index === picked;
-    const path = recording.path_in_force(replay, robot.index, at);
+    const path = recording.current_path(replay, robot.index, at);
     if (few || strong)
       draw_goal(
         context,
@@ -334,9 +333,9 @@ function draw_moving(context, view, scene) {
   if (layers.people) draw_people(context, view, replay, at, colours);
   draw_relations(context, view, scene, poses);
   for (const robot of ordered) {
-    const path = recording.path_in_force(replay, robot.index, at);
+    const path = recording.current_path(replay, robot.index, at);
     if (layers.plans && path && robot.state[at.k] === recording.ACTIVE && (few || robot.index === picked))
-      draw_planned_place(context, view, path, at.t, colour(robot));
+      draw_planned_position(context, view, path, at.t, colour(robot));
     draw_robot(context, view, robot, poses[robot.index], robot.state[at.k], colours, robot.index === picked);
   }
   draw_contacts(context, view, scene);
@@ -346,7 +345,7 @@ export function make_map(canvas) {
   const view = make_map_view();
   const still = document.createElement('canvas');
   const context = canvas.getContext('2d');
-  let still_is = ''; // what the still picture shows
+  let still_is = ''; // state that the static canvas shows
   let ratio = 1;
 
   function resize() {
@@ -383,7 +382,7 @@ export function make_map(canvas) {
     draw_scale_bar(context, view, scene.colours);
   }
 
-  // The robot under a pixel of the canvas; null if there is none.
+  // The robot at a pixel of the canvas, or null.
   function robot_at(scene, px, py) {
     let best = null;
     let nearest = Infinity;
@@ -398,7 +397,7 @@ export function make_map(canvas) {
     return best;
   }
 
-  // What lies under a pixel, in words; "" for the bare floor.
+  // A description of the object at a pixel; "" for the floor.
   function words_at(scene, px, py) {
     const index = robot_at(scene, px, py);
     if (index !== null) return `robot ${index}: ${scene.replay.robots[index].name}`;

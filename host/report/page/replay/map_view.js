@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// map_view.js: which part of the world the flat map shows: the world's metres to the canvas's pixels, zoom and
-// shift.
+// map_view.js: the visible part of the world: maps metres to pixels of the canvas; zoom and pan.
 
 const MARGIN = 10; // px around the world
 const LARGEST_ZOOM = 24;
@@ -41,7 +40,7 @@ export function make_map_view() {
     view.look_at([0, 1].map((axis) => (lower[axis] + upper[axis]) / 2));
   };
 
-  // The world stays in sight.
+  // Keeps the world in sight.
   view.look_at = (center) => {
     for (const axis of [0, 1]) {
       const shown = (axis === 0 ? view.width : view.height) / view.scale();
@@ -51,7 +50,7 @@ export function make_map_view() {
     }
   };
 
-  // What lies under the pixel stays there.
+  // Keeps the point under the pixel in place.
   view.zoom_by = (factor, px = view.width / 2, py = view.height / 2) => {
     const [x, y] = view.world(px, py);
     view.zoom = Math.min(LARGEST_ZOOM, Math.max(1, view.zoom * factor));

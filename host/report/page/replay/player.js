@@ -3,7 +3,7 @@
 //
 // For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
 // back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the
-// id of the trial that is shown as data-trial once it can be played.
+// id of the shown trial as data-trial once it can be played.
 import {element} from '../elements.js';
 import {choice_words, left_out_words, make_chooser, trial_summary} from './chooser.js';
 import {make_clock} from './clock.js';
@@ -17,9 +17,9 @@ import {make_time_line} from './time_line.js';
 import {follow_keys, make_transport} from './transport.js';
 
 const KEY =
-  'Solid: the way driven. Dotted: the plan in force, with a small ring where it wants the robot now. ' +
+  'Solid: trail. Dotted: current plan, with a small ring at the planned position. ' +
   'Large rings: goals. Grey: people.';
-const SCANS_KEY = " Dots in a robot's colour: what its lidar hit.";
+const SCANS_KEY = " Dots in a robot's colour: lidar hits.";
 let player = null;
 
 function make_player(section, data, make_3d_view) {
@@ -35,13 +35,13 @@ function make_player(section, data, make_3d_view) {
     colours: null,
     whole_trails: false,
   };
-  let latest = 0; // number of the last request: an older one that comes late is dropped
+  let latest = 0; // number of the last request; results of older ones are dropped
 
   const stage = make_stage({pick, redraw}, make_3d_view);
   const time_line = make_time_line(data, {jump, go: seek});
   const curves = make_curves({pick, go: seek});
   const robots = make_robot_list({pick});
-  const happened = make_event_list({jump});
+  const event_list = make_event_list({jump});
   const chooser = make_chooser(data, open);
   const summary = element('p', {class: 'note replay-summary', 'aria-live': 'polite'});
 
@@ -84,7 +84,7 @@ function make_player(section, data, make_3d_view) {
     'div',
     {class: 'replay-player'},
     element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, key),
-    element('div', {class: 'replay-side'}, robots.node, curves.node, happened.node)
+    element('div', {class: 'replay-side'}, robots.node, curves.node, event_list.node)
   );
   follow_keys(node, clock, {pick, zoom: stage.zoom});
 
@@ -95,7 +95,7 @@ function make_player(section, data, make_3d_view) {
     time_line.draw(clock.t);
     curves.draw(scene.at, scene.picked);
     robots.draw(scene.at, clock.playing);
-    happened.draw(clock.t, clock.playing);
+    event_list.draw(clock.t, clock.playing);
   }
 
   function pick(index) {
@@ -116,7 +116,6 @@ function make_player(section, data, make_3d_view) {
     clock.go(t);
   }
 
-  // A little before, so that it can be seen coming.
   function jump(event) {
     seek(event.from);
     if (event.robots.length > 0 && scene.picked !== event.robots[0]) pick(event.robots[0]);
@@ -131,10 +130,10 @@ function make_player(section, data, make_3d_view) {
     scan_box.hidden = replay.robots.every((robot) => robot.scans === null);
     key.textContent = KEY + (scan_box.hidden ? '' : SCANS_KEY);
     robots.node.hidden = replay.robots.length === 0;
-    curves.node.hidden = robots.node.hidden || replay.end === 0; // without a plan nothing moved
+    curves.node.hidden = robots.node.hidden || replay.end === 0; // without a plan no robot moves
     robots.show(replay);
     robots.pick(null);
-    happened.show(scene.events);
+    event_list.show(scene.events);
     stage.show(scene);
     time_line.show(replay, scene.events);
     curves.show(replay, scene.events);
@@ -154,7 +153,7 @@ function make_player(section, data, make_3d_view) {
       stage.say('');
       show(replay);
     } catch (error) {
-      if (request === latest) stage.say(`This replay cannot be unpacked here: ${error.message}`);
+      if (request === latest) stage.say(`This replay cannot be unpacked: ${error.message}`);
       return false;
     }
     summary.textContent = `${trial_summary(data, entry)}: ended after ${scene.replay.end.toFixed(1)} s, ${
@@ -178,7 +177,7 @@ function make_player(section, data, make_3d_view) {
     redraw();
   }
 
-  // Paper shows the beginning, and where everybody went from there.
+  // Prints show the start and the whole trails.
   let t_before_printing = 0;
   function print(begins) {
     clock.pause();
@@ -205,16 +204,16 @@ function make_player(section, data, make_3d_view) {
 function notes(data) {
   const words = [
     ...left_out_words(data),
-    'Any other trial with a trace comes in by: dmrp-host report RUN_DIR --replay TRIAL',
+    'To add the replay of another recorded trial: dmrp-host report RUN_DIR --replay TRIAL',
   ];
   return words.map((sentence) => element('p', {class: 'note'}, sentence));
 }
 
-// make_3d_view: replay_3d/view.js's make_view. Returns why there is nothing to show, or null.
+// make_3d_view: replay_3d/view.js's make_view. Returns the reason if there is no replay, else null.
 export function mount(body, data, make_3d_view) {
   if (data.replays.length === 0 && data.replays_left_out.length === 0) return 'no trace was recorded';
   if (data.replays.length === 0) {
-    body.append(element('p', {class: 'note'}, 'No trial can be replayed.'), ...notes(data));
+    body.append(element('p', {class: 'note'}, 'This report embeds no replay.'), ...notes(data));
     return null;
   }
   player = make_player(body.closest('section'), data, make_3d_view);

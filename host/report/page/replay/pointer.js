@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// pointer.js: mouse, pen and fingers on a picture, told apart as taps, drags and pinches.
+// pointer.js: recognises taps, drags and pinches of mouse, pen and fingers.
 
 const TAP_PX = 5;
 
-// handlers: tap(x, y), drag(dx, dy, second_way), pinch(factor, x, y), hover(x, y) or hover(null). `second_way`: by
-// the right button, with Shift, or by two fingers. Wheels zoom only with Ctrl, so that the page can be scrolled.
+// handlers: tap(x, y), drag(dx, dy, secondary), pinch(factor, x, y), hover(x, y) or hover(null). `secondary`: with
+// the right button, Shift, or two fingers. The wheel zooms only with Ctrl, so that it can scroll the page.
 export function follow_pointer(canvas, handlers) {
   const down = new Map(); // pointers: id to [x, y]
   let travelled = 0;
-  let second_way = false;
+  let secondary = false;
 
   const place = (event) => {
     const box = canvas.getBoundingClientRect();
@@ -25,7 +25,7 @@ export function follow_pointer(canvas, handlers) {
 
   canvas.addEventListener('pointerdown', (event) => {
     if (down.size === 0) travelled = 0;
-    second_way = event.button === 2 || event.shiftKey;
+    secondary = event.button === 2 || event.shiftKey;
     down.set(event.pointerId, place(event));
     canvas.setPointerCapture(event.pointerId);
   });
@@ -40,7 +40,7 @@ export function follow_pointer(canvas, handlers) {
     down.set(event.pointerId, place(event));
     const now = middle();
     travelled += Math.hypot(now[0] - before[0], now[1] - before[1]);
-    if (travelled > TAP_PX) handlers.drag(now[0] - before[0], now[1] - before[1], second_way || down.size === 2);
+    if (travelled > TAP_PX) handlers.drag(now[0] - before[0], now[1] - before[1], secondary || down.size === 2);
     if (down.size === 2 && spread_before > 0) {
       travelled = Infinity;
       handlers.pinch(spread() / spread_before, ...now);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// recording.js: unpacks a replay (host/report/replay/replay_data.hpp says what is in it) into metres, radians, seconds.
+// recording.js: unpacks a replay (format: host/report/replay/replay_data.hpp) to metres, radians and seconds.
 import {unpacked_text} from '../packed_text.js';
 
 export const ACTIVE = 0;
 export const FINISHED = 1;
 export const FAILED = 2;
 
-// A list of differences, as numbers of 1/1000.
+// Decodes a list of differences in 1/1000.
 function deltas(list, List = Float32Array) {
   const values = new List(list.length);
   let sum = 0;
@@ -14,7 +14,7 @@ function deltas(list, List = Float32Array) {
   return values;
 }
 
-// [sample, value, sample, value, ...] as a value for every sample.
+// Decodes [sample, value, sample, value, ...] to a value for every sample.
 function runs(list, count) {
   const values = new Int32Array(count);
   for (let i = 0; i < list.length; i += 2) values.fill(list[i + 1], list[i]);
@@ -35,7 +35,7 @@ function shape(packed) {
   return {...common, center: point(packed.center), radius: packed.radius / 1000};
 }
 
-// What a lidar saw, a list of [x, y] in the robot's frame for each sample; null where it saw nothing new.
+// The lidar's hits: for each sample a list of [x, y] in the robot's frame, or null without a new scan.
 function scans(packed, count) {
   if (!packed) return null;
   const by_sample = new Array(count).fill(null);
@@ -95,7 +95,7 @@ export function from_json(packed) {
     trial: packed.trial,
     times,
     end: times[count - 1] || 0,
-    reason: packed.end ? packed.end.reason : 'the trace was cut short',
+    reason: packed.end ? packed.end.reason : 'the trace is incomplete',
     lower: point(packed.world.lower),
     upper: point(packed.world.upper),
     shapes: packed.world.shapes.map(shape),
@@ -121,15 +121,15 @@ export function from_json(packed) {
   };
 }
 
-// Rejects where the browser cannot unpack or the data are damaged.
+// Rejects if the browser cannot unpack it or the data are damaged.
 export async function load(element) {
   return from_json(JSON.parse(await unpacked_text(element)));
 }
 
 const MARGIN_M = 3;
 
-// The part of the world in which robots are about: [lower, upper].
-export function lively_box(replay) {
+// The part of the world that contains the tracks and goals of the robots: [lower, upper].
+export function active_box(replay) {
   const lower = [Infinity, Infinity];
   const upper = [-Infinity, -Infinity];
   const take = (axis, value) => {
@@ -148,7 +148,7 @@ export function lively_box(replay) {
   ];
 }
 
-// The sample at or before a time, and how far it is to the next.
+// The sample at or before a time, and the fraction of the way to the next one.
 export function moment(replay, t) {
   const times = replay.times;
   let k = Math.min(times.length - 1, Math.max(0, Math.floor(t * 10)));
@@ -163,7 +163,7 @@ function between(values, k, fraction) {
   return values[k] + (next - values[k]) * fraction;
 }
 
-// The newest scan of a robot at a moment, in the world: [x, y] of each hit; none after a second.
+// The hits of the newest scan of a robot, [x, y] in the world; none if it is older than a second.
 export function scan_hits(one, at) {
   if (!one.scans) return [];
   for (let k = at.k; k >= 0 && k > at.k - 10; --k) {
@@ -175,7 +175,7 @@ export function scan_hits(one, at) {
   return [];
 }
 
-// Headings go on past pi, so that they can be mixed like any other number.
+// Headings are unwrapped, so that they interpolate linearly.
 export function robot_pose(one, at) {
   return {
     x: between(one.x, at.k, at.fraction),
@@ -184,7 +184,7 @@ export function robot_pose(one, at) {
   };
 }
 
-// Null while the person is not there; `heading` is NaN for somebody who stands.
+// Null while the person is absent; `heading` is NaN for a standing person.
 export function person_pose(one, at) {
   const k = at.k - one.from;
   if (k < 0 || k >= one.x.length) return null;
@@ -197,13 +197,13 @@ export function person_pose(one, at) {
   };
 }
 
-export function path_in_force(replay, index, at) {
+export function current_path(replay, index, at) {
   const plan = replay.plans[replay.plan[at.k]];
   return plan ? plan.paths[index] : null;
 }
 
-// Where the plan wants its robot to be now.
-export function planned_place(path, t) {
+// The planned position at time t.
+export function planned_position(path, t) {
   const last = path.t.length - 1;
   if (last < 0) return null;
   let i = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// stage.js: the picture of a replay: the flat map, or the view in three dimensions, which is made when first
-// asked for; and the buttons that change how it is seen.
+// stage.js: the picture of a replay: the flat map or the 3-D view, which is made when first opened, and the buttons for
+// zoom and view.
 import {element} from '../elements.js';
 import * as numbers from '../numbers.js';
 import {make_map} from './map.js';
@@ -22,7 +22,7 @@ export function make_stage(handlers, make_3d_view) {
   const flat_canvas = element('canvas', {class: 'replay-canvas', 'data-testid': 'replay-map'});
   const message = element('p', {class: 'replay-message', role: 'status', hidden: true});
   const flat_button = tool('2-D', 'flat map', 'replay-2d', () => choose('flat'));
-  const solid_button = tool('3-D', 'view in three dimensions', 'replay-3d', () => choose('solid'));
+  const solid_button = tool('3-D', '3-D view', 'replay-3d', () => choose('solid'));
   const tip = element('div', {class: 'replay-tip', hidden: true});
   const node = element(
     'div',
@@ -37,15 +37,15 @@ export function make_stage(handlers, make_3d_view) {
     element(
       'div',
       {class: 'segmented'},
-      tool('−', 'smaller', 'replay-zoom-out', () => zoom(1 / 1.4)),
-      tool('+', 'larger', 'replay-zoom-in', () => zoom(1.4)),
-      tool('⤢', 'all of it', 'replay-fit', fit)
+      tool('−', 'zoom out', 'replay-zoom-out', () => zoom(1 / 1.4)),
+      tool('+', 'zoom in', 'replay-zoom-in', () => zoom(1.4)),
+      tool('⤢', 'show the whole world', 'replay-fit', fit)
     ),
     element('div', {class: 'segmented'}, flat_button, solid_button)
   );
   const map = make_map(flat_canvas);
   let solid = null; // the 3-D view, made when it is first opened
-  let loading = null; // its promise meanwhile
+  let loading = null; // the promise of the 3-D view while it loads
   let mode = 'flat';
   let wanted = 'flat'; // differs from mode while the 3-D view loads
   let scene = null;
@@ -65,14 +65,14 @@ export function make_stage(handlers, make_3d_view) {
     node.dataset.mode = mode === 'solid' ? '3d' : '2d';
   }
 
-  // Null, with a message, where there can be no 3-D view.
+  // Null, after a message, if there can be no 3-D view.
   async function load_solid() {
     try {
       const view = await make_3d_view();
       if (!view) say(NO_WEBGL);
       return view;
     } catch (error) {
-      say(`The 3-D view cannot be unpacked here: ${error.message}. The flat map shows the same.`);
+      say(`The 3-D view cannot be unpacked: ${error.message}. The flat map shows the same.`);
       return null;
     }
   }
@@ -82,8 +82,8 @@ export function make_stage(handlers, make_3d_view) {
     flat_canvas.after(solid.canvas);
     follow_pointer(solid.canvas, {
       tap: (x, y) => handlers.pick(scene ? solid.robot_at(scene, x, y) : null),
-      drag: (dx, dy, second_way) => {
-        second_way ? solid.shift(dx, dy) : solid.orbit(dx, dy);
+      drag: (dx, dy, secondary) => {
+        secondary ? solid.shift(dx, dy) : solid.orbit(dx, dy);
         handlers.redraw();
       },
       pinch: (factor) => zoom(factor),
@@ -113,7 +113,7 @@ export function make_stage(handlers, make_3d_view) {
     handlers.redraw();
   }
 
-  // A finger on a part of the map shifts it; on all of it, it scrolls the page.
+  // On touch screens, a finger pans the zoomed map, and scrolls the page otherwise.
   function show_zoom() {
     flat_canvas.classList.toggle('zoomed', map.view.zoom > 1.001);
   }
@@ -143,7 +143,7 @@ export function make_stage(handlers, make_3d_view) {
     hover,
   });
 
-  // As high as the world asks for, but never so high that the buttons below leave the window.
+  // The height follows the aspect of the world, limited so that the buttons below stay in the window.
   function resize() {
     if (!scene) return;
     const [width, height] = [0, 1].map((axis) => scene.replay.upper[axis] - scene.replay.lower[axis]);
@@ -157,10 +157,13 @@ export function make_stage(handlers, make_3d_view) {
     map.view.show_world(scene.replay.lower, scene.replay.upper);
     node.setAttribute(
       'aria-label',
-      `map of ${numbers.counted(scene.replay.robots.length, 'robot')}; space plays, arrows step, digits pick a robot`
+      `map of ${numbers.counted(
+        scene.replay.robots.length,
+        'robot'
+      )}; space plays, arrow keys step, digits select a robot`
     );
     resize();
-    map.view.show_box(recording.lively_box(scene.replay));
+    map.view.show_box(recording.active_box(scene.replay));
     show_zoom();
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// time_line.js: the slider of a replay's time, and above it what happened when, a row a kind.
+// time_line.js: the time slider of a replay, and above it the events, one row for each kind.
 import {element} from '../elements.js';
 import * as labels from '../labels.js';
 
 const LANE_PX = 14;
-const MOST_MARKS = 400; // a row; more would neither be seen nor clicked
+const MOST_MARKS = 400; // in a row; more could not be distinguished
 
 function lane_title(data, lane) {
   return ['contacts', 'robots', 'plans'].includes(lane) ? lane : labels.metric_title(data, lane);
@@ -79,7 +79,7 @@ export function make_time_line(data, handlers) {
 
   function resize() {
     if (!replay) return;
-    const width = Math.max(50, slider.clientWidth - 16); // between the middles of the thumb at both ends
+    const width = Math.max(50, slider.clientWidth - 16); // the travel of the thumb's centre
     rows.textContent = '';
     for (const lane of lanes_of(events)) rows.append(...lane_row(data, lane, width, replay.end, handlers.jump));
   }

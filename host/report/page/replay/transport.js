@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// transport.js: the buttons and keys that move a replay's clock.
+// transport.js: the buttons and keys that control the clock of a replay.
 import {element} from '../elements.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8, 16];
@@ -63,12 +63,13 @@ export function make_transport(clock) {
     {class: 'replay-transport'},
     play,
     icon_button('back', 'One sample back (left arrow)', 'replay-back', () => clock.step(-0.1)),
-    icon_button('forward', 'One sample on (right arrow)', 'replay-forward', () => clock.step(0.1)),
+    icon_button('forward', 'One sample forward (right arrow)', 'replay-forward', () => clock.step(0.1)),
     speed
   );
 }
 
-// Space plays, arrows step, with Shift by a second; Home and End; a digit picks that robot, Escape none.
+// Space plays; arrow keys step by a sample, with Shift by a second; Home and End jump; a digit picks a robot, Escape
+// none.
 export function follow_keys(node, clock, handlers) {
   const actions = {
     ' ': () => clock.toggle(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bodies.js: what moves in the view in three dimensions: robots, people, their plans and trails.
+// bodies.js: the moving parts of the 3-D view: robots, people, plans and trails.
 import * as look from '../replay/look.js';
 import * as recording from '../replay/recording.js';
 import {THREE} from './three.js';
@@ -18,7 +18,7 @@ const TRAIL = {
 const RING_HEIGHT_M = 0.04;
 const LABEL_PX = 128;
 
-// A flat band along points, two corners a point: it can be drawn as far as wanted.
+// A flat band along points with two corners for each, so that any prefix of it can be drawn.
 function ribbon(xs, ys, {width, height}) {
   const count = xs.length;
   const corners = new Float32Array(6 * count);
@@ -46,7 +46,7 @@ export function band(xs, ys, kind, colour, opacity) {
   return mesh;
 }
 
-// A disc where `inner` is 0.
+// A disc if `inner` is 0.
 export function flat_ring(inner, outer, colour) {
   const flat = inner > 0 ? new THREE.RingBufferGeometry(inner, outer, 40) : new THREE.CircleBufferGeometry(outer, 24);
   const ring = new THREE.Mesh(flat, new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide}));
@@ -91,7 +91,7 @@ function robot_solid(robot) {
   return solid;
 }
 
-// Points forward, on the robot's top and a little beyond it.
+// The wedge on top of the robot that shows its heading.
 function heading_solid(robot) {
   const r = robot.radius;
   const arrow = new THREE.Shape(
@@ -143,7 +143,7 @@ export function place_hits(points, robot, at) {
   places.needsUpdate = true;
 }
 
-// Instances of one body and one head, as many as are ever there at once.
+// Instanced meshes of bodies and heads; their number is the maximum of people at one time.
 export function make_people(replay, colours) {
   const most = Math.max(1, replay.people.length);
   const material = new THREE.MeshLambertMaterial({color: colours.person});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// camera.js: a camera that goes round a point of the floor.
+// camera.js: a camera that orbits a point of the floor.
 import {THREE} from './three.js';
 
 const FIELD_OF_VIEW_DEG = 38;
@@ -7,7 +7,7 @@ const LOWEST = 0.12; // rad above the floor
 const HIGHEST = 1.55;
 const BOX_HEIGHT_M = 2;
 const FITTING_ROUNDS = 8;
-const FILLED = 0.94; // of the picture
+const FILLED = 0.94; // share of the picture that the box fills
 const RADIANS_A_PIXEL = 0.008;
 
 export function make_camera() {
@@ -29,7 +29,7 @@ export function make_camera() {
     lens.updateMatrixWorld();
   }
 
-  // All of the box from above at a slant.
+  // Shows the whole box obliquely from above.
   camera.show_box = (lower, upper) => {
     const half = [(upper[0] - lower[0]) / 2, (upper[1] - lower[1]) / 2];
     camera.target = [lower[0] + half[0], lower[1] + half[1]];
@@ -41,7 +41,7 @@ export function make_camera() {
     apply();
   };
 
-  // Nearer or farther, and aside, so that the box fills the picture better.
+  // Changes distance and target so that the box fills the picture better.
   function fit_to(lower, upper) {
     apply();
     const seen = [];

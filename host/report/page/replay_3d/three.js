@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// three.js: loads the library three.js, which lies packed in the page as #dmrp-three until the 3-D view opens.
+// three.js: loads the library three.js, which the page embeds as gzip in #dmrp-three.
 import {unpacked_text} from '../packed_text.js';
 
 export let THREE = null; // set by load_three()
 
-// Runs the library's script once. Rejects where it cannot be unpacked.
+// Runs the library's script once. Rejects if it cannot be unpacked.
 export async function load_three() {
   if (THREE) return;
   const text = await unpacked_text(document.getElementById('dmrp-three'));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// view.js: the view of a replay in three dimensions, by three.js (r111). It draws only when told to.
+// view.js: the 3-D view of a replay, by three.js (r111). It draws only on request.
 import {element} from '../elements.js';
 import * as recording from '../replay/recording.js';
 import * as bodies from './bodies.js';
@@ -20,7 +20,7 @@ function dispose(node) {
   });
 }
 
-// A crossed pole where bodies touch.
+// The mark of a contact: a pole with a ball and a ring.
 function make_contact_mark(colours) {
   const mark = new THREE.Group();
   const material = new THREE.MeshBasicMaterial({color: colours.bad});
@@ -49,7 +49,7 @@ function build(replay, colours) {
   return {stage, robots, people, contacts};
 }
 
-// Plans are made when first in force.
+// Makes the mesh of a plan when it is first shown.
 function show_plan(set, scene, robot, shown) {
   const {replay, at} = scene;
   const revision = replay.plan[at.k];
@@ -92,7 +92,7 @@ function place_contacts(set, scene) {
   });
 }
 
-// Null where the browser has no WebGL; rejects where three.js cannot be unpacked.
+// Null if the browser has no WebGL; rejects if three.js cannot be unpacked.
 export async function make_view() {
   const canvas = element('canvas', {class: 'replay-canvas solid', 'data-testid': 'replay-view'});
   const options = {antialias: true, alpha: false, powerPreference: 'high-performance'};
@@ -126,7 +126,7 @@ export async function make_view() {
 
   function first_look(replay) {
     box = [replay.lower, replay.upper];
-    camera.show_box(...recording.lively_box(replay));
+    camera.show_box(...recording.active_box(replay));
   }
 
   const fit = () => camera.show_box(...box);
@@ -137,7 +137,7 @@ export async function make_view() {
       const pose = recording.robot_pose(scene.replay.robots[scene.picked], scene.at);
       camera.look_at(pose.x, pose.y);
     }
-    // a sprite of constant size is measured at one unit from the lens
+    // three.js scales a sprite of constant size as if it were one unit from the lens
     const label_scale = (2 * Math.tan((camera.lens.fov * Math.PI) / 360) * LABEL_PX) / size[1];
     place_robots(set, scene, label_scale);
     place_contacts(set, scene);

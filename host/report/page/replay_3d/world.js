@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// world.js: what stands still in the view in three dimensions: floor, walls, furniture, light.
+// world.js: the static parts of the 3-D view: floor, walls, furniture, light.
 // The world's (x, y, height) is three.js's (x, height, -y).
 import * as look from '../replay/look.js';
 import {THREE} from './three.js';
 
 const SHADOW_PX = 2048;
 const CIRCLE_PARTS = 32;
-const SOLID_M = 1.1; // walls are glass above this: who is behind them can be seen
+const SOLID_M = 1.1; // walls are translucent above this height
 const GLASS = 0.16;
 
 // The part of a shape between two heights.
@@ -24,7 +24,7 @@ function slice(shape, from, to) {
   return solid;
 }
 
-// Low things are lighter, so that tables and shelves can be told apart from above.
+// Lower shapes are lighter, which distinguishes tables from shelves.
 function shape_colour(shape, colours) {
   if (look.is_wall(shape)) return new THREE.Color(colours.wall);
   return new THREE.Color(colours.furniture).lerp(new THREE.Color(colours.edge), Math.min(1, shape.height / 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// faults.js: what plugins did wrong, with the command that does it again.
+// faults.js: faults of plugins, with the command that reproduces each.
 import * as controls from '../controls.js';
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
@@ -40,12 +40,12 @@ function occurrence(data, fault) {
   );
 }
 
-// Filled when it is unfolded: there may be many.
+// Filled when unfolded, because there can be many.
 function folded_rest(data, faults) {
   const made = element(
     'details',
     {class: 'more'},
-    element('summary', {}, `${numbers.counted(faults.length, 'more time', 'more times')}`)
+    element('summary', {}, `${numbers.counted(faults.length, 'more occurrence', 'more occurrences')}`)
   );
   const unfold = () => {
     made.append(...faults.map((fault) => occurrence(data, fault)));
@@ -72,7 +72,7 @@ function group_item(data, faults) {
   );
 }
 
-// What one function of a plugin did in the same way, together; in the order of the first of each.
+// Groups faults of the same kind, plugin and function, in the order of their first occurrence.
 export function groups(faults) {
   const found = new Map();
   for (const fault of faults) {

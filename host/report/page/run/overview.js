@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// overview.js: the head of the page: what was run, and whether it went well.
+// overview.js: the head of the page: the configuration of the run, its verdict and its main figures.
 import {element, fill, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
@@ -83,8 +83,7 @@ function figures(data) {
 function scenario_list(data) {
   const list = element('dl', {class: 'scenarios'});
   for (const scenario of data.scenarios) {
-    const robots =
-      scenario.robots === 0 ? 'without robots, to compare with' : numbers.counted(scenario.robots, 'robot');
+    const robots = scenario.robots === 0 ? 'without robots, as a reference' : numbers.counted(scenario.robots, 'robot');
     list.append(
       element('dt', {}, `${scenario.name} · ${robots}, ${numbers.counted(scenario.people, 'person', 'people')}`),
       element('dd', {}, scenario.description)

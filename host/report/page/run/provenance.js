@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// provenance.js: by what, on what and from what the results were made, and how to make them again.
+// provenance.js: software, machine and files behind the results, and the command that reproduces them.
 import * as controls from '../controls.js';
 import {element, fill, titled_table} from '../elements.js';
 import * as overview from './overview.js';
 
-// For a shell.
+// Quotes an argument for a POSIX shell.
 function quoted(argument) {
   return /^[\w./:=,@%+-]+$/.test(argument) ? argument : `'${argument.replace(/'/g, `'\\''`)}'`;
 }
@@ -36,7 +36,7 @@ function files(data) {
   if (all.length === 0) return null;
   return titled_table(
     'title-files',
-    'Files that were read',
+    'Input files',
     null,
     element(
       'table',
@@ -47,7 +47,7 @@ function files(data) {
         element(
           'tr',
           {},
-          ['what', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))
+          ['role', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))
         )
       ),
       element(
@@ -76,14 +76,14 @@ function repeating(data) {
   return element(
     'div',
     {class: 'repeating'},
-    element('h3', {}, 'To repeat it'),
-    element('p', {}, 'The run was started by'),
+    element('h3', {}, 'Reproduce this run'),
+    element('p', {}, 'Command line of the run:'),
     command(line, 'the command line'),
     element(
       'p',
       {},
-      'The experiment with every default written out is effective.toml, below and in the run directory. With the same ' +
-        'libraries, C library and processor level it gives the same bits in every value but clock times:'
+      'effective.toml, below and in the run directory, is the experiment with all defaults filled in. With the same ' +
+        'plugin libraries, C library and processor level it reproduces every value but clock times bit by bit:'
     ),
     command('dmrp-host effective.toml', 'the command that repeats the run')
   );

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// verdict.js: what went wrong in a run, or that nothing did: the first thing a reader must know.
+// verdict.js: the verdict on a run: faults, missing trials, robots that did not arrive.
 import * as numbers from '../numbers.js';
 
 function sum(values) {
   return values.reduce((total, value) => total + (value || 0), 0);
 }
 
-// Counts over all trials that ran. The layout says which metrics tell of arrivals and contacts.
+// Totals over all trials that ran. The layout names the metrics for arrivals and contacts.
 export function tally(data) {
   const {trials, values, combinations, run} = data;
   const ran = trials.id.map((_, i) => i).filter((i) => trials.outcome[i] !== 'skipped');
@@ -42,14 +42,14 @@ export function lines(data) {
   const t = tally(data);
   const found = [];
   const add = (kind, text, section = null) => found.push({kind, text, section});
-  if (t.ran === 0) add('bad', 'No trial was run: there is nothing to show.');
+  if (t.ran === 0) add('bad', 'No trial was run.');
   if (t.faults > 0)
     add(
       'bad',
       `${numbers.counted(t.faults, 'fault')} in ${numbers.counted(
         t.fault_trials,
         'trial'
-      )}: what a plugin did not give is missing from the numbers below.`,
+      )}: the numbers below exclude the values that these trials lack.`,
       'faults'
     );
   if (t.missing > 0 && t.ran > 0)
@@ -57,17 +57,17 @@ export function lines(data) {
       'bad',
       `${numbers.counted(t.missing, 'trial')} of ${t.planned} ${
         t.missing === 1 ? 'is' : 'are'
-      } missing: the run was not finished.`
+      } missing: the run is incomplete.`
     );
   if (t.not_repeatable > 0)
     add(
       'warning',
       `${numbers.counted(t.not_repeatable, 'trial')} ${
         t.not_repeatable === 1 ? 'is' : 'are'
-      } not repeatable to the bit: something was stopped by the clock.`
+      } not repeatable bit by bit: a wall-clock limit stopped a computation.`
     );
   if (t.robots > 0 && t.arrived === 0)
-    add('note', `No robot arrived: all ${t.robots} failed. Times of completion are undefined.`, 'distributions');
+    add('note', `No robot arrived: all ${t.robots} failed. Completion times are undefined.`, 'distributions');
   else if (t.arrived < t.robots)
     add(
       'note',

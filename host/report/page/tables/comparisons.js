@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// comparisons.js: differences between what was tried with the same seeds, as a forest plot.
+// comparisons.js: paired differences between combinations with the same seeds, as a forest plot.
 import * as controls from '../controls.js';
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
@@ -12,17 +12,17 @@ const TESTS = {
     estimate: 'median difference',
     name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann',
   },
-  sign_flip: {estimate: 'mean difference', name: 'test by flipping signs'},
+  sign_flip: {estimate: 'mean difference', name: 'sign-flip permutation test'},
 };
 
-// The estimate that belongs to the test.
+// The estimate that corresponds to the test.
 export function estimate_of(comparison) {
   return comparison.test === 'sign_flip'
     ? {estimate: comparison.mean_difference, low: comparison.mean_low, high: comparison.mean_high}
     : {estimate: comparison.median_difference, low: comparison.low, high: comparison.high};
 }
 
-// Those of one metric and one choice varied, in `variant` or, if that is null, in all.
+// The comparisons of one metric and one varied field, in `variant` or in all variants.
 export function chosen_rows(data, chosen) {
   return data.comparisons.filter(
     (one) =>
@@ -141,19 +141,17 @@ function note_words(data, rows, chosen) {
     `${labels.metric_with_unit(data, chosen.metric)}, ${labels.direction_words(metric.direction)}; ` +
     `${
       test ? `${test.name}, two-sided` : rows[0].test
-    }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, over all ` +
-    'comparisons of the metric in the scenario between the same kind. Effect: matched-pairs rank-biserial correlation, ' +
-    `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both have'}.` +
-    (censored ? ' A trial that was not completed counts with the time limit.' : '') +
-    (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed in which both have one.` : '')
+    }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, corrected for all ` +
+    'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
+    `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both trials have'}.` +
+    (censored ? ' An incomplete trial counts with the time limit.' : '') +
+    (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed with values of both.` : '')
   );
 }
 
 export function mount(body, data) {
   if (data.comparisons.length === 0)
-    return data.combinations.length < 2
-      ? 'there is one combination and nothing to compare it with'
-      : 'no two combinations share a seed';
+    return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
   const distinct = (key) => labels.distinct(data.comparisons.map((one) => one[key]));
   const variants = labels.variants(data);
   const chosen = {
@@ -167,7 +165,7 @@ export function mount(body, data) {
     const rows = chosen_rows(data, chosen);
     fill(
       holder,
-      rows.length > 0 ? table(data, rows, chosen) : element('p', {class: 'note'}, 'Nothing was compared here.')
+      rows.length > 0 ? table(data, rows, chosen) : element('p', {class: 'note'}, 'No comparison of these.')
     );
     fill(note, rows.length > 0 && note_words(data, rows, chosen));
   };

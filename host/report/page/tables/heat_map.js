@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// heat_map.js: planner by controller for one metric; a real table, so that it is read out and printed as one.
+// heat_map.js: planner by controller for one metric, as an HTML table, for screen readers and printing.
 import {scaleLinear} from 'd3-scale';
 
 import * as controls from '../controls.js';
@@ -8,7 +8,7 @@ import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
 
-const STRONGEST = 0.7; // more would make the numbers hard to read
+const STRONGEST = 0.7; // opacity; above this the numbers are hard to read
 
 // One grid for each variant and pedestrian model: {title, planners, controllers, cells: [[summary or null]]}.
 export function grids(data, metric) {
@@ -59,7 +59,7 @@ function cell_element(cell, good, best, decimals, unit) {
   return element('td', {}, made);
 }
 
-// From the worst to the best value of a grid.
+// The colour scale from the worst to the best value.
 function scale_key(means, decimals, direction) {
   const defined = means.filter(ranking.is_defined);
   const ends = [Math.min(...defined), Math.max(...defined)];
@@ -125,11 +125,11 @@ function grid_table(grid, metric, decimals) {
 
 function key_words(data, metric) {
   const better = {
-    higher: 'Stronger: higher, which is better.',
-    lower: 'Stronger: lower, which is better.',
-    none: 'Stronger: higher; neither is better.',
+    higher: 'Stronger colour: higher, which is better.',
+    lower: 'Stronger colour: lower, which is better.',
+    none: 'Stronger colour: higher; neither direction is better.',
   }[metric.direction];
-  const framed = metric.direction === 'none' ? '' : ' Framed: the best of its scenario.';
+  const framed = metric.direction === 'none' ? '' : ' Frame: the best of the scenario.';
   return `${labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
 }
 

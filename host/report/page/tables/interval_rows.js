@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// interval_rows.js: estimates with intervals, one under the other in a table's column. Drawn in percent of the column's
-// width, so that they fit any screen and paper.
+// interval_rows.js: estimates with intervals in a column of a table. Coordinates are percentages of the column's width,
+// so that they fit any screen and paper.
 import {extent} from 'd3-array';
 import {scaleLinear} from 'd3-scale';
 import {select} from 'd3-selection';
@@ -10,7 +10,7 @@ import * as numbers from '../numbers.js';
 
 const HEIGHT = 22;
 
-// rows: [{estimate, low, high}]. A scale to percent that holds zero and every interval.
+// rows: [{estimate, low, high}]. A scale to percent that includes zero and every interval.
 export function scale(rows) {
   const ends = rows.flatMap((row) => [row.estimate, row.low, row.high]).filter(numbers.is_number);
   const [low, high] = extent(ends.concat(0));
@@ -36,7 +36,7 @@ function add_zero(svg, x, height) {
     .attr('y2', height);
 }
 
-// Filled where `sure`.
+// One row; the point is filled if `sure`.
 export function cell(row, x, sure) {
   const holder = element('td', {class: 'interval-plot'});
   const svg = svg_of(holder, HEIGHT);
@@ -62,7 +62,7 @@ export function cell(row, x, sure) {
   return holder;
 }
 
-// The axis over the column: ticks, and what either side of zero means.
+// The axis above the column: ticks, and the meaning of both sides of zero.
 export function axis(x, left_words, right_words) {
   const holder = element('th', {class: 'interval-plot'});
   const svg = svg_of(holder, 36);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// metrics_table.js: everything that was measured of one combination, with units, directions and descriptions.
+// metrics_table.js: all metrics of one combination, with units, directions and descriptions.
 import * as controls from '../controls.js';
 import {element, fill, hidden} from '../elements.js';
 import * as labels from '../labels.js';
@@ -8,7 +8,7 @@ import * as numbers from '../numbers.js';
 const state = {combination: 0, words: '', changed: () => {}};
 const BETTER = {higher: '↑', lower: '↓', none: ''};
 
-// Metrics in whose name or description all of the words stand; curves have a section of their own.
+// Metrics whose name, description or unit contains all words. Curves are shown in another section.
 export function found(data, words) {
   const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
   return data.metrics
@@ -136,14 +136,14 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'sd and median: between trials. † the paper\u2019s rule removed every value that is not zero.'
+      'sd and median are over trials. † the paper\u2019s rule removed every value that is not zero.'
     )
   );
   state.changed();
   return null;
 }
 
-// Called by links elsewhere.
+// Shows a combination; the links of the result tables call it.
 export function show(combination) {
   state.combination = combination;
   state.changed();

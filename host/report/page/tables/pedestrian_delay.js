@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// pedestrian_delay.js: what robots cost the people, from pairs of trials with and without robots.
+// pedestrian_delay.js: the delay of pedestrians by robots, from pairs of trials with and without robots.
 import * as controls from '../controls.js';
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
@@ -68,7 +68,7 @@ function table_of(data, rows, variants) {
 
 export function mount(body, data) {
   const rows = data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
-  if (rows.length === 0) return 'it takes the same scenario with robots = 0 in the experiment, to compare with';
+  if (rows.length === 0) return 'the experiment has no variant of the scenario with robots = 0 as a reference';
   const variants = labels.variants(data);
   const first = controls.first_variant(variants, rows.length);
   const holder = element('div');
@@ -89,8 +89,8 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Bars: 95 % intervals over seeds. Filled: the interval does not hold zero, from six pairs on; ' +
-        'that of fewer is too narrow to judge by.'
+      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero and is from at least six pairs; ' +
+        'intervals from fewer pairs are too narrow.'
     )
   );
   return null;

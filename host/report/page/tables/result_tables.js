@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// result_tables.js: the tables of the layouts, sorted by their headers.
+// result_tables.js: the result tables that the layout defines; their headers sort them.
 import * as controls from '../controls.js';
 import {element, fill, hidden, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
@@ -133,7 +133,7 @@ function show_sorting(table, key, descending) {
   }
 }
 
-// Rows are moved, not made again.
+// Sorting moves the existing rows.
 function sorter(table, model, bodies) {
   let sorted_key = null;
   let descending = false;
@@ -175,13 +175,13 @@ function table_element(data, layout, variants) {
 }
 
 const KEY =
-  'Dot and bold: the best mean of its column within a scenario, unless most share it. Brackets: 95 % interval over ' +
-  'seeds, none where all trials agree to the digits shown; a fraction after it says in how many trials the value is defined. Differences between rows are judged under Paired differences. ' +
-  'Choose a header to sort.';
+  'Dot and bold: the best mean of the column within a scenario, unless most rows share it. Brackets: 95 % interval ' +
+  'over seeds, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
+  'defined. Paired differences tests the differences between rows. Click a header to sort.';
 const PAPER_KEY =
-  'Third line: the mean by the paper\u2019s rule and, in parentheses, over how many trials: failed trials ' +
-  'left out (but where failures count), values beyond two standard deviations left out. † the rule removed every value that ' +
-  'is not zero.';
+  'Third line: the mean by the paper\u2019s rule, with the number of trials in parentheses: it excludes failed ' +
+  'trials (except for metrics that count failures) and values beyond two standard deviations. † the rule removed every ' +
+  'value that is not zero.';
 
 export function mount(body, data) {
   const variants = labels.variants(data);

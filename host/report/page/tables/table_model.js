@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// table_model.js: what stands in a table of a layout: its columns, its groups of rows, the best of each column, the order.
+// table_model.js: the content of a result table: columns, groups of rows, the best of each column, the order of rows.
 import * as labels from '../labels.js';
 import * as ranking from '../ranking.js';
 
-// Rows by planner alone are over all controllers and crowds.
+// The rows of a table. Rows by planner alone summarise all controllers and pedestrian models.
 function source(data, layout) {
   const by_planner = layout.rows.length === 1 && layout.rows[0] === 'global_planner';
   const rows = by_planner ? data.planners : data.combinations;
@@ -24,7 +24,7 @@ function source(data, layout) {
   };
 }
 
-// The layout's columns of metrics that the run has: [{metric, index, header, decimals, spread_index, variant}].
+// The layout's columns whose metrics the run has: [{metric, index, header, decimals, spread_index, variant}].
 function columns_of(data, layout, variant) {
   const index_of = (name) => data.metrics.findIndex((metric) => metric.name === name);
   return layout.columns
@@ -54,7 +54,7 @@ function cell_of(from, row, column) {
   return {...summary, spread, trials: from.trials[row]};
 }
 
-// A block of rows for each variant (Table III's form).
+// One group of rows for each variant, as in Table III of the paper.
 function grouped(data, layout, variants) {
   const from = source(data, layout);
   const {rows, by_planner} = from;
@@ -75,7 +75,7 @@ function grouped(data, layout, variants) {
   return {fields, columns, groups, spans: []};
 }
 
-// The columns repeated for each variant (Table II's form); a cell is null where the row has nothing there.
+// The columns repeated for each variant, as in Table II of the paper; a cell is null if the row has no such variant.
 function across(data, layout, variants) {
   const from = source(data, layout);
   const {rows} = from;
@@ -107,7 +107,7 @@ function mean(cell) {
   return cell === null ? null : cell.mean;
 }
 
-// Adds to each cell whether it is the best of its column in its group.
+// Sets `best` of each cell: whether it is the best of its column in its group.
 function mark_best(model) {
   for (const group of model.groups) {
     model.columns.forEach((column, c) => {
@@ -131,7 +131,7 @@ export function make(data, layout, variants) {
   return mark_best(model);
 }
 
-// key: a field's name or the index of a column. The rows of each group in order, as indices.
+// The sorted indices of the rows of each group. key: the name of a field or the index of a column.
 export function order(model, key, descending) {
   const value = (row) => (typeof key === 'number' ? mean(row.cells[key]) : row.labels[key]);
   return model.groups.map((group) => ranking.order(group.rows.map(value), descending));

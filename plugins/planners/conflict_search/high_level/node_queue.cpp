@@ -7,7 +7,7 @@
 
 namespace dmrp::planners {
 
-// Of equals the younger one comes first: it has more of its conflicts behind it.
+// Ties go to the younger node: it has resolved more conflicts.
 bool NodeQueue::is_later(const ByBound& a, const ByBound& b) {
   return std::tuple(a.f, a.pairs, -a.node) > std::tuple(b.f, b.pairs, -b.node);
 }
@@ -25,7 +25,7 @@ void NodeQueue::reset(std::int32_t lower_bound) {
   states_.clear();
 }
 
-void NodeQueue::push(NodeId id) {
+void NodeQueue::insert(NodeId id) {
   if (states_.size() <= static_cast<std::size_t>(id)) states_.resize(static_cast<std::size_t>(id) + 1);
   state(id).is_open = true;
   cleanup_.push_back({tree_.node(id).f, tree_.node(id).pairs, id});
@@ -35,14 +35,14 @@ void NodeQueue::push(NodeId id) {
   if (rank(id) <= focal_limit_) push_focal(id);
 }
 
-NodeQueue::Choice NodeQueue::pop() {
+NodeQueue::Choice NodeQueue::select() {
   if (!raise_bound()) return {};
   const NodeId least_bound = cleanup_.front().node;
-  if (selection_ == Selection::best_first) return {take(least_bound), true};
+  if (selection_ == Selection::best_first) return {remove(least_bound), true};
   move_focal_limit();
-  if (const NodeId id = first_in_focal(); id != no_node && is_within_bound(id)) return {take(id), false};
-  if (const NodeId id = open_.begin()->second; is_within_bound(id)) return {take(id), false};
-  return {take(least_bound), true};
+  if (const NodeId id = first_in_focal(); id != no_node && is_within_bound(id)) return {remove(id), false};
+  if (const NodeId id = open_.begin()->second; is_within_bound(id)) return {remove(id), false};
+  return {remove(least_bound), true};
 }
 
 double NodeQueue::rank(NodeId id) const {
@@ -60,7 +60,7 @@ bool NodeQueue::raise_bound() {
   return true;
 }
 
-// Nodes that fall out when the limit goes down are noticed when they come up.
+// When the limit falls, first_in_focal() removes the nodes beyond it as they come up.
 void NodeQueue::move_focal_limit() {
   const double least = selection_ == Selection::focal ? lower_bound_ : open_.begin()->first;
   const double limit = suboptimality_ * least + 1e-9;
@@ -90,7 +90,7 @@ NodeId NodeQueue::first_in_focal() {
   return no_node;
 }
 
-NodeId NodeQueue::take(NodeId id) {
+NodeId NodeQueue::remove(NodeId id) {
   state(id) = {};
   open_.erase({rank(id), id});
   return id;

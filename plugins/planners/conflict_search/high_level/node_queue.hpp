@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node_queue.hpp: which node of the constraint tree comes next.
+// node_queue.hpp: the open nodes of the constraint tree, and which of them to expand next.
 #pragma once
 
 #include <cstdint>
@@ -8,36 +8,33 @@
 #include <vector>
 
 #include "planners/conflict_search/high_level/constraint_tree.hpp"
+#include "planners/conflict_search/high_level/options.hpp"
 
 namespace dmrp::planners {
 
-enum class Selection {
-  best_first,           // least f (A*)
-  focal,                // fewest conflicts among the nodes whose cost is within the bound (Barer et al. 2014)
-  explicit_estimation,  // likewise among those whose estimated cost is (Thayer, Ruml 2011; Li, Ruml, Koenig 2021)
-};
-
-// CLEANUP orders the open nodes by f and gives the lower bound, OPEN by (estimated) cost, FOCAL by conflicts. FOCAL
-// holds the nodes of OPEN within the bound and follows it as it moves, without being built anew.
+// Three lists of the open nodes: CLEANUP by f, which gives the lower bound; OPEN by (estimated) cost; FOCAL, the nodes
+// of OPEN within the bound, by conflicts. FOCAL follows OPEN as the bound moves and is never rebuilt.
 class NodeQueue {
  public:
+  struct Choice {
+    NodeId node = no_node;
+    bool for_its_bound = false;  // selected to raise the lower bound rather than to find a solution
+
+    explicit operator bool() const { return node != no_node; }
+  };
+
   NodeQueue(ConstraintTree& tree, Selection selection, double suboptimality)
       : tree_(tree), selection_(selection), suboptimality_(suboptimality) {}
 
-  // Empties it. No solution costs less than `lower_bound`.
+  // Empties the queue. No solution costs less than `lower_bound`.
   void reset(std::int32_t lower_bound);
-  void push(NodeId id);
+  void insert(NodeId id);
+  // Removes the best node; false if none is left.
+  Choice select();
 
-  struct Choice {
-    NodeId node = no_node;
-    bool for_its_bound = false;  // taken to raise the lower bound rather than to find a solution
-  };
-  // Takes a node out; no_node if none is left.
-  Choice pop();
-
-  // The least f there has been of all open nodes when one was taken: no solution costs less.
+  // No solution costs less: the greatest least f of all open nodes so far.
   std::int32_t lower_bound() const { return lower_bound_; }
-  // Looks at the open nodes as they are now. False if there is none.
+  // Raises the lower bound to the least f of the open nodes. False if there is none.
   bool raise_bound();
 
  private:
@@ -63,7 +60,7 @@ class NodeQueue {
   void move_focal_limit();
   void push_focal(NodeId id);
   NodeId first_in_focal();
-  NodeId take(NodeId id);
+  NodeId remove(NodeId id);
   State& state(NodeId id) { return states_[static_cast<std::size_t>(id)]; }
 
   ConstraintTree& tree_;
@@ -71,9 +68,9 @@ class NodeQueue {
   double suboptimality_;
   std::int32_t lower_bound_ = 0;
   double focal_limit_ = -1;
-  std::vector<ByBound> cleanup_;              // a heap; stale entries are skipped
+  std::vector<ByBound> cleanup_;              // a heap; skips stale entries
   std::set<std::pair<double, NodeId>> open_;  // by rank
-  std::vector<ByConflicts> focal_;            // a heap; stale entries are skipped
+  std::vector<ByConflicts> focal_;            // a heap; skips stale entries
   std::vector<State> states_;                 // by node
 };
 

@@ -66,7 +66,7 @@ struct LowLevelCase {
       case 1:
         return constraints.push_back({Constraint::Use::touch, where, nowhere, t, until});
       case 2:
-        return constraints.push_back({Constraint::Use::touch, where, nowhere, t, ecbs8::forever});
+        return constraints.push_back({Constraint::Use::touch, where, nowhere, t, dmrp::planners::forever});
       case 3: {
         const Location other = where + (random.one_in(2) && where % 4 < 3 ? 1 : 4);
         return constraints.push_back({Constraint::Use::edge, where, other, t, until});

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
-// corridor_reasoning.hpp: corridor splits for the conflicts of a search; what it needs is made when it is first needed.
+// corridor_reasoning.hpp: corridor splits for the conflicts of one search. Builds its tables on first use.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <vector>
 
-#include "planners/conflict_search/high_level/constraint_tree.hpp"
 #include "planners/conflict_search/symmetry/corridor.hpp"
 
 namespace dmrp::planners {
 
 class CorridorReasoning {
  public:
-  CorridorReasoning(const Problem& problem, const std::vector<TourTable>& tables, StopSignal& stop)
-      : problem_(problem), tables_(tables), stop_(stop) {}
-
-  // What is known of an agent in the node that has the conflict. `constraints` are the agent's.
+  // One of the two agents of a conflict, as the node that has the conflict knows it. `constraints` are the agent's.
   struct Party {
     std::int32_t agent;
     PathView path;
@@ -23,7 +20,10 @@ class CorridorReasoning {
     const Mdd& mdd;
   };
 
-  // Whether it is worth asking for a split.
+  CorridorReasoning(const Problem& problem, const std::vector<TourTable>& tables, StopSignal& stop)
+      : problem_(problem), tables_(tables), stop_(stop) {}
+
+  // The passage of the conflict, if it has one. A cheap test before find_split(), which needs MDDs.
   std::optional<Passage> find_passage(const Conflict& conflict, PathView path_a, PathView path_b);
   std::optional<SymmetrySplit> find_split(const Passage& passage, const Conflict& conflict, const Party& a,
                                           const Party& b);

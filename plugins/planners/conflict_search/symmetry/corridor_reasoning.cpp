@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planners/conflict_search/high_level/corridor_reasoning.hpp"
+#include "planners/conflict_search/symmetry/corridor_reasoning.hpp"
 
 namespace dmrp::planners {
 
