@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// walkers.hpp: how fast people walk: the way between where they are and where they were one interval ago over the
-// interval, so that swaying on the spot does not count as walking.
+// walking_speeds.hpp: people's speeds over an interval: the distance between their positions at its ends, divided by
+// its length. So swaying in place does not count as walking.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace dmrp::rimea {
 
-class Walkers {
+class WalkingSpeeds {
  public:
   void clear() { before_.clear(), now_.clear(); }
 
-  // Positions of all people, one interval after the last ones.
+  // Stores the positions of all people. Call it once an interval.
   void update(const Span<Person>& people);
 
-  // Speed over the last interval; nothing of somebody who was not there at its beginning.
+  // The speed over the last interval; nothing for people who were absent at its beginning.
   std::optional<double> speed(const Person& person, double interval_s) const;
 
  private:
