@@ -5,15 +5,28 @@
 
 #include <cmath>
 
+#include "host/errors/machine_error.hpp"
+
 namespace dmrp::host {
 namespace {
 
 // The wrapper is written by hand: it covers the few calls of the C API that are used here.
 
+[[noreturn]] void fail(int code, const std::string& line) {
+  switch (code & 0xff) {  // the primary code
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_NOMEM:
+      throw MachineError(line);
+    default:
+      throw SqliteError(line);
+  }
+}
+
 // Throws the connection's last message with the file's name.
 [[noreturn]] void fail(sqlite3* connection, const std::string& what) {
   const char* file = sqlite3_db_filename(connection, "main");
-  throw SqliteError(std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
+  fail(sqlite3_errcode(connection), std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
 }
 
 }  // namespace
@@ -31,7 +44,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &connection, flags, nullptr);
   handle_.reset(connection);
-  if (code != SQLITE_OK) throw SqliteError(path.string() + ": " + sqlite3_errstr(code));
+  if (code != SQLITE_OK) fail(code, path.string() + ": " + sqlite3_errstr(code));
   sqlite3_extended_result_codes(connection, 1);
   sqlite3_busy_timeout(connection, 10'000);
 }

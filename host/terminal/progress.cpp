@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/program/monotonic_time.hpp"
 #include "host/terminal/display_width.hpp"
 
 namespace dmrp::host {

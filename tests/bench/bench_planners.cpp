@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How much the planners solve, and how fast: instances of the MovingAI benchmark and the shipped scenarios, each
-// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to
-// standard error, and a list of {"name", "value", "unit"} to standard output.
+// Measures how many instances the planners solve, and how fast: instances of the MovingAI benchmark and the shipped
+// scenarios. Runs one `dmrp-host plan` for each plan and validates the files of paths. Prints a table; with --json the
+// table goes to standard error, and a list of {"name", "value", "unit"} to standard output.
 //
-// median: of planning_ms over all instances, where one that was not solved counts as the time limit; mean: over the
-// solved ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
+// median: of planning_ms over all instances, where an unsolved one counts as the time limit; mean: over the solved ones;
+// nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ struct Options {
   std::vector<std::string> on;  // MAP:N[,N]...
   std::vector<std::string> scenarios;
   std::vector<std::string> libraries;
-  int instances = 0;  // 0: as the set says
+  int instances = 0;  // 0: those of the set
   int times = 20;
   double time_limit_s = 10.0;
   bool quick = false;
@@ -40,7 +40,7 @@ struct Options {
   fs::path data;
 };
 
-// What became of a set.
+// The results of a set.
 struct SetResult {
   PlannerSet set;
   int robots = 0;
@@ -49,7 +49,7 @@ struct SetResult {
   std::optional<double> mean_ms;
   std::optional<double> nodes;
   double peak_rss_mb = 0.0;
-  std::vector<std::string> troubles;
+  std::vector<std::string> errors;
 };
 
 class ScratchFolder {
@@ -73,7 +73,7 @@ std::optional<double> median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-// The folder of a map, in the layout of the test data; nothing if it is not there.
+// The instance in the test data; nothing if its files are missing.
 std::optional<Instance> instance_of(const fs::path& data, const PlannerSet& set, int number) {
   if (!set.scenario.empty()) return Instance{{}, {}, 0, set.scenario};
   const std::string tasks = fmt::format("{}-random-{}.scen", set.map, number);
@@ -95,7 +95,7 @@ SetResult measure(const Bench& bench, const PlannerSet& set, const KnownPlanner&
     const auto instance = instance_of(data, set, number);
     if (!instance) throw std::runtime_error(fmt::format("{}-random-{}.scen is missing", set.map, number));
     const PlannerRunResult result = run(bench, set.planner, known, *instance);
-    if (!result.trouble.empty()) row.troubles.push_back(fmt::format("instance {}: {}", number, result.trouble));
+    if (!result.error.empty()) row.errors.push_back(fmt::format("instance {}: {}", number, result.error));
     row.peak_rss_mb = std::max(row.peak_rss_mb, result.peak_rss_mb);
     if (result.robots > 0) row.robots = result.robots;
     all_ms.push_back(result.solved ? result.planning_ms : 1e3 * bench.time_limit_s);
@@ -126,11 +126,11 @@ void print(std::FILE* out, const SetResult& row) {
              place_of(row), row.robots, fmt::format("{}/{}", row.solved, row.set.instances), cell(row.median_ms, 3),
              cell(row.mean_ms, 3), cell(row.nodes, 0), row.peak_rss_mb,
              row.solved < row.set.wanted ? fmt::format("  wanted: {}", row.set.wanted) : "");
-  for (const std::string& trouble : row.troubles) fmt::print(out, "    {}\n", trouble);
+  for (const std::string& error : row.errors) fmt::print(out, "    {}\n", error);
   std::fflush(out);
 }
 
-// The id, and the settings where another row has the same planner on the same agents.
+// The id; with the settings if another row has the same planner and the same agents.
 std::string name_of(const SetResult& row, const std::vector<SetResult>& rows) {
   const auto twins = std::count_if(rows.begin(), rows.end(), [&](const SetResult& other) {
     return other.set.planner.id == row.set.planner.id && place_of(other) == place_of(row) && other.robots == row.robots;
@@ -175,7 +175,7 @@ void add_sets(const PlannerChoice& planner, const std::string& on, std::vector<P
   }
 }
 
-// What is asked for: the chosen planners on the chosen places, or the standing list, narrowed to the chosen planners.
+// The chosen planners on the chosen maps and scenarios; or the standing list, restricted to the chosen planners.
 std::vector<PlannerSet> sets_of(const Options& options, const std::vector<KnownPlanner>& known) {
   std::vector<PlannerChoice> chosen;
   for (const std::string& text : options.planners) chosen.push_back(planner_choice(text));
@@ -218,12 +218,12 @@ int run_all(const Options& options) {
     const auto planner = std::find_if(known.begin(), known.end(),
                                       [&](const KnownPlanner& candidate) { return candidate.id == set.planner.id; });
     if (planner == known.end() || !instance_of(options.data, set, set.instances)) {
-      fmt::print(stderr, "left out: {} on {}: {}\n", short_name(set.planner), set.map,
+      fmt::print(stderr, "skipped: {} on {}: {}\n", short_name(set.planner), set.map,
                  planner == known.end() ? "there is no such planner" : "not in the test data");
       continue;
     }
     rows.push_back(measure(bench, set, *planner, options.data));
-    sound = sound && rows.back().troubles.empty();
+    sound = sound && rows.back().errors.empty();
     print(table, rows.back());
   }
   if (options.output.json) write_rows(rows_of(rows), {true, ""});

@@ -26,7 +26,7 @@ Measurement measure_people(const std::string& id, const SyntheticTrial& trial, P
 
 }  // namespace
 
-TEST_CASE("travel times run between two lines, to fractions of a sample") {
+TEST_CASE("travel times run between two lines, interpolated between samples") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).crowd({person(1, {0.5, 0.0}), person(2, {0.0, 1.0})});
   trial.sample(1.0, {}).crowd({person(1, {1.5, 0.0}), person(2, {0.5, 1.0})});
@@ -38,7 +38,7 @@ TEST_CASE("travel times run between two lines, to fractions of a sample") {
   CHECK(m.system("travel_time") == Approx(1.0));
 }
 
-TEST_CASE("an evacuation ends when the last one left") {
+TEST_CASE("an evacuation ends when the last person left") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).crowd({person(1, {0.0, 0.0}), person(2, {1.0, 0.0})});
   trial.sample(1.0, {}).crowd({person(2, {1.0, 0.0})});
@@ -74,7 +74,7 @@ TEST_CASE("density and speed are means over the intervals after the beginning") 
   CHECK(measure_people("dmrp.rimea.fundamental_diagram", trial, late).system("density") == Approx(0.25));
 }
 
-TEST_CASE("solidity finds overlaps and whoever was in a wall") {
+TEST_CASE("solidity finds overlaps and people in walls") {
   SyntheticTrial trial(0);
   trial.bounds({0.0, 0.0}, {10.0, 10.0}).box("wall", {4.0, 0.0}, {6.0, 5.0});
   trial.sample(0.0, {}).crowd({person(1, {1.0, 1.0}), person(2, {1.37, 1.0}), person(3, {3.85, 2.0})});
@@ -92,7 +92,7 @@ TEST_CASE("solidity finds overlaps and whoever was in a wall") {
   CHECK(m.system("wall_overlap") == Approx(0.4));  // 0.2 m behind the wall's face, and the radius
 }
 
-TEST_CASE("a bottleneck is measured while it is fed") {
+TEST_CASE("a bottleneck is measured while people arrive at it") {
   // ten people wait in a column before x = 5; one a second goes through, and walks on at 1 m/s
   SyntheticTrial trial(0);
   for (int t = 0; t <= 12; ++t) {

@@ -12,21 +12,11 @@ using namespace dmrp::test;
 
 namespace {
 
-// The folder with the data; without it the test says so.
+// The folder with the data. Warns if there is none.
 std::optional<std::filesystem::path> data_or_warn() {
   const auto data = test_data();
   if (!data) WARN("skipped: DMRP_TEST_DATA is not set");
   return data;
-}
-
-PlanningCase read_instance(const std::filesystem::path& data, const std::string& map, int robots, int instance) {
-  const bool is_generated = std::filesystem::exists(data / "generated" / (map + ".map"));
-  const auto maps = is_generated ? data / "generated" : data / "movingai" / "maps";
-  const auto scenarios = is_generated ? data / "generated" : data / "movingai" / "scens";
-  PlanningCase c = read_map(maps / (map + ".map"));
-  add_robots(c, scenarios / (map + "-random-" + std::to_string(instance) + ".scen"), robots);
-  REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
-  return c;
 }
 
 void check_solved(const std::string& id, double suboptimality, const std::string& map, int robots,
@@ -53,7 +43,7 @@ struct Crowd {
   int64_t node_limit;
 };
 
-// Whether the parameters make the search go another way on some of the crowds.
+// Whether the parameters change the number of expansions on some of the crowds.
 bool changes_expansions(const std::filesystem::path& data, const std::string& id, const std::vector<Crowd>& crowds,
                         const ParamOverrides& changed) {
   for (const Crowd& crowd : crowds)
