@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// mpc.hpp: minimum-time model predictive control, as ROS's mpc_local_planner does it.
+// mpc.hpp: minimum-time model predictive control after ROS's mpc_local_planner.
 //
 // Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with Non-Euclidean
-// Rotation Groups, European Control Conference 2021. Parameters are named as there; what is a limit of the robot there
-// comes from the observation here.
-#ifndef DMRP_CONTROLLERS_MPC_MPC_HPP
-#define DMRP_CONTROLLERS_MPC_MPC_HPP
+// Rotation Groups, European Control Conference 2021. Parameters have the names of mpc_local_planner; the
+// robot's limits come from the observation.
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <dmrp/plugin.hpp>
+#include <optional>
 
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
-#include "controllers/mpc/association.hpp"
-#include "controllers/mpc/initial_guess.hpp"
-#include "controllers/mpc/interior_point.hpp"
+#include "controllers/mpc/feasibility.hpp"
+#include "controllers/mpc/trajectory_optimizer.hpp"
 
 namespace dmrp::controllers {
 
@@ -78,43 +77,47 @@ class Mpc final : public LocalController {
   Status step(const Observation& now, Command& command) override;
 
  private:
-  void pose_problem(const Observation& now, const CostmapView& map);
-  bool choose_goal(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool plan(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool continue_last(const Observation& now);
-  bool plan_along(const Observation& now, FootprintCheck& footprint);
-  bool plan_by_guide(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  // Where this cycle's trajectory ends.
+  struct Target {
+    mpc::State goal = {0.0, 0.0, 0.0};
+    bool ends_at_rest = false;
+    bool fixes_heading = true;
+    bool is_guided = false;  // route_ comes from guide_, not from the path
+  };
+  // The input of one control cycle.
+  struct Cycle {
+    mpc::Surroundings around;
+    const CostmapView& map;
+  };
+
+  const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
+  std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void spread_guide(const Observation& now, const CostmapView& map);
-  void optimise(double barrier_start);
-  std::size_t adapted_size() const;
-  bool is_feasible(const Observation& now, FootprintCheck& footprint) const;
-  void skip_waiting(const Observation& now, FootprintCheck& footprint);
-  bool is_free(const Observation& now, const mpc::State& state, double ahead_s, double least_m,
-               FootprintCheck& footprint) const;
-  void annotate() const;
+  void pose_problem(const Observation& now, const Target& target);
+  mpc::OptimizerSettings optimizer_settings() const;
+  std::optional<int> plan(const Cycle& cycle, const Target& target);
+  bool can_continue() const;
+  bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
+  void skip_waiting(const mpc::Surroundings& around);
+  void annotate(int solver_iterations) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
   const dmrp_annotate* annotate_ = nullptr;
+
+  // state from one control cycle to the next
   PathTracker tracker_;
-  PathAhead ahead_;
   StopAndRotate at_goal_;
-  ObstacleSet obstacles_;
-  std::vector<Obstacle> seen_;  // of obstacles_, as this controller takes them
-  mpc::Association association_;
+  mpc::Trajectory trajectory_;  // the warm start; empty if there is none
+
+  // buffers, filled anew in every cycle
+  PathAhead ahead_;
+  ObstacleSet obstacle_set_;
+  std::vector<Obstacle> obstacles_;
   Guide guide_;
-  bool guide_spread_ = false;  // this period
-  std::vector<Vec2> way_;      // to start from
-  mpc::InitialGuess guess_;
-  mpc::InteriorPoint solver_;
+  std::vector<Vec2> route_;  // to start a trajectory along
   mpc::Problem problem_;
-  mpc::SolverReport report_;
-  int iterations_now_ = 0;  // of all solutions of this period
-  mpc::Trajectory trajectory_;
-  mpc::Trajectory waiting_;  // a copy to go back to
-  bool has_trajectory_ = false;
+  mpc::TrajectoryOptimizer optimizer_;
 };
 
 }  // namespace dmrp::controllers
-
-#endif

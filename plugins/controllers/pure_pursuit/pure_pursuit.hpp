@@ -2,9 +2,8 @@
 // pure_pursuit.hpp: regulated pure pursuit.
 //
 // Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 (2023).
-// Parameters are named as in nav2; what is a limit there (speeds, accelerations) comes from the robot here.
-#ifndef DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
-#define DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
+// Parameters have the names of nav2; the limits of speeds and accelerations come from the robot.
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
@@ -84,5 +83,3 @@ class PurePursuit final : public LocalController {
 };
 
 }  // namespace dmrp::controllers
-
-#endif
