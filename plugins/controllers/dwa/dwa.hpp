@@ -30,8 +30,9 @@ class Dwa final : public LocalController {
                                               .unit("rad")
                                               .range(0.001, 1.0)
                                               .doc("step of the collision check along a turn");
-  Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("speeds tried");
-  Param<std::int64_t> vth_samples = param("vth_samples", 20).unit("1").range(2, 200).doc("turning rates tried");
+  Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("number of speeds sampled");
+  Param<std::int64_t> vth_samples =
+      param("vth_samples", 20).unit("1").range(2, 200).doc("number of turning rates sampled");
   Param<double> path_distance_bias =
       param("path_distance_bias", 0.6).unit("1/m").range(0.0, 100.0).doc("weight of the distance from the path");
   Param<double> goal_distance_bias = param("goal_distance_bias", 0.8)
@@ -51,19 +52,19 @@ class Dwa final : public LocalController {
   Param<double> oscillation_reset_dist = param("oscillation_reset_dist", 0.05)
                                              .unit("m")
                                              .range(0.0, 10.0)
-                                             .doc("having moved this far, the robot may reverse again");
+                                             .doc("after moving this far, the robot may reverse again");
   Param<double> oscillation_reset_angle = param("oscillation_reset_angle", 0.2)
                                               .unit("rad")
                                               .range(0.0, 3.2)
-                                              .doc("having turned this far, the robot may reverse again");
+                                              .doc("after turning this far, the robot may reverse again");
   Param<bool> use_dwa =
-      param("use_dwa", true).doc("try what can be reached within a control period; off: within the time simulated");
+      param("use_dwa", true).doc("sample the velocities reachable within a control period; off: within sim_time");
   Param<double> footprint_padding =
       param("footprint_padding", 0.01).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 100.0)
                                                      .unit("m")
                                                      .range(0.5, 100.0)
-                                                     .doc("length of the path that is looked at, inside the window");
+                                                     .doc("length of the path considered, inside the window");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;

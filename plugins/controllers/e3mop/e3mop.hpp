@@ -25,13 +25,13 @@ class E3mop final : public LocalController {
   static Descriptor describe();
 
   Param<bool> pruning =
-      param("pruning", true).doc("drop motion primitives that lead away from the heuristic's way to the goal");
+      param("pruning", true).doc("drop motion primitives that lead away from the heuristic's path to the goal");
   Param<double> lattice_resolution =
       param("lattice_resolution", 0.1).unit("m").range(0.05, 0.5).doc("cell of the state lattice");
   Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 3.0)
                                                      .unit("m")
                                                      .range(0.5, 100.0)
-                                                     .doc("length of the path that is planned to, inside the window");
+                                                     .doc("length of the path planned along, inside the window");
   Param<double> weight_smoothness = param("weight_smoothness", 1.0)
                                         .unit("1/m^2")
                                         .range(1e-6, 1e6)
@@ -39,7 +39,7 @@ class E3mop final : public LocalController {
   Param<double> weight_obstacle = param("weight_obstacle", 10.0)
                                       .unit("1/m^2")
                                       .range(0.0, 1e7)
-                                      .doc("w_o: weight of being nearer to obstacles than safe_distance");
+                                      .doc("w_o: weight of being closer to obstacles than safe_distance");
   Param<double> safe_distance = param("safe_distance", 0.5)
                                     .unit("m")
                                     .range(0.0, 5.0)
@@ -49,13 +49,13 @@ class E3mop final : public LocalController {
   Param<double> smoothing_length =
       param("smoothing_length", 3.0).unit("m").range(0.3, 20.0).doc("length of the path that is optimised");
   Param<std::int64_t> max_iterations =
-      param("max_iterations", 100).unit("1").range(0, 1000).doc("of Levenberg-Marquardt, at most");
+      param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<double> prediction_time = param("prediction_time", 1.0)
                                       .unit("s")
                                       .range(0.0, 10.0)
-                                      .doc("the way of visible agents that counts as occupied ahead of them");
+                                      .doc("time for which the predicted motion of visible agents counts as occupied");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;

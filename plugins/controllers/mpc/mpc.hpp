@@ -26,51 +26,55 @@ class Mpc final : public LocalController {
   static Descriptor describe();
 
   Param<std::int64_t> grid_size_ref =
-      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a trajectory that starts anew");
-  Param<double> dt_ref = param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid is adapted to");
+      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a new trajectory");
+  Param<double> dt_ref =
+      param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
-  Param<double> dt_hyst_ratio =
-      param("dt_hyst_ratio", 0.1).unit("1").range(0.0, 1.0).doc("share of dt_ref that the time step may be off by");
+  Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
+                                    .unit("1")
+                                    .range(0.0, 1.0)
+                                    .doc("tolerated deviation of the time step, relative to dt_ref");
   Param<std::int64_t> min_grid_size = param("min_grid_size", 2).unit("1").range(2, 200).doc("least number of states");
   Param<std::int64_t> max_grid_size =
       param("max_grid_size", 50).unit("1").range(2, 200).doc("greatest number of states");
-  Param<bool> warm_start = param("warm_start", true).doc("start from what is left of the last trajectory");
+  Param<bool> warm_start = param("warm_start", true).doc("start from the rest of the last trajectory");
   Param<std::int64_t> outer_ocp_iterations =
       param("outer_ocp_iterations", 5)
           .unit("1")
           .range(1, 100)
-          .doc("solutions a period, each with grid and obstacles adapted to the one before");
+          .doc("maximum solutions per period; each begins by adapting the grid and the obstacles");
   Param<std::int64_t> iterations =
-      param("iterations", 100).unit("1").range(1, 1000).doc("of the solver, for each solution");
-  Param<double> tol = param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("of the solver's optimality conditions");
+      param("iterations", 100).unit("1").range(1, 1000).doc("maximum solver iterations per solution");
+  Param<double> tol =
+      param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("tolerance of the solver's optimality conditions");
   Param<double> min_obstacle_dist =
       param("min_obstacle_dist", 0.2).unit("m").range(0.0, 10.0).doc("kept free between the outlines");
   Param<double> force_inclusion_dist = param("force_inclusion_dist", 0.5)
                                            .unit("m")
                                            .range(0.0, 10.0)
-                                           .doc("every obstacle nearer to a state than this is kept away from");
+                                           .doc("every obstacle closer to a state than this constrains it");
   Param<double> cutoff_dist = param("cutoff_dist", 2.5)
                                   .unit("m")
                                   .range(0.0, 100.0)
-                                  .doc("beyond force_inclusion_dist and up to this, the nearest on either side");
+                                  .doc("beyond force_inclusion_dist and up to this, the closest obstacle on each side");
   Param<bool> enable_dynamic_obstacles =
-      param("enable_dynamic_obstacles", true).doc("agents are where their velocity will have taken them");
+      param("enable_dynamic_obstacles", true).doc("predicts the motion of agents at constant velocity");
   Param<std::int64_t> collision_check_no_poses =
       param("collision_check_no_poses", -1)
           .unit("1")
           .range(-1, 200)
           .doc("states whose footprint must be free on the costmap; -1: all");
   Param<double> max_global_plan_lookahead_dist =
-      param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("of the path, to plan to");
+      param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("length of the path planned along");
   Param<double> force_reinit_new_goal_dist = param("force_reinit_new_goal_dist", 1.0)
                                                  .unit("m")
                                                  .range(0.0, 100.0)
-                                                 .doc("starts anew where the end of the plan jumps farther than this");
+                                                 .doc("restarts if the end of the plan jumps farther");
   Param<double> force_reinit_new_goal_angular = param("force_reinit_new_goal_angular", 1.57)
                                                     .unit("rad")
                                                     .range(0.0, 3.2)
-                                                    .doc("starts anew where the end of the plan turns more than this");
+                                                    .doc("restarts if the end of the plan turns farther");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;

@@ -21,7 +21,7 @@ class PurePursuit final : public LocalController {
   static Descriptor describe();
 
   Param<double> lookahead_dist =
-      param("lookahead_dist", 0.6).unit("m").range(0.05, 10.0).doc("look-ahead where it does not scale with speed");
+      param("lookahead_dist", 0.6).unit("m").range(0.05, 10.0).doc("look-ahead if it does not scale with speed");
   Param<bool> use_velocity_scaled_lookahead_dist =
       param("use_velocity_scaled_lookahead_dist", true).doc("look ahead by speed times lookahead_time");
   Param<double> min_lookahead_dist =
@@ -51,13 +51,12 @@ class PurePursuit final : public LocalController {
   Param<double> cost_scaling_gain =
       param("cost_scaling_gain", 1.0).unit("1").range(0.01, 1.0).doc("factor on the speed near obstacles");
   Param<bool> use_rotate_to_heading =
-      param("use_rotate_to_heading", true).doc("turn in place where the path leads aside or back");
+      param("use_rotate_to_heading", true).doc("turn in place if the path leads aside or back");
   Param<double> rotate_to_heading_min_angle = param("rotate_to_heading_min_angle", 0.785)
                                                   .unit("rad")
                                                   .range(0.05, 3.2)
-                                                  .doc("turn in place when the look-ahead point is further aside");
-  Param<bool> use_collision_detection =
-      param("use_collision_detection", true).doc("stop where the arc ahead runs into an obstacle");
+                                                  .doc("turn in place if the look-ahead point is farther aside");
+  Param<bool> use_collision_detection = param("use_collision_detection", true).doc("stop if the arc ahead collides");
   Param<double> max_allowed_time_to_collision_up_to_carrot = param("max_allowed_time_to_collision_up_to_carrot", 1.5)
                                                                  .unit("s")
                                                                  .range(0.1, 10.0)
