@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash
 # Sourced by setup.sh and .ci/run: apt_install PACKAGE... installs packages, as root or through sudo.
 apt_install() {
   (($# > 0)) || return 0

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +16,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/plugins/library.hpp"
 #include "host/program/version.hpp"
 #include "host/workers/worker.hpp"
@@ -22,9 +25,9 @@ namespace {
 
 using namespace dmrp::host;
 
-// The processes that dmrp-host starts of itself: not for people, and never documented.
+// The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
-  if (argc == 4 && std::strcmp(argv[1], "probe") == 0) return run_probe(argv[2], std::atoi(argv[3]));
+  if (argc == 4 && std::strcmp(argv[1], "probe") == 0) run_probe(argv[2], std::atoi(argv[3]));
   if (argc == 7 && std::strcmp(argv[1], "worker") == 0)
     return run_worker(argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)), std::atoi(argv[4]),
                       std::atoi(argv[5]), std::atoi(argv[6]));
@@ -41,7 +44,7 @@ std::vector<std::string> arguments_with_command(int argc, char** argv) {
   return arguments;
 }
 
-// Started with its standard streams closed, the first files that it opened would take their place.
+// If the standard streams are closed, the first files to be opened would take their numbers.
 void open_standard_streams() {
   int descriptor = open("/dev/null", O_RDWR);
   while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
@@ -60,87 +63,90 @@ std::string check_shard(const std::string& text) {
 void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
   CLI::App* command = app.add_subcommand("run", "run an experiment (also: dmrp-host EXPERIMENT.toml)");
   command->add_option("experiment", options.experiment, "experiment file")->required()->type_name("EXPERIMENT.toml");
-  command->add_option("--out", options.out, "the run directory (default: runs/NAME, or runs/NAME-2, ... if taken)")
+  command->add_option("--out", options.out, "run directory (default: runs/NAME, or runs/NAME-2, ... if taken)")
       ->type_name("DIR");
-  command->add_option("--jobs", options.jobs, "worker processes (default: one a core)")
+  command->add_option("--jobs", options.jobs, "worker processes (default: one per core)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  command->add_flag("--resume", options.resume, "go on with the run in --out: only trials that are not there yet");
-  command->add_option("--shard", shard, "only the trials k with k mod N = I")->check(check_shard)->type_name("I/N");
-  command->add_option("--trials", options.trials, "repetitions of each combination, in place of the file's number")
+  command->add_flag("--resume", options.resume, "continue the run in --out: run only the trials that it lacks");
+  command->add_option("--shard", shard, "run only the trials k with k mod N = I")->check(check_shard)->type_name("I/N");
+  command->add_option("--trials", options.trials, "repetitions of each combination; overrides the file")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("K");
-  command->add_flag("--quiet", options.quiet, "no progress, no table");
+  command->add_flag("--quiet", options.quiet, "print neither progress nor results");
 }
 
 CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
-  CLI::App* command = app.add_subcommand("plan", "plan once: what it costs and how long it takes");
-  command->add_option("--map", options.map, "a MovingAI map: 1 m cells, robots of radius 0")->type_name("M.map");
-  command->add_option("--scen", options.tasks, "MovingAI tasks on that map")->type_name("S.scen");
-  command
-      ->add_option("--agents", options.agents,
-                   "how many of the tasks, from the first; of a scenario: how many to draw for the seed")
+  CLI::App* command = app.add_subcommand("plan", "plan once, and print cost, time and memory");
+  command->add_option("--map", options.map, "MovingAI map; cells are 1 m wide, robots have radius 0")
+      ->type_name("M.map");
+  command->add_option("--scen", options.tasks, "MovingAI tasks on the map")->type_name("S.scen");
+  command->add_option("--agents", options.agents, "use the first N tasks; with --scenario: draw N random robots")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  command->add_option("--scenario", options.scenario, "in place of these: a shipped one, or a path to scenario.toml")
+  command
+      ->add_option("--scenario", options.scenario,
+                   "instead of a map: a shipped scenario, or the path of a scenario.toml")
       ->type_name("NAME");
-  command->add_option("--planner", options.planner, "the global planner")->required()->type_name("ID");
-  command->add_option("--plugin", options.plugins, "another plugin library")
+  command->add_option("--planner", options.planner, "global planner")->required()->type_name("ID");
+  command->add_option("--plugin", options.plugins, "additional plugin library")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
-  command->add_option("--set", options.settings, "a parameter of the planner")
+  command->add_option("--set", options.settings, "parameter of the planner")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--time-limit", options.time_limit_s, "wall time for plan(), in seconds")
+  command->add_option("--time-limit", options.time_limit_s, "time budget of plan(), in seconds of wall time")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--seed", options.seed, "for robots that are drawn and planners that draw")
+  command->add_option("--seed", options.seed, "seed of random robots and of randomised planners")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--paths", options.paths, "writes the paths, CSV agent,t,x,y in cells, y from the top")
+  command->add_option("--paths", options.paths, "write the paths as CSV: agent,t,x,y in cells, y from the top")
       ->type_name("FILE");
-  command->add_flag("--json", options.json, "the figures as JSON");
+  command->add_flag("--json", options.json, "print the figures as JSON");
   return command;
 }
 
 CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
-  CLI::App* command = app.add_subcommand("draw", "a picture of a scenario, with planned paths");
-  command->add_option("scenario", options.scenario, "a shipped one, or a path to scenario.toml")->required();
-  command->add_option("--agents", options.agents, "robots to draw for the seed, as plan does, in place of those listed")
+  CLI::App* command = app.add_subcommand("draw", "draw a scenario, optionally with planned paths");
+  command->add_option("scenario", options.scenario, "a shipped scenario, or the path of a scenario.toml")->required();
+  command->add_option("--agents", options.agents, "draw N random robots, as plan does, instead of the listed ones")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  command->add_option("--planner", options.planner, "plan with this global planner")->type_name("ID");
-  command->add_option("--plugin", options.plugins, "another plugin library")->type_name("LIB.so");
-  command->add_option("--set", options.settings, "a parameter of the planner")->type_name("KEY=VALUE");
-  command->add_option("--seed", options.seed, "for robots that are drawn and planners that draw")
+  command->add_option("--planner", options.planner, "draw the paths of this global planner")->type_name("ID");
+  command->add_option("--plugin", options.plugins, "additional plugin library")->type_name("LIB.so");
+  command->add_option("--set", options.settings, "parameter of the planner")->type_name("KEY=VALUE");
+  command->add_option("--seed", options.seed, "seed of random robots and of randomised planners")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--svg", options.svg, "where to (default: standard output)")->type_name("FILE");
+  command->add_option("--svg", options.svg, "output file (default: standard output)")->type_name("FILE");
   return command;
 }
 
 CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
-  CLI::App* command = app.add_subcommand("evaluate", "a metric over the stored traces of a run, as CSV");
-  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
-  command->add_option("--metric", options.metric, "the metric (default: all of the run's, and of --plugin's)")
+  CLI::App* command = app.add_subcommand("evaluate", "measure the stored traces of a run, as CSV");
+  command->add_option("run", options.choice.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--metric", options.choice.metric, "metric (default: all metrics of the run and of --plugin)")
       ->type_name("ID");
-  command->add_option("--plugin", options.plugins, "another plugin library, searched before the run's")
+  command->add_option("--plugin", options.choice.plugins, "additional plugin library, searched before the run's")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
-  command->add_option("--set", options.settings, "a parameter of the metric (default: as in the run)")
+  command->add_option("--set", options.choice.settings, "parameter of the metric (default: as in the run)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--params-file", options.parameter_file, "parameters of the metric: a file, or a shipped set")
+  command
+      ->add_option("--params-file", options.choice.parameter_file,
+                   "parameters of the metric: a file, or the name of a shipped set")
       ->type_name("FILE");
-  command->add_option("--trial", options.trials, "only this trial")->type_name("N")->allow_extra_args(false);
-  command->add_option("--csv", options.csv, "where to (default: standard output)")->type_name("FILE");
+  command->add_option("--trial", options.trials, "measure only this trial")->type_name("N")->allow_extra_args(false);
+  command->add_option("--csv", options.csv, "output file (default: standard output)")->type_name("FILE");
   return command;
 }
 
 CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
-  CLI::App* command = app.add_subcommand("merge", "joins runs of parts of one experiment (--shard)");
-  command->add_option("out", options.out, "the run directory to make")->required()->type_name("OUT");
+  CLI::App* command = app.add_subcommand("merge", "join runs of parts of one experiment (--shard)");
+  command->add_option("out", options.out, "run directory to create")->required()->type_name("OUT");
   command->add_option("runs", options.runs, "run directories")->required()->type_name("RUN_DIR");
   return command;
 }
@@ -149,8 +155,11 @@ int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
   app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done, 1 some trials ended in a fault, 2 bad input, 3 the machine failed (full disk, no memory),\n"
+      "130 interrupted.");
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("dmrp-host: ") + error.what() + " (--help tells more)\n";
+    return std::string("dmrp-host: ") + error.what() + " (see --help)\n";
   });
 
   RunOptions run;
@@ -159,16 +168,17 @@ int run_main(int argc, char** argv) {
   add_run(app, run, shard);
 
   std::filesystem::path validated;
-  CLI::App* validate = app.add_subcommand("validate", "all checks of an experiment that need no run");
+  CLI::App* validate = app.add_subcommand("validate", "check an experiment without running it");
   validate->add_option("experiment", validated, "experiment file")->required()->type_name("EXPERIMENT.toml");
 
   std::vector<std::string> libraries;
   bool json = false;
   bool markdown = false;
-  CLI::App* plugins = app.add_subcommand("plugins", "what plugin libraries hold, with parameters");
-  plugins->add_option("libraries", libraries, "libraries (default: all of the plugin path)")->type_name("LIB.so");
-  CLI::Option* as_json = plugins->add_flag("--json", json, "as JSON");
-  plugins->add_flag("--markdown", markdown, "as a reference page")->excludes(as_json);
+  CLI::App* plugins = app.add_subcommand("plugins", "list the plugins of libraries, with their parameters");
+  plugins->add_option("libraries", libraries, "libraries (default: all libraries of the plugin path)")
+      ->type_name("LIB.so");
+  CLI::Option* as_json = plugins->add_flag("--json", json, "print JSON");
+  plugins->add_flag("--markdown", markdown, "print a reference page in Markdown")->excludes(as_json);
 
   DrawOptions draw;
   CLI::App* drawing = add_draw(app, draw);
@@ -183,10 +193,10 @@ int run_main(int argc, char** argv) {
   CLI::App* planning = add_plan(app, plan);
 
   std::filesystem::path reported;
-  CLI::App* report = app.add_subcommand("report", "write report.html: what a run found, in one file to open anywhere");
-  report->add_option("run", reported, "the run directory")->required()->type_name("RUN_DIR");
+  CLI::App* report = app.add_subcommand("report", "write report.html: the results of a run in one file");
+  report->add_option("run", reported, "run directory")->required()->type_name("RUN_DIR");
   std::vector<std::uint64_t> replayed;
-  report->add_option("--replay", replayed, "a trial to replay, besides those that are chosen")->type_name("TRIAL");
+  report->add_option("--replay", replayed, "trial to replay, in addition to the chosen ones")->type_name("TRIAL");
 
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
   std::reverse(arguments.begin(), arguments.end());
@@ -210,18 +220,26 @@ int run_main(int argc, char** argv) {
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }
 
+// What was printed is buffered: a full disk shows only here.
+void flush_output() {
+  if (std::fflush(stdout) != 0) throw MachineError("standard output", errno);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of `ulimit -f`: write() fails instead
   if (const auto status = run_as_child(argc, argv)) return *status;
   try {
-    return run_main(argc, argv);
+    const int status = run_main(argc, argv);
+    flush_output();
+    return status;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return exit_status::bad_input;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "dmrp-host: %s\n", error.what());
-    return exit_status::bad_input;
+    std::fprintf(stderr, "dmrp-host: %s\n", error_text(error).c_str());
+    return is_machine_failure(error) ? exit_status::machine_failed : exit_status::bad_input;
   }
 }

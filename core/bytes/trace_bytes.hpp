@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_bytes.hpp: little-endian values in and out of bytes; internal to the trace's encoder and reader.
+// trace_bytes.hpp: writes and reads little-endian values; internal to traces and their files.
 #pragma once
 
 #include <bit>
@@ -18,26 +18,26 @@ namespace dmrp::core {
 
 using TraceBytes = std::vector<std::uint8_t>;
 
-// The trace is cut off or damaged, or of another format.
+// The trace is truncated or damaged, or has another format.
 class TraceError : public std::runtime_error {
  public:
   TraceError(std::size_t offset, const std::string& what)
       : std::runtime_error("trace, byte " + std::to_string(offset) + ": " + what), offset_(offset) {}
 
-  std::size_t offset() const { return offset_; }  // of the first byte that could not be understood
+  std::size_t offset() const { return offset_; }  // of the first invalid byte
 
  private:
   std::size_t offset_;
 };
 
-static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "values are copied in their memory layout");
 
 // A number, or a frozen value type of the SDK (no padding).
 template <class Value>
 concept TraceValue = std::is_arithmetic_v<Value> ||
     (std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value> && std::is_standard_layout_v<Value>);
 
-// Makes room for `count` more bytes and gives its beginning. Not inline: gcc 12 warns of what it imagines there.
+// Appends `count` bytes and returns a pointer to them. Not inline: gcc 12 gives a false warning there.
 std::uint8_t* lengthen(TraceBytes& bytes, std::size_t count);
 
 class ByteWriter {
@@ -63,13 +63,13 @@ class ByteWriter {
   TraceBytes& bytes_;
 };
 
-// Reads bytes one after the other; throws TraceError rather than read beyond. `origin`: where they begin in what they
-// are a part of, for the error.
+// Reads bytes in sequence; throws TraceError at the end. `origin`: the offset of the bytes in the whole trace, for
+// errors.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::uint8_t> bytes, std::size_t origin = 0) : rest_(bytes), position_(origin) {}
 
-  std::size_t position() const { return position_; }  // from the beginning of what the bytes are a part of
+  std::size_t position() const { return position_; }  // from the beginning of the whole trace
   bool at_end() const { return rest_.empty(); }
   std::span<const std::uint8_t> rest() const { return rest_; }
 
@@ -94,14 +94,14 @@ class ByteCursor {
     return taken;
   }
 
-  // The next bytes, to be read by themselves.
+  // A cursor over the next `count` bytes alone.
   ByteCursor part(std::uint64_t count) {
     const std::size_t begin = position_;
     return ByteCursor(take_bytes(count), begin);
   }
 
-  // A count of elements of which each takes `element_bytes` or more: what follows has room for them, so that a damaged
-  // count never makes anybody allocate more than a small multiple of the trace.
+  // A count of elements of at least `element_bytes` each. Checks that the rest has room for them, so that a damaged
+  // count never causes an allocation of more than a small multiple of the trace.
   std::uint32_t take_count(std::size_t element_bytes) {
     const auto count = take<std::uint32_t>();
     require(count, element_bytes);

@@ -28,15 +28,15 @@ void ActionDependencies::set_plan(const dmrp_grid& grid, std::span<const std::ve
       if (stages.empty() || stages.back().cell != cell) stages.push_back({cell, waypoint.t_ns, {}});
     }
 
-  // cell by cell in the plan's order: a claim depends on the visit before it and on who has passed since
+  // Cell by cell in the plan's order: a claim depends on the visit before it and on all passes since.
   const std::vector<Claim> claims = find_claims(grid, positions);
   std::size_t since = 0;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     if (claims[since].cell != claims[i].cell) since = i;
-    for (std::size_t k = since; k < i; ++k) depend(claims[i], claims[k]);
+    for (std::size_t k = since; k < i; ++k) add_dependency(claims[i], claims[k]);
     if (claims[i].visits) since = i;
   }
-  loosen_rotations();
+  merge_rotations();
 }
 
 std::vector<ActionDependencies::Claim> ActionDependencies::find_claims(const dmrp_grid& grid,
@@ -63,47 +63,49 @@ std::vector<ActionDependencies::Claim> ActionDependencies::find_claims(const dmr
   return claims;
 }
 
-void ActionDependencies::depend(const Claim& claim, const Claim& before) {
-  // where the robots are to begin with, nobody has been waiting for; two may pass the corners of a cell at a time
+void ActionDependencies::add_dependency(const Claim& claim, const Claim& before) {
+  // First positions depend on nothing. Two robots may pass the corners of a cell at the same time.
   if (claim.robot == before.robot || claim.from == 0 || claim.arrival_ns == before.arrival_ns) return;
-  robots_[claim.robot].stages[claim.from].needs.push_back({before.robot, static_cast<std::int64_t>(before.until)});
+  robots_[claim.robot].stages[claim.from].dependencies.push_back(
+      {before.robot, static_cast<std::int64_t>(before.until)});
 }
 
-// That another robot moves on at the time of this move: out of the way.
-const ActionDependencies::Need* ActionDependencies::simultaneous_need(Move move) const {
+// The dependency on another robot's move at the same time, out of the way of this one.
+const ActionDependencies::Dependency* ActionDependencies::simultaneous_dependency(Move move) const {
   const Stage& stage = robots_[move.robot].stages[move.stage];
-  const auto found = std::find_if(stage.needs.begin(), stage.needs.end(), [&](const Need& need) {
-    const std::vector<Stage>& others = robots_[need.robot].stages;
-    const auto other = static_cast<std::size_t>(need.stage);
-    return other < others.size() && others[other].arrival_ns == stage.arrival_ns;
-  });
-  return found == stage.needs.end() ? nullptr : &*found;
+  const auto found =
+      std::find_if(stage.dependencies.begin(), stage.dependencies.end(), [&](const Dependency& dependency) {
+        const std::vector<Stage>& others = robots_[dependency.robot].stages;
+        const auto other = static_cast<std::size_t>(dependency.stage);
+        return other < others.size() && others[other].arrival_ns == stage.arrival_ns;
+      });
+  return found == stage.dependencies.end() ? nullptr : &*found;
 }
 
-// All moves of the rotation of which this one is part; empty if it is part of none.
+// All moves of the rotation that contains this move; empty if there is none.
 std::vector<ActionDependencies::Move> ActionDependencies::rotation_through(Move move) const {
   std::vector<Move> rotation = {move};
   while (rotation.size() <= robots_.size()) {
-    const Need* need = simultaneous_need(rotation.back());
-    if (!need) return {};
-    if (need->robot == move.robot) return rotation;
-    rotation.push_back({need->robot, static_cast<std::size_t>(need->stage)});
+    const Dependency* dependency = simultaneous_dependency(rotation.back());
+    if (!dependency) return {};
+    if (dependency->robot == move.robot) return rotation;
+    rotation.push_back({dependency->robot, static_cast<std::size_t>(dependency->stage)});
   }
-  return {};  // leads into a rotation
+  return {};  // the move leads into a rotation but is not part of it
 }
 
 void ActionDependencies::release_together(const std::vector<Move>& rotation) {
-  std::vector<Need> needs;
+  std::vector<Dependency> dependencies;
   for (const Move& move : rotation) {
-    const Need* simultaneous = simultaneous_need(move);
-    for (const Need& need : robots_[move.robot].stages[move.stage].needs)
-      if (&need != simultaneous) needs.push_back(need);
-    needs.push_back({move.robot, static_cast<std::int64_t>(move.stage) - 1});
+    const Dependency* simultaneous = simultaneous_dependency(move);
+    for (const Dependency& dependency : robots_[move.robot].stages[move.stage].dependencies)
+      if (&dependency != simultaneous) dependencies.push_back(dependency);
+    dependencies.push_back({move.robot, static_cast<std::int64_t>(move.stage) - 1});
   }
-  for (const Move& move : rotation) robots_[move.robot].stages[move.stage].needs = needs;
+  for (const Move& move : rotation) robots_[move.robot].stages[move.stage].dependencies = dependencies;
 }
 
-void ActionDependencies::loosen_rotations() {
+void ActionDependencies::merge_rotations() {
   for (std::size_t i = 0; i < robots_.size(); ++i)
     for (std::size_t k = 1; k < robots_[i].stages.size(); ++k)
       if (const std::vector<Move> rotation = rotation_through({i, k}); !rotation.empty()) release_together(rotation);
@@ -115,10 +117,12 @@ void ActionDependencies::reached(std::size_t robot, std::uint32_t stage) {
 
 std::uint32_t ActionDependencies::released(std::size_t robot) {
   Robot& it = robots_[robot];
-  const auto is_met = [this](const Need& need) { return robots_[need.robot].reached >= need.stage; };
+  const auto is_met = [this](const Dependency& dependency) {
+    return robots_[dependency.robot].reached >= dependency.stage;
+  };
   while (it.released + 1 < it.stages.size()) {
-    const std::vector<Need>& needs = it.stages[it.released + 1].needs;
-    if (!std::all_of(needs.begin(), needs.end(), is_met)) break;
+    const std::vector<Dependency>& dependencies = it.stages[it.released + 1].dependencies;
+    if (!std::all_of(dependencies.begin(), dependencies.end(), is_met)) break;
     ++it.released;
   }
   return it.released;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// action_dependencies.hpp: in which order robots pass the cells that they share, as a graph over their moves.
+// action_dependencies.hpp: the order in which robots pass shared cells, as a graph over their moves.
 //
 // Hoenig, Kiesel, Tinka, Durham, Ayanian: Persistent and robust execution of MAPF schedules in warehouses, IEEE RA-L 4
 // (2019): the action dependency graph.
@@ -15,44 +15,45 @@
 
 namespace dmrp::core {
 
-// The stages of a robot are the cells of its plan in order, a wait being part of its cell. The graph's nodes are the
-// moves to the next stage. Type 1: a robot takes its stages in order. Type 2: it may move to a cell when the robot that
-// has the cell before it in the plan has come to its own next stage. A diagonal move has the two cells beside it, too,
-// until it is done. A robot that is not in its first cell has the cell where it is until it gets there.
+// The stages of a robot are the cells of its plan in order; a wait is part of its cell. The nodes of the graph are the
+// moves to the next stage. Type 1: a robot takes its stages in order. Type 2: it may move to a cell after the robot
+// that occupies the cell before it in the plan has reached its own next stage. A diagonal move also occupies the two
+// cells beside it until it ends. A robot outside its first cell occupies the cell where it is until it reaches the
+// first.
 //
-// Nobody waits in a circle. Let the plan be free of vertex, swap and passing conflicts, and give a move the time at
-// which the plan has it done. A type 1 dependency leads to a later move. So does a type 2 dependency, or to a move at
-// the same time: who has the cell next gets there at the earliest when the one before has just left it. A circle could
-// then only be one of moves at one time, each into the cell that the next robot leaves: a rotation of three or more
-// robots, since two would be a swap. Such moves are released together: none depends on the others any more, but each
-// on what any of them depends on besides, and on all robots standing in the cells that they leave, to which they moved
-// earlier. All dependencies then lead forward in time.
+// The graph has no cycle. Assume that the plan has no vertex, swap or passing conflicts, and assign to each move the
+// time of its end in the plan. A type 1 dependency leads to a later move. A type 2 dependency leads to a later move or
+// to one at the same time, because a robot enters a cell at the earliest when the previous robot has just left it. So a
+// cycle can only consist of simultaneous moves, each into the cell that the next robot leaves: a rotation of at least
+// three robots, since two would be a swap. The moves of a rotation are released together: they no longer depend on each
+// other, but each depends on all other dependencies of the rotation and on all its robots having reached the cells that
+// they leave, which happens earlier. All dependencies then lead forward in time.
 class ActionDependencies {
  public:
-  // Forgets the plan before. A valid plan of a step-wise planner: a path (at least one waypoint) a robot. `positions`:
-  // where the robots are.
+  // Replaces the plan. `paths`: a valid plan of a step-wise planner with one path (at least one waypoint) per robot.
+  // `positions`: the present positions of the robots.
   void set_plan(const dmrp_grid& grid, std::span<const std::vector<dmrp_waypoint>> paths,
                 std::span<const dmrp_vec2> positions);
 
-  // The robot has come to this stage, and so to those before.
+  // Records that the robot has reached this stage and all before it.
   void reached(std::size_t robot, std::uint32_t stage);
 
   // The last stage to which the robot may go.
   std::uint32_t released(std::size_t robot);
 
  private:
-  struct Need {
+  struct Dependency {
     std::size_t robot;
-    std::int64_t stage;  // that it must have come to
+    std::int64_t stage;  // that this robot must have reached
   };
   struct Stage {
     std::uint32_t cell;
     std::int64_t arrival_ns;
-    std::vector<Need> needs;  // before the robot may move here
+    std::vector<Dependency> dependencies;  // of the move to this stage
   };
   struct Robot {
     std::vector<Stage> stages;
-    std::int64_t reached = -1;  // -1: on the way to the first stage
+    std::int64_t reached = -1;  // stage; -1: on the way to the first
     std::uint32_t released = 0;
   };
   struct Move {
@@ -60,22 +61,22 @@ class ActionDependencies {
     std::size_t stage;
   };
 
-  // That a robot has a cell: from its move to a stage until it has come to another.
+  // A robot's occupation of a cell, from its move to stage `from` until it reaches stage `until`.
   struct Claim {
     std::uint32_t cell;
     std::int64_t arrival_ns;
     std::size_t robot;
     std::size_t from;
     std::size_t until;
-    bool visits;  // the cell is a stage; else the robot only passes
+    bool visits;  // the cell is a stage; otherwise the robot only passes
   };
 
   std::vector<Claim> find_claims(const dmrp_grid& grid, std::span<const dmrp_vec2> positions) const;
-  void depend(const Claim& claim, const Claim& before);
-  const Need* simultaneous_need(Move move) const;
+  void add_dependency(const Claim& claim, const Claim& before);
+  const Dependency* simultaneous_dependency(Move move) const;
   std::vector<Move> rotation_through(Move move) const;
   void release_together(const std::vector<Move>& rotation);
-  void loosen_rotations();
+  void merge_rotations();
 
   std::vector<Robot> robots_;
 };

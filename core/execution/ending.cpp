@@ -32,7 +32,7 @@ std::uint32_t EndingMonitor::update(std::int64_t t_ns, std::span<const RobotStat
   return all_stall ? DMRP_ENDING_DEADLOCK : 0;
 }
 
-// Notes how the robot moved; whether it has gained nearly nothing over the whole window.
+// Records the robot's motion. Returns whether it gained less than stall_progress_m over the whole window.
 bool EndingMonitor::watch(Watched& watched, std::int64_t t_ns, const RobotState& robot, double gained_m) {
   if (!watched.history.empty()) {
     watched.travelled_m += toolkit::distance(toolkit::position(watched.last_pose), toolkit::position(robot.pose));
@@ -41,13 +41,13 @@ bool EndingMonitor::watch(Watched& watched, std::int64_t t_ns, const RobotState&
   watched.last_pose = robot.pose;
   watched.history.push_back({t_ns, gained_m, watched.travelled_m, watched.turned_rad});
 
-  // the oldest moment kept is the last that is a whole window old
+  // The oldest moment kept is the latest that is at least a whole window old.
   while (watched.history.size() > 1 && watched.history[1].t_ns <= t_ns - stall_window_ns) watched.history.pop_front();
   const Moment& then = watched.history.front();
   const bool stalls = t_ns - then.t_ns >= stall_window_ns && gained_m - then.gained_m < stall_progress_m;
-  const bool restless = watched.travelled_m - then.travelled_m > oscillation_travel_m ||
-                        watched.turned_rad - then.turned_rad > oscillation_turn_rad;
-  if (stalls && restless && robot.state == DMRP_ROBOT_ACTIVE && watched.failure == DMRP_FAILURE_NONE)
+  const bool oscillates = watched.travelled_m - then.travelled_m > oscillation_travel_m ||
+                          watched.turned_rad - then.turned_rad > oscillation_turn_rad;
+  if (stalls && oscillates && robot.state == DMRP_ROBOT_ACTIVE && watched.failure == DMRP_FAILURE_NONE)
     watched.failure = DMRP_FAILURE_OSCILLATION;
   return stalls;
 }

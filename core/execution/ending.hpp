@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ending.hpp: when a trial is over, and why a robot failed.
+// ending.hpp: decides when a trial ends and why a robot failed.
 #pragma once
 
 #include <dmrp/metric.h>
@@ -19,28 +19,28 @@ inline constexpr double oscillation_travel_m = 1.0;
 inline constexpr double oscillation_turn_rad = 4.0 * 3.14159265358979323846;
 inline constexpr std::int64_t controller_silence_ns = 5'000'000'000;
 
-// Watches the robots of one trial.
+// Monitors the robots of one trial.
 // - Deadlock: no unfinished robot gained stall_progress_m in the last stall_window_ns. Ends the trial.
-// - Oscillation of a robot: over the same window it travelled or turned much and gained as little. Recorded for good,
-//   also if it arrives later.
+// - Oscillation of a robot: over the same window it gained less than stall_progress_m but travelled more than
+//   oscillation_travel_m or turned more than oscillation_turn_rad. The record stays even if it arrives later.
 // - Controller failure: no command for controller_silence_ns.
 class EndingMonitor {
  public:
   EndingMonitor(std::uint32_t robot_count, std::int64_t time_limit_ns);
 
-  // A controller gave a command.
+  // Records that a controller gave a command.
   void command_given(std::uint32_t robot, std::int64_t t_ns) { robots_[robot].last_command_ns = t_ns; }
 
-  // The robots at t = 0 and after every step, and what each has gained along its paths (PathProgress::gained_m).
-  // Returns DMRP_ENDING_* once the trial is over, 0 until then. Without robots it is over when the world is
+  // Takes the robots at t = 0 and after every step, with the gain of each along its paths (PathProgress::gained_m).
+  // Returns DMRP_ENDING_* once the trial is over, 0 until then. A trial without robots is over when the world is
   // `deserted` (World::is_deserted()).
   std::uint32_t update(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
                        bool deserted = false);
 
-  // DMRP_FAILURE_* of a robot as far as known; a robot whose controller failed is to be given up (World::fail).
+  // DMRP_FAILURE_* of a robot so far. The caller must call World::fail() for a robot whose controller failed.
   std::uint32_t failure(std::uint32_t robot) const { return robots_[robot].failure; }
 
-  // How every robot ended, when update() has returned an ending.
+  // The outcome of every robot, after update() has returned an ending.
   std::vector<dmrp_robot_end> robot_ends(std::uint32_t ending, std::span<const RobotState> robots) const;
 
  private:

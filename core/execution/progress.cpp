@@ -7,8 +7,8 @@
 namespace dmrp::core {
 namespace {
 
-// How far ahead on the path the robot is looked for, beyond what it has travelled since its last progress: enough to
-// follow one that cuts a corner, too little to skip a detour that it is about to take.
+// The search window ahead on the path, beyond the distance travelled since the last progress: large enough to follow a
+// robot that cuts a corner, too small to skip a detour ahead of it.
 constexpr double search_ahead_m = 2.0;
 
 }  // namespace
@@ -19,9 +19,9 @@ void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 posit
   toolkit::arc_lengths(path_, arcs_);
   last_position_ = position;
   reached_m_ = path_.empty() ? 0.0 : toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
-  way_there_ = 0;
+  approach_ = 0;
   if (!path_.empty() && reached_m_ == 0.0 && off_path_m() > 0.0) {
-    way_there_ = 1;
+    approach_ = 1;
     path_.insert(path_.begin(), path_.front());
     path_.front().x = position.x;
     path_.front().y = position.y;
@@ -38,7 +38,7 @@ void PathProgress::update(dmrp_vec2 position, std::uint32_t goal_index) {
   travelled_m_ += toolkit::distance(last_position_, position);
   last_position_ = position;
 
-  // the way to the current goal ends at its last waypoint
+  // The part of the path to the current goal ends at the goal's last waypoint.
   std::size_t last = path_.size() - 1;
   while (last > 0 && path_[last].goal_index > goal_index) --last;
   advance(arcs_[last]);
@@ -50,9 +50,9 @@ void PathProgress::advance(double limit_m) {
   const double place_m = toolkit::project(path_, arcs_, last_position_, reached_m_, until_m).arc_m;
   if (place_m <= reached_m_) return;
   const double ahead_m = place_m - reached_m_;
-  const double won_back_m = std::min(lost_m_, ahead_m);
-  lost_m_ -= won_back_m;
-  gained_m_ += ahead_m - won_back_m;
+  const double recovered_m = std::min(lost_m_, ahead_m);
+  lost_m_ -= recovered_m;
+  gained_m_ += ahead_m - recovered_m;
   reached_m_ = place_m;
   travelled_m_ = 0.0;
   pass_waypoints();
@@ -63,15 +63,15 @@ void PathProgress::pass_waypoints() {
 }
 
 double PathProgress::progress_m() const {
-  return way_there_ == 0 ? reached_m_ : std::max(0.0, reached_m_ - arcs_[way_there_]);
+  return approach_ == 0 ? reached_m_ : std::max(0.0, reached_m_ - arcs_[approach_]);
 }
 
 std::uint32_t PathProgress::waypoint() const {
-  return waypoint_ - std::min(waypoint_, way_there_);
+  return waypoint_ - std::min(waypoint_, approach_);
 }
 
 bool PathProgress::has_begun() const {
-  return waypoint_ >= way_there_;
+  return waypoint_ >= approach_;
 }
 
 double PathProgress::off_path_m() const {

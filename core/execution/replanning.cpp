@@ -24,7 +24,7 @@ bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, s
   return true;
 }
 
-// Strays or stalls.
+// Whether the robot strays or stalls.
 bool ReplanMonitor::off_course(std::int64_t t_ns, const PathProgress& progress, Watched& watched) const {
   if (progress.gained_m() - watched.gained_m >= stall_progress_m) watched = {progress.gained_m(), t_ns};
   const bool strays = settings_.stray_m > 0.0 && progress.off_path_m() > settings_.stray_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replanning.hpp: when the planner is to be asked again.
+// replanning.hpp: decides when to call the planner again.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace dmrp::core {
 
 class ReplanMonitor {
  public:
-  // The first plan is asked for at t = 0.
+  // The first call of the planner is at t = 0.
   ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count);
 
-  // At every control tick, with the progress of all robots. After a yes the planner counts as asked, and a stall has to
-  // last anew.
+  // Call it at every control tick with the progress of all robots. If it returns true, the planner counts as called,
+  // and stall times start again.
   bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress);
 
  private:

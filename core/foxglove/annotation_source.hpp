@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// annotation_source.hpp: the plugin that left a trajectory or a note in the trace.
+// annotation_source.hpp: identifies the plugin behind a trajectory or a note in the trace.
 #pragma once
 
 #include <cstdint>

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// foxglove_channels.hpp: a trial for people to look at: beside the trace itself, channels of JSON messages that Foxglove
-// and Lichtblick show as they are (docs/traces.md). Derived and rounded: nothing is measured by them.
+// foxglove_channels.hpp: the visualisation of a trial: besides the trace itself, channels of JSON messages that
+// Foxglove and Lichtblick display (docs/traces.md). They are derived from the trace and rounded; no measurement reads
+// them.
 //
 //   /map, /goals            foxglove.SceneUpdate, once
 //   /tf                     foxglove.FrameTransforms: map -> robot_0, robot_1, ..., ten times a second
 //   /robots                 foxglove.SceneUpdate in their frames: once, and when a robot's state changes
 //   /people                 foxglove.SceneUpdate, ten times a second
 //   /plan                   foxglove.SceneUpdate, every plan with paths
-//   /contacts               foxglove.SceneUpdate, as they begin
-//   /predictions            foxglove.SceneUpdate: trajectories that plugins told of
-//   /robot_0/scan, ...      foxglove.LaserScan, where scans are recorded
+//   /contacts               foxglove.SceneUpdate, at the beginning of each contact
+//   /predictions            foxglove.SceneUpdate: trajectories from plugins' annotations
+//   /robot_0/scan, ...      foxglove.LaserScan, if scans are recorded
 //   /log                    foxglove.Log: contacts, plans, notes of plugins, the end
-//   /metric_events          foxglove.Log, and /metric_events/robots foxglove.SceneUpdate: who was meant, how long
+//   /metric_events          foxglove.Log: events from metrics
+//   /metric_events/robots   foxglove.SceneUpdate: the robots of an event, for its duration
 //
-// Times are simulated ones from 0; the frame `map` is the world's.
+// Times are simulated and start at 0; the frame `map` is the world frame.
 #pragma once
 
 #include <dmrp/ext/lidar.h>
@@ -31,8 +33,8 @@
 
 namespace dmrp::core {
 
-// What a metric told of, after the trial.
-struct MetricMark {
+// An event that a metric reported after the trial.
+struct MetricEvent {
   std::string_view metric;
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
@@ -40,10 +42,10 @@ struct MetricMark {
   std::string_view text;
 };
 
-// Takes what a TraceEncoder takes, in the same order; TraceFileWriter connects the two.
+// Takes the same data as a TraceEncoder, in the same order; TraceFileWriter connects the two.
 class FoxgloveChannels {
  public:
-  explicit FoxgloveChannels(McapWriter& file);  // which outlives it
+  explicit FoxgloveChannels(McapWriter& file);  // must outlive this object
   FoxgloveChannels(const FoxgloveChannels&) = delete;
   FoxgloveChannels& operator=(const FoxgloveChannels&) = delete;
 
@@ -54,11 +56,11 @@ class FoxgloveChannels {
   void trajectory(std::int64_t now_ns, AnnotationSource source, std::uint32_t role, std::span<const dmrp_pose> poses);
   void note(std::int64_t now_ns, AnnotationSource source, std::string_view text);
   void end(const dmrp_trial_end& end, std::string_view reason);
-  void mark(const MetricMark& mark);
+  void metric_event(const MetricEvent& event);
 
  private:
   struct Robot {
-    std::string name;   // as the scenario calls it
+    std::string name;   // from the scenario
     std::string frame;  // "robot_0"
     double radius_m = 0.0;
     std::vector<dmrp_vec2> outline;  // empty: a disc
@@ -74,29 +76,30 @@ class FoxgloveChannels {
   void put_people(const dmrp_sample& sample);
   void put_contact(const dmrp_sample& sample, const dmrp_contact& contact);
   void put_log(std::uint16_t channel, std::int64_t t_ns, Level level, std::string_view name, std::string_view text);
-  void put_told();
+  void flush_trajectories();
   std::string name_of(std::uint32_t robot) const;
   std::string name_of(AnnotationSource source) const;
 
   McapWriter& file_;
   std::uint16_t map_ = 0, goals_ = 0, tf_ = 0, robots_channel_ = 0, people_ = 0, plan_ = 0, contacts_ = 0;
-  std::uint16_t predictions_ = 0, log_ = 0, events_ = 0, marks_ = 0;
-  std::vector<std::uint16_t> scans_;  // by robot, from the first scan on
+  std::uint16_t predictions_ = 0, log_ = 0, metric_log_ = 0, metric_robots_ = 0;
+  std::vector<std::uint16_t> scans_;  // channels by robot; empty until the first scan
   std::vector<Robot> robots_;
   std::vector<std::string> shapes_;
   std::int64_t t_ns_ = 0;       // of the last sample
-  std::int64_t shown_ns_ = -1;  // of the last sample that is shown
+  std::int64_t shown_ns_ = -1;  // of the last displayed sample
   std::uint32_t contact_count_ = 0;
-  std::uint32_t mark_count_ = 0;
+  std::uint32_t metric_figure_count_ = 0;
 
-  // trajectories of one plugin, one role and one time: a controller may tell of a hundred in a step
-  struct Told {
-    std::int64_t t_ns = -1;  // -1: there are none
+  // Trajectories of one plugin, one role and one time, written as one message: a controller may annotate a hundred in
+  // one step.
+  struct TrajectoryGroup {
+    std::int64_t t_ns = -1;  // -1: the group is empty
     AnnotationSource source;
     std::uint32_t role = 0;
     SceneEntity lines;
   };
-  Told told_;
+  TrajectoryGroup trajectories_;
 
   SceneUpdate scene_;
   SceneEntity entity_;

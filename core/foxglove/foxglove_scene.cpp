@@ -116,7 +116,7 @@ void SceneEntity::prism(std::span<const dmrp_vec2> outline, double z, double hei
   const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
     for (const std::size_t index : {a, b, c}) indices.comma_unless_first().integer(static_cast<std::int64_t>(index));
   };
-  for (std::size_t i = 0; i < n; ++i) {  // outwards is where the corners run counter-clockwise
+  for (std::size_t i = 0; i < n; ++i) {  // the outer face has its corners counter-clockwise
     const std::size_t next = (i + 1) % n;
     triangle(i, next, n + next);
     triangle(i, n + next, n + i);

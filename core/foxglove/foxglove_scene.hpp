@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// foxglove_scene.hpp: entities of a 3-D scene as JSON messages foxglove.SceneUpdate; internal to foxglove_channels.cpp.
+// foxglove_scene.hpp: entities of a 3-D scene as JSON messages foxglove.SceneUpdate; internal to core/foxglove.
 #pragma once
 
 #include <dmrp/values.h>
@@ -19,7 +19,7 @@ struct Color {
   double r, g, b, a;
 };
 
-// A pose on the floor, or above it.
+// A pose at a height z above the floor.
 struct ScenePose {
   double x = 0.0;
   double y = 0.0;
@@ -29,10 +29,10 @@ struct ScenePose {
 
 void put_time(JsonText& json, std::int64_t t_ns);  // {"sec":...,"nsec":...}
 void put_position(JsonText& json, double x, double y, double z);
-void put_rotation(JsonText& json, double theta);  // about z
+void put_rotation(JsonText& json, double theta);  // around z
 void put_pose(JsonText& json, const ScenePose& pose);
 
-// What shows together, under one id: lists of primitives. Lengths in metres; `z` is where a body stands.
+// A set of primitives under one id. Lengths in metres; `z` is the height of a body's base.
 class SceneEntity {
  public:
   void cylinder(const ScenePose& foot, double radius_m, double height_m, const Color& color);
@@ -41,7 +41,7 @@ class SceneEntity {
   void text(const ScenePose& center, double size_m, const Color& color, std::string_view text);
   void line(std::span<const ScenePose> points, bool closed, double thickness_m, const Color& color);
   void prism(std::span<const dmrp_vec2> outline, double z, double height_m, const Color& color);  // convex, no bottom
-  void note(std::string_view key, std::string_view value);  // to be read when it is clicked on
+  void note(std::string_view key, std::string_view value);  // metadata, shown when the entity is selected
 
   void clear();
 
@@ -50,7 +50,7 @@ class SceneEntity {
   JsonText metadata_, arrows_, spheres_, cylinders_, lines_, triangles_, texts_;
 };
 
-// One message.
+// Builds one message.
 //
 //   scene.begin(t_ns);
 //   scene.add(entity, "map", "shape_0", {});
@@ -60,7 +60,7 @@ class SceneUpdate {
   struct Where {
     std::string_view frame = "map";
     bool locked = false;           // moves with its frame
-    std::int64_t lifetime_ns = 0;  // 0: until another entity of this id comes
+    std::int64_t lifetime_ns = 0;  // 0: until the next entity with this id
   };
 
   void begin(std::int64_t t_ns);

@@ -21,7 +21,7 @@ constexpr const char* duration =
 
 using Fields = std::vector<std::pair<const char*, std::string>>;
 
-// With all of its fields.
+// An object in which all fields are required.
 std::string object(const std::string& title, const Fields& fields) {
   std::string properties;
   std::string names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// foxglove_schemas.hpp: the message schemas of Foxglove that traces use (https://docs.foxglove.dev/docs/sdk/schemas), as
-// JSON Schema: names, fields and types of theirs, without the descriptions.
+// foxglove_schemas.hpp: the message schemas of Foxglove that traces use (https://docs.foxglove.dev/docs/sdk/schemas),
+// as JSON Schema with Foxglove's names, fields and types, without the descriptions.
 #pragma once
 
 #include "core/mcap/mcap.hpp"

@@ -8,8 +8,8 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double steps_a_unit = 10'000.0;  // four decimals
-constexpr double most_steps = 9.0e15;      // beyond, steps are no whole numbers any more
+constexpr double steps_per_unit = 10'000.0;  // four decimals
+constexpr double max_steps = 9.0e15;         // larger doubles do not represent every integer
 
 char hex_digit(unsigned value) {
   return "0123456789abcdef"[value & 15u];
@@ -44,8 +44,8 @@ JsonText& JsonText::integer(std::int64_t value) {
 }
 
 JsonText& JsonText::number(double value) {
-  const double steps = value * steps_a_unit;
-  if (!(std::abs(steps) < most_steps)) return integer(0);
+  const double steps = value * steps_per_unit;
+  if (!(std::abs(steps) < max_steps)) return integer(0);
   auto rest = static_cast<std::int64_t>(std::abs(steps) + 0.5);
   if (rest == 0) return integer(0);  // no "-0"
   if (value < 0.0) text_ += '-';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// json_text.hpp: JSON put together piece by piece, in a buffer that is used again: for messages by the thousand.
+// json_text.hpp: builds JSON text piece by piece in a reused buffer. Written by hand: a trace has thousands of
+// messages, and nlohmann-json would build a tree for each and has no format with four decimals.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ class JsonText {
   }
   JsonText& string(std::string_view text);  // quoted and escaped
   JsonText& integer(std::int64_t value);
-  JsonText& number(double value);  // to four decimals; 0 for what JSON has no number for
-  JsonText& comma_unless_first();  // between elements, where the buffer holds nothing but these
+  JsonText& number(double value);  // rounded to four decimals; 0 for NaN, infinities and values above 9e11
+  JsonText& comma_unless_first();  // a separator, if the buffer holds only list elements
 
   void clear() { text_.clear(); }
   const std::string& text() const { return text_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mcap.hpp: what the writer and the reader of MCAP files share (https://mcap.dev/spec): time-stamped messages on
-// channels, in compressed chunks, with an index at the end.
+// mcap.hpp: definitions for the writer and the reader of MCAP files (https://mcap.dev/spec): time-stamped messages on
+// channels, in compressed chunks, with an index at the end. Written by hand: Debian packages no MCAP library for C++.
 #pragma once
 
 #include <array>
@@ -27,21 +27,21 @@ enum class McapOpcode : std::uint8_t {
   data_end = 0x0F
 };
 
-// Every record begins with its opcode and a u64 length of what follows.
+// Every record begins with its opcode and the length of the rest as u64.
 inline constexpr std::size_t mcap_record_prefix_bytes = 9;
 
 inline constexpr const char* mcap_compression = "zstd";
 
 struct McapSchema {
-  std::string name;      // as in "foxglove.SceneUpdate"
-  std::string encoding;  // as in "jsonschema"
+  std::string name;      // for example "foxglove.SceneUpdate"
+  std::string encoding;  // for example "jsonschema"
   std::string data;
 };
 
 struct McapChannel {
   std::string topic;
-  std::string message_encoding;  // as in "json"
-  std::uint16_t schema_id = 0;   // as given by McapWriter::add_schema; 0 for none
+  std::string message_encoding;  // for example "json"
+  std::uint16_t schema_id = 0;   // from McapWriter::add_schema; 0: none
   std::map<std::string, std::string> metadata;
 };
 

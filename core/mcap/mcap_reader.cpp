@@ -5,34 +5,30 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
-#include <cerrno>
-#include <system_error>
 #include <utility>
+
+#include "core/bytes/file_error.hpp"
 
 namespace dmrp::core {
 namespace {
 
-// A damaged file must not make us allocate whatever it says. Writers end chunks at a few megabytes.
+// A limit on allocations for damaged files. Writers end chunks at a few megabytes.
 constexpr std::uint64_t largest_chunk_bytes = std::uint64_t{1} << 28;
 
 void decompress(const ByteCursor& in, std::span<const std::uint8_t> compressed, std::uint64_t size,
                 std::vector<std::uint8_t>& records) {
   if (size > largest_chunk_bytes || ZSTD_getFrameContentSize(compressed.data(), compressed.size()) != size)
-    in.fail("a chunk of another size than it says");
+    in.fail("the size of the chunk differs from its header");
   records.resize(size);
   if (ZSTD_decompress(records.data(), records.size(), compressed.data(), compressed.size()) != size)
-    in.fail("a chunk that does not decompress");
-}
-
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), path.string());
+    in.fail("the chunk cannot be decompressed");
 }
 
 }  // namespace
 
 McapReader::McapReader(const std::filesystem::path& path, std::string topic)
     : path_(path), topic_(std::move(topic)), file_(path, std::ios::binary) {
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
 }
 
 void McapReader::rewind() {
@@ -58,7 +54,7 @@ std::optional<McapMessage> McapReader::next() {
   }
 }
 
-// How long it is, and whether it is one at all.
+// Finds the size of the file and checks its first bytes.
 void McapReader::begin() {
   begun_ = true;
   file_.clear();
@@ -66,7 +62,7 @@ void McapReader::begin() {
   size_ = static_cast<std::uint64_t>(file_.tellg());
   file_.seekg(0);
   position_ = 0;
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   if (size_ < mcap_magic.size() || !magic_follows()) throw TraceError(0, "not an MCAP file");
 }
 
@@ -78,17 +74,17 @@ bool McapReader::magic_follows() {
 void McapReader::read(std::vector<std::uint8_t>& bytes, std::uint64_t count) {
   bytes.resize(count);
   file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   position_ += count;
 }
 
 void McapReader::skip_to(std::uint64_t position) {
   file_.seekg(static_cast<std::streamoff>(position));
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   position_ = position;
 }
 
-// The next record outside chunks, of those that matter; false where there is none, or not all of it.
+// Reads the next record outside chunks of a kind that next() handles; false if there is no complete one.
 bool McapReader::read_record() {
   while (size_ - position_ >= mcap_record_prefix_bytes) {
     read(record_, mcap_record_prefix_bytes);
@@ -103,7 +99,7 @@ bool McapReader::read_record() {
     }
     if (opcode_ == McapOpcode::channel || opcode_ == McapOpcode::message || opcode_ == McapOpcode::chunk) {
       if (opcode_ == McapOpcode::chunk && length > 2 * largest_chunk_bytes)
-        throw TraceError(position_, "a chunk of more than anybody writes");
+        throw TraceError(position_, "the chunk is too large");
       read(record_, length);
       return true;
     }
@@ -114,8 +110,8 @@ bool McapReader::read_record() {
 }
 
 void McapReader::open_chunk(ByteCursor in) {
-  in.take<std::uint64_t>();  // first and ...
-  in.take<std::uint64_t>();  // ... last log time
+  in.take<std::uint64_t>();  // first log time
+  in.take<std::uint64_t>();  // last log time
   const auto size = in.take<std::uint64_t>();
   const auto checksum = in.take<std::uint32_t>();
   const std::string_view compression = in.take_text();
@@ -125,20 +121,20 @@ void McapReader::open_chunk(ByteCursor in) {
   else if (compression.empty())
     chunk_.assign(compressed.begin(), compressed.end());
   else
-    in.fail("a chunk compressed by '" + std::string(compression) + "'");
+    in.fail("unknown compression '" + std::string(compression) + "' of the chunk");
   boost::crc_32_type crc;
   if (checksum != 0) crc.process_bytes(chunk_.data(), chunk_.size());
-  if (checksum != 0 && crc.checksum() != checksum) in.fail("a chunk with a wrong checksum");
+  if (checksum != 0 && crc.checksum() != checksum) in.fail("the checksum of the chunk is wrong");
   chunk_position_ = 0;
 }
 
-// Goes on by one record in the chunk; its message, if it is one of the topic.
+// Reads one record of the chunk. Returns its message if it belongs to the topic.
 std::optional<McapMessage> McapReader::next_in_chunk() {
   ByteCursor in(std::span<const std::uint8_t>(chunk_).subspan(chunk_position_), chunk_position_);
   const auto opcode = in.take<McapOpcode>();
   const ByteCursor body = in.part(in.take<std::uint64_t>());
   chunk_position_ = in.position();
-  if (opcode == McapOpcode::chunk) in.fail("a chunk within a chunk");
+  if (opcode == McapOpcode::chunk) in.fail("a chunk inside a chunk");
   if (opcode == McapOpcode::channel) take_channel(body);
   return opcode == McapOpcode::message ? take_message(body) : std::nullopt;
 }

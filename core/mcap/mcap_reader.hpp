@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mcap_reader.hpp: the messages of one channel of an MCAP file, in the order in which they were written.
+// mcap_reader.hpp: reads the messages of one channel of an MCAP file, in the order in which they were written.
 #pragma once
 
 #include <cstdint>
@@ -21,23 +21,23 @@ struct McapMessage {
   std::span<const std::uint8_t> data;
 };
 
-// Holds one chunk of the file at a time. Takes chunks that are not compressed or by zstd.
+// Holds one chunk of the file at a time. Reads chunks without compression or with zstd.
 //
 //   McapReader file(path, "robots");
 //   while (const auto message = file.next()) ...
 class McapReader {
  public:
-  // Throws std::system_error where the file cannot be opened.
+  // Throws std::system_error if the file cannot be opened.
   McapReader(const std::filesystem::path& path, std::string topic);
 
-  // The next message whose channel is called `topic`, valid until the next call; none after the last. A file that was
-  // cut short ends with its last whole chunk. Throws TraceError where the file is damaged, and std::system_error.
+  // The next message of the channel `topic`, valid until the next call; none after the last. A truncated file ends with
+  // its last whole chunk. Throws TraceError if the file is damaged, and std::system_error if it cannot be read.
   std::optional<McapMessage> next();
 
-  // The next message is the first again.
+  // Starts again with the first message.
   void rewind();
 
-  // Once there was no next message: whether the file was not cut short.
+  // After the last message: whether the file is complete, not truncated.
   bool is_whole() const { return is_whole_; }
 
  private:
@@ -54,14 +54,14 @@ class McapReader {
   std::filesystem::path path_;
   std::string topic_;
   std::ifstream file_;
-  std::uint64_t size_ = 0;      // of the file, when its reading began
+  std::uint64_t size_ = 0;      // of the file at the start of reading
   std::uint64_t position_ = 0;  // in the file
   bool begun_ = false;
   bool ended_ = false;
   bool is_whole_ = false;
   std::set<std::uint16_t> channels_;  // of the topic
-  McapOpcode opcode_{};               // of the last record outside chunks ...
-  std::vector<std::uint8_t> record_;  // ... and its body
+  McapOpcode opcode_{};               // of the last record outside chunks
+  std::vector<std::uint8_t> record_;  // its body
   std::vector<std::uint8_t> chunk_;   // decompressed
   std::size_t chunk_position_ = 0;
 };

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
-#include <cerrno>
 #include <memory>
 #include <new>
 #include <string>
-#include <system_error>
 
+#include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"
 
 namespace dmrp::core {
@@ -43,7 +42,7 @@ void put_record(Bytes& bytes, McapOpcode opcode, WriteBody write_body) {
   std::memcpy(bytes.data() + begin + 1, &length, sizeof(length));
 }
 
-// A map or an array: a u32 count of bytes, then the elements.
+// A map or an array: the number of bytes as u32, then the elements.
 template <class WriteElements>
 void put_counted(Bytes& bytes, WriteElements write_elements) {
   const std::size_t begin = bytes.size();
@@ -63,7 +62,7 @@ void put_offsets(Bytes& bytes, const std::map<std::uint16_t, std::uint64_t>& off
   });
 }
 
-// With zstd's own checksum, which costs next to nothing: MCAP's CRC-32 would take longer than the compression.
+// Uses zstd's own checksum, which costs almost nothing: MCAP's CRC-32 takes longer than the compression.
 Bytes compress(const Bytes& bytes) {
   const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
   if (!context) throw std::bad_alloc();
@@ -72,13 +71,9 @@ Bytes compress(const Bytes& bytes) {
   Bytes compressed(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
       ZSTD_compress2(context.get(), compressed.data(), compressed.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(size)) throw std::bad_alloc();  // there is no other reason
+  if (ZSTD_isError(size)) throw std::bad_alloc();  // the only possible reason
   compressed.resize(size);
   return compressed;
-}
-
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), path.string());
 }
 
 }  // namespace
@@ -101,7 +96,7 @@ McapWriter::McapWriter(const std::filesystem::path& path)
 }
 
 std::uint16_t McapWriter::add_schema(const McapSchema& schema) {
-  const std::uint16_t id = ++schema_count_;  // 0 says that there is none
+  const std::uint16_t id = ++schema_count_;  // 0 means no schema
   Bytes record;
   put_record(record, McapOpcode::schema, [&](ByteWriter& out) {
     out.put(id);
@@ -143,8 +138,8 @@ void McapWriter::write(std::uint16_t channel, std::int64_t log_time_ns, std::spa
   put_record(chunk_, McapOpcode::message, [&](ByteWriter& out) {
     out.put(channel);
     out.put(sequence);
-    out.put(log_time);  // when it was recorded ...
-    out.put(log_time);  // ... and published
+    out.put(log_time);  // time of recording
+    out.put(log_time);  // time of publication
     out.put_array(message.data(), message.size());
   });
   if (chunk_.size() >= chunk_bytes) write_chunk();
@@ -220,7 +215,7 @@ void McapWriter::put_statistics(Bytes& bytes) const {
   });
 }
 
-// The summary, where each of its groups begins, and the footer.
+// Writes the summary, the offsets of its groups, and the footer.
 void McapWriter::write_summary() {
   const std::uint64_t summary_begin = file_size_;
   Bytes summary;
@@ -261,12 +256,12 @@ void McapWriter::finish() {
   to_file(data_end);
   write_summary();
   file_.close();
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
 }
 
 void McapWriter::to_file(const Bytes& bytes) {
   file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   file_size_ += bytes.size();
 }
 

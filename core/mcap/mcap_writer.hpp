@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mcap_writer.hpp: writes an MCAP file as messages come in. Throws std::system_error.
+// mcap_writer.hpp: writes an MCAP file message by message. Throws std::system_error.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dmrp::core {
 
-// Messages gather in chunks, each of which goes to the file whole: after a crash, all but the last one can be read.
+// Collects messages in chunks and writes each chunk as a whole: after a crash all but the last chunk are readable.
 //
 //   McapWriter file(path);
 //   const std::uint16_t channel = file.add_channel({"robots", "json", file.add_schema(schema), {}});
@@ -29,10 +29,10 @@ class McapWriter {
   std::uint16_t add_channel(const McapChannel& channel);
   void write(std::uint16_t channel, std::int64_t log_time_ns, std::span<const std::uint8_t> message);
 
-  // Puts what has gathered into the file, as a chunk.
+  // Writes the collected messages as a chunk.
   void flush() { write_chunk(); }
 
-  // Writes the last chunk, the index and the end. A file without it is one cut short.
+  // Writes the last chunk, the index and the end. Without this call the file counts as truncated.
   void finish();
 
  private:
@@ -50,7 +50,7 @@ class McapWriter {
   };
 
   void write_chunk();
-  std::map<std::uint16_t, std::uint64_t> write_message_indexes();  // gives the offset of each channel's
+  std::map<std::uint16_t, std::uint64_t> write_message_indexes();  // returns the offset of each channel's index
   void write_summary();
   void put_statistics(Bytes& bytes) const;
   void to_file(const Bytes& bytes);
@@ -64,10 +64,10 @@ class McapWriter {
   std::map<std::uint16_t, std::vector<IndexEntry>> chunk_messages_;  // by channel
 
   Bytes schemas_;        // records for the summary
-  Bytes channels_;       // likewise
-  Bytes chunk_indexes_;  // likewise
+  Bytes channels_;       // records for the summary
+  Bytes chunk_indexes_;  // records for the summary
   TimeRange file_times_;
-  std::map<std::uint16_t, std::uint64_t> message_counts_;  // by channel: every channel is in it
+  std::map<std::uint16_t, std::uint64_t> message_counts_;  // of every channel
   std::uint16_t schema_count_ = 0;
   std::uint32_t chunk_count_ = 0;
 };

@@ -11,11 +11,11 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double narrowing = 0.98;  // of the lattice, from one try to the next
+constexpr double narrowing = 0.98;  // factor on the lattice spacing between two tries
 constexpr int tries_to_move = 8;
-constexpr double longest_link = 1.5;  // of companions, in spacings
+constexpr double longest_link = 1.5;  // between members, in lattice spacings
 
-// The lattice's points in the rectangle that have room; `phase`: of the first row and column, in [0, 1).
+// The points of the lattice in the rectangle that have room; `phase` in [0, 1) shifts the first row and column.
 std::vector<dmrp_vec2> lattice_points(const toolkit::Rectangle& where, double spacing_m, dmrp_vec2 phase,
                                       const std::function<bool(dmrp_vec2)>& has_room) {
   const double row_m = 0.5 * std::sqrt(3.0) * spacing_m;
@@ -34,9 +34,9 @@ void shuffle(std::vector<dmrp_vec2>& points, toolkit::Stream& stream) {
   for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[stream.below(i)]);
 }
 
-// Somewhere at most `reach_m` away; the point itself where nothing was found.
-dmrp_vec2 moved(dmrp_vec2 point, double reach_m, const toolkit::Rectangle& where, toolkit::Stream& stream,
-                const std::function<bool(dmrp_vec2)>& has_room) {
+// A random free point at most `reach_m` away; the point itself if none was found.
+dmrp_vec2 jittered(dmrp_vec2 point, double reach_m, const toolkit::Rectangle& where, toolkit::Stream& stream,
+                   const std::function<bool(dmrp_vec2)>& has_room) {
   for (int tries = 0; tries < tries_to_move; ++tries) {
     const double radius_m = reach_m * std::sqrt(stream.uniform());
     const dmrp_vec2 there = point + radius_m * toolkit::from_angle(stream.uniform(0.0, 2.0 * std::numbers::pi));
@@ -45,11 +45,11 @@ dmrp_vec2 moved(dmrp_vec2 point, double reach_m, const toolkit::Rectangle& where
   return point;
 }
 
-// Points that follow each other from neighbour to neighbour.
+// A sequence of neighbouring points.
 using Chain = std::vector<dmrp_vec2>;
 using Places = std::vector<std::vector<dmrp_vec2>>;
 
-// The points, row by row, there and back again, cut where neighbours are not in reach or not in sight.
+// The points row by row in alternating directions, split where successive points are too far apart or not in sight.
 std::vector<Chain> chains_of(std::vector<dmrp_vec2> points, double spacing_m, const GroupSpread& spread) {
   bool backward = false;
   for (auto row = points.begin(); row != points.end(); backward = !backward) {
@@ -67,9 +67,10 @@ std::vector<Chain> chains_of(std::vector<dmrp_vec2> points, double spacing_m, co
   return chains;
 }
 
-// Each group, in this order, somewhere in its share of the points. Empty if they run out, as they may where chains end.
-Places deal_evenly(const std::vector<Chain>& chains, const std::vector<std::uint32_t>& sizes,
-                   const std::vector<std::size_t>& order, toolkit::Stream& stream) {
+// Places each group, in this order, at random in its share of the points. Returns nothing if the points run out, which
+// the ends of chains can cause.
+Places place_evenly(const std::vector<Chain>& chains, const std::vector<std::uint32_t>& sizes,
+                    const std::vector<std::size_t>& order, toolkit::Stream& stream) {
   const auto sum = [](std::size_t all, const auto& one) { return all + one; };
   const std::size_t people = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}, sum);
   std::size_t spare = 0;
@@ -78,17 +79,17 @@ Places deal_evenly(const std::vector<Chain>& chains, const std::vector<std::uint
   spare -= people;
   Places places(sizes.size());
   std::size_t placed = 0;
-  std::size_t left_out = 0;
+  std::size_t skipped = 0;
   std::size_t chain = 0;
   std::size_t next = 0;  // point of the chain
   for (const std::size_t group : order) {
     placed += sizes[group];
     const std::size_t share = spare * placed / people;
-    std::size_t skip = share > left_out ? stream.below(share - left_out + 1) : 0;
-    left_out += skip;
+    std::size_t skip = share > skipped ? stream.below(share - skipped + 1) : 0;
+    skipped += skip;
     while (chain < chains.size() && next + skip + sizes[group] > chains[chain].size()) {
       const std::size_t rest = chains[chain].size() - next;
-      left_out += rest - std::min(rest, skip);
+      skipped += rest - std::min(rest, skip);
       skip -= std::min(rest, skip);
       next = 0;
       ++chain;
@@ -101,7 +102,7 @@ Places deal_evenly(const std::vector<Chain>& chains, const std::vector<std::uint
   return places;
 }
 
-// The largest first, each in the first chain with room. Who finds none stays empty.
+// First fit in order of decreasing size. Groups without room stay empty.
 Places pack(const std::vector<Chain>& chains, const std::vector<std::uint32_t>& sizes, std::vector<std::size_t> order) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
   std::vector<std::size_t> used(chains.size(), 0);
@@ -128,7 +129,7 @@ std::vector<dmrp_vec2> spread_on_lattice(const toolkit::Rectangle& where, std::s
   const double x_phase = stream.uniform();
   const dmrp_vec2 phase = {x_phase, stream.uniform()};
   const dmrp_vec2 extent = where.upper - where.lower;
-  // as many points as people, were the place empty
+  // the spacing at which an empty region has as many points as people
   double spacing_m =
       std::max(apart_m, std::sqrt(2.0 * extent.x * extent.y / (std::sqrt(3.0) * static_cast<double>(count))));
   std::vector<dmrp_vec2> points = lattice_points(where, spacing_m, phase, has_room);
@@ -138,7 +139,7 @@ std::vector<dmrp_vec2> spread_on_lattice(const toolkit::Rectangle& where, std::s
   }
   shuffle(points, stream);
   points.resize(std::min(points.size(), count));
-  for (dmrp_vec2& point : points) point = moved(point, 0.5 * (spacing_m - apart_m), where, stream, has_room);
+  for (dmrp_vec2& point : points) point = jittered(point, 0.5 * (spacing_m - apart_m), where, stream, has_room);
   return points;
 }
 
@@ -164,7 +165,7 @@ std::vector<std::vector<dmrp_vec2>> spread_groups_on_lattice(const toolkit::Rect
   Places places;
   for (;;) {
     const auto chains = chains_of(lattice_points(where, spacing_m, phase, spread.has_room), spacing_m, spread);
-    places = deal_evenly(chains, sizes, order, stream);
+    places = place_evenly(chains, sizes, order, stream);
     if (!places.empty()) break;
     places = pack(chains, sizes, order);
     if (spacing_m <= spread.apart_m || std::none_of(places.begin(), places.end(), is_empty)) break;
@@ -172,7 +173,7 @@ std::vector<std::vector<dmrp_vec2>> spread_groups_on_lattice(const toolkit::Rect
   }
   for (auto& group : places)
     for (dmrp_vec2& point : group)
-      point = moved(point, 0.5 * (spacing_m - spread.apart_m), where, stream, spread.has_room);
+      point = jittered(point, 0.5 * (spacing_m - spread.apart_m), where, stream, spread.has_room);
   return places;
 }
 

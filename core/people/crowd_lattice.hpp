@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// crowd_lattice.hpp: many people in a place, evenly and yet at random.
+// crowd_lattice.hpp: random but even positions for many people in a region.
 #pragma once
 
 #include <dmrp/values.h>
@@ -13,25 +13,25 @@
 
 namespace dmrp::core {
 
-// `count` points in the rectangle, pairwise at least `apart_m` from each other, each where has_room() says yes: on the
-// widest hexagonal lattice, of random phase, that has enough such points; each moved at random as far as it may be,
-// given the distance to its neighbours. Points drawn one by one would stop at about half of the closest packing, a
-// lattice reaches nearly all of it. In random order. Fewer than `count` where there is no room for more.
+// Returns `count` points of the rectangle for which has_room() is true, at pairwise distances of at least `apart_m`, in
+// random order; fewer where there is no room for more. The points come from the widest hexagonal lattice of random
+// phase with enough such points; each is then displaced at random within the bounds of the distances. Points drawn one
+// by one would reach about half of the closest packing; a lattice reaches nearly all of it.
 std::vector<dmrp_vec2> spread_on_lattice(const toolkit::Rectangle& where, std::size_t count, double apart_m,
                                          toolkit::Stream& stream, const std::function<bool(dmrp_vec2)>& has_room);
 
-// What groups mind when they spread.
+// The constraints on positions of groups.
 struct GroupSpread {
-  double apart_m = 0.0;           // between any two
-  double apart_in_group_m = 0.0;  // between companions, where there is room for that; not less than apart_m
-  bool rows_along_x = true;       // companions stand in rows along this axis
+  double apart_m = 0.0;           // between any two people
+  double apart_in_group_m = 0.0;  // between members of a group if there is room; at least apart_m
+  bool rows_along_x = true;       // members stand in rows along this axis
   std::function<bool(dmrp_vec2)> has_room;
-  std::function<bool(dmrp_vec2, dmrp_vec2)> in_sight;  // companions are not parted by a wall
+  std::function<bool(dmrp_vec2, dmrp_vec2)> in_sight;  // no wall separates members
 };
 
-// Places for groups of these sizes, parallel to `sizes`: companions have neighbouring points of a hexagonal lattice,
-// each group somewhere in a stretch of its own of the way that winds through all points row by row. Where the lattice is
-// too wide for all, it narrows; where there is no room, the groups that find none are empty.
+// Positions for groups of these sizes, parallel to `sizes`. Members get neighbouring points of a hexagonal lattice;
+// each group gets a random place in its section of the path that winds through all points row by row. The lattice
+// narrows until all groups fit. Groups without room are empty in the result.
 std::vector<std::vector<dmrp_vec2>> spread_groups_on_lattice(const toolkit::Rectangle& where,
                                                              const std::vector<std::uint32_t>& sizes,
                                                              toolkit::Stream& stream, const GroupSpread& spread);

@@ -19,7 +19,7 @@ namespace {
 
 using toolkit::Stream;
 
-constexpr double lane_half_width_m = 1.5;  // how far aside of the route people begin
+constexpr double lane_half_width_m = 1.5;  // largest distance of first positions from the route
 constexpr int tries_along_flow = 64;
 constexpr int tries_anywhere = 2000;
 
@@ -27,7 +27,7 @@ dmrp_vec2 middle_of(const Region& region) {
   return 0.5 * (region.lower + region.upper);
 }
 
-// A place on a route of several legs.
+// A point on a route of several legs.
 struct RoutePlace {
   dmrp_vec2 point{};
   double heading = 0.0;
@@ -46,18 +46,19 @@ RoutePlace place_on(const std::vector<Route>& legs, double fraction) {
   }
 }
 
-// The group's places round a point that can be seen from its route.
+// The positions of a group around a point that is visible from its route.
 std::optional<std::vector<FirstPlace>> places_beside(const RoutePlace& on_route, dmrp_vec2 point, std::uint32_t size,
                                                      std::uint32_t abreast, const StandingRoom& room) {
-  const auto places = room.places_round(point, on_route.heading, size, abreast);
-  if (!places || !room.geometry.line_of_sight(on_route.point, point)) return std::nullopt;  // not beyond a wall
+  const auto places = room.places_around(point, on_route.heading, size, abreast);
+  if (!places || !room.geometry.line_of_sight(on_route.point, point))
+    return std::nullopt;  // otherwise it is behind a wall
   std::vector<FirstPlace> out;
   for (const dmrp_vec2 place : *places) out.push_back({place, on_route.leg});
   return out;
 }
 
-// Evenly along the whole route, each group somewhere in a stretch of its own and somewhere aside of it: side by side
-// where that can be, else in narrower rows. Empty where there is no room.
+// Random positions in the group's section of the route and beside it, so that groups cover the route evenly. Members
+// stand side by side if possible, otherwise in narrower rows. Returns nothing if there is no room.
 std::vector<FirstPlace> places_along_flow(const Flow& flow, const WalkingGroup& group, const std::vector<Route>& legs,
                                           const StandingRoom& room, std::uint64_t seed) {
   Stream stream(seed, "population.begin", group.first_slot);
@@ -80,18 +81,18 @@ std::vector<FirstPlace> places_along_flow(const Flow& flow, const WalkingGroup& 
   return {};
 }
 
-// The people who start in a region, of all flows.
+// The people of all flows who start in one region.
 struct RegionCrowd {
   std::uint32_t region = 0;
   std::uint32_t first_flow = 0;
   std::vector<std::uint32_t> group_sizes;  // in order of slots
-  bool rows_along_x = false;               // of companions: across the first flow's way
+  bool rows_along_x = false;               // rows of members lie across the first flow's direction
 };
 
-// The smallest region first.
+// In order of size, the smallest region first.
 std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario) {
   std::map<std::uint32_t, RegionCrowd> by_region;
-  for (const WalkingGroup& group : deal_groups(scenario.flows)) {
+  for (const WalkingGroup& group : divide_into_groups(scenario.flows)) {
     const Flow& flow = scenario.flows[group.flow];
     if (flow.start != FlowStart::from) continue;
     const std::uint32_t first = flow.regions[0];
@@ -113,12 +114,12 @@ std::vector<RegionCrowd> crowds_by_region(const Scenario& scenario) {
   return crowds;
 }
 
-// Parallel to the crowd's group_sizes; for fewer groups where there is no room for more.
+// Parallel to the crowd's group_sizes; groups without room are empty.
 std::vector<std::vector<dmrp_vec2>> places_in_region(const Scenario& scenario, const RegionCrowd& crowd,
                                                      const StandingRoom& room, std::uint64_t seed) {
   const toolkit::Rectangle where = {scenario.regions[crowd.region].lower, scenario.regions[crowd.region].upper};
   Stream stream(seed, "population.from", crowd.region);
-  const auto has_room = [&](dmrp_vec2 point) { return room.holds(point); };
+  const auto has_room = [&](dmrp_vec2 point) { return room.is_free(point); };
   const std::vector<std::uint32_t>& sizes = crowd.group_sizes;
   if (std::any_of(sizes.begin(), sizes.end(), [](std::uint32_t size) { return size > 1; })) {
     const auto in_sight = [&](dmrp_vec2 a, dmrp_vec2 b) { return room.geometry.line_of_sight(a, b); };
@@ -165,7 +166,7 @@ std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes&
   }
   std::vector<std::size_t> placed_along(scenario.flows.size());
   std::vector<FirstPlace> out;
-  for (const WalkingGroup& group : deal_groups(scenario.flows)) {
+  for (const WalkingGroup& group : divide_into_groups(scenario.flows)) {
     const Flow& flow = scenario.flows[group.flow];
     if (flow.start == FlowStart::from) {
       Places& places = by_region[flow.regions.front()];

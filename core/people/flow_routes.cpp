@@ -11,7 +11,7 @@ dmrp_vec2 middle_of(const Region& region) {
   return 0.5 * (region.lower + region.upper);
 }
 
-// Down the field from `from` into the target.
+// Follows the field from `from` into the target.
 Route walk_down(const toolkit::NavigationField& field, dmrp_vec2 from, const Region& target) {
   const toolkit::Rectangle goal = {target.lower, target.upper};
   const double stride_m = field.grid().resolution_m();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// flow_routes.hpp: the ways along which the flows of a scenario walk.
+// flow_routes.hpp: the routes of a scenario's flows.
 #pragma once
 
 #include <dmrp/values.h>
@@ -11,15 +11,15 @@
 
 namespace dmrp::core {
 
-// One way between regions: points about a walking cell apart.
+// A way between two regions: points about one cell of the walking grid apart.
 using Route = std::vector<dmrp_vec2>;
 
 struct FlowRoutes {
-  std::vector<std::vector<Route>> legs;  // by flow, then from its region i to region i + 1
+  std::vector<std::vector<Route>> legs;  // by flow; leg i leads from its region i to region i + 1
 };
 
-// Shortest ways from the middle of each flow's first region on; straight ones where none is free. Takes milliseconds a
-// region, so share the result between the trials of a scenario.
+// The shortest ways from the centre of each flow's first region through its other regions, or straight lines where no
+// free way exists. Takes milliseconds for each region, so trials of the same scenario should share the result.
 FlowRoutes find_flow_routes(const Scenario& scenario, const PlanningGrid& walking_grid);
 
 }  // namespace dmrp::core

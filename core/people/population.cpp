@@ -40,7 +40,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
   for (const Track& track : tracks_)
     if (is_on_track(track, 0)) recorded.push_back(position_on(track, 0));
   const auto places = first_places(scenario, routes, {*geometry_, settings_.radius_m, robots, recorded}, seed);
-  for (const WalkingGroup& who : deal_groups(flows_)) {
+  for (const WalkingGroup& who : divide_into_groups(flows_)) {
     group_ids_ = std::max(group_ids_, who.id);
     groups_.push_back({who, who.size});
     for (std::uint32_t slot = who.first_slot; slot < who.first_slot + who.size; ++slot) {
@@ -49,7 +49,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       slot_of_.push_back(slot);
     }
   }
-  let_come(0);
+  add_recorded_people(0);
 }
 
 void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity) {
@@ -58,8 +58,8 @@ void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity)
 }
 
 void Population::advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
-  let_leave(t_ns);
-  let_come(t_ns);
+  remove_departed(t_ns);
+  add_recorded_people(t_ns);
   for (std::size_t place = 0; place < people_.size() && !is_recorded(place); ++place) {
     Slot& own = slots_[slot_of_[place]];
     Group& group = groups_[own.group];
@@ -68,10 +68,10 @@ void Population::advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
       ++own.leg;
       set_target(people_[place], slot_of_[place]);
     } else if ((arrived || group.tries > 0) && group.who.size == 1 && t_ns >= group.next_try_ns) {
-      try_to_begin_anew(group, t_ns, robots);
+      try_to_respawn(group, t_ns, robots);
     }
   }
-  let_groups_begin_anew(t_ns, robots);
+  respawn_groups(t_ns, robots);
 }
 
 bool Population::has_arrived(std::size_t place) const {
@@ -95,8 +95,8 @@ bool Population::is_over(std::int64_t t_ns) const {
                       [&](const Track& track) { return track.points.front().t_ns > t_ns; });
 }
 
-// Recorded people who are not there yet.
-void Population::let_come(std::int64_t t_ns) {
+// Adds recorded people whose tracks have begun.
+void Population::add_recorded_people(std::int64_t t_ns) {
   for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
     if (!is_on_track(tracks_[i], t_ns)) continue;
     const auto slot = static_cast<std::uint32_t>(slots_.size()) + i;
@@ -104,7 +104,7 @@ void Population::let_come(std::int64_t t_ns) {
   }
 }
 
-// In place of whoever has the slot.
+// Replaces the person in the slot, if any.
 void Population::put(std::uint32_t slot, const dmrp_person& person) {
   const auto at = std::lower_bound(slot_of_.begin(), slot_of_.end(), slot);
   const auto place = people_.begin() + (at - slot_of_.begin());
@@ -116,8 +116,8 @@ void Population::put(std::uint32_t slot, const dmrp_person& person) {
   }
 }
 
-// Whoever wants to know where a recorded person is going gets the whole world as the place, which no way has to be found
-// to, and the end of the track as the target.
+// The target of a recorded person is the end of the track. The target area is the whole world, so that models do not
+// compute a way to it.
 dmrp_person Population::recorded_person_at(std::uint32_t slot, std::int64_t t_ns) const {
   const Track& track = track_of(slot);
   dmrp_person person{};
@@ -134,7 +134,7 @@ dmrp_person Population::recorded_person_at(std::uint32_t slot, std::int64_t t_ns
   return person;
 }
 
-// Who walks alone and is to begin anew does not leave before there is room for it.
+// A person who walks alone and will respawn leaves only when there is room for the new one.
 bool Population::leaves(std::size_t place, std::int64_t t_ns) const {
   const std::uint32_t slot = slot_of_[place];
   if (is_recorded(place)) return !is_on_track(track_of(slot), t_ns);
@@ -142,7 +142,7 @@ bool Population::leaves(std::size_t place, std::int64_t t_ns) const {
   return is_on_last_leg(own) && (!flow_of(own).respawn || groups_[own.group].who.size > 1) && has_arrived(place);
 }
 
-void Population::let_leave(std::int64_t t_ns) {
+void Population::remove_departed(std::int64_t t_ns) {
   std::size_t kept = 0;
   for (std::size_t place = 0; place < people_.size(); ++place) {
     const std::uint32_t slot = slot_of_[place];
@@ -158,23 +158,23 @@ void Population::let_leave(std::int64_t t_ns) {
   slot_of_.resize(kept);
 }
 
-// The person whom a slot has now, at the beginning. A group walks at one speed.
+// The new person of a slot. All members of a group have the same desired speed.
 dmrp_person Population::person_at(std::uint32_t slot, dmrp_vec2 position) const {
   const Group& group = groups_[slots_[slot].group];
   dmrp_person person{};
-  person.id = slot + group.predecessors * (slots_.size() + tracks_.size());
-  if (group.who.id != 0) person.group = static_cast<std::uint32_t>(group.who.id + group.predecessors * group_ids_);
+  person.id = slot + group.generation * (slots_.size() + tracks_.size());
+  if (group.who.id != 0) person.group = static_cast<std::uint32_t>(group.who.id + group.generation * group_ids_);
   person.position = position;
   person.radius_m = settings_.radius_m;
-  Stream speeds(seed_, "population.speed", group.who.first_slot, group.predecessors);
+  Stream speeds(seed_, "population.speed", group.who.first_slot, group.generation);
   person.desired_speed =
       speeds.truncated_normal(settings_.speed_mean, settings_.speed_sd, settings_.speed_min, settings_.speed_max);
   set_target(person, slot);
   return person;
 }
 
-// Somewhere free in the region that the leg leads to, beside those of the companions; in its middle where nothing free
-// was found.
+// A random free position in the leg's target region, beside those of the other members. The region's centre if none was
+// found.
 void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
   const Slot& own = slots_[slot];
   const Group& group = groups_[own.group];
@@ -189,7 +189,7 @@ void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
       return geometry_->disc_is_free(toolkit::closest_point(area, middle + offset), settings_.radius_m);
     });
   };
-  Stream stream(seed_, "population.target", group.who.first_slot, group.predecessors, own.leg);
+  Stream stream(seed_, "population.target", group.who.first_slot, group.generation, own.leg);
   dmrp_vec2 middle = draw_in(middles, stream);
   int tries = 1;
   for (; tries < tries_in_region && !is_free(middle); ++tries) middle = draw_in(middles, stream);
@@ -201,15 +201,15 @@ void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
   person.area_upper = region.upper;
 }
 
-void Population::let_groups_begin_anew(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+void Population::respawn_groups(std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
   for (Group& group : groups_)
     if (group.who.size > 1 && group.present == 0 && flows_[group.who.flow].respawn && t_ns >= group.next_try_ns)
-      try_to_begin_anew(group, t_ns, robots);
+      try_to_respawn(group, t_ns, robots);
 }
 
-// In the first region, side by side if that can be. Until there is room, whoever walked alone stays and walks on to its
-// target; a group waits outside.
-void Population::try_to_begin_anew(Group& group, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
+// Places the group in the first region, side by side if possible. Until there is room, a person who walks alone stays
+// and walks on to the target; a group of several has left the world.
+void Population::try_to_respawn(Group& group, std::int64_t t_ns, std::span<const dmrp_vec2> robots) {
   const WalkingGroup& who = group.who;
   const Region& region = regions_[flows_[who.flow].regions.front()];
   const toolkit::Rectangle area = {region.lower, region.upper};
@@ -218,7 +218,7 @@ void Population::try_to_begin_anew(Group& group, std::int64_t t_ns, std::span<co
     if (is_recorded(other) || slots_[slot_of_[other]].group != slots_[who.first_slot].group)
       others.push_back(people_[other].position);
   const StandingRoom room = {*geometry_, settings_.radius_m, robots, others};
-  Stream stream(seed_, "population.anew", who.first_slot, group.predecessors, group.tries);
+  Stream stream(seed_, "population.anew", who.first_slot, group.generation, group.tries);
   const auto places = draw_places(room, area, headings_[who.flow].front().at_beginning, who.size, stream);
   if (!places) {
     ++group.tries;
@@ -226,7 +226,7 @@ void Population::try_to_begin_anew(Group& group, std::int64_t t_ns, std::span<co
     return;
   }
   group.present = who.size;
-  ++group.predecessors;
+  ++group.generation;
   group.tries = 0;
   group.next_try_ns = 0;
   for (std::uint32_t member = 0; member < who.size; ++member) {

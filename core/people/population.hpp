@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// population.hpp: who the people are, where they begin and where they want to go. How they walk is a model's matter.
+// population.hpp: the people of a trial: their properties, first positions and targets. Pedestrian models move them.
 #pragma once
 
 #include <dmrp/pedestrian_model.h>
@@ -18,37 +18,38 @@
 
 namespace dmrp::core {
 
-// People, each in a slot. Who reaches the last region of its flow leaves: either somebody new begins in the slot, in the
-// flow's first region, or the slot stays empty for good. The people of a group leave one by one, as they arrive; when
-// all have left, the next group begins, together.
+// Each person has a slot. A person who reaches the last region of its flow leaves; then either a new person appears in
+// the slot, in the flow's first region, or the slot stays empty. The members of a group leave one by one as they
+// arrive; when all have left, the next group appears.
 //
-// Every draw has a stream of its own, named by the seed, the slot (the first one of a group for what is the group's) and
-// how many people the slot has seen. So the crowd is the same for all combinations of a seed, but for where people stand
-// in each other's or a robot's way when they begin.
+// Every random draw has its own stream, identified by the seed, the slot (the first slot of a group for common
+// properties) and the number of people that the slot had before. So the crowd is the same for all combinations with the
+// same seed, except for positions that other people or robots block at the time.
 //
-// Recorded people come and leave with their tracks, in the slots after those of the flows.
+// Recorded people appear and leave with their tracks, in the slots after those of the flows.
 class Population {
  public:
-  // `robots`: where nobody begins within spawn_distance_to_robots_m. Throws NoRoom if there is none for everybody.
+  // People keep spawn_distance_to_robots_m from `robots`. Throws NoRoom if there is no room for everybody.
   Population(const Scenario& scenario, std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes,
              std::uint64_t seed, std::span<const dmrp_vec2> robots);
 
-  // All who are there, by slot. Ids are the slot, plus the number of slots for everyone who was there before; likewise
-  // those of groups.
+  // All people present, by slot. The id of the n-th person of a slot (from 0) is the slot plus n times the number of
+  // slots; ids of groups follow the same rule.
   std::span<const dmrp_person> people() const { return people_; }
 
-  // Where the person at this place of people() came to, and how.
+  // Sets position and velocity of people()[place].
   void move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity);
 
   bool is_recorded(std::size_t place) const { return slot_of_[place] >= slots_.size(); }
 
-  // Where a recorded person goes until then; nothing for others.
+  // The position of a recorded person at t_ns; nothing for other people.
   std::optional<dmrp_vec2> position_on_track(std::size_t place, std::int64_t t_ns) const;
 
-  // Nobody is there, nor will anybody come.
+  // Nobody is present, and nobody will appear.
   bool is_over(std::int64_t t_ns) const;
 
-  // Next regions for those who reached theirs; who reached its last leaves; recorded people come and leave.
+  // Gives people who reached a region their next one, removes people who reached their last one, and adds and removes
+  // recorded people.
   void advance(std::int64_t t_ns, std::span<const dmrp_vec2> robots);
 
  private:
@@ -60,12 +61,12 @@ class Population {
   struct Group {
     WalkingGroup who;
     std::uint32_t present = 0;
-    std::uint64_t predecessors = 0;  // groups that its slots have seen before
-    std::uint64_t tries = 0;         // to begin anew, after arrival
+    std::uint64_t generation = 0;  // groups that its slots had before
+    std::uint64_t tries = 0;       // to respawn, after arrival
     std::int64_t next_try_ns = 0;
   };
 
-  // Which way people walk.
+  // The headings at both ends of a leg.
   struct LegHeadings {
     double at_beginning = 0.0;
     double at_end = 0.0;
@@ -77,13 +78,13 @@ class Population {
   dmrp_person recorded_person_at(std::uint32_t slot, std::int64_t t_ns) const;
   const Track& track_of(std::uint32_t slot) const { return tracks_[slot - slots_.size()]; }
   void put(std::uint32_t slot, const dmrp_person& person);
-  void let_come(std::int64_t t_ns);
+  void add_recorded_people(std::int64_t t_ns);
   bool has_arrived(std::size_t place) const;
   bool is_on_last_leg(const Slot& slot) const;
   bool leaves(std::size_t place, std::int64_t t_ns) const;
-  void let_leave(std::int64_t t_ns);
-  void let_groups_begin_anew(std::int64_t t_ns, std::span<const dmrp_vec2> robots);
-  void try_to_begin_anew(Group& group, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
+  void remove_departed(std::int64_t t_ns);
+  void respawn_groups(std::int64_t t_ns, std::span<const dmrp_vec2> robots);
+  void try_to_respawn(Group& group, std::int64_t t_ns, std::span<const dmrp_vec2> robots);
 
   std::uint64_t seed_;
   PeopleSettings settings_;

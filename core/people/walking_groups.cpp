@@ -16,7 +16,7 @@ std::uint32_t group_count(const Flow& flow) {
   return flow.people / flow.group_size + (flow.people % flow.group_size != 0);
 }
 
-std::vector<WalkingGroup> deal_groups(const std::vector<Flow>& flows) {
+std::vector<WalkingGroup> divide_into_groups(const std::vector<Flow>& flows) {
   std::vector<WalkingGroup> groups;
   std::uint32_t slot = 0;
   std::uint32_t id = 0;
@@ -52,7 +52,7 @@ std::vector<dmrp_vec2> formation(std::uint32_t size, std::uint32_t abreast, doub
   return offsets;
 }
 
-bool StandingRoom::holds(dmrp_vec2 point) const {
+bool StandingRoom::is_free(dmrp_vec2 point) const {
   for (const dmrp_vec2 robot : robots)
     if (toolkit::distance(robot, point) < spawn_distance_to_robots_m) return false;
   for (const dmrp_vec2 other : taken)
@@ -60,12 +60,12 @@ bool StandingRoom::holds(dmrp_vec2 point) const {
   return geometry.disc_is_free(point, radius_m);
 }
 
-std::optional<std::vector<dmrp_vec2>> StandingRoom::places_round(dmrp_vec2 middle, double heading, std::uint32_t size,
-                                                                 std::uint32_t abreast) const {
+std::optional<std::vector<dmrp_vec2>> StandingRoom::places_around(dmrp_vec2 middle, double heading, std::uint32_t size,
+                                                                  std::uint32_t abreast) const {
   std::vector<dmrp_vec2> places = formation(size, abreast, apart_in_group_m(), heading);
   for (dmrp_vec2& place : places) {
     place += middle;
-    if (!holds(place) || (size > 1 && !geometry.line_of_sight(middle, place))) return std::nullopt;
+    if (!is_free(place) || (size > 1 && !geometry.line_of_sight(middle, place))) return std::nullopt;
   }
   return places;
 }
@@ -93,7 +93,7 @@ std::optional<std::vector<dmrp_vec2>> draw_places(const StandingRoom& room, cons
   for (std::uint32_t abreast = widest_row(size); abreast > 0; --abreast) {
     const toolkit::Rectangle middles = middles_in(area, formation(size, abreast, room.apart_in_group_m(), heading));
     for (int tries = 0; tries < tries_in_area; ++tries) {
-      auto places = room.places_round(draw_in(middles, stream), heading, size, abreast);
+      auto places = room.places_around(draw_in(middles, stream), heading, size, abreast);
       if (places &&
           std::all_of(places->begin(), places->end(), [&](dmrp_vec2 place) { return toolkit::contains(area, place); }))
         return places;

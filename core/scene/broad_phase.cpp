@@ -16,14 +16,14 @@ namespace {
 using Object = fcl::CollisionObjectd;
 using Tree = fcl::DynamicAABBTreeCollisionManagerd;
 
-// All bodies stand at one height.
+// All bodies have the same height.
 fcl::Transform3d at(dmrp_vec2 point) {
   fcl::Transform3d transform = fcl::Transform3d::Identity();
   transform.translation() = fcl::Vector3d(point.x, point.y, 0.0);
   return transform;
 }
 
-// Objects carry their index where FCL keeps a user's pointer.
+// The index of an object is stored in FCL's user data pointer.
 void set_index(Object& object, std::size_t index) {
   object.setUserData(reinterpret_cast<void*>(index));
 }
@@ -36,7 +36,7 @@ Object box_object(const toolkit::Rectangle& box) {
   return Object(geometry, at({0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y)}));
 }
 
-// The one of a pair that is not `query`.
+// The object of a pair that is not `query`.
 std::uint32_t other_index(const Object* query, const Object* one, const Object* two) {
   return index_of(one == query ? *two : *one);
 }
@@ -88,7 +88,7 @@ std::pair<double, std::uint32_t> BoxTree::nearest(dmrp_vec2 point,
     std::uint32_t index;
   } search{&query, &distance_to, std::numeric_limits<double>::infinity(),
            static_cast<std::uint32_t>(implementation_->objects.size())};
-  // FCL leaves out what is further than the least distance so far, and what is equally far: hence the next larger one.
+  // FCL skips boxes at or beyond the least distance so far. The next larger double keeps equal distances.
   implementation_->tree.distance(&query, &search, [](Object* one, Object* two, void* data, double& least) {
     auto* const best = static_cast<Search*>(data);
     const std::uint32_t index = other_index(best->query, one, two);
@@ -143,7 +143,7 @@ void BodyPairs::touching(std::span<const dmrp_vec2> centers, std::span<const dou
     pairs->emplace_back(std::minmax(index_of(*one), index_of(*two)));
     return false;  // go on
   });
-  // the tree's order depends on its history
+  // The tree's order depends on its history.
   std::sort(found.begin(), found.end());
 }
 

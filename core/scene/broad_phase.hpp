@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// broad_phase.hpp: who is near whom, by FCL's dynamic AABB trees. FCL gives candidates; distances are exact 2-D
-// geometry elsewhere, since FCL's own narrow phase differs by shape and solver at the very touch.
+// broad_phase.hpp: proximity queries by FCL's dynamic AABB trees. FCL finds candidates; other files compute exact 2-D
+// distances, because the results of FCL's own narrow phase at contact depend on the shape and the solver.
 #pragma once
 
 #include <dmrp/values.h>
@@ -15,7 +15,7 @@
 
 namespace dmrp::core {
 
-// Boxes that never move.
+// Static boxes.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const toolkit::Rectangle> boxes);
@@ -23,11 +23,11 @@ class BoxTree {
   BoxTree(BoxTree&&) noexcept;
   BoxTree& operator=(BoxTree&&) noexcept;
 
-  // Indices of the boxes that touch this one, ascending. Replaces what `found` held.
+  // Indices of the boxes that touch `box`, ascending. Overwrites `found`.
   void touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
 
-  // The smallest distance_to(index) over all boxes, and whose; the lowest index of several. distance_to must not be
-  // less than the distance from the point to the index's box. {infinity, count} without boxes.
+  // The smallest distance_to(index) over all boxes, and its index; the lowest index among equals. distance_to must not
+  // be less than the distance from the point to the box of that index. {infinity, count} without boxes.
   std::pair<double, std::uint32_t> nearest(dmrp_vec2 point,
                                            const std::function<double(std::uint32_t)>& distance_to) const;
 
@@ -36,7 +36,7 @@ class BoxTree {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Discs that move.
+// Moving discs.
 class BodyPairs {
  public:
   BodyPairs();
@@ -44,7 +44,7 @@ class BodyPairs {
   BodyPairs(BodyPairs&&) noexcept;
   BodyPairs& operator=(BodyPairs&&) noexcept;
 
-  // All pairs (a < b) of discs whose bounding boxes touch, in order. Replaces what `found` held.
+  // All pairs (a < b) of discs whose bounding boxes touch, in ascending order. Overwrites `found`.
   void touching(std::span<const dmrp_vec2> centers, std::span<const double> radii,
                 std::vector<std::pair<std::uint32_t, std::uint32_t>>& found);
 

@@ -19,7 +19,7 @@ struct Block {
   std::uint32_t last_row;
 };
 
-// Runs of blocked cells in a row, each joined with the one below that has the same ends.
+// Runs of blocked cells in a row, each merged with the run below if that has the same ends.
 template <class Blocked>
 std::vector<Block> joined_runs(std::uint32_t width, std::uint32_t height, const Blocked& blocked) {
   std::vector<Block> blocks;
@@ -45,7 +45,7 @@ std::vector<Block> joined_runs(std::uint32_t width, std::uint32_t height, const 
   return blocks;
 }
 
-// Walls that run along the rows join better one way, those along the columns the other way.
+// Walls along the rows give fewer blocks by rows, walls along the columns by columns. Returns the smaller result.
 std::vector<Block> blocks_of(const CellMap& map) {
   const auto by_rows = joined_runs(map.width, map.height,
                                    [&](std::uint32_t column, std::uint32_t row) { return !map.is_free(column, row); });
@@ -65,7 +65,8 @@ double squared_gap(std::uint32_t offset) {
   return gap * gap;
 }
 
-// Cells from each cell to the nearest blocked one of its column, beyond the border too; 0 where it is blocked itself.
+// The number of cells from each cell to the nearest blocked cell of its column, where cells beyond the border count as
+// blocked; 0 for a blocked cell.
 std::vector<std::uint32_t> steps_to_blocked_in_column(const CellMap& map) {
   std::vector<std::uint32_t> steps(map.free.size());
   for (std::uint32_t column = 0; column < map.width; ++column) {
@@ -84,14 +85,14 @@ std::vector<std::uint32_t> steps_to_blocked_in_column(const CellMap& map) {
   return steps;
 }
 
-// From every free cell's centre to the nearest blocked cell or the border; 0 on blocked ones.
+// The distance from every free cell's centre to the nearest blocked cell or the border; 0 for blocked cells.
 void find_clearances(const CellMap& map, PlanningGrid& grid) {
   const std::vector<std::uint32_t> steps = steps_to_blocked_in_column(map);
   for (std::uint32_t row = 0; row < map.height; ++row) {
     const std::uint32_t* const of_row = steps.data() + static_cast<std::size_t>(row) * map.width;
     for (std::uint32_t column = 0; column < map.width; ++column) {
       if (of_row[column] == 0) continue;
-      // the columns beyond the border are blocked throughout
+      // The columns beyond the border are blocked.
       const std::uint32_t to_border = std::min(column + 1, map.width - column);
       double least = std::min(squared_gap(of_row[column]), squared_gap(to_border));
       for (std::uint32_t offset = 1; offset < to_border && squared_gap(offset) < least; ++offset)
@@ -103,17 +104,18 @@ void find_clearances(const CellMap& map, PlanningGrid& grid) {
   }
 }
 
-// A corner of the world that is no thicker than this is left to its border.
+// Corners of the world that are not thicker than this get no triangle.
 constexpr double thinnest_corner_m = 1e-6;
 
-// Between each side of the turned map and the corner of the world before it. `corners`: of the map, counter-clockwise.
+// Adds the triangle between each side of the rotated map and the corner of the world. `corners`: of the map,
+// counter-clockwise.
 void append_corners(const std::array<dmrp_vec2, 4>& corners, PlacedBoxes& out) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const dmrp_vec2 from = corners[i];
     const dmrp_vec2 to = corners[(i + 1) % corners.size()];
     const dmrp_vec2 side = to - from;
     if (std::abs(side.x) < thinnest_corner_m || std::abs(side.y) < thinnest_corner_m) continue;
-    // the outside is on the right of a side
+    // The outside is on the right of a side.
     const dmrp_vec2 beyond = {side.y > 0.0 ? out.world.upper.x : out.world.lower.x,
                               side.x > 0.0 ? out.world.lower.y : out.world.upper.y};
     Shape shape;

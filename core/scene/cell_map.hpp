@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cell_map.hpp: a world that is drawn in square cells, free or blocked: as shapes, and as a grid for points.
+// cell_map.hpp: a map of square cells, free or blocked, and its conversion to shapes and to a grid for point robots.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace dmrp::core {
 
-// What readers of maps take: of cells along a side, and altogether.
-inline constexpr std::uint32_t longest_map_side = 10'000;
-inline constexpr std::uint64_t most_map_cells = 1 << 24;
+// The largest map that readers accept, in cells.
+inline constexpr std::uint32_t max_map_side = 10'000;
+inline constexpr std::uint64_t max_map_cells = 1 << 24;
 
-// Row-major from the lower left, as dmrp_grid is: index = row * width + column.
+// Row-major from the lower left, like dmrp_grid: index = row * width + column.
 struct CellMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -27,22 +27,23 @@ struct CellMap {
   }
 };
 
-// How many boxes boxes_of() makes.
+// The number of boxes that boxes_of() returns.
 std::size_t count_boxes(const CellMap& map);
 
-// The blocked cells as few boxes that do not overlap; the lower left cell's corner is at `origin`.
+// The blocked cells as a small number of boxes that do not overlap. `origin` is the lower left corner of the map.
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin);
 
 // A map whose lower left corner is at `origin` and whose rows run along origin.theta: its blocked cells as boxes, and
-// what the world around it holds beyond its sides, at its corners, as up to four triangles.
+// up to four triangles that fill the corners of the world, its bounding rectangle, outside the map.
 struct PlacedBoxes {
   toolkit::Rectangle world;
   std::vector<Shape> shapes;
 };
 PlacedBoxes place_boxes(const CellMap& map, double cell_m, dmrp_pose origin);
 
-// What build_planning_grid() gives for these boxes, this cell size and a robot of radius and margin 0, origin (0, 0),
-// straight from the cells: moves between free neighbours are open, diagonal ones where both cells beside are free too.
+// The result of build_planning_grid() for these boxes, this cell size and a robot of radius and margin 0, origin (0,
+// 0), computed directly from the cells: moves between free neighbours are open, diagonal ones if both cells beside the
+// diagonal are free too.
 PlanningGrid planning_grid_of(const CellMap& map, double cell_m);
 
 }  // namespace dmrp::core

@@ -13,7 +13,7 @@ using toolkit::GridView;
 // Rounding must not close a gap of exactly the size needed.
 constexpr double touching_m = 1e-9;
 
-// A last column that sticks out by no more than this is none.
+// The number of cells that cover a length. An excess of at most 1e-6 cells does not need another cell.
 std::uint32_t cells_across(double length_m, double resolution_m) {
   return static_cast<std::uint32_t>(std::ceil(length_m / resolution_m - 1e-6));
 }
@@ -25,7 +25,7 @@ bool move_is_free(const StaticGeometry& geometry, const GridView& grid, Cell fro
   if (toolkit::is_diagonal(direction)) {
     if (!grid.free(Cell{to.column, from.row}) || !grid.free(Cell{from.column, to.row})) return false;
   }
-  // far from everything the move needs no closer look
+  // With enough clearance the sweep is free.
   const double length_m = toolkit::direction_length[d] * grid.resolution_m();
   if (static_cast<double>(grid.clearance(grid.index(from))) > radius_m + length_m) return true;
   return geometry.sweep_is_free(grid.center(from), grid.center(to), radius_m);
@@ -36,7 +36,7 @@ void find_edges(const StaticGeometry& geometry, double radius_m, PlanningGrid& g
   const GridView view(sdk_grid);
   for (std::uint32_t index = 0; index < view.size(); ++index) {
     if (!view.free(index)) continue;
-    // half of the directions: what is free one way is free the other way
+    // Half of the directions suffice: edges are mutual.
     for (int direction = 0; direction < 4; ++direction) {
       if (!move_is_free(geometry, view, view.cell(index), direction, radius_m)) continue;
       const std::uint32_t other = view.neighbour(index, direction);
@@ -86,6 +86,27 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
 
 PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m) {
   return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
+}
+
+std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from) {
+  const dmrp_grid c_grid = grid.view();
+  const toolkit::GridView view(c_grid);
+  std::vector<bool> seen(view.size());
+  std::vector<std::uint32_t> open = {from};
+  seen[from] = true;
+  while (!open.empty()) {
+    const std::uint32_t cell = open.back();
+    open.pop_back();
+    for (int direction = 0; direction < 8; direction += 2) {
+      if (!view.edge(cell, direction)) continue;
+      const std::uint32_t next = view.neighbour(cell, direction);
+      if (!seen[next]) {
+        seen[next] = true;
+        open.push_back(next);
+      }
+    }
+  }
+  return seen;
 }
 
 }  // namespace dmrp::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// planning_grid.hpp: free space as cells: coarse ones for planners, finer ones for people.
+// planning_grid.hpp: the free space as cells: a coarse grid for planners, a finer one for people.
 #pragma once
 
 #include <dmrp/grid.h>
@@ -20,17 +20,20 @@ struct PlanningGrid {
   std::vector<std::uint8_t> edges;
   std::vector<float> clearance;
 
-  // Valid as long as this struct stays where it is.
+  // Valid as long as this struct is neither moved nor changed.
   dmrp_grid view() const;
 };
 
-// Cells from the world's lower left corner. A cell is free when the clearance at its centre is at least
-// radius + margin; an edge stands when the disc of `radius_m` swept along the move stays free: decided exactly, where
-// sampling every 0.05 m could step over a corner.
+// The cells start at the world's lower left corner. A cell is free if the clearance at its centre is at least
+// radius + margin. An edge is open if the disc of `radius_m` swept along the move stays free. The sweep is exact:
+// sampling, every 0.05 m say, could miss a corner.
 PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resolution_m, double radius_m, double margin_m);
 
-// The grid on which people of this radius find their way.
+// The grid for the navigation of people of this radius.
 inline constexpr double walking_resolution_m = 0.25;
 PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m);
+
+// Marks the cells that are reachable from a cell over orthogonal edges: the moves that every planner can use.
+std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from);
 
 }  // namespace dmrp::core

@@ -13,9 +13,9 @@
 namespace dmrp::core {
 namespace {
 
-constexpr int attempts = 16;  // with other numbers, where there was no room for all
+constexpr int attempts = 16;  // with other random numbers, while there is not room for all
 
-// The largest set of cells that can all be reached from each other; the first of several. Ascending.
+// The largest connected set of cells, ascending; the first among equals.
 std::vector<std::uint32_t> largest_part(const PlanningGrid& grid) {
   std::vector<bool> known(grid.free.size());
   std::vector<std::uint32_t> largest;
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> largest_part(const PlanningGrid& grid) {
   return largest;
 }
 
-// How many cells of an unbounded grid have their centres within a distance of one's, itself included.
+// The number of cells of an unbounded grid whose centres lie within a distance of one cell's centre, itself included.
 std::size_t cells_within(const PlanningGrid& grid, double distance_m) {
   const int reach = static_cast<int>(std::floor(distance_m / grid.resolution_m));
   std::size_t count = 0;
@@ -41,23 +41,23 @@ std::size_t cells_within(const PlanningGrid& grid, double distance_m) {
   return count;
 }
 
-class Draw {
+class TaskSampler {
  public:
-  Draw(const PlanningGrid& grid, const std::vector<std::uint32_t>& cells, std::uint64_t seed, int attempt)
+  TaskSampler(const PlanningGrid& grid, const std::vector<std::uint32_t>& cells, std::uint64_t seed, int attempt)
       : grid_(grid.view()),
         starts_(shuffled(cells, toolkit::Stream(seed, "robots.starts", attempt))),
         goals_(shuffled(cells, toolkit::Stream(seed, "robots.goals", attempt))),
         start_is_taken_(grid.free.size()),
         goal_is_taken_(grid.free.size()) {}
 
-  // The next robot's task; false where there is no room.
+  // Adds the next robot's task; false if there is no room.
   bool add_to(std::vector<RobotTask>& tasks) {
     const auto start =
         std::find_if(starts_.begin(), starts_.end(), [&](std::uint32_t cell) { return !start_is_taken_[cell]; });
     if (start == starts_.end()) return false;
     const dmrp_vec2 from = grid_.center(*start);
     const auto goal = std::find_if(goals_.begin(), goals_.end(), [&](std::uint32_t cell) {
-      return !goal_is_taken_[cell] && toolkit::distance(grid_.center(cell), from) >= drawn_way_m;
+      return !goal_is_taken_[cell] && toolkit::distance(grid_.center(cell), from) >= min_task_length_m;
     });
     if (goal == goals_.end()) return false;
     const dmrp_vec2 to = grid_.center(*goal);
@@ -75,14 +75,14 @@ class Draw {
     return cells;
   }
 
-  // The cell and all that are too near to it.
+  // Marks the cell and all cells too near to it.
   void take(std::uint32_t cell, std::vector<bool>& taken) const {
     const toolkit::Cell middle = grid_.cell(cell);
-    const int reach = static_cast<int>(std::floor(drawn_apart_m / grid_.resolution_m()));
+    const int reach = static_cast<int>(std::floor(task_separation_m / grid_.resolution_m()));
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
         const toolkit::Cell other = {middle.column + dx, middle.row + dy};
-        if (grid_.contains(other) && grid_.resolution_m() * std::hypot(dx, dy) <= drawn_apart_m)
+        if (grid_.contains(other) && grid_.resolution_m() * std::hypot(dx, dy) <= task_separation_m)
           taken[grid_.index(other)] = true;
       }
   }
@@ -96,42 +96,22 @@ class Draw {
 
 }  // namespace
 
-std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from) {
-  const dmrp_grid c_grid = grid.view();
-  const toolkit::GridView view(c_grid);
-  std::vector<bool> seen(view.size());
-  std::vector<std::uint32_t> open = {from};
-  seen[from] = true;
-  while (!open.empty()) {
-    const std::uint32_t cell = open.back();
-    open.pop_back();
-    for (int direction = 0; direction < 8; direction += 2) {
-      if (!view.edge(cell, direction)) continue;
-      const std::uint32_t next = view.neighbour(cell, direction);
-      if (!seen[next]) {
-        seen[next] = true;
-        open.push_back(next);
-      }
-    }
-  }
-  return seen;
-}
-
-std::vector<RobotTask> draw_robots(const PlanningGrid& grid, std::size_t count, std::uint64_t seed) {
+std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed) {
   const std::vector<std::uint32_t> cells = largest_part(grid);
   std::vector<RobotTask> most;
   for (int attempt = 0; attempt < attempts && (most.size() < count || attempt == 0); ++attempt) {
-    Draw draw(grid, cells, seed, attempt);
+    TaskSampler sampler(grid, cells, seed, attempt);
     std::vector<RobotTask> tasks;
-    while (tasks.size() < count && draw.add_to(tasks)) continue;
+    while (tasks.size() < count && sampler.add_to(tasks)) continue;
     if (attempt == 0 || tasks.size() > most.size()) most = std::move(tasks);
   }
   return most;
 }
 
-bool surely_room_for(const PlanningGrid& grid, std::size_t count) {
-  // each task before takes so many cells at most, and the start all that are too near to it for its own goal
-  return largest_part(grid).size() >= count * cells_within(grid, drawn_apart_m) + cells_within(grid, drawn_way_m);
+bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count) {
+  // Each previous task takes at most that many cells, and a robot's start those too near for its own goal.
+  return largest_part(grid).size() >=
+         count * cells_within(grid, task_separation_m) + cells_within(grid, min_task_length_m);
 }
 
 }  // namespace dmrp::core

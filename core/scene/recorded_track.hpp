@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// track.hpp: somebody's recorded way.
+// recorded_track.hpp: the recorded track of a person.
 #pragma once
 
 #include <dmrp/values.h>
@@ -9,7 +9,7 @@
 
 namespace dmrp::core {
 
-// Times grow; at least one point. Straight and at one speed from a point to the next.
+// At least one point; times increase strictly. Between points the person moves in a straight line at constant speed.
 struct Track {
   struct Point {
     std::int64_t t_ns = 0;
@@ -18,16 +18,16 @@ struct Track {
   std::vector<Point> points;
 };
 
-// From the first point's time to the last one's.
+// Whether the time is between those of the first and the last point.
 bool is_on_track(const Track& track, std::int64_t t_ns);
 
-// The first or last point's before and after.
+// Before the first point's time its position, after the last point's time that of the last point.
 dmrp_vec2 position_on(const Track& track, std::int64_t t_ns);
 
-// Along the piece that begins at or before this time; zero before, after and where there is but one point.
+// The velocity of the segment that begins at or before this time; zero before, after, and if there is only one point.
 dmrp_vec2 velocity_on(const Track& track, std::int64_t t_ns);
 
-// Length by time, m/s; 0 where there is but one point.
+// Length divided by duration, m/s; 0 if there is only one point.
 double mean_speed(const Track& track);
 
 }  // namespace dmrp::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// robot_task.hpp: a robot's task and settings in the terms of the plugin contract.
+// robot_task.hpp: converts a robot's task and settings to the structs of the plugin contract.
 #pragma once
 
 #include <dmrp/robot.h>
@@ -15,7 +15,7 @@ dmrp_limits limits_of(const RobotSettings& settings);
 dmrp_footprint footprint_of(const RobotSettings& settings);
 std::vector<dmrp_goal> goals_of(const RobotTask& task, const GoalSettings& settings);
 
-// The start with its heading filled in: along the dominant axis toward the first goal where it is free.
+// The start pose. A free heading is set along the dominant axis towards the first goal.
 dmrp_pose start_of(const RobotTask& task);
 
 }  // namespace dmrp::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // scenario.hpp: a world as its file describes it: static shapes, robots with their goals, and flows of people.
-// Plain data, metres and radians in the world frame; host parses scenario.toml into it.
+// Plain data, metres and radians in the world frame; the host parses scenario.toml into it.
 #pragma once
 
 #include <dmrp/values.h>
@@ -13,7 +13,7 @@
 
 namespace dmrp::core {
 
-// A static body. A box of the file is a polygon here.
+// A static body. A [[box]] of the file becomes a polygon.
 struct Shape {
   enum class Kind { circle, polygon };
   std::string name;
@@ -24,11 +24,11 @@ struct Shape {
   double height_m = 2.0;
 };
 
-// A robot's task. Headings that are NaN are free: a start's is then set along the first goal's dominant axis.
+// A robot's task. A heading of NaN is free; for a start see start_of() in robot_task.hpp.
 struct RobotTask {
   std::string name;
   dmrp_pose start{};
-  std::vector<dmrp_pose> goals;  // at least one; several make a tour
+  std::vector<dmrp_pose> goals;  // at least one; several form a tour
 };
 
 // An axis-aligned rectangle where people come from, pass or go to.
@@ -38,20 +38,20 @@ struct Region {
   dmrp_vec2 upper{};
 };
 
-// Where the people of a flow are at t = 0: spread along the whole way, or all in its first region.
+// The positions of a flow's people at t = 0: spread along the whole route, or all in the first region.
 enum class FlowStart { along, from };
 
-// People who walk from one region through others to a last one, where they leave.
+// People who walk from a region through others to a last one, where they leave.
 struct Flow {
   std::string name;
   std::vector<std::uint32_t> regions;  // indices into Scenario::regions: from, via..., to; at least two
   std::uint32_t people = 0;            // at t = 0
   FlowStart start = FlowStart::along;
-  bool respawn = true;           // somebody new begins in the first region for everybody who leaves
-  std::uint32_t group_size = 1;  // so many walk together; the last group is smaller where people don't divide by it
+  bool respawn = true;           // each person who leaves is replaced by a new one in the first region
+  std::uint32_t group_size = 1;  // people per group; the last group is smaller if `people` is not a multiple
 };
 
-// Bodies and walking speeds of people: normal, truncated.
+// Body radius and walking speed of people; the speed is truncated normal.
 struct PeopleSettings {
   double radius_m = 0.3;
   double speed_mean = 1.2;  // m/s
@@ -61,29 +61,29 @@ struct PeopleSettings {
 };
 
 struct Scenario {
-  std::string name;  // as it is used in experiment files
+  std::string name;  // as used in experiment files
   std::string title;
   std::string description;
-  dmrp_vec2 lower{};  // the world is this rectangle; its border is a wall
+  dmrp_vec2 lower{};  // the world is the rectangle from lower to upper; its border is a wall
   dmrp_vec2 upper{};
   double time_limit_s = 180.0;
   std::vector<Shape> shapes;
   std::vector<RobotTask> robots;
-  std::vector<dmrp_vec2> other_starts;  // of robots that take no part here: at t = 0 people keep clear of them as well
+  std::vector<dmrp_vec2> other_starts;  // of listed robots that take no part: people keep clear of them too at t = 0
   PeopleSettings people;
   std::vector<Region> regions;
   std::vector<Flow> flows;
-  std::vector<Track> tracks;  // of people who walk as they did when they were recorded; time 0 is the trial's beginning
+  std::vector<Track> tracks;  // of people replayed from a recording; time 0 is the start of the trial
 };
 
-// People whom a pedestrian model moves.
+// The number of people that the pedestrian model moves.
 inline std::uint32_t walker_count(const Scenario& scenario) {
   std::uint32_t count = 0;
   for (const Flow& flow : scenario.flows) count += flow.people;
   return count;
 }
 
-// All, at any time.
+// The number of all people, including recorded ones.
 inline std::uint32_t person_count(const Scenario& scenario) {
   return walker_count(scenario) + static_cast<std::uint32_t>(scenario.tracks.size());
 }

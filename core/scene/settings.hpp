@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// settings.hpp: what an experiment sets for all its trials: the simulation, the robot, the sensors.
-// Defaults are those of the benchmark's method.
+// settings.hpp: the settings of an experiment that hold for all its trials: simulation, robot, sensors.
+// The defaults are those of the benchmark's method.
 #pragma once
 
 #include <array>
@@ -9,32 +9,32 @@
 
 namespace dmrp::core {
 
-enum class Tracking { none, visible, all };   // which agents controllers are told of; visible: in range, line of sight
-enum class Dispatch { full_path, waypoint };  // what controllers are handed: the whole path, or a waypoint at a time
+enum class Tracking { none, visible, all };   // the agents that a controller observes; visible: in range and in sight
+enum class Dispatch { full_path, waypoint };  // a controller gets the whole path, or one waypoint at a time
 enum class Execution { free, ordered };       // ordered: robots pass shared cells in the plan's order
 
 struct LidarSettings {
   std::uint32_t beams = 360;
   double field_of_view_rad = 2.0 * std::numbers::pi;  // centred on the robot's heading
-  double range_min_m = 0.0;                           // from the sensor; nearer hits read as this
+  double range_min_m = 0.0;                           // nearer hits are reported at this range
   double range_max_m = 10.0;
-  double noise_sd_m = 0.0;     // of ranges
-  double dropout_share = 0.0;  // of beams that read as if they hit nothing
+  double noise_sd_m = 0.0;     // standard deviation of the range error
+  double dropout_share = 0.0;  // share of beams that report no hit
 };
 
 struct CostmapSettings {
   double resolution_m = 0.05;
-  double window_m = 6.0;          // side of the square about the robot
-  double obstacle_range_m = 4.0;  // hits nearer than this mark
-  double raytrace_range_m = 4.5;  // beams clear up to this
+  double window_m = 6.0;          // side of the square around the robot
+  double obstacle_range_m = 4.0;  // hits nearer than this mark cells
+  double raytrace_range_m = 4.5;  // beams clear cells up to this range
   double inflation_radius_m = 0.55;
   double cost_scaling = 5.0;  // 1/m
 };
 
-// How well a robot knows where it is (odometry.hpp). All zero: exactly.
+// The errors of a robot's pose estimate (odometry.hpp). All zero: the estimate is exact.
 struct OdometrySettings {
   std::array<double, 4> noise = {0.0, 0.0, 0.0, 0.0};  // a1 (1), a2 (rad^2/m^2), a3 (1), a4 (m^2/rad^2)
-  std::int64_t fix_period_ns = 0;                      // between two moments when it learns the truth; 0: never
+  std::int64_t fix_period_ns = 0;                      // between two corrections to the true pose; 0: never
 };
 
 struct RobotSettings {
@@ -44,7 +44,7 @@ struct RobotSettings {
   double omega_max = 1.0;                 // rad/s
   double a_max = 1.0;                     // m/s^2
   double alpha_max = 1.0;                 // rad/s^2
-  std::int64_t actuation_latency_ns = 0;  // from a command to its taking effect
+  std::int64_t actuation_latency_ns = 0;  // from a command to its effect
   OdometrySettings odometry;
   LidarSettings lidar;
   CostmapSettings costmap;
@@ -52,31 +52,31 @@ struct RobotSettings {
 
 struct GoalSettings {
   double tolerance_m = 0.2;
-  double tolerance_rad = 0.2;    // where a goal has a heading
+  double tolerance_rad = 0.2;    // if the goal has a heading
   double tolerance_speed = 0.1;  // m/s
   double settle_s = 0.5;
 };
 
-// When the planner is asked again; 0: not for that reason.
+// The reasons for a new plan; 0 switches a reason off.
 struct ReplanSettings {
-  std::int64_t period_ns = 0;                    // since it was last asked
+  std::int64_t period_ns = 0;                    // time since the last call of the planner
   double stray_m = 0.0;                          // an active robot is farther than this from its place on its path
-  std::int64_t stall_ns = 0;                     // one gained less than stall_progress_m in this time
-  std::int64_t min_interval_ns = 2'000'000'000;  // for straying and stalling: since the planner was last asked
+  std::int64_t stall_ns = 0;                     // an active robot gained less than stall_progress_m in this time
+  std::int64_t min_interval_ns = 2'000'000'000;  // between a call of the planner and one for straying or stalling
 };
 
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
-  std::int64_t control_latency_ns = 0;           // from the state that a controller sees to its command
-  std::int64_t planning_latency_ns = 0;          // from the state that a planner sees to its plan's taking effect
+  std::int64_t control_latency_ns = 0;           // from the state that a controller observes to its command
+  std::int64_t planning_latency_ns = 0;          // from the state that a planner gets to the effect of its plan
   std::int64_t step_duration_ns = 1'800'000'000;
   std::int64_t time_limit_ns = 180'000'000'000;
   double grid_resolution_m = 1.0;
-  double planning_margin_m = 0.10;  // a cell is free when the clearance at its centre is radius + this
+  double planning_margin_m = 0.10;  // a cell is free if the clearance at its centre is at least radius + this
   Tracking tracking = Tracking::visible;
   double tracking_range_m = 10.0;
-  double tracking_velocity_noise_sd = 0.0;  // m/s, of either component
+  double tracking_velocity_noise_sd = 0.0;  // m/s, for each component
   GoalSettings goal;
   Dispatch dispatch = Dispatch::full_path;
   Execution execution = Execution::free;

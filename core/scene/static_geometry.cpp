@@ -13,28 +13,8 @@ namespace {
 
 constexpr std::size_t circle_sides = 24;
 
-// Rounding of distances must not decide whether a disc fits into a gap of exactly its size.
+// Tolerance for rounding: a disc fits into a gap of exactly its size.
 constexpr double touching_m = 1e-9;
-
-std::vector<dmrp_shape> as_sdk_shapes(const std::vector<Shape>& shapes) {
-  std::vector<dmrp_shape> sdk_shapes;
-  for (const Shape& shape : shapes) {
-    dmrp_shape sdk_shape{};
-    sdk_shape.name = shape.name.c_str();
-    sdk_shape.height_m = shape.height_m;
-    if (shape.kind == Shape::Kind::circle) {
-      sdk_shape.kind = DMRP_SHAPE_CIRCLE;
-      sdk_shape.center = shape.center;
-      sdk_shape.radius_m = shape.radius_m;
-    } else {
-      sdk_shape.kind = DMRP_SHAPE_POLYGON;
-      sdk_shape.vertices = shape.vertices.data();
-      sdk_shape.vertex_count = static_cast<std::uint32_t>(shape.vertices.size());
-    }
-    sdk_shapes.push_back(sdk_shape);
-  }
-  return sdk_shapes;
-}
 
 void append_outline(toolkit::PolygonView polygon, std::vector<dmrp_segment>& segments) {
   for (std::size_t i = 0; i < polygon.size(); ++i) segments.push_back(polygon.edge(i));
@@ -44,7 +24,7 @@ std::vector<dmrp_segment> outlines(const std::vector<Shape>& shapes, const toolk
   std::vector<dmrp_segment> segments;
   for (const Shape& shape : shapes) {
     if (shape.kind == Shape::Kind::circle) {
-      // around the circle, so that nobody gets closer to it than its surface
+      // The polygon encloses the circle, so that nobody comes closer to it than its surface.
       const double corner_radius_m = shape.radius_m / std::cos(toolkit::pi / circle_sides);
       append_outline(toolkit::polygon_of_circle(shape.center, corner_radius_m, circle_sides), segments);
     } else {
@@ -70,11 +50,27 @@ toolkit::Rectangle box_around(dmrp_vec2 a, dmrp_vec2 b, double margin_m) {
 
 }  // namespace
 
+std::vector<dmrp_shape> sdk_shapes_of(const std::vector<Shape>& shapes) {
+  std::vector<dmrp_shape> sdk_shapes;
+  for (const Shape& shape : shapes) {
+    dmrp_shape view{};
+    view.name = shape.name.c_str();
+    view.kind = shape.kind == Shape::Kind::circle ? DMRP_SHAPE_CIRCLE : DMRP_SHAPE_POLYGON;
+    view.vertex_count = static_cast<std::uint32_t>(shape.vertices.size());
+    view.center = shape.center;
+    view.radius_m = shape.radius_m;
+    view.vertices = shape.vertices.data();
+    view.height_m = shape.height_m;
+    sdk_shapes.push_back(view);
+  }
+  return sdk_shapes;
+}
+
 StaticGeometry::StaticGeometry(const Scenario& scenario)
     : lower_(scenario.lower),
       upper_(scenario.upper),
       shapes_(scenario.shapes),
-      sdk_shapes_(as_sdk_shapes(shapes_)),
+      sdk_shapes_(sdk_shapes_of(shapes_)),
       segments_(outlines(shapes_, {lower_, upper_})),
       tree_(tree_of(sdk_shapes_)) {}
 
@@ -99,14 +95,14 @@ bool StaticGeometry::disc_is_free(dmrp_vec2 center, double radius_m) const {
 }
 
 bool StaticGeometry::sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const {
-  // the border is convex: it holds the motion when it holds the ends
+  // The border is convex: it contains the motion if it contains both ends.
   const double least_m = radius_m - touching_m;
   if (toolkit::depth(rectangle(), from) < least_m || toolkit::depth(rectangle(), to) < least_m) return false;
   std::vector<std::uint32_t> near;
   tree_.touching(box_around(from, to, radius_m), near);
   return std::all_of(near.begin(), near.end(), [&](std::uint32_t shape) {
     const double distance = toolkit::distance(sdk_shapes_[shape], dmrp_segment{from, to});
-    // even a point must not go through a shape
+    // Even a point must not pass through a shape.
     return distance >= least_m && distance > 0.0;
   });
 }
@@ -136,7 +132,7 @@ SurfaceDistance StaticGeometry::distance_to(std::uint32_t shape, dmrp_vec2 point
   const double distance = toolkit::norm(away);
   const bool inside = toolkit::contains(polygon, point);
   if (distance > 1e-12) return {inside ? -distance : distance, inside ? -(away / distance) : away / distance};
-  // on the outline: out across the nearest edge
+  // On the outline: the normal of the nearest edge.
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < polygon.size(); ++i)
     if (toolkit::distance(polygon.edge(i), point) < toolkit::distance(polygon.edge(nearest), point)) nearest = i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// static_geometry.hpp: what never moves: the shapes of a scenario and the border of its rectangle. Exact distances.
+// static_geometry.hpp: the static bodies: the shapes of a scenario and the border of its rectangle. Exact distances.
 #pragma once
 
 #include <dmrp/world.h>
@@ -15,10 +15,10 @@
 
 namespace dmrp::core {
 
-// How far a point is from the surface of a body, negative inside it, and which way leads out.
+// The signed distance of a point from the surface of a body, and the direction out of the body.
 struct SurfaceDistance {
-  double distance_m = 0.0;
-  dmrp_vec2 outward{};  // unit normal of the nearest surface
+  double distance_m = 0.0;  // negative inside
+  dmrp_vec2 outward{};      // unit normal of the nearest surface
 };
 
 struct NearestShape {
@@ -26,7 +26,10 @@ struct NearestShape {
   std::uint32_t shape = 0;   // shapes().size() means the border
 };
 
-// Immutable, so that one serves all trials of a scenario. Broad phase: FCL's dynamic AABB tree.
+// Views of the shapes, which point into `shapes`.
+std::vector<dmrp_shape> sdk_shapes_of(const std::vector<Shape>& shapes);
+
+// Immutable, so all trials of a scenario share one. Broad phase: FCL's dynamic AABB tree.
 class StaticGeometry {
  public:
   explicit StaticGeometry(const Scenario& scenario);
@@ -48,19 +51,19 @@ class StaticGeometry {
   double clearance(dmrp_vec2 point) const { return nearest(point).clearance_m; }
   bool inside_world(dmrp_vec2 point) const;
 
-  // Whether a disc stands clear of everything; touching is allowed.
+  // Whether a disc is clear of all shapes and of the border; touching is allowed.
   bool disc_is_free(dmrp_vec2 center, double radius_m) const;
 
-  // Whether a disc stays clear along the straight way, exactly (no sampling).
+  // Whether a disc stays clear along a straight line, exactly (no sampling).
   bool sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const;
 
-  // Whether no shape stands between the two points.
+  // Whether no shape lies between the two points.
   bool line_of_sight(dmrp_vec2 a, dmrp_vec2 b) const;
 
-  // Indices of the shapes whose bounding boxes touch this one, ascending. Replaces what `found` held.
+  // Indices of the shapes whose bounding boxes touch `box`, ascending. Overwrites `found`.
   void shapes_near(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
 
-  // To one shape's surface. Not for the border.
+  // The distance to the surface of one shape. Not for the border.
   SurfaceDistance distance_to(std::uint32_t shape, dmrp_vec2 point) const;
 
  private:

@@ -31,7 +31,7 @@ Shape shape_of(const dmrp_shape& shape) {
   return copy;
 }
 
-// A struct of an older or younger minor version: the fields that both know, the rest zero.
+// Copies a struct of an older or newer minor version: the fields that both versions have; the rest is zero.
 template <class Struct>
 Struct common_part(const Struct& theirs) {
   Struct mine{};
@@ -79,22 +79,12 @@ struct WorldView::Storage {
   dmrp_grid sdk_walking_grid{};
   dmrp_world world{};
 
-  void point_at_everything();
+  void set_pointers();
 };
 
-// From here on nothing of the storage may move; it lives on the heap.
-void WorldView::Storage::point_at_everything() {
-  for (const Shape& shape : shapes) {
-    dmrp_shape view{};
-    view.name = shape.name.c_str();
-    view.kind = shape.kind == Shape::Kind::circle ? DMRP_SHAPE_CIRCLE : DMRP_SHAPE_POLYGON;
-    view.vertex_count = static_cast<std::uint32_t>(shape.vertices.size());
-    view.center = shape.center;
-    view.radius_m = shape.radius_m;
-    view.vertices = shape.vertices.data();
-    view.height_m = shape.height_m;
-    sdk_shapes.push_back(view);
-  }
+// From here on the storage must not move; it is on the heap.
+void WorldView::Storage::set_pointers() {
+  sdk_shapes = sdk_shapes_of(shapes);
   for (StoredRobot& robot : robots) {
     robot.footprint.vertices = robot.footprint_vertices.empty() ? nullptr : robot.footprint_vertices.data();
     dmrp_robot view{};
@@ -146,7 +136,7 @@ WorldView::WorldView(const Scenario& scenario, const RobotSettings& robot, const
   world.time_limit_ns = simulation.time_limit_ns;
   world.call_budget_ns = call_budget_ns;
   world.self = -1;
-  storage_->point_at_everything();
+  storage_->set_pointers();
 }
 
 WorldView::WorldView(const dmrp_world& world) : storage_(std::make_unique<Storage>()) {
@@ -158,7 +148,7 @@ WorldView::WorldView(const dmrp_world& world) : storage_(std::make_unique<Storag
   storage_->planning_grid = grid_of(*world.planning_grid);
   storage_->walking_grid = grid_of(*world.walking_grid);
   storage_->world = common_part(world);
-  storage_->point_at_everything();
+  storage_->set_pointers();
 }
 
 WorldView::~WorldView() = default;

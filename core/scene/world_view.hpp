@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// world_view.hpp: a dmrp_world and the storage behind it.
+// world_view.hpp: a dmrp_world and the data that it points to.
 #pragma once
 
 #include <dmrp/world.h>
@@ -16,24 +16,24 @@
 
 namespace dmrp::core {
 
-// Owns all that its dmrp_world points to.
+// Owns all data that its dmrp_world points to.
 class WorldView {
  public:
   WorldView(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
             const StaticGeometry& geometry, const PlanningGrid& planning_grid, const PlanningGrid& walking_grid,
             std::int64_t call_budget_ns);
 
-  // A deep copy of somebody else's, strides and all.
+  // A deep copy of a world with any strides.
   explicit WorldView(const dmrp_world& world);
 
   ~WorldView();
   WorldView(WorldView&&) noexcept;
   WorldView& operator=(WorldView&&) noexcept;
 
-  // As the kinds see it that drive no robot (self = -1).
+  // The world for plugins other than local controllers (self = -1).
   const dmrp_world& world() const;
 
-  // The same for the controller of one robot. Points into this view's storage.
+  // The world for the controller of one robot. Points into this view's storage.
   dmrp_world seen_by(std::int32_t robot) const;
 
  private:

@@ -11,19 +11,20 @@
 namespace dmrp::core {
 namespace {
 
-// Hits are marked this far behind the surface: else a wall along the lattice would flicker between two rows of cells.
+// Hits are marked this far behind the surface: otherwise a wall along the lattice would alternate between two rows.
 constexpr double behind_surface_m = 1e-4;
 
-// Lines end this far inside the window, in cells, so that rounding leads none out of it.
-constexpr double hair = 1e-9;
+// Lines end this far inside the window, in cells, so that rounding cannot move them outside.
+constexpr double inset_cells = 1e-9;
 
-// Of a cell's position along a line: fine enough for that on the longest one, with room for the largest window.
+// Fraction bits of a cell position in fixed point: precise enough for inset_cells on the longest line, with enough
+// integer bits for the largest window.
 constexpr int fraction_bits = 44;
 
-// Rows of the stamp are a multiple of this, for the compiler's vectors.
+// Rows of the stamp are a multiple of this length, so that the compiler can vectorise.
 constexpr std::int64_t vector_bytes = 16;
 
-// As costmap_2d has it, truncation included.
+// The cost function of costmap_2d, including its truncation.
 std::uint8_t cost_at(double distance_m, double inscribed_radius_m, const CostmapSettings& settings) {
   if (distance_m == 0.0) return DMRP_COST_LETHAL;
   if (distance_m <= inscribed_radius_m) return DMRP_COST_INSCRIBED;
@@ -32,8 +33,8 @@ std::uint8_t cost_at(double distance_m, double inscribed_radius_m, const Costmap
   return static_cast<std::uint8_t>((DMRP_COST_INSCRIBED - 1) * share);
 }
 
-// One vector's worth of costs to the larger ones.
-void raise(std::uint8_t* costs, const std::uint8_t* others) {
+// Sets each of `vector_bytes` costs to the larger of both.
+void keep_larger(std::uint8_t* costs, const std::uint8_t* others) {
   std::array<std::uint8_t, vector_bytes> mine;
   std::array<std::uint8_t, vector_bytes> theirs;
   std::memcpy(mine.data(), costs, vector_bytes);
@@ -42,14 +43,14 @@ void raise(std::uint8_t* costs, const std::uint8_t* others) {
   std::memcpy(costs, mine.data(), vector_bytes);
 }
 
-// How many drop-outs in a row are too many to be believed.
-std::uint8_t credible_dropouts(double share) {
+// The number of drop-outs in a row whose probability is at most 1e-6.
+std::uint8_t misses_to_clear(double share) {
   std::uint8_t count = 1;
   for (double chance = share; chance > 1e-6 && count < 255; chance *= share) ++count;
   return count;
 }
 
-// The first cell from `cell` on that is not 0; `end` if there is none.
+// The first nonzero cell from `cell` on; `end` if there is none.
 const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* end) {
   std::uint64_t cells = 0;
   while (end - cell >= std::ptrdiff_t{sizeof(cells)}) {
@@ -61,7 +62,7 @@ const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* en
   return cell;
 }
 
-// Where a line from inside the square [least, most]^2 leaves it.
+// The point where a line from inside the square [least, most]^2 leaves it, or `to`.
 dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most) {
   const auto fraction = [least, most](double start, double end) {
     if (end < least) return (start - least) / (start - end);
@@ -75,7 +76,7 @@ dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most
 LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_radius_m, double dropout_share)
     : settings_(settings),
       side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))),
-      full_trust_(credible_dropouts(dropout_share)) {
+      misses_to_clear_(misses_to_clear(dropout_share)) {
   const auto cells = static_cast<std::size_t>(side_ * side_);
   lethal_.resize(cells);
   rolled_.resize(cells);
@@ -120,17 +121,17 @@ void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
   roll_to(toolkit::position(sensor));
 
   aim_beams(sensor, scan);
-  // in cells from the window's lower left corner
+  // In cells from the window's lower left corner.
   const dmrp_vec2 corner = {static_cast<double>(column_), static_cast<double>(row_)};
   const dmrp_vec2 origin = toolkit::position(sensor) / settings_.resolution_m - corner;
-  if (full_trust_ > 1) {
-    // before anything is cleared: what stands in the way of the hidden must be there
+  if (misses_to_clear_ > 1) {
+    // Before clearing: obstacles that hide others must still be present.
     for (std::uint32_t beam = 0; beam < scan.count; ++beam)
       if (std::isinf(scan.ranges[beam]))
-        doubt_along(origin, origin + settings_.raytrace_range_m * cells_per_metre_[beam]);
+        count_miss_along(origin, origin + settings_.raytrace_range_m * cells_per_metre_[beam]);
   }
   for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
-    if (full_trust_ > 1 && std::isinf(scan.ranges[beam])) continue;
+    if (misses_to_clear_ > 1 && std::isinf(scan.ranges[beam])) continue;
     const double range_m = std::min(static_cast<double>(scan.ranges[beam]), settings_.raytrace_range_m);
     clear_along(origin, origin + range_m * cells_per_metre_[beam]);
   }
@@ -159,7 +160,7 @@ void LocalCostmap::aim_beams(const dmrp_pose& sensor, const dmrp_scan& scan) {
     cells_per_metre_[beam] = directions_[beam].x * ahead + directions_[beam].y * toolkit::perpendicular(ahead);
 }
 
-// What leaves the window is forgotten.
+// Cells that leave the window are discarded.
 void LocalCostmap::roll_to(dmrp_vec2 center) {
   const auto lattice = [&](double metres) {
     return static_cast<std::int64_t>(std::floor(metres / settings_.resolution_m)) - side_ / 2;
@@ -183,9 +184,9 @@ void LocalCostmap::roll_to(dmrp_vec2 center) {
   std::swap(lethal_, rolled_);
 }
 
-// One cell for every column (or row, where it is steeper) that the line crosses.
+// Clears one cell in every column that the line crosses, or in every row if the line is steep.
 void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
-  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
+  to = clip_to_square(from, to, inset_cells, static_cast<double>(side_) - inset_cells);
   const dmrp_vec2 way = to - from;
   const bool by_columns = std::abs(way.x) >= std::abs(way.y);
   const double start = by_columns ? from.x : from.y;
@@ -202,7 +203,7 @@ void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
   const auto clear_at = [&](std::int64_t major, double at) {
     cells[major * stride + static_cast<std::int64_t>(aside + slope * (at - start)) * cross_stride] = 0;
   };
-  // from middle to middle in whole numbers; the ends apart
+  // The ends first and last; between them from middle to middle in fixed point.
   const double unit = static_cast<double>(std::int64_t{1} << fraction_bits);
   const auto step = static_cast<std::int64_t>(slope * unit);
   auto minor = static_cast<std::int64_t>((aside + slope * (static_cast<double>(first) + 1.5 - start)) * unit);
@@ -214,9 +215,9 @@ void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
   clear_at(last, high);
 }
 
-// The nearest lethal cell on the way loses a little trust; what is behind it may be hidden.
-void LocalCostmap::doubt_along(dmrp_vec2 from, dmrp_vec2 to) {
-  to = clip_to_square(from, to, hair, static_cast<double>(side_) - hair);
+// Counts a miss of the nearest lethal cell on the line; cells behind it may be hidden.
+void LocalCostmap::count_miss_along(dmrp_vec2 from, dmrp_vec2 to) {
+  to = clip_to_square(from, to, inset_cells, static_cast<double>(side_) - inset_cells);
   const dmrp_vec2 way = to - from;
   const double steps = std::floor(std::max(std::abs(way.x), std::abs(way.y)));
   const dmrp_vec2 stride = way / std::max(std::max(std::abs(way.x), std::abs(way.y)), 1.0);
@@ -234,10 +235,10 @@ void LocalCostmap::mark(dmrp_vec2 point) {
   const double side = static_cast<double>(side_);
   if (!(point.x >= 0.0 && point.x < side && point.y >= 0.0 && point.y < side)) return;
   lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(point.y) * side_ + static_cast<std::int64_t>(point.x))] =
-      full_trust_;
+      misses_to_clear_;
 }
 
-// Costs fall with distance, so the largest of all lethal cells' costs is that of the nearest: exact.
+// The cost decreases with distance, so the maximum over all lethal cells is the cost of the nearest one: exact.
 void LocalCostmap::inflate() {
   std::fill(canvas_.begin(), canvas_.end(), std::uint8_t{DMRP_COST_FREE});
   const std::int64_t canvas_stride = side_ + stamp_stride_;
@@ -246,11 +247,11 @@ void LocalCostmap::inflate() {
   const std::uint8_t* const begin = lethal_.data();
   const std::uint8_t* const end = begin + lethal_.size();
   for (const std::uint8_t* cell = next_lethal(begin, end); cell < end; cell = next_lethal(cell + 1, end)) {
-    // the canvas begins stamp_reach_ cells before the window on either axis
+    // The canvas begins stamp_reach_ cells before the window on both axes.
     std::uint8_t* target = canvas_.data() + (cell - begin) / side_ * canvas_stride + (cell - begin) % side_;
     const std::uint8_t* source = stamp_.data();
     for (std::int64_t row = 0; row < stamp_rows; ++row) {
-      for (std::int64_t i = 0; i < stamp_stride; i += vector_bytes) raise(target + i, source + i);
+      for (std::int64_t i = 0; i < stamp_stride; i += vector_bytes) keep_larger(target + i, source + i);
       target += canvas_stride;
       source += stamp_stride;
     }

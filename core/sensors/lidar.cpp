@@ -12,14 +12,14 @@
 namespace dmrp::core {
 namespace {
 
-// Beams are few by angle: what covers [from, to] is met only by beams between, give or take rounding.
+// Only beams in the angle range of a body can hit it; this slack allows for rounding.
 constexpr double angle_slack_rad = 1e-6;
 
 bool is_full_circle(const LidarSettings& settings) {
   return settings.field_of_view_rad > 2.0 * toolkit::pi - 1e-9;
 }
 
-// The last beam of a full circle would be the first again.
+// On a full circle the last beam does not repeat the first.
 double increment_of(const LidarSettings& settings) {
   const std::uint32_t gaps = is_full_circle(settings) ? settings.beams : std::max(settings.beams, 2u) - 1;
   return settings.field_of_view_rad / gaps;
@@ -54,8 +54,8 @@ dmrp_scan Lidar::describe(std::int64_t t_ns, std::span<const float> ranges) cons
 void Lidar::scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::span<float> ranges) {
   begin(sensor);
   for (const Disc& body : bodies)
-    if (toolkit::distance(body.center, origin_) - body.radius_m <= settings_.range_max_m) see_disc(body);
-  see_shapes();
+    if (toolkit::distance(body.center, origin_) - body.radius_m <= settings_.range_max_m) scan_disc(body);
+  scan_shapes();
 
   for (std::uint32_t i = 0; i < settings_.beams; ++i) {
     const bool hit = nearest_m_[i] <= settings_.range_max_m;
@@ -64,7 +64,7 @@ void Lidar::scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::spa
   }
 }
 
-// All beams reach the border.
+// Starts every beam with its distance to the border.
 void Lidar::begin(const dmrp_pose& sensor) {
   origin_ = toolkit::position(sensor);
   heading_ = sensor.theta;
@@ -77,8 +77,8 @@ void Lidar::begin(const dmrp_pose& sensor) {
   }
 }
 
-// Nearer shapes first: what they hide needs no closer look.
-void Lidar::see_shapes() {
+// Nearer shapes first: the shapes that they hide are then skipped.
+void Lidar::scan_shapes() {
   const dmrp_vec2 reach = {settings_.range_max_m, settings_.range_max_m};
   geometry_->shapes_near({origin_ - reach, origin_ + reach}, near_);
   by_distance_.clear();
@@ -90,27 +90,27 @@ void Lidar::see_shapes() {
   for (const auto& [distance_m, index] : by_distance_) {
     const dmrp_shape& shape = geometry_->sdk_shapes()[index];
     if (shape.kind == DMRP_SHAPE_CIRCLE) {
-      see_disc({shape.center, shape.radius_m});
+      scan_disc({shape.center, shape.radius_m});
     } else {
-      see_polygon(shape, distance_m);
+      scan_polygon(shape, distance_m);
     }
   }
 }
 
-void Lidar::see_disc(const Disc& disc) {
+void Lidar::scan_disc(const Disc& disc) {
   const double distance_m = toolkit::distance(disc.center, origin_);
   const auto cast = [&](std::uint32_t beam) { return toolkit::ray_to_circle(rays_[beam], disc.center, disc.radius_m); };
-  if (distance_m <= disc.radius_m) return look(-toolkit::pi, 2.0 * toolkit::pi, 0.0, cast);
+  if (distance_m <= disc.radius_m) return cast_beams(-toolkit::pi, 2.0 * toolkit::pi, 0.0, cast);
   const double half_width = std::asin(disc.radius_m / distance_m);
   const double middle = toolkit::bearing(origin_, disc.center) - heading_;
-  look(middle - half_width, 2.0 * half_width, distance_m - disc.radius_m, cast);
+  cast_beams(middle - half_width, 2.0 * half_width, distance_m - disc.radius_m, cast);
 }
 
-// The corners' bearings span what it covers; from inside it covers everything.
-void Lidar::see_polygon(const dmrp_shape& shape, double distance_m) {
+// The bearings of the corners span the covered angles; from inside, all angles are covered.
+void Lidar::scan_polygon(const dmrp_shape& shape, double distance_m) {
   const toolkit::PolygonView polygon = toolkit::polygon_of(shape);
   const auto cast = [&](std::uint32_t beam) { return toolkit::ray_to_polygon(rays_[beam], polygon); };
-  if (toolkit::contains(polygon, origin_)) return look(-toolkit::pi, 2.0 * toolkit::pi, 0.0, cast);
+  if (toolkit::contains(polygon, origin_)) return cast_beams(-toolkit::pi, 2.0 * toolkit::pi, 0.0, cast);
   const double first = toolkit::bearing(origin_, polygon[0]);
   double least = 0.0;
   double most = 0.0;
@@ -119,18 +119,18 @@ void Lidar::see_polygon(const dmrp_shape& shape, double distance_m) {
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
-  look(first - heading_ + least, most - least, distance_m, cast);
+  cast_beams(first - heading_ + least, most - least, distance_m, cast);
 }
 
-// Casts the beams from angle `from` (in the sensor's frame) over `width` radians, unless something nearer than
-// `distance_m` is known to stand before them.
+// Casts the beams from angle `from` (in the sensor's frame) over `width` radians, except for beams with a known hit
+// nearer than `distance_m`.
 template <class Cast>
-void Lidar::look(double from, double width, double distance_m, const Cast& cast) {
+void Lidar::cast_beams(double from, double width, double distance_m, const Cast& cast) {
   const double turn = 2.0 * toolkit::pi;
   double start = std::fmod(from - angle_slack_rad - angle_min_, turn);
   if (start < 0.0) start += turn;
   const double end = start + width + 2.0 * angle_slack_rad;
-  // a second time around for what spans the seam
+  // A second turn for a body that spans the seam.
   for (const double offset : {0.0, turn}) {
     const double first = std::ceil(std::max(0.0, (start - offset) / angle_increment_));
     const double last = std::floor((end - offset) / angle_increment_);

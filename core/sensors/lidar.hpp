@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lidar.hpp: a planar range scan; sensor_noise.hpp makes it less than exact.
+// lidar.hpp: an exact planar laser scan; sensor_noise.hpp adds noise.
 #pragma once
 
 #include <dmrp/ext/lidar.h>
@@ -21,26 +21,26 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-// Sees shapes, the border, and the bodies it is given. One serves all robots of a world, one scan at a time.
+// Scans shapes, the border and the given bodies. One object serves all robots of a world, one scan at a time.
 class Lidar {
  public:
   Lidar(const LidarSettings& settings, std::shared_ptr<const StaticGeometry> geometry);
 
   std::uint32_t beams() const { return settings_.beams; }
 
-  // Fills `ranges` (beams() of them) as in dmrp_scan. `bodies` must not contain who carries the sensor.
+  // Fills the beams() elements of `ranges` as in dmrp_scan. `bodies` must not contain the robot with the sensor.
   void scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::span<float> ranges);
 
-  // The scan's head over ranges that stay the caller's.
+  // A dmrp_scan for ranges that the caller owns.
   dmrp_scan describe(std::int64_t t_ns, std::span<const float> ranges) const;
 
  private:
   void begin(const dmrp_pose& sensor);
-  void see_shapes();
-  void see_disc(const Disc& disc);
-  void see_polygon(const dmrp_shape& shape, double distance_m);
+  void scan_shapes();
+  void scan_disc(const Disc& disc);
+  void scan_polygon(const dmrp_shape& shape, double distance_m);
   template <class Cast>
-  void look(double from, double width, double distance_m, const Cast& cast);
+  void cast_beams(double from, double width, double distance_m, const Cast& cast);
 
   LidarSettings settings_;
   std::shared_ptr<const StaticGeometry> geometry_;
@@ -48,7 +48,7 @@ class Lidar {
   double angle_increment_;
   std::vector<dmrp_vec2> directions_;  // of the beams, in the sensor's frame
 
-  // of the scan under way
+  // Of the current scan.
   dmrp_vec2 origin_{};
   double heading_ = 0.0;
   std::vector<toolkit::Ray> rays_;

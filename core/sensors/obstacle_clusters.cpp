@@ -13,51 +13,28 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-// What is nowhere farther than this from its longest chord is straight: so are all cells that a straight line crosses.
+// Cells whose hull lies within this distance of its longest chord are straight. All cells that a straight line crosses
+// satisfy this.
 constexpr double straight_cells = 1.25;
 
-// Polygons may lie this far within the hull of their cells.
+// Polygons may lie this far inside the hull of their cells.
 constexpr double flat_cells = 0.5;
 
-struct Offset {
-  std::int64_t column;
-  std::int64_t row;
-};
-
-// The places before a cell, in row-major order, whose distance is at most three cells: two tolerances.
-constexpr std::array<Offset, 14> neighbors_before = {{{-3, 0},
-                                                      {-2, 0},
-                                                      {-1, 0},
-                                                      {-2, -1},
-                                                      {-1, -1},
-                                                      {0, -1},
-                                                      {1, -1},
-                                                      {2, -1},
-                                                      {-2, -2},
-                                                      {-1, -2},
-                                                      {0, -2},
-                                                      {1, -2},
-                                                      {2, -2},
-                                                      {0, -3}}};
-
-std::int64_t floor_of_quotient(std::int64_t dividend, std::int64_t divisor) {
-  return dividend >= 0 ? dividend / divisor : -((-dividend + divisor - 1) / divisor);
-}
-
-template <class Cell>
-std::int64_t dot(const Cell& a, const Cell& b) {
-  return a.column * b.column + a.row * b.row;
-}
-
-template <class Cell>
-std::int64_t cross(const Cell& a, const Cell& b) {
-  return a.column * b.row - a.row * b.column;
-}
-
-template <class Cell>
-Cell between(const Cell& from, const Cell& to) {
-  return {to.column - from.column, to.row - from.row};
-}
+// Offsets to the preceding cells, in row-major order, whose distance is at most three cells: two tolerances.
+constexpr std::array<LatticeCell, 14> neighbors_before = {{{-3, 0},
+                                                           {-2, 0},
+                                                           {-1, 0},
+                                                           {-2, -1},
+                                                           {-1, -1},
+                                                           {0, -1},
+                                                           {1, -1},
+                                                           {2, -1},
+                                                           {-2, -2},
+                                                           {-1, -2},
+                                                           {0, -2},
+                                                           {1, -2},
+                                                           {2, -2},
+                                                           {0, -3}}};
 
 }  // namespace
 
@@ -68,9 +45,9 @@ const dmrp_obstacle_cluster_list& ObstacleClusters::derive(const dmrp_costmap& c
   collect_cells(costmap, agents);
   unite_neighbors();
   group_components();
-  forget_cells();
+  clear_index();
 
-  // vertices have moved while they came to be
+  // vertices_ has been reallocated while it grew.
   const dmrp_vec2* vertex = vertices_.data();
   for (dmrp_obstacle_cluster& cluster : clusters_) {
     cluster.vertices = vertex;
@@ -116,14 +93,14 @@ void ObstacleClusters::collect_cells(const dmrp_costmap& costmap, std::span<cons
   for (const std::uint8_t* cost = begin; cost < end; ++cost) {
     cost = static_cast<const std::uint8_t*>(std::memchr(cost, DMRP_COST_LETHAL, static_cast<std::size_t>(end - cost)));
     if (cost == nullptr) break;
-    const Cell cell = {(cost - begin) % width, (cost - begin) / width};
+    const LatticeCell cell = {(cost - begin) % width, (cost - begin) / width};
     if (is_agent(center_of(cell))) continue;
     index_at(cell.column, cell.row) = static_cast<std::int32_t>(found_.size());
     found_.push_back(cell);
   }
 }
 
-// A forest over the cells: roots are the first of their component.
+// Builds the union-find forest of the cells; the root is the first cell of its component.
 void ObstacleClusters::unite_neighbors() {
   std::array<std::int64_t, neighbors_before.size()> steps;
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -151,7 +128,7 @@ std::uint32_t ObstacleClusters::root_of(std::uint32_t cell) {
   return cell;
 }
 
-// Sorts the cells by component, the order within kept, and clusters one component after the other.
+// Sorts the cells by component, keeping the order within, and clusters one component after the other.
 void ObstacleClusters::group_components() {
   offsets_.assign(found_.size() + 1, 0);
   for (std::uint32_t i = 0; i < found_.size(); ++i) ++offsets_[root_of(i) + 1];
@@ -159,7 +136,7 @@ void ObstacleClusters::group_components() {
   cells_.resize(found_.size());
   for (std::uint32_t i = 0; i < found_.size(); ++i) cells_[offsets_[root_of(i)]++] = found_[i];
 
-  // now offsets_[i] is where the component of root i ends
+  // Now offsets_[i] is the end of the component of root i.
   std::uint32_t begin = 0;
   for (std::uint32_t i = 0; i < found_.size(); ++i) {
     if (offsets_[i] == begin) continue;
@@ -173,79 +150,40 @@ void ObstacleClusters::cluster(Range range) {
   while (!pending_.empty()) {
     range = pending_.back();
     pending_.pop_back();
-    find_hull(range);
+    find_hull(cells_in(range), hull_);
     if (hull_.size() == 1) {
       emit(hull_);
       continue;
     }
-    const Chord chord = longest_chord();
+    const Chord chord = longest_chord(hull_);
     if (chord.deviation() <= straight_cells) {
       const Gap gap = gap_in(chord, range);
       if (gap.exists) {
         split(range, chord,
-              [&](const Cell& off) { return static_cast<double>(dot(chord.along, off)) <= gap.projection; });
+              [&](const LatticeCell& off) { return static_cast<double>(dot(chord.along, off)) <= gap.projection; });
       } else {
-        emit(std::array<Cell, 2>{
+        emit(std::array<LatticeCell, 2>{
             {chord.from, {chord.from.column + chord.along.column, chord.from.row + chord.along.row}}});
       }
     } else if (hull_is_filled(range.end - range.begin)) {
-      drop_flat_vertices();
+      drop_flat_vertices(hull_, scratch_, flat_cells);
       emit(hull_);
     } else if (chord.left > straight_cells && chord.right > straight_cells) {
-      split(range, chord, [&](const Cell& off) { return cross(chord.along, off) > 0; });
+      split(range, chord, [&](const LatticeCell& off) { return cross(chord.along, off) > 0; });
     } else {
       const std::int64_t projection = dot(chord.along, between(chord.from, chord.farthest));
-      split(range, chord, [&](const Cell& off) { return dot(chord.along, off) <= projection; });
+      split(range, chord, [&](const LatticeCell& off) { return dot(chord.along, off) <= projection; });
     }
   }
 }
 
-// Andrew's monotone chain, which the row-major order suits: up the right side, down the left.
-void ObstacleClusters::find_hull(Range range) {
-  hull_.clear();
-  const auto extend = [&](const Cell& cell, std::size_t least) {
-    while (hull_.size() > least &&
-           cross(between(hull_[hull_.size() - 2], hull_.back()), between(hull_.back(), cell)) <= 0)
-      hull_.pop_back();
-    hull_.push_back(cell);
-  };
-  for (std::uint32_t i = range.begin; i < range.end; ++i) extend(cells_[i], 1);
-  const std::size_t right_side = hull_.size();
-  if (right_side == 1) return;
-  for (std::uint32_t i = range.end - 1; i-- > range.begin;) extend(cells_[i], right_side);
-  hull_.pop_back();  // the first again
-}
-
-ObstacleClusters::Chord ObstacleClusters::longest_chord() const {
-  Chord chord{};
-  std::int64_t longest = -1;
-  for (std::size_t i = 0; i < hull_.size(); ++i) {
-    for (std::size_t j = i + 1; j < hull_.size(); ++j) {
-      const Cell along = between(hull_[i], hull_[j]);
-      if (dot(along, along) <= longest) continue;
-      longest = dot(along, along);
-      chord.from = hull_[i];
-      chord.along = along;
-    }
-  }
-  chord.length = std::sqrt(static_cast<double>(longest));
-  chord.farthest = chord.from;
-  for (const Cell& vertex : hull_) {
-    const double off = static_cast<double>(cross(chord.along, between(chord.from, vertex))) / chord.length;
-    if (std::abs(off) > chord.deviation()) chord.farthest = vertex;
-    chord.left = std::max(chord.left, off);
-    chord.right = std::max(chord.right, -off);
-  }
-  return chord;
-}
-
-// The first stretch of a chord that none of the cells accounts for. Each accounts for more than half a cell both ways,
-// being near the chord, so that all in the same whole cell of projection account for one stretch together.
+// The first part of a chord that no cell covers. Each cell is near the chord and covers more than half a cell on both
+// sides, so all cells in the same whole cell of projection cover one stretch together.
 ObstacleClusters::Gap ObstacleClusters::gap_in(const Chord& chord, Range range) {
   constexpr Stretch nothing = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   stretches_.assign(static_cast<std::size_t>(chord.length) + 1, nothing);
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    const Cell there = between(chord.from, cells_[i]);
+    const LatticeCell there = between(chord.from, cells_[i]);
     const double at = static_cast<double>(dot(chord.along, there)) / chord.length;
     const double off = static_cast<double>(cross(chord.along, there)) / chord.length;
     const double reach = std::sqrt(tolerance_cells * tolerance_cells - off * off);
@@ -262,91 +200,52 @@ ObstacleClusters::Gap ObstacleClusters::gap_in(const Chord& chord, Range range) 
   return {false, 0.0};
 }
 
-// Whether each square between four cell centres that the hull has a part of has a lethal cell at one of them.
+// Whether every square between four cell centres that the hull overlaps has a lethal cell at one of its corners.
 bool ObstacleClusters::hull_is_filled(std::size_t cell_count) const {
-  std::int64_t doubled_area = 0;
-  for (std::size_t i = 0; i < hull_.size(); ++i) doubled_area += cross(hull_[i], hull_[(i + 1) % hull_.size()]);
-  if (doubled_area > 8 * static_cast<std::int64_t>(cell_count)) return false;  // a cell accounts for four squares
-  const auto [lowest, highest] =
-      std::minmax_element(hull_.begin(), hull_.end(), [](const Cell& a, const Cell& b) { return a.row < b.row; });
+  if (doubled_area(hull_) > 8 * static_cast<std::int64_t>(cell_count))
+    return false;  // a cell accounts for four squares
+  const auto [lowest, highest] = std::minmax_element(
+      hull_.begin(), hull_.end(), [](const LatticeCell& a, const LatticeCell& b) { return a.row < b.row; });
   for (std::int64_t row = lowest->row; row < highest->row; ++row)
     if (!row_is_filled(row)) return false;
   return true;
 }
 
-// Of the squares between this row of centres and the next: no vertex lies between, so the hull's sides are straight.
+// Checks the squares between this row of centres and the next.
 bool ObstacleClusters::row_is_filled(std::int64_t row) const {
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
-  std::int64_t last = std::numeric_limits<std::int64_t>::min();
-  for (std::size_t i = 0; i < hull_.size(); ++i) {
-    const Cell& one = hull_[i];
-    const Cell& other = hull_[(i + 1) % hull_.size()];
-    const Cell& low = one.row < other.row ? one : other;
-    const Cell& high = one.row < other.row ? other : one;
-    if (low.row > row || high.row <= row) continue;
-    const Cell along = between(low, high);
-    for (const std::int64_t at : {row, row + 1}) {
-      const std::int64_t aside = along.column * (at - low.row);
-      first = std::min(first, low.column + floor_of_quotient(aside, along.row));
-      last = std::max(last, low.column - floor_of_quotient(-aside, along.row));
-    }
-  }
-  for (std::int64_t column = first; column < last; ++column) {
+  const ColumnRange columns = columns_beside(hull_, row);
+  for (std::int64_t column = columns.first; column < columns.last; ++column) {
     const std::int32_t* const corner = cell_at(column, row);
     if (corner[0] == none && corner[1] == none && corner[stride_] == none && corner[stride_ + 1] == none) return false;
   }
   return true;
 }
 
-// From each vertex that stays to the farthest one with all between at most flat_cells off: the cells are then no
-// farther from the polygon, which is a part of the hull.
-void ObstacleClusters::drop_flat_vertices() {
-  set_aside_.assign(hull_.begin(), hull_.end());
-  set_aside_.push_back(hull_.front());
-  hull_.clear();
-  const auto is_flat = [&](std::size_t first, std::size_t last) {
-    const Cell along = between(set_aside_[first], set_aside_[last]);
-    const double most = flat_cells * std::sqrt(static_cast<double>(dot(along, along)));
-    for (std::size_t i = first + 1; i < last; ++i) {
-      const Cell off = between(set_aside_[first], set_aside_[i]);
-      if (dot(along, off) < 0 || dot(along, off) > dot(along, along)) return false;
-      if (std::abs(static_cast<double>(cross(along, off))) > most) return false;
-    }
-    return true;
-  };
-  for (std::size_t first = 0; first + 1 < set_aside_.size();) {
-    hull_.push_back(set_aside_[first]);
-    std::size_t last = first + 1;
-    while (last + 1 < set_aside_.size() && is_flat(first, last + 1)) ++last;
-    first = last;
-  }
-}
-
-// `is_first(cell seen from the chord's beginning)` tells the parts apart; both keep their order.
+// Splits a range by `is_first(vector from the chord's beginning to the cell)`; both parts keep their order.
 template <class IsFirst>
 void ObstacleClusters::split(Range range, const Chord& chord, const IsFirst& is_first) {
-  set_aside_.clear();
+  scratch_.clear();
   std::uint32_t middle = range.begin;
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    const Cell cell = cells_[i];
+    const LatticeCell cell = cells_[i];
     if (is_first(between(chord.from, cell))) {
       cells_[middle++] = cell;
     } else {
-      set_aside_.push_back(cell);
+      scratch_.push_back(cell);
     }
   }
-  std::copy(set_aside_.begin(), set_aside_.end(), cells_.begin() + middle);
+  std::copy(scratch_.begin(), scratch_.end(), cells_.begin() + middle);
   pending_.push_back({middle, range.end});
   pending_.push_back({range.begin, middle});
 }
 
-void ObstacleClusters::emit(std::span<const Cell> vertices) {
+void ObstacleClusters::emit(std::span<const LatticeCell> vertices) {
   clusters_.push_back({static_cast<std::uint32_t>(vertices.size()), 0, nullptr});
-  for (const Cell& vertex : vertices) vertices_.push_back(center_of(vertex));
+  for (const LatticeCell& vertex : vertices) vertices_.push_back(center_of(vertex));
 }
 
-void ObstacleClusters::forget_cells() {
-  for (const Cell& cell : found_) index_at(cell.column, cell.row) = none;
+void ObstacleClusters::clear_index() {
+  for (const LatticeCell& cell : found_) index_at(cell.column, cell.row) = none;
 }
 
 }  // namespace dmrp::core

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// odometry.hpp: where a robot believes it is.
+// odometry.hpp: the pose estimate of a robot.
 //
 // The odometry motion model of Thrun, Burgard, Fox, Probabilistic Robotics (2005), table 5.6: between two readings the
-// robot turned by rot1, went trans, and turned by rot2; each is read with a normal error of variance
+// robot turned by rot1, moved by trans, and turned by rot2; each is measured with a normal error of variance
 //   rot1: a1 rot1^2 + a2 trans^2    trans: a3 trans^2 + a4 (rot1^2 + rot2^2)    rot2: a1 rot2^2 + a2 trans^2
-// Readings are taken at control ticks. Errors add up to a drift, until a fix (of a localisation, say) tells the robot
-// its true pose again. The world itself, arrivals and metrics know the truth.
+// Readings are taken at control ticks. Errors accumulate to a drift until a fix (by a localisation, for example) resets
+// the estimate to the true pose. The world, arrivals and metrics use the true pose.
 #pragma once
 
 #include <dmrp/values.h>
@@ -18,31 +18,32 @@ namespace dmrp::core {
 
 class Odometry {
  public:
-  // `seed`: the trial's. At first the robot knows where it is.
+  // `seed`: the trial's. The first estimate is exact.
   Odometry(const OdometrySettings& settings, std::uint64_t seed, std::uint32_t robot, const dmrp_pose& pose);
 
-  // A reading: how the robot has got to this pose since the one before. Times grow.
+  // Takes a reading of the motion from the pose of the previous reading to this true pose. Times must increase.
   void read(std::int64_t t_ns, const dmrp_pose& pose, const dmrp_twist& velocity);
 
-  // As the robot believes; the truth itself without noise.
-  const dmrp_pose& pose() const { return believed_; }
+  // The estimate; the true values if there is no noise.
+  const dmrp_pose& pose() const { return estimate_; }
   const dmrp_twist& velocity() const { return velocity_; }
 
-  // Something seen from where the robot is, in the world as the robot believes it to lie about it.
-  dmrp_pose as_believed(const dmrp_pose& pose) const;
-  dmrp_vec2 direction_as_believed(dmrp_vec2 direction) const;
+  // Maps a true pose or direction in the world to the frame of the estimate: the place at which a robot with this
+  // estimate would observe it.
+  dmrp_pose to_estimated(const dmrp_pose& pose) const;
+  dmrp_vec2 direction_to_estimated(dmrp_vec2 direction) const;
 
  private:
   bool is_exact() const;
-  double turned_by() const;  // the error of the heading
+  double heading_error() const;
 
   OdometrySettings settings_;
   std::uint64_t seed_;
   std::uint32_t robot_;
   std::int64_t read_ns_ = -1;
   std::int64_t fixed_ns_ = 0;
-  dmrp_pose true_{};
-  dmrp_pose believed_{};
+  dmrp_pose truth_{};
+  dmrp_pose estimate_{};
   dmrp_twist velocity_{};
 };
 

@@ -14,7 +14,7 @@ void disturb_scan(const LidarSettings& settings, const Reading& reading, std::sp
   if (settings.noise_sd_m > 0.0) {
     Stream noise(reading.seed, "lidar.noise", reading.robot, reading.t_ns);
     for (float& range : ranges) {
-      const double error_m = noise.normal(0.0, settings.noise_sd_m);  // drawn for every beam: they keep their numbers
+      const double error_m = noise.normal(0.0, settings.noise_sd_m);  // drawn for every beam, so each keeps its numbers
       if (!std::isfinite(range)) continue;
       range = static_cast<float>(
           std::clamp(static_cast<double>(range) + error_m, settings.range_min_m, settings.range_max_m));

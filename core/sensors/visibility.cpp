@@ -21,16 +21,16 @@ void visible_agents(const World& world, std::uint32_t robot, std::vector<dmrp_ag
   const Tracking tracking = world.settings().tracking;
   if (tracking == Tracking::none) return;
   const dmrp_vec2 eye = toolkit::position(world.robots()[robot].pose);
-  const auto is_told = [&](const dmrp_agent& agent) {
+  const auto is_visible = [&](const dmrp_agent& agent) {
     if (tracking == Tracking::all) return true;
     const dmrp_vec2 there = toolkit::position(agent.pose);
     return toolkit::distance(eye, there) <= world.settings().tracking_range_m &&
            world.geometry().line_of_sight(eye, there);
   };
   for (const dmrp_agent& agent : world.robot_agents())
-    if (agent.id != robot && is_told(agent)) agents.push_back(agent);
+    if (agent.id != robot && is_visible(agent)) agents.push_back(agent);
   for (const dmrp_agent& agent : world.person_agents())
-    if (is_told(agent)) agents.push_back(agent);
+    if (is_visible(agent)) agents.push_back(agent);
   std::sort(agents.begin(), agents.end(), [](const dmrp_agent& one, const dmrp_agent& two) {
     return one.kind != two.kind ? one.kind < two.kind : one.id < two.id;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sensing.hpp: what a robot of a world perceives.
+// visibility.hpp: the scans and visible agents of the robots in a world.
 #pragma once
 
 #include <dmrp/observation.h>
@@ -13,11 +13,12 @@
 
 namespace dmrp::core {
 
-// The scan that a robot takes now.
+// Scans the world from a robot's true pose.
 void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<float> ranges);
 
-// The others that the tracking of the world's settings tells this robot of, ordered by kind, then id. Visible: the
-// centre within range and in line of sight of the robot's centre; robots and people hide nobody. Replaces `agents`.
+// The other agents that this robot observes with the `tracking` of the world's settings, ordered by kind, then id.
+// Visible: the centre is in range and in line of sight of the robot's centre; robots and people do not occlude.
+// Overwrites `agents`.
 void visible_agents(const World& world, std::uint32_t robot, std::vector<dmrp_agent>& agents);
 
 }  // namespace dmrp::core

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-// As quantile_of_sorted (descriptive.hpp), without sorting all.
+// The same as quantile_of_sorted (descriptive.hpp), without sorting all values.
 double quantile(std::vector<double>& values, double p) {
   const double position = p * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);

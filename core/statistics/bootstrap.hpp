@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// bootstrap.hpp: intervals by the percentile bootstrap over clusters: what belongs together (the robots of a trial, the
-// trials of a seed) is drawn together. Efron and Tibshirani: An Introduction to the Bootstrap, 1993, sections 8 and 13.
-// Deterministic: the draws come from a named stream. Undefined results are NaN.
+// bootstrap.hpp: confidence intervals by the percentile bootstrap over clusters: dependent values (the robots of a
+// trial, the trials of a seed) are drawn together. Efron and Tibshirani: An Introduction to the Bootstrap, 1993,
+// sections 8 and 13. Deterministic: the draws come from a named stream. Undefined results are NaN.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct BootstrapSettings {
   std::uint64_t seed = 1;
 };
 
-// Which clusters make up each resample: drawn once for a number of clusters, used for any number of intervals.
+// The clusters of each resample: drawn once for a number of clusters, used for any number of intervals.
 class BootstrapDraws {
  public:
   explicit BootstrapDraws(std::size_t clusters, const BootstrapSettings& settings = {});
@@ -36,15 +36,14 @@ class BootstrapDraws {
   std::vector<std::uint32_t> draws_;  // [resample][draw]
 };
 
-// A 95 % interval for the mean of all values. Of two clusters or more.
-// The first form takes draws for as many clusters as there are, none of them empty; in the second, empty ones don't
-// count.
+// A 95 % interval for the mean of all values. Needs at least two clusters. The first form takes draws for this number
+// of clusters, none of them empty; the second ignores empty clusters.
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapDraws& draws);
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters,
                                     const BootstrapSettings& settings = {});
 
-// Between the 2.5 % and 97.5 % quantiles of a statistic's resampled values. NaNs (resamples in which it is undefined)
-// are left out; undefined where fewer than half are left.
+// The interval between the 2.5 % and 97.5 % quantiles of a statistic's resampled values. Ignores NaNs (resamples in
+// which the statistic is undefined); undefined if fewer than half of the values remain.
 Interval percentile_interval(std::vector<double> resampled);
 
 }  // namespace dmrp::core

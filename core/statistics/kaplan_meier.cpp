@@ -18,7 +18,7 @@ std::vector<TimeToEvent> by_time(std::span<const TimeToEvent> cases) {
   return sorted;
 }
 
-// Calls visit(time, share) for each time at which it happened, `cases` being sorted and each there `count` times.
+// Calls visit(time, share) for each event time. `cases` are sorted; case i counts `count[i]` times.
 template <class Visit>
 void walk_steps(std::span<const TimeToEvent> cases, std::span<const std::uint32_t> count, Visit visit) {
   std::uint64_t watched = std::accumulate(count.begin(), count.end(), std::uint64_t{0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// kaplan_meier.hpp: times until something happened, of which some were cut short: the product-limit estimate
-// (Kaplan, Meier: Nonparametric estimation from incomplete observations, JASA 53, 1958) and its restricted mean.
+// kaplan_meier.hpp: survival analysis of times to an event, some of them censored: the product-limit estimate (Kaplan,
+// Meier: Nonparametric estimation from incomplete observations, JASA 53, 1958) and its restricted mean.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@ namespace dmrp::core {
 
 struct TimeToEvent {
   double time = 0.0;
-  bool happened = false;      // false: it had not yet, when watching ended at `time`
-  std::uint64_t cluster = 0;  // what it belongs to: a seed
+  bool happened = false;      // false: censored, no event until `time`
+  std::uint64_t cluster = 0;  // of dependent cases: a seed
 };
 
-// The share to whom it has not happened after each time at which it did, by time. A case that is cut short at such a
-// time was still watched at it.
+// The survival function: the share of cases without an event after each event time, ordered by time. A case that is
+// censored at an event time counts as observed at that time.
 struct SurvivalStep {
   double time;
   double share;
 };
 std::vector<SurvivalStep> kaplan_meier(std::span<const TimeToEvent> cases);
 
-// The area under that curve up to the horizon: the mean time until it happened or the horizon came. Where the last case
-// was cut short before the horizon, its share lasts until there. NaN of no case.
+// The area under the survival function up to the horizon: the mean of the time to the event or the horizon, whichever
+// is earlier. If the last case is censored before the horizon, its share extends to the horizon. NaN without cases.
 double restricted_mean(std::span<const TimeToEvent> cases, double horizon);
 
-// A 95 % interval for it by the bootstrap over clusters; of two clusters or more.
+// A 95 % interval of the restricted mean by the bootstrap over clusters; needs at least two clusters.
 Interval restricted_mean_interval(std::span<const TimeToEvent> cases, double horizon,
                                   const BootstrapSettings& settings = {});
 

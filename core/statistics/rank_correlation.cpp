@@ -20,11 +20,11 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_exact = 8;
 constexpr std::uint64_t draws = 5'000;
 constexpr std::uint32_t resamples = 1'000;
-constexpr double equal_within = 1e-12;  // means of products are rounded, of one block zero
+constexpr double equal_within = 1e-12;  // rounding of the mean of products, which is zero with one block
 
 using Ranks = std::vector<std::int64_t>;
 
-// Doubled midranks less their mean, n + 1: whole numbers, so that sums of products are exact.
+// Doubled midranks minus their mean, n + 1: integers, so that sums of products are exact.
 Ranks centered_ranks(std::span<const double> values) {
   Ranks ranks = doubled_midranks(values);
   for (std::int64_t& rank : ranks) rank -= static_cast<std::int64_t>(values.size()) + 1;
@@ -35,7 +35,7 @@ std::int64_t product(const Ranks& a, const Ranks& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), std::int64_t{0});
 }
 
-// Rounding must not lead beyond 1.
+// Clamped to [-1, 1] against rounding.
 double correlation_of(std::int64_t xx, std::int64_t xy, std::int64_t yy) {
   if (xx == 0 || yy == 0) return undefined;
   const double spread = std::sqrt(static_cast<double>(xx)) * std::sqrt(static_cast<double>(yy));
@@ -61,7 +61,7 @@ double exact_p(const Ranks& x, Ranks y) {
   return static_cast<double>(as_far) / static_cast<double>(orders);
 }
 
-// Both in order of blocks. All orders within blocks have the mean product that the blocks' own means have.
+// Both are ordered by block. The mean product over all permutations within blocks is that of the blocks' means.
 double drawn_p(const std::vector<Ranks>& x, std::vector<Ranks> y, std::uint64_t seed) {
   const auto product_of_all = [&] {
     std::int64_t sum = 0;
@@ -93,7 +93,7 @@ std::vector<Ranks> by_block(const Ranks& ranks, std::span<const std::uint32_t> b
   return blocks;
 }
 
-// Values as places in the order of the distinct ones: ranks of a resample follow by counting.
+// The index of each value among the distinct values; the ranks of a resample then follow by counting.
 std::vector<std::uint32_t> places(std::span<const double> values) {
   std::vector<double> distinct(values.begin(), values.end());
   std::sort(distinct.begin(), distinct.end());
@@ -105,9 +105,9 @@ std::vector<std::uint32_t> places(std::span<const double> values) {
   return found;
 }
 
-// Centered doubled midranks of values of which each is there `count` times.
+// Centred doubled midranks of values with multiplicities `count`.
 void rank_by_counts(const std::vector<std::uint32_t>& place, const std::vector<std::uint32_t>& count, Ranks& ranks) {
-  std::vector<std::int64_t> at(place.size() + 1, 0);  // how many there are of each distinct value
+  std::vector<std::int64_t> at(place.size() + 1, 0);  // the number of each distinct value
   for (std::size_t i = 0; i < place.size(); ++i) at[place[i]] += count[i];
   std::int64_t below = 0;
   const std::int64_t total = std::accumulate(at.begin(), at.end(), std::int64_t{0});

@@ -16,11 +16,11 @@ constexpr std::size_t most_exact = 20;  // differences other than zero
 constexpr std::uint64_t draws = 10'000;
 constexpr double equal_within = 1e-9;  // of the sum of absolute differences
 
-// The last sign stays: the opposite of all signs gives a mean as far off. By Gray's code one sign flips a step.
+// The last sign is fixed: flipping all signs gives a mean equally far from zero. Gray's code flips one sign per step.
 double exact_share(std::span<const double> differences, double least) {
   double sum = 0.0;
   for (const double difference : differences) sum += difference;
-  std::vector<double> twice;  // what flipping a sign next would take away
+  std::vector<double> twice;  // the decrease of the sum when a sign flips
   for (const double difference : differences) twice.push_back(2.0 * difference);
   const std::uint64_t ways = std::uint64_t{1} << (differences.size() - 1);
   std::uint64_t as_far = 0;

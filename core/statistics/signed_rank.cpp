@@ -19,7 +19,7 @@ constexpr std::size_t most_exact = 100;  // pairs
 constexpr double tied_within = 1e-9;     // of the largest difference
 constexpr double significance = 0.05;
 
-// The probability of each sum of ranks that get a positive sign, all signs being equally likely.
+// The probability of each sum of positive ranks if all signs are equally likely.
 std::vector<double> signed_rank_distribution(std::span<const std::int64_t> ranks) {
   const auto total = static_cast<std::size_t>(std::accumulate(ranks.begin(), ranks.end(), std::int64_t{0}));
   std::vector<double> probability(total + 1, 0.0);
@@ -42,7 +42,7 @@ double exact_p(std::span<const std::int64_t> ranks, std::int64_t positive) {
   return std::min(1.0, 2.0 * below);  // the distribution is symmetric
 }
 
-// Of doubled ranks: their mean and deviation are doubled, and so is the correction of one half.
+// For doubled ranks: mean and deviation are doubled, and so is the correction of one half.
 double normal_p(std::span<const std::int64_t> ranks, std::int64_t positive) {
   double sum = 0.0;
   double squares = 0.0;
@@ -69,7 +69,7 @@ SignedRankTest signed_rank_test(std::span<const double> differences) {
   const double tolerance = tied_within * *std::max_element(sizes.begin(), sizes.end());
   const std::vector<std::int64_t> all_ranks = doubled_midranks(sizes, tolerance);
 
-  std::vector<std::int64_t> ranks;  // of the differences that are none of the zeros
+  std::vector<std::int64_t> ranks;  // of the differences other than zero
   std::int64_t positive = 0;
   for (std::size_t i = 0; i < differences.size(); ++i) {
     if (sizes[i] <= tolerance) continue;
@@ -96,7 +96,7 @@ HodgesLehmann hodges_lehmann(std::span<const double> differences) {
     for (std::size_t j = i; j < n; ++j) walsh.push_back(0.5 * (differences[i] + differences[j]));
   std::sort(walsh.begin(), walsh.end());
 
-  // how many Walsh averages to leave out at either end
+  // The number of Walsh averages to skip at either end.
   std::size_t left_out = 0;
   if (n <= most_exact) {
     std::vector<std::int64_t> ranks(n);

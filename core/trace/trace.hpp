@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// trace.hpp: the encoded trace of a trial: what a trial is measured by, live and later alike.
+// trace.hpp: the format of a trial's trace, the only input of metrics for live and stored trials.
 //
-// A trace is a sequence of records: the world first, then plans, samples, scans, trajectories and notes as they came about,
-// the end last. (A trial that was cut short has no end.) A record is
+// A trace is a sequence of records: first the world, then plans, samples, scans, trajectories and notes in order of
+// time, last the end. (The trace of an interrupted trial has no end record.) A record is
 //
 //   u32 length of the body · u8 kind · body
 //
-// little-endian, unaligned; doubles keep their bits. Concatenated records are the trace; in a file each is one message
-// of the channel `dmrp/trace` (mcap_writer.hpp).
+// little-endian, unaligned; doubles keep their bits. The trace is the concatenation of its records; in a file each
+// record is one message of the channel `dmrp/trace` (mcap_writer.hpp).
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 namespace dmrp::core {
 
 inline constexpr std::uint32_t trace_format_version = 1;
-inline constexpr const char* trace_topic = "dmrp/trace";  // of a file's channel
+inline constexpr const char* trace_topic = "dmrp/trace";  // of the channel in a file
 
 enum class TraceRecordKind : std::uint8_t {
   world = 1,

@@ -106,7 +106,7 @@ void put_path(ByteWriter& out, const dmrp_path& path) {
   }
 }
 
-// Elements that lie in the trace as they do in memory: all at once, unless their owner knows more of them than we do.
+// Elements with the same layout in the trace as in memory: all at once, unless the owner's version of them is longer.
 template <class Element>
 void put_elements(ByteWriter& out, const Element* elements, std::uint32_t count, std::uint32_t stride) {
   out.put(count);
@@ -171,7 +171,7 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
   if (foxglove_) foxglove_->plan(now_ns_, plan);
 }
 
-// Robots, people and contacts are most of a trace: each goes in as it lies in memory, where it has no padding.
+// Robots, people and contacts are most of a trace. They are copied in their memory layout, which has no padding.
 void TraceEncoder::sample(const dmrp_sample& sample) {
   now_ns_ = sample.t_ns;
   if (foxglove_) foxglove_->sample(sample);

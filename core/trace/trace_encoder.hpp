@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_encoder.hpp: writes down a trial as it happens.
+// trace_encoder.hpp: encodes a trial as trace records while it runs.
 #pragma once
 
 #include <dmrp/ext/lidar.h>
@@ -15,8 +15,8 @@
 
 namespace dmrp::core {
 
-// Hands every record, once it is whole, to a sink (a file, say) and keeps none. What there is to look at goes to the
-// Foxglove channels, if any.
+// Passes every complete record to a sink (a file, for example) and keeps none. Passes the same data to the Foxglove
+// channels, if there are any.
 //
 //   TraceEncoder trace(world, sink);
 //   trace.plan(plan, conflicts);
@@ -29,21 +29,21 @@ class TraceEncoder {
 
   explicit TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove = nullptr);
 
-  // A call of the planner and what it gave. One that gave no plan has no paths. `conflicts`: what the plan validator
-  // counted between robots (of uncoordinated planners only; others' plans have none).
+  // A call of the planner and its result; without a plan it has no paths. `conflicts`: the number of conflicts between
+  // robots that the plan validator counted (only plans of uncoordinated planners have any).
   void plan(const dmrp_plan& plan, std::uint32_t conflicts = 0);
 
-  // `sample.plan` is null or has the revision of a plan with paths that was written before.
+  // `sample.plan` is null or has the revision of an earlier plan with paths.
   void sample(const dmrp_sample& sample);
 
-  // What a robot's lidar saw at the control tick of the last sample.
+  // The scan of a robot's lidar at the control tick of the last sample.
   void scan(std::uint32_t robot, const dmrp_scan& scan);
 
-  // What plugins said through dmrp.annotate/1.
+  // Annotations of plugins through dmrp.annotate/1.
   void trajectory(AnnotationSource source, std::uint32_t role, std::span<const dmrp_pose> poses, std::int64_t step_ns);
   void note(AnnotationSource source, std::string_view text);
 
-  // The last record. `reason` is for people.
+  // The last record. `reason` is for display.
   void end(const dmrp_trial_end& end, std::string_view reason = {});
 
   std::size_t written_bytes() const { return written_bytes_; }  // of all records
@@ -52,7 +52,7 @@ class TraceEncoder {
   template <class WriteBody>
   void record(TraceRecordKind kind, WriteBody&& write_body);
 
-  TraceBytes record_;  // being written
+  TraceBytes record_;  // the current one
   std::size_t written_bytes_ = 0;
   RecordSink sink_;
   FoxgloveChannels* foxglove_;

@@ -4,6 +4,7 @@
 #include <string>
 
 namespace dmrp::core {
+
 TraceFileWriter::TraceFileWriter(const std::filesystem::path& path)
     : mcap_(path),
       channel_(mcap_.add_channel({trace_topic, "dmrp", 0, {{"version", std::to_string(trace_format_version)}}})),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// trace_file.hpp: a trace as a file, traces/trial_000000.mcap: its records on a channel of their own, and beside it
-// channels for people to look at.
+// trace_file.hpp: writes a trace file, traces/trial_000000.mcap: one channel with the records of the trace, and
+// channels for visualisation.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dmrp::core {
 
-// Writes records as the encoder makes them. Throws std::system_error.
+// Writes the records of an encoder. Throws std::system_error.
 //
 //   TraceFileWriter file(path);
 //   TraceEncoder trace(world, [&](std::int64_t t_ns, auto record) { file.write(t_ns, record); }, &file.foxglove());
@@ -26,7 +26,7 @@ class TraceFileWriter {
   void write(std::int64_t t_ns, std::span<const std::uint8_t> record) { mcap_.write(channel_, t_ns, record); }
   FoxgloveChannels& foxglove() { return foxglove_; }
 
-  // Lets what was written so far outlive the process.
+  // Passes all records so far to the file, so that they survive the process.
   void flush() { mcap_.flush(); }
   void finish() { mcap_.finish(); }
 

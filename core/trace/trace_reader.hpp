@@ -1,58 +1,26 @@
 // SPDX-License-Identifier: MIT
-// trace_reader.hpp: gives a trace back as the structs that metric plugins take.
+// trace_reader.hpp: reads a trace as the structs that metric plugins take.
 #pragma once
 
 #include <dmrp/metric.h>
 
 #include <cstdint>
 #include <deque>
-#include <memory_resource>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/bytes/trace_bytes.hpp"
-#include "core/foxglove/annotation_source.hpp"
-#include "core/trace/trace.hpp"
+#include "core/trace/trace_decoder.hpp"
 #include "core/trace/trace_records.hpp"
 
 namespace dmrp::core {
 
-struct TracePlan {
-  dmrp_plan plan{};
-  std::int64_t made_at_ns = 0;  // simulated time of the sample before it
-  std::uint32_t conflicts = 0;  // between robots
-};
-
-// Beam i points at angle_min + i * angle_increment from the robot's heading.
-struct TraceScan {
-  std::int64_t t_ns = 0;
-  std::uint32_t robot = 0;
-  double angle_min = 0.0;
-  double angle_increment = 0.0;
-  double range_min = 0.0;
-  double range_max = 0.0;
-  std::span<const float> ranges;  // infinite where nothing was hit
-};
-
-struct TraceTrajectory {
-  AnnotationSource source;
-  std::int64_t t_ns = 0;
-  std::int64_t step_ns = 0;
-  std::uint32_t role = 0;  // DMRP_ANNOTATE_*
-  std::span<const dmrp_pose> poses;
-};
-
-struct TraceNote {
-  AnnotationSource source;
-  std::int64_t t_ns = 0;
-  std::string_view text;
-};
-// What of a trace stays at hand beside world, plans and end. Samples never do.
+// The records that a reader keeps besides world, plans and end. Samples are never kept.
 enum class TraceExtent { samples, with_scans, everything };
 
-// The constructor checks the whole trace and throws TraceError; after it nothing fails, unless a file that is being
-// read changes. A trace without an end record is whole as far as it goes (records are never cut).
+// The constructor checks the whole trace and throws TraceError; afterwards nothing fails unless the file changes. A
+// trace without an end record is valid up to its last record (records are never truncated).
 //
 //   TraceReader trace(TraceRecords(path), TraceExtent::samples);
 //   metric.begin(trace.first_plan());
@@ -60,12 +28,12 @@ enum class TraceExtent { samples, with_scans, everything };
 //   metric.finish(*trace.end());
 //   trace.rewind();
 //
-// World, plans, end, scans, trajectories and notes keep their addresses and live as long as the reader.
+// World, plans, end, scans, trajectories and notes keep their addresses and are valid as long as the reader.
 class TraceReader {
  public:
   explicit TraceReader(TraceRecords records, TraceExtent extent = TraceExtent::everything);
 
-  // `bytes`, a whole trace in memory, outlive the reader.
+  // `bytes`, a whole trace in memory, must outlive the reader.
   explicit TraceReader(std::span<const std::uint8_t> bytes) : TraceReader(TraceRecords(bytes)) {}
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
@@ -79,10 +47,10 @@ class TraceReader {
   const dmrp_sample* next_sample();  // null after the last; valid until the next call
   void rewind() { records_.rewind(); }
 
-  const dmrp_trial_end* end() const { return ended_ ? &end_ : nullptr; }  // null where the trial was cut short
+  const dmrp_trial_end* end() const { return ended_ ? &end_ : nullptr; }  // null if the trial was interrupted
   std::string_view reason() const { return reason_; }
 
-  const std::vector<TraceScan>& scans() const { return scans_; }  // where they were recorded; by time, then robot
+  const std::vector<TraceScan>& scans() const { return scans_; }  // empty if not recorded; by time, then robot
   const std::vector<TraceTrajectory>& trajectories() const { return trajectories_; }
   const std::vector<TraceNote>& notes() const { return notes_; }
 
@@ -97,7 +65,7 @@ class TraceReader {
 
   TraceRecords records_;
   TraceExtent extent_;
-  std::pmr::monotonic_buffer_resource storage_;  // of everything that lives as long as the reader
+  TraceStorage storage_;  // of everything that is valid as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
   std::vector<TraceScan> scans_;

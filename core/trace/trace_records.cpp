@@ -11,7 +11,7 @@ TraceRecord first_record(std::span<const std::uint8_t> bytes, std::size_t origin
   ByteCursor in(bytes, origin);
   const auto body_bytes = in.take<std::uint32_t>();
   const auto kind = in.take<TraceRecordKind>();
-  if (body_bytes > in.rest().size()) throw TraceError(origin, "the last record is cut off");
+  if (body_bytes > in.rest().size()) throw TraceError(origin, "the last record is truncated");
   return {kind, in.position(), in.rest().first(body_bytes), bytes.first(trace_record_prefix_bytes + body_bytes)};
 }
 
@@ -44,7 +44,7 @@ std::optional<TraceRecord> TraceRecords::next_in_file() {
   const auto message = file_->next();
   if (!message) {
     if (!is_small_) return std::nullopt;
-    // all of it has been read, and from now on that is the trace
+    // The whole trace is now in memory.
     bytes_ = kept_;
     file_.reset();
     return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<TraceRecord> TraceRecords::next_in_file() {
 
 void TraceRecords::keep(std::span<const std::uint8_t> record) {
   if (!is_small_) return;
-  // all at once: what is not used takes no memory, and growing would take it twice
+  // Reserve everything at once: unused pages take no memory, and growing would need twice the memory.
   if (kept_.empty()) kept_.reserve(most_bytes_in_memory_);
   is_small_ = record.size() <= most_bytes_in_memory_ - kept_.size();
   if (is_small_)

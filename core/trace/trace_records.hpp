@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_records.hpp: the records of a trace one after the other, as often as anybody wants them, wherever it is.
+// trace_records.hpp: iterates over the records of a trace, repeatedly, from memory, a spool or a file.
 #pragma once
 
 #include <cstddef>
@@ -22,26 +22,26 @@ struct TraceRecord {
   std::span<const std::uint8_t> whole;  // with its length and kind
 };
 
-// A trace of a file is kept in memory as it is read for the first time if it is small; of a larger one no more than a
-// chunk is held, however long the trial was.
+// A small trace of a file is kept in memory at the first reading; of a larger one no more than a chunk is held, however
+// long the trial was.
 class TraceRecords {
  public:
-  // Above this a trace stays in its file: four robots among twelve people fill it in ten minutes.
+  // A larger trace stays in its file. Four robots and twelve people reach this size in ten minutes.
   static constexpr std::size_t small_trace_bytes = std::size_t{1} << 26;
 
-  // `bytes`, the whole trace, outlive it.
+  // `bytes`, the whole trace, must outlive this object.
   explicit TraceRecords(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  // All that was written to the spool, which outlives it.
+  // Everything that was written to the spool, which must outlive this object.
   explicit TraceRecords(TraceSpool& spool) : spool_(&spool) { spool.rewind(); }
 
-  // One that was cut short ends with its last whole chunk. Throws std::system_error.
+  // A truncated file ends with its last whole chunk. Throws std::system_error.
   explicit TraceRecords(const std::filesystem::path& file, std::size_t most_bytes_in_memory = small_trace_bytes);
 
   // The next record, valid until the next call; none after the last. Throws TraceError, and std::system_error.
   std::optional<TraceRecord> next();
 
-  // The next record is the first again.
+  // Starts again with the first record.
   void rewind();
 
  private:
@@ -51,11 +51,11 @@ class TraceRecords {
   void keep(std::span<const std::uint8_t> record);
 
   std::span<const std::uint8_t> bytes_;  // of a trace in memory
-  TraceSpool* spool_ = nullptr;          // of one in a spool
-  std::unique_ptr<McapReader> file_;     // of a stored one
+  TraceSpool* spool_ = nullptr;          // of a trace in a spool
+  std::unique_ptr<McapReader> file_;     // of a trace in a file
   std::size_t most_bytes_in_memory_ = 0;
-  bool is_small_ = true;  // as far as is known
-  TraceBytes kept_;       // what was read of it so far
+  bool is_small_ = true;  // so far
+  TraceBytes kept_;       // the records read so far, while the trace is small
   std::size_t position_ = 0;
 };
 

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
 
+#include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"
 
 namespace dmrp::core {
@@ -14,14 +13,10 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 1 << 20;
 constexpr std::size_t word_bytes = sizeof(std::uint64_t);
-constexpr std::size_t words_a_mask = 64;
+constexpr std::size_t words_per_mask = 64;
 
-// What stands before the changed words of a record: its own length and kind, and how many bytes follow.
+// The header before the changed words of a record: its own length and kind, and the number of bytes that follow.
 constexpr std::size_t header_bytes = trace_record_prefix_bytes + sizeof(std::uint32_t);
-
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), path.string());
-}
 
 std::uint32_t u32_at(const std::uint8_t* bytes) {
   std::uint32_t value;
@@ -29,14 +24,14 @@ std::uint32_t u32_at(const std::uint8_t* bytes) {
   return value;
 }
 
-// Writes what differs behind `to`, makes `last` equal to `record` and gives the end. Both have the same size.
+// Writes the differences to `to`, copies `record` to `last` and returns the end. Both records have the same size.
 std::uint8_t* put_changes(std::span<const std::uint8_t> record, TraceBytes& last, std::uint8_t* to) {
   const std::size_t words = record.size() / word_bytes;
-  for (std::size_t begin = 0; begin < words; begin += words_a_mask) {
+  for (std::size_t begin = 0; begin < words; begin += words_per_mask) {
     std::uint8_t* const mask_at = to;
     std::uint64_t mask = 0;
     to += word_bytes;
-    for (std::size_t word = begin; word < std::min(begin + words_a_mask, words); ++word) {
+    for (std::size_t word = begin; word < std::min(begin + words_per_mask, words); ++word) {
       const std::uint8_t* const now = record.data() + word * word_bytes;
       if (std::memcmp(now, last.data() + word * word_bytes, word_bytes) == 0) continue;
       mask |= std::uint64_t{1} << (word - begin);
@@ -50,10 +45,10 @@ std::uint8_t* put_changes(std::span<const std::uint8_t> record, TraceBytes& last
   return std::copy(rest.begin(), rest.end(), to);
 }
 
-// The other way round: what was written at `from` makes the next record out of the last one.
+// The inverse: applies the differences at `from` to the last record, which becomes the next one.
 void take_changes(const std::uint8_t* from, TraceBytes& last) {
   const std::size_t words = last.size() / word_bytes;
-  for (std::size_t begin = 0; begin < words; begin += words_a_mask) {
+  for (std::size_t begin = 0; begin < words; begin += words_per_mask) {
     std::uint64_t mask = 0;
     std::memcpy(&mask, from, word_bytes);
     for (from += word_bytes; mask != 0; mask &= mask - 1, from += word_bytes) {
@@ -68,11 +63,11 @@ void take_changes(const std::uint8_t* from, TraceBytes& last) {
 
 TraceSpool::TraceSpool(const std::filesystem::path& path)
     : path_(path), file_(path, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc) {
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   std::filesystem::remove(path);
 }
 
-// As long as the record that is to come; what it is longer than the one before is zero.
+// The previous record of the kind, resized to the length of the next one; new bytes are zero.
 TraceBytes& TraceSpool::last_of_kind(const std::uint8_t* prefix) {
   TraceBytes& last = last_.at(prefix[sizeof(std::uint32_t)]);
   last.resize(trace_record_prefix_bytes + u32_at(prefix));
@@ -83,7 +78,7 @@ void TraceSpool::write(std::span<const std::uint8_t> record) {
   const std::size_t begin = buffer_.size();
   const std::size_t words = record.size() / word_bytes;
   std::uint8_t* const header =
-      lengthen(buffer_, header_bytes + record.size() + (words / words_a_mask + 1) * word_bytes);
+      lengthen(buffer_, header_bytes + record.size() + (words / words_per_mask + 1) * word_bytes);
   std::uint8_t* const changes = header + header_bytes;
   const std::uint8_t* const end = put_changes(record, last_of_kind(record.data()), changes);
   const auto change_bytes = static_cast<std::uint32_t>(end - changes);
@@ -95,7 +90,7 @@ void TraceSpool::write(std::span<const std::uint8_t> record) {
 
 void TraceSpool::write_buffer() {
   file_.write(reinterpret_cast<const char*>(buffer_.data()), static_cast<std::streamsize>(buffer_.size()));
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   buffer_.clear();
 }
 
@@ -104,13 +99,13 @@ void TraceSpool::rewind() {
   is_written_ = true;
   file_.clear();
   file_.seekg(0);
-  if (!file_) fail(path_);
+  if (!file_) throw_file_error(path_);
   for (TraceBytes& last : last_) last.clear();
   buffer_.clear();
   position_ = 0;
 }
 
-// Makes sure that there are so many bytes in the buffer; false at the end of the file.
+// Ensures that this many bytes are in the buffer; false at the end of the file.
 bool TraceSpool::fill(std::size_t bytes) {
   if (buffer_.size() - position_ >= bytes) return true;
   buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(position_));
@@ -118,7 +113,7 @@ bool TraceSpool::fill(std::size_t bytes) {
   const std::size_t begin = buffer_.size();
   std::uint8_t* const to = lengthen(buffer_, std::max(buffer_bytes, bytes));
   file_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(buffer_.size() - begin));
-  if (file_.bad()) fail(path_);
+  if (file_.bad()) throw_file_error(path_);
   buffer_.resize(begin + static_cast<std::size_t>(file_.gcount()));
   return buffer_.size() >= bytes;
 }
@@ -126,7 +121,7 @@ bool TraceSpool::fill(std::size_t bytes) {
 std::optional<std::span<const std::uint8_t>> TraceSpool::next() {
   if (!fill(header_bytes)) return std::nullopt;
   const std::size_t change_bytes = u32_at(buffer_.data() + position_ + trace_record_prefix_bytes);
-  if (!fill(header_bytes + change_bytes)) fail(path_);
+  if (!fill(header_bytes + change_bytes)) throw_file_error(path_);
   const std::uint8_t* const header = buffer_.data() + position_;
   TraceBytes& record = last_of_kind(header);
   take_changes(header + header_bytes, record);

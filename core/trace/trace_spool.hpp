@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_spool.hpp: a trace too large for memory while it is measured: written once, read as often as there are metrics.
+// trace_spool.hpp: temporary storage on disk for a trace too large for memory: written once, read once per metric.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace dmrp::core {
 
-// In a file without a name, which is gone with the process. From sample to sample little changes, of a person the
-// position and the velocity: of a record only those words (8 bytes) are written that differ from the same words of the
-// last record of its kind, 64 of them after a u64 that has a bit for each. That is as small as zstd makes it, and is
-// read at the speed of memory. Throws std::system_error.
+// Uses an unlinked file, which disappears with the process. Little changes between samples (the position and velocity
+// of a person), so only those words (8 bytes) of a record are written that differ from the previous record of its kind,
+// in groups of up to 64 after a u64 with one bit for each. This is as small as zstd's result and is read at the speed
+// of memory. Throws std::system_error.
 class TraceSpool {
  public:
-  // `path`: where there is room; the name goes at once.
+  // `path`: a new file in a folder with enough space; it is unlinked at once.
   explicit TraceSpool(const std::filesystem::path& path);
   TraceSpool(const TraceSpool&) = delete;
   TraceSpool& operator=(const TraceSpool&) = delete;
@@ -27,7 +27,7 @@ class TraceSpool {
   // A whole record, with its length and kind.
   void write(std::span<const std::uint8_t> record);
 
-  // From now on records are read, the first one next.
+  // Ends writing. The next record to read is the first.
   void rewind();
 
   // The next record, valid until the next call; none after the last.
@@ -41,9 +41,9 @@ class TraceSpool {
   std::filesystem::path path_;
   std::fstream file_;
   bool is_written_ = false;
-  TraceBytes buffer_;               // what is not yet in the file, or was read of it
-  std::size_t position_ = 0;        // in the buffer, of what is to be read next
-  std::array<TraceBytes, 8> last_;  // records, by kind
+  TraceBytes buffer_;               // bytes to write, or bytes that were read
+  std::size_t position_ = 0;        // in the buffer, of the next byte to read
+  std::array<TraceBytes, 8> last_;  // the previous record of each kind
 };
 
 }  // namespace dmrp::core

@@ -12,12 +12,12 @@ dmrp_vec2 position_of(const dmrp_agent& agent) {
   return toolkit::position(agent.pose);
 }
 
-// m/s with which `mover` comes nearer to `other`, as far as its own motion goes.
+// The component of mover's velocity toward `other`, m/s.
 double speed_toward(const dmrp_agent& mover, const dmrp_agent& other) {
   return toolkit::dot(mover.velocity, toolkit::normalized(position_of(other) - position_of(mover)));
 }
 
-// Whether the two will touch if both go straight on.
+// Whether the two will touch at constant velocities.
 bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
   const dmrp_vec2 apart = position_of(two) - position_of(one);
   const dmrp_vec2 velocity = two.velocity - one.velocity;
@@ -26,7 +26,7 @@ bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
   const double squared_speed = toolkit::squared_norm(velocity);
   const double approach = -toolkit::dot(apart, velocity);
   if (!(approach > 0.0)) return false;
-  // the nearest they get, on the line of relative motion
+  // their least distance, on the line of relative motion
   const double aside = toolkit::cross(apart, velocity);
   return aside * aside <= touching_m * touching_m * squared_speed;
 }
@@ -49,7 +49,7 @@ void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robot
     contact.flags = event->second.fault | (begins ? DMRP_CONTACT_BEGINS : 0u);
   }
 
-  // remember the bodies; what is older than anybody asks for lends its buffers
+  // store the bodies, reusing the buffers of moments that are no longer needed
   Moment moment;
   while (history_.size() > 1 && history_[1].t_ns <= t_ns - memory_ns_) {
     moment = std::move(history_.front());
@@ -73,7 +73,7 @@ std::uint32_t ContactTracker::fault_of(const dmrp_contact& contact, std::uint64_
 const dmrp_agent* ContactTracker::body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b) {
   if (contact.kind == DMRP_CONTACT_ROBOT) return &moment.robots[contact.b];
   if (contact.b < moment.people.size() && moment.people[contact.b].id == b) return &moment.people[contact.b];
-  // others have come or gone since
+  // indices changed since then
   const auto person =
       std::find_if(moment.people.begin(), moment.people.end(), [b](const dmrp_agent& agent) { return agent.id == b; });
   return person != moment.people.end() ? &*person : nullptr;
@@ -97,7 +97,7 @@ ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact
 bool ContactTracker::was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns,
                                      double speed) const {
   const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / a_max_) - latency_ns_;
-  // the last moment that is a braking time old, or the first of all
+  // the latest moment at least a braking time ago, or the first one
   for (auto moment = history_.rbegin(); moment != history_.rend(); ++moment) {
     if (moment->t_ns > then_ns && std::next(moment) != history_.rend()) continue;
     const dmrp_agent* const person = body_b(*moment, contact, b);

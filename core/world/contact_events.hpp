@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// contact_events.hpp: contacts as events with somebody at fault.
+// contact_events.hpp: groups contacts into events and attributes their fault.
 #pragma once
 
 #include <dmrp/metric.h>
@@ -15,24 +15,26 @@
 namespace dmrp::core {
 
 inline constexpr double contact_depth_m = 0.001;           // a deeper overlap is a contact
-inline constexpr std::int64_t event_gap_ns = 500'000'000;  // less apart: the same event
+inline constexpr std::int64_t event_gap_ns = 500'000'000;  // contacts less apart belong to the same event
 inline constexpr std::int64_t fault_window_ns = 500'000'000;
 inline constexpr double fault_speed = 0.05;  // m/s toward the other
 
-// Sets the flags of contacts from how the bodies moved before:
+// Sets the flags of contacts from the bodies' motion before:
 // - static: the robot is at fault.
-// - with a person: the robot, if its velocity toward the person exceeded fault_speed at any time in the fault window
-//   before; otherwise the person. Unavoidable, in addition, if one braking time earlier (the robot's largest speed in
-//   the fault window by a_max, and the latency of its commands) robot and person, both going straight on, would have missed each other.
-// - between robots: each that moved toward the other, in the same sense.
-// The fault of an event stays on every sample of it.
+// - with a person: the robot is at fault if its velocity toward the person exceeded fault_speed at any time in the
+// fault
+//   window; otherwise the person is. The contact is also unavoidable if robot and person would have missed each other
+//   at the constant velocities of one braking time earlier: the robot's greatest speed in the fault window divided by
+//   a_max, plus the latency of its commands.
+// - between robots: every robot whose velocity toward the other exceeded fault_speed in the fault window is at fault.
+// All samples of an event have the same fault.
 class ContactTracker {
  public:
-  // `latency_ns`: from what a robot sees to what it does.
+  // `latency_ns`: from a robot's observation to its reaction.
   ContactTracker(double a_max, double v_max, std::int64_t latency_ns = 0);
 
-  // Sets `flags` of the contacts at t_ns, given the bodies as they are then. Every step, contacts or not; times grow.
-  // Robots keep their index; people are told apart by id.
+  // Sets `flags` of the contacts at t_ns, given the bodies at this time. Call it at every step, also without contacts,
+  // with increasing times. Robots keep their index; people are identified by id.
   void update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
               std::span<dmrp_contact> contacts);
 
@@ -48,11 +50,11 @@ class ContactTracker {
   };
   using Pair = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>;  // kind, a, b or the person's id
 
-  // In the fault window.
+  // The motion in the fault window.
   struct Motion {
     bool a_moved = false;  // toward the other
     bool b_moved = false;
-    double a_speed = 0.0;  // the largest
+    double a_speed = 0.0;  // the greatest
   };
 
   // `b`: the other robot's index or the person's id.
@@ -64,7 +66,7 @@ class ContactTracker {
   double a_max_;
   std::int64_t latency_ns_;
   std::int64_t memory_ns_;
-  std::deque<Moment> history_;  // before the present step, oldest first
+  std::deque<Moment> history_;  // before the current step, oldest first
   std::map<Pair, Event> events_;
 };
 

@@ -9,9 +9,9 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double neighbour_reach_m = 0.25;  // found anew after every 0.2 s or so of walking
+constexpr double neighbour_reach_m = 0.25;  // people walk this far in about 0.2 s, then the search runs again
 constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
-constexpr int pushing_sweeps = 200;         // a dozen do in a jam, but for few steps
+constexpr int pushing_sweeps = 200;         // in a jam, most steps need about a dozen
 constexpr int stopping_sweeps = 100;
 
 struct Wall {
@@ -27,39 +27,40 @@ std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point
            {{0.0, -1.0}, geometry.upper().y - point.y}}};
 }
 
-// From b toward a, also where they are at the same point.
+// From b toward a; an arbitrary direction where they coincide.
 dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
   return distance_m > 0.0 ? (a - b) / distance_m : dmrp_vec2{1.0, 0.0};
 }
 
-using Bearing = SolidBody::Bearing;
-
-// How far it may get in this step, pushed or not.
-double reach_of(const SolidBody& body) {
-  const double own_m = toolkit::norm(body.displacement);
-  return body.bearing == Bearing::gives_way ? std::max(own_m, pushed_at_most_m) : own_m;
-}
-
-// Moves it on, no further than it may get.
-void push_on(SolidBody& body, dmrp_vec2 push) {
-  const double at_most_m = reach_of(body);
-  body.displacement += push;
-  const double length_m = toolkit::norm(body.displacement);
-  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
-}
+using ContactResponse = SolidBody::ContactResponse;
 
 }  // namespace
 
-SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry) : geometry_(std::move(geometry)) {}
+SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns)
+    : geometry_(std::move(geometry)), max_push_m_(max_push_speed * static_cast<double>(step_ns) / 1e9) {}
 
 void SolidMotion::resolve(std::span<SolidBody> bodies) {
   find_neighbours(bodies);
   collect_constraints(bodies);
   for (int sweep = 0; sweep < pushing_sweeps; ++sweep)
-    if (hold(bodies, true)) return;
+    if (sweep_once(bodies, true)) return;
   for (int sweep = 0; sweep < stopping_sweeps; ++sweep)
-    if (hold(bodies, false)) return;
+    if (sweep_once(bodies, false)) return;
   stop_violators(bodies);
+}
+
+// The farthest that a body can move in this step, pushed or not.
+double SolidMotion::reach_of(const SolidBody& body) const {
+  const double own_m = toolkit::norm(body.displacement);
+  return body.response == ContactResponse::yield ? std::max(own_m, max_push_m_) : own_m;
+}
+
+// Adds to a displacement without exceeding the body's reach.
+void SolidMotion::push(SolidBody& body, dmrp_vec2 change) const {
+  const double at_most_m = reach_of(body);
+  body.displacement += change;
+  const double length_m = toolkit::norm(body.displacement);
+  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
 }
 
 bool SolidMotion::neighbours_are_fresh(std::span<const SolidBody> bodies) const {
@@ -86,7 +87,7 @@ void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
     reaching_radii_m.push_back(body.radius_m + neighbour_reach_m + furthest_m);
   }
 
-  // FCL rebuilds its tree when radii change: round them up, so that they seldom do
+  // FCL rebuilds its tree when radii change: rounding them up makes changes rare
   for (double& radius : reaching_radii_m) radius = 0.25 * std::ceil(4.0 * radius);
   pairs_.touching(found_at_, reaching_radii_m, body_neighbours_);
 
@@ -106,26 +107,26 @@ void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, 
     constraints_.push_back({a, b, normal, allowed_m});
 }
 
-// Beside somebody unstoppable; `normal`: from there.
+// Beside a body that ignores contacts; `normal` points away from it.
 void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
                                    dmrp_vec2 normal, double gap_m) {
-  if (bodies[stoppable].bearing == Bearing::unstoppable) return;
+  if (bodies[stoppable].response == ContactResponse::ignore) return;
   const double comes_m = toolkit::dot(bodies[other].displacement, normal);
   const double allowed_m = std::max(0.0, std::max(0.0, gap_m + solid_depth_m) - comes_m);
   if (reach_of(bodies[stoppable]) > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
 }
 
-// A half-plane that holds one convex body apart from another on their line of nearest points holds them apart for any
-// motion that respects it. So nothing can be stepped over, however fast it moves.
+// A half-plane that separates two convex bodies on the line of their nearest points keeps them apart for every motion
+// that respects it. So no body can jump over another, however fast it moves.
 void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
   constraints_.clear();
   for (const auto& [body, shape] : shape_neighbours_) {
-    if (bodies[body].bearing == Bearing::unstoppable) continue;
+    if (bodies[body].response == ContactResponse::ignore) continue;
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
     constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].bearing == Bearing::unstoppable) continue;
+    if (bodies[i].response == ContactResponse::ignore) continue;
     for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
       constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
   }
@@ -133,17 +134,17 @@ void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
     const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
     const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
     const double gap_m = distance_m - bodies[a].radius_m - bodies[b].radius_m;
-    if (bodies[b].bearing == Bearing::unstoppable)
+    if (bodies[b].response == ContactResponse::ignore)
       constrain_beside(bodies, a, b, normal, gap_m);
-    else if (bodies[a].bearing == Bearing::unstoppable)
+    else if (bodies[a].response == ContactResponse::ignore)
       constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
     else
       constrain(bodies, a, b, normal, gap_m);
   }
 }
 
-// One pass over all constraints; whether all of them held.
-bool SolidMotion::hold(std::span<SolidBody> bodies, bool pushing) const {
+// One pass over all constraints. Returns whether all of them held.
+bool SolidMotion::sweep_once(std::span<SolidBody> bodies, bool pushing) const {
   bool all_held = true;
   for (const Constraint& constraint : constraints_) {
     SolidBody& a = bodies[constraint.a];
@@ -153,12 +154,12 @@ bool SolidMotion::hold(std::span<SolidBody> bodies, bool pushing) const {
     const double excess_m = a_comes_m + b_comes_m - constraint.allowed_m;
     if (excess_m <= tolerance_m) continue;
     all_held = false;
-    if (pushing && b != nullptr && a.bearing == Bearing::gives_way && b->bearing == Bearing::gives_way) {
-      push_on(a, constraint.normal * (0.5 * excess_m));
-      push_on(*b, constraint.normal * (-0.5 * excess_m));
+    if (pushing && b != nullptr && a.response == ContactResponse::yield && b->response == ContactResponse::yield) {
+      push(a, constraint.normal * (0.5 * excess_m));
+      push(*b, constraint.normal * (-0.5 * excess_m));
       continue;
     }
-    // who approaches loses approach; who recedes makes room
+    // the approaching body loses approach; a receding body makes room
     const double room_m = constraint.allowed_m - std::min(a_comes_m, 0.0) - std::min(b_comes_m, 0.0);
     const double approach_m = std::max(a_comes_m, 0.0) + std::max(b_comes_m, 0.0);
     const double lost_share = 1.0 - room_m / approach_m;
@@ -168,7 +169,7 @@ bool SolidMotion::hold(std::span<SolidBody> bodies, bool pushing) const {
   return all_held;
 }
 
-// Where sweeping did not settle it, those that still get too deep stand still for this step; then perhaps others do.
+// Stops, for this step, the bodies that still violate a constraint after all sweeps; that can make others violate one.
 void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
   bool stopped = true;
   while (stopped) {

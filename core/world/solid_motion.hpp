@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// solid_motion.hpp: round bodies that cannot walk through each other or through walls.
+// solid_motion.hpp: round bodies that cannot move through each other or through walls.
 #pragma once
 
 #include <dmrp/values.h>
@@ -15,24 +15,24 @@
 
 namespace dmrp::core {
 
-// Motion is cancelled where it would bring two bodies deeper into each other than this. More than contact_depth_m, so
-// that a body that presses on is in contact.
+// Motion stops where it would make an overlap deeper than this. The value exceeds contact_depth_m, so that a body that
+// keeps pressing against another is in contact with it.
 inline constexpr double solid_depth_m = 0.0015;
 
-// How far others push somebody in a step: 1 m/s at the default of 0.02 s.
-inline constexpr double pushed_at_most_m = 0.02;
+// The speed at which contact can push a person who stands, m/s.
+inline constexpr double max_push_speed = 1.0;
 
-// A disc and where it is about to go in this step.
+// A disc and its intended displacement in this step.
 struct SolidBody {
-  enum class Bearing {
-    stands_firm,  // a robot: stopped by whatever is in its way, never pushed
-    gives_way,    // a person: likewise, but people who press against each other push each other
-    unstoppable,  // a recorded person: goes its way whatever is in it, and only others keep clear
+  enum class ContactResponse {
+    stop,    // a robot: obstacles stop it, nobody pushes it
+    yield,   // a person: obstacles stop them, other people push them
+    ignore,  // a recorded person: nothing stops them, the others keep clear
   };
   dmrp_vec2 position{};
   double radius_m = 0.0;
   dmrp_vec2 displacement{};
-  Bearing bearing = Bearing::stands_firm;
+  ContactResponse response = ContactResponse::stop;
 };
 
 // Two bodies, or a body and a shape, that overlap.
@@ -43,24 +43,25 @@ struct Overlap {
   dmrp_vec2 point{};  // in the middle of the overlap
 };
 
-// Keeps bodies solid: a body loses the part of its motion that would deepen an overlap, the rest stays. Where two
-// approach each other, both lose the same share of their approach; where one of them is unstoppable, the other loses all
-// that is to be lost. So robots neither push nor are pushed: who stands before one keeps standing.
+// Keeps bodies solid: removes the part of each displacement that would deepen an overlap. Where two bodies approach
+// each other, both lose the same share of their approach; where one of them ignores contacts, the other takes the whole
+// loss. So robots neither push nor are pushed: a body that stands in front of a robot stays where it is.
 //
-// People do push people. Of a motion that would press two of them into each other each bears half: one who goes on is
-// held back, one who stands is moved, at most pushed_at_most_m in a step, and never into a wall or a robot. That is the
-// projection onto the permitted velocities of Maury & Venel, A discrete contact model for crowd motion, ESAIM: M2AN 45
-// (2011), approached by sweeps. Without it, three people who touch in an arch round a door are as rigid as
-// one of stone, whoever presses from behind.
+// People push people. Each of two people bears half of the displacement that would press them into each other: a moving
+// person slows down, a standing person moves, at most at max_push_speed, and never into a wall or a robot. This is the
+// projection onto the admissible velocities of Maury & Venel, A discrete contact model for crowd motion, ESAIM: M2AN 45
+// (2011), approximated by sweeps over the constraints. Without it, three people who touch in an arch around a door are
+// as rigid as one made of stone, however hard the crowd behind them presses.
 class SolidMotion {
  public:
-  explicit SolidMotion(std::shared_ptr<const StaticGeometry> geometry);
+  // `step_ns`: the duration of one step, for which resolve() gets displacements.
+  SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns);
 
-  // Changes the displacements so that no overlap gets deeper than solid_depth_m, and none that is deeper gets deeper.
+  // Changes the displacements so that no overlap becomes deeper than solid_depth_m and deeper ones do not deepen.
   void resolve(std::span<SolidBody> bodies);
 
-  // Overlaps deeper than `depth_m` at the present positions, ordered by a, then b, with a among the first `count`
-  // bodies: with shapes, and with bodies. All three functions want the same bodies, in the same order.
+  // Overlaps deeper than `depth_m` at the present positions, with shapes or between bodies, ordered by a, then b; a is
+  // one of the first `count` bodies. All three functions expect the same bodies in the same order.
   void overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
                             std::vector<Overlap>& found);
   void overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
@@ -69,7 +70,7 @@ class SolidMotion {
  private:
   static constexpr std::uint32_t no_body = 0xFFFFFFFFu;
 
-  // How far two may approach along the line between them.
+  // Limits the approach of two bodies along the line between them.
   struct Constraint {
     std::uint32_t a;
     std::uint32_t b;   // no_body: something static
@@ -77,19 +78,22 @@ class SolidMotion {
     double allowed_m;
   };
 
+  double reach_of(const SolidBody& body) const;
+  void push(SolidBody& body, dmrp_vec2 change) const;
   void find_neighbours(std::span<const SolidBody> bodies);
   bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
   void collect_constraints(std::span<const SolidBody> bodies);
   void constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
                         dmrp_vec2 normal, double gap_m);
   void constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
-  bool hold(std::span<SolidBody> bodies, bool pushing) const;
+  bool sweep_once(std::span<SolidBody> bodies, bool pushing) const;
   void stop_violators(std::span<SolidBody> bodies) const;
 
   std::shared_ptr<const StaticGeometry> geometry_;
+  double max_push_m_;  // in a step
   BodyPairs pairs_;
 
-  // Who may meet whom as long as no body is further than reach_m_ from where it was when they were found.
+  // Pairs that can meet as long as no body is farther than reach_m_ from its position at the search.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> body_neighbours_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> shape_neighbours_;  // body, shape
   double reach_m_ = 0.0;

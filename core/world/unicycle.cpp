@@ -15,7 +15,7 @@ double sinc(double x) {
 }  // namespace
 
 dmrp_pose move(const dmrp_pose& pose, const dmrp_twist& velocity, double dt_s) {
-  // the chord of an arc lies at its mean heading and is shorter than the arc by sinc of half the turn
+  // the chord of an arc has its mean heading and the arc's length times sinc of half the turn
   const double half_turn = 0.5 * velocity.omega * dt_s;
   const double heading = pose.theta + half_turn;
   const double chord = dt_s * sinc(half_turn);

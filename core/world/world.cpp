@@ -14,7 +14,7 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double walking_speed = 0.05;  // m/s; who is slower keeps facing where it did
+constexpr double walking_speed = 0.05;  // m/s; slower people keep their heading
 
 std::vector<RobotState> initial_states(const Scenario& scenario) {
   std::vector<RobotState> states;
@@ -39,7 +39,8 @@ std::vector<dmrp_vec2> positions_of(std::span<const RobotState> robots) {
   return positions;
 }
 
-// Where nobody begins at t = 0: so that the crowd is the same however many of a scenario's robots take part.
+// The starts of all of the scenario's robots, also of those that do not take part: so the crowd at t = 0 does not
+// depend on the number of robots.
 std::vector<dmrp_vec2> kept_clear(const Scenario& scenario, std::vector<dmrp_vec2> robots) {
   robots.insert(robots.end(), scenario.other_starts.begin(), scenario.other_starts.end());
   return robots;
@@ -71,11 +72,11 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
       limits_(limits_of(robot)),
       geometry_(std::move(geometry)),
       robots_(initial_states(scenario)),
-      coming_(robots_.size()),
+      pending_commands_(robots_.size()),
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
-      motion_(geometry_),
+      motion_(geometry_, simulation.step_ns),
       tracker_(robot.a_max, robot.v_max, command_latency_ns()) {
   proposed_poses_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
@@ -83,7 +84,7 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
   place_bodies_of_people();
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
-  show_agents();
+  update_agents();
 }
 
 dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
@@ -93,20 +94,21 @@ dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
   if (command_latency_ns() == 0)
     state.command = clipped;
   else
-    coming_[robot].push_back({t_ns_ + command_latency_ns(), clipped});
+    pending_commands_[robot].push_back({t_ns_ + command_latency_ns(), clipped});
   return state.command;
 }
 
-// Who is done brakes at once: its base does that by itself.
+// Brakes without latency: the base does this itself.
 void World::stop(std::uint32_t robot) {
   robots_[robot].command = {};
-  coming_[robot].clear();
+  pending_commands_[robot].clear();
 }
 
-void World::take_up_commands() {
+void World::apply_due_commands() {
   for (std::uint32_t i = 0; i < robots_.size(); ++i)
-    for (auto& coming = coming_[i]; !coming.empty() && coming.front().from_ns <= t_ns_; coming.pop_front())
-      robots_[i].command = coming.front().command;
+    for (auto& pending = pending_commands_[i]; !pending.empty() && pending.front().from_ns <= t_ns_;
+         pending.pop_front())
+      robots_[i].command = pending.front().command;
 }
 
 void World::fail(std::uint32_t robot) {
@@ -117,14 +119,14 @@ void World::fail(std::uint32_t robot) {
 }
 
 std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
-  take_up_commands();
+  apply_due_commands();
   propose_motion(person_velocities);
   motion_.resolve(bodies_);
   apply_motion();
   t_ns_ += settings_.step_ns;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   advance_people();
-  show_agents();
+  update_agents();
   find_contacts();
   return contacts_;
 }
@@ -154,7 +156,7 @@ void World::apply_motion() {
     if (body.displacement == proposed_displacements_[i]) {
       robot.pose = proposed_poses_[i];
     } else {
-      // of a motion that was cut, the speed that is left along the robot's own way; slipping sideways has none
+      // after a contact, the robot keeps the speed along its intended direction; sliding sideways does not count
       const dmrp_vec2 way = proposed_displacements_[i];
       const double share = toolkit::dot(body.displacement, way) / toolkit::squared_norm(way);
       robot.velocity.v_x *= std::clamp(share, 0.0, 1.0);
@@ -202,12 +204,13 @@ void World::place_bodies_of_people() {
   bodies_.resize(robots_.size());
   for (std::size_t i = 0; i < population_.people().size(); ++i) {
     const dmrp_person& person = population_.people()[i];
-    const auto bearing = population_.is_recorded(i) ? SolidBody::Bearing::unstoppable : SolidBody::Bearing::gives_way;
-    bodies_.push_back({person.position, person.radius_m, {}, bearing});
+    const auto response =
+        population_.is_recorded(i) ? SolidBody::ContactResponse::ignore : SolidBody::ContactResponse::yield;
+    bodies_.push_back({person.position, person.radius_m, {}, response});
   }
 }
 
-void World::show_agents() {
+void World::update_agents() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotState& robot = robots_[i];
     robot_agents_[i] = {i,
@@ -217,15 +220,15 @@ void World::show_agents() {
                         toolkit::rotate({robot.velocity.v_x, robot.velocity.v_y}, robot.pose.theta),
                         robot_settings_.radius_m};
   }
-  show_people();
+  update_person_agents();
 }
 
-void World::show_people() {
+void World::update_person_agents() {
   person_agents_before_.swap(person_agents_);
   person_agents_.clear();
   auto before = person_agents_before_.begin();
   for (const dmrp_person& person : population_.people()) {
-    // both are by slot: who was there before comes in the same order
+    // both lists are by slot, so people who were present before come in the same order
     const auto known = std::find_if(before, person_agents_before_.end(),
                                     [&](const dmrp_agent& agent) { return agent.id == person.id; });
     dmrp_agent agent{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// world.hpp: the simulated world of one trial. It owns no plugin and no clock: who steps it decides who moves how.
+// world.hpp: the simulated world of one trial. It owns no plugins and no clock: the caller steps it with velocities.
 #pragma once
 
 #include <dmrp/metric.h>
@@ -23,11 +23,11 @@ namespace dmrp::core {
 struct RobotState {
   dmrp_pose pose{};
   dmrp_twist velocity{};    // actual
-  dmrp_twist command{};     // in force, within the velocity limits
+  dmrp_twist command{};     // in effect, within the velocity limits
   std::uint32_t state = 0;  // DMRP_ROBOT_*
   std::uint32_t goal_index = 0;
-  std::int64_t settling_since_ns = -1;  // the current goal's conditions hold since then; -1: they don't
-  std::int64_t arrival_ns = -1;         // of the last goal
+  std::int64_t settling_since_ns = -1;  // since then the robot meets the current goal's conditions; -1: it does not
+  std::int64_t arrival_ns = -1;         // at the last goal; -1: not yet
 };
 
 class World {
@@ -35,7 +35,7 @@ class World {
   World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
         std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes, std::uint64_t seed);
 
-  // Finds the flows' routes itself, which takes longer than many a second of simulation.
+  // Computes the flows' routes itself, which takes longer than seconds of simulation.
   World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
         std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed);
 
@@ -47,37 +47,37 @@ class World {
   std::span<const RobotState> robots() const { return robots_; }
   std::span<const dmrp_goal> goals(std::uint32_t robot) const { return goals_[robot]; }
 
-  // All robots as others see them, by index; all people who are there likewise, by slot.
+  // Robots by index and present people by slot, as others see them.
   std::span<const dmrp_agent> robot_agents() const { return robot_agents_; }
   std::span<const dmrp_agent> person_agents() const { return person_agents_; }
 
-  // What a pedestrian model is told, by slot: parallel to person_agents().
+  // The input of pedestrian models, by slot: parallel to person_agents().
   std::span<const dmrp_person> people() const { return population_.people(); }
 
-  // There are no robots, nobody is left and nobody will come.
+  // There are no robots and no people, and no people will appear.
   bool is_deserted() const { return robots_.empty() && population_.is_over(t_ns_); }
 
-  // Sets the command, clipped to the velocity limits, that is in force until the next one: from now on, or from the
-  // first step after the latencies of control and actuation. Must be finite. Ignored for a robot that is not active.
-  // Returns what is in force now.
+  // Sets the robot's command, clipped to the velocity limits. It takes effect at once, or at the first step after the
+  // latencies of control and actuation, and stays until the next one. Must be finite. Has no effect on a robot that is
+  // not active. Returns the command that is in effect now.
   dmrp_twist set_command(std::uint32_t robot, const dmrp_twist& command);
 
-  // Gives a robot up: it brakes and stands where it is.
+  // Ends the robot's task: it brakes and stays where it stops.
   void fail(std::uint32_t robot);
 
-  // One physics step: robots follow their commands within their accelerations, people move at these velocities (parallel
-  // to people(), world frame, finite), bodies stop where they would get deeper into each other (people who
-  // press into each other push each other: see solid_motion.hpp), robots arrive, people reach
-  // their regions. Recorded people go along their tracks whatever velocities they are given: the track wins over
-  // everybody in the way, who can move no nearer but is not pushed. Returns the contacts after it, ordered by kind, a, b; valid until the next step.
+  // One physics step. Robots follow their commands within their acceleration limits; people move at the given
+  // velocities (parallel to people(), world frame, finite). Bodies stop where they would move deeper into each other,
+  // and people push people (solid_motion.hpp). Then robots arrive at goals and people at regions. Recorded people
+  // follow their tracks, whatever their velocities: bodies in their way cannot approach them, but are not pushed.
+  // Returns the contacts after the step, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
 
   // Of the last step.
   std::span<const dmrp_contact> contacts() const { return contacts_; }
 
  private:
-  // A command on its way.
-  struct Coming {
+  // A command that has not taken effect.
+  struct PendingCommand {
     std::int64_t from_ns;
     dmrp_twist command;
   };
@@ -86,13 +86,13 @@ class World {
     return settings_.control_latency_ns + robot_settings_.actuation_latency_ns;
   }
   void stop(std::uint32_t robot);
-  void take_up_commands();
+  void apply_due_commands();
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
   void apply_motion();
   void check_arrival(std::uint32_t robot);
   void advance_people();
-  void show_agents();
-  void show_people();
+  void update_agents();
+  void update_person_agents();
   void place_bodies_of_people();
   void find_contacts();
   double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
@@ -103,19 +103,19 @@ class World {
   std::shared_ptr<const StaticGeometry> geometry_;
   std::int64_t t_ns_ = 0;
   std::vector<RobotState> robots_;
-  std::vector<std::deque<Coming>> coming_;  // by robot, in order of time
+  std::vector<std::deque<PendingCommand>> pending_commands_;  // by robot, in order of time
   std::vector<std::vector<dmrp_goal>> goals_;
   std::vector<dmrp_vec2> robot_positions_;
   Population population_;
   SolidMotion motion_;
   ContactTracker tracker_;
   std::vector<SolidBody> bodies_;                  // robots, then people
-  std::vector<dmrp_pose> proposed_poses_;          // of robots, unhindered
+  std::vector<dmrp_pose> proposed_poses_;          // of robots, without contacts
   std::vector<dmrp_vec2> proposed_displacements_;  // of robots
   std::vector<Overlap> overlaps_;
   std::vector<dmrp_agent> robot_agents_;
   std::vector<dmrp_agent> person_agents_;
-  std::vector<dmrp_agent> person_agents_before_;  // the step before
+  std::vector<dmrp_agent> person_agents_before_;  // of the previous step
   std::vector<dmrp_contact> contacts_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole local controller: it steers at a point ahead on its path, the carrot, slows down for people in its way, and
-// stops at the end. Copy it, rename it, replace step().
+// A complete local controller: it steers towards a point ahead on its path, the carrot, slows down for people in its way
+// and stops at the end. Copy it, rename it, replace step().
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace toolkit = dmrp::toolkit;
 
 class CarrotFollower final : public dmrp::LocalController {
  public:
-  // The id is yours for good, as in a domain that you own; `dmrp.` is taken.
+  // The id must stay the same in all versions. Begin it with a domain that you own; `dmrp.` is reserved.
   static dmrp::Descriptor describe() {
     return dmrp::Descriptor("org.example.carrot", "Carrot follower", "0.1.0")
         .vendor("Example")
@@ -23,43 +23,45 @@ class CarrotFollower final : public dmrp::LocalController {
         .summary("steers at a point ahead on the path, gives way to people");
   }
 
-  // What an experiment file may set under `params`. The host checks names, types and ranges before it makes an object.
-  // Limits of the robot are no parameters: they come with every observation.
+  // The keys that an experiment file may set under `params`. The host checks names, types and ranges before it creates
+  // an instance. The robot's limits are not parameters: every observation contains them.
   dmrp::Param<double> look_ahead = param("look_ahead", 0.8).unit("m").range(0.1, 5.0).doc("distance of the carrot");
   dmrp::Param<double> gain =
       param("gain", 2.0).unit("1/s").range(0.0, 10.0).doc("turn rate per radian of heading error");
   dmrp::Param<double> headway = param("headway", 1.0).unit("s").range(0.1, 5.0).doc("time kept to a person ahead");
 
-  // A trial begins: forget the one before.
+  // A trial begins: reset all state of the previous one.
   dmrp::Status start(const dmrp::World&, std::uint64_t /*seed*/) override {
     path_.clear();
     arcs_.clear();
     return dmrp::Status::ok;
   }
 
-  // The path dies with the call, so keep a copy. It comes again, with the next revision, whenever the plan changes.
+  // The path is valid until the call returns, so keep a copy. The host calls it again, with the next revision, whenever
+  // the plan changes.
   void set_path(dmrp::Path path, std::uint64_t /*revision*/) override {
     path_.assign(path.begin(), path.end());
     toolkit::arc_lengths(path_, arcs_);
   }
 
-  // Ten times a second. No clock, no randomness but from start()'s seed: the same observations give the same commands.
+  // Called ten times a second. Use no clock, and no random numbers except from the seed of start(): the same
+  // observations must give the same commands.
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;  // the host brakes
 
-    // the carrot lies ahead of where the host saw us on the path, never past the last waypoint we may pass now
+    // The carrot lies ahead of the robot's progress on the path, but not beyond the last released waypoint.
     const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
     const double carrot_m = std::min(now.progress_m + look_ahead, end_m);
     const dmrp::Vec2 carrot = toolkit::point_at(path_, arcs_, carrot_m);
     const double to_carrot_m = toolkit::distance(toolkit::position(now.pose), carrot);
     const double remaining_m = to_carrot_m + (end_m - carrot_m);
 
-    // there: command zero. Whether we have arrived is for the host to say
+    // At the end: command zero. The host decides whether the robot has arrived.
     if (remaining_m < 0.5 * now.goal.tolerance_m) return dmrp::Status::ok;
 
-    // turn toward the carrot; drive as far as we face it, and so that we can stop in time
+    // Turn towards the carrot; drive if the robot faces it, and slowly enough to stop in time.
     const double error = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, carrot));
-    const double can_stop = std::sqrt(now.limits.a_max * remaining_m);  // brakes with half of a_max
+    const double can_stop = std::sqrt(now.limits.a_max * remaining_m);  // braking with half of a_max
     command.omega = gain * error;
     command.v_x = std::min(now.limits.v_max, can_stop) * std::max(0.0, std::cos(error));
     command.v_x = std::min(command.v_x, speed_behind_people(now));
@@ -67,7 +69,7 @@ class CarrotFollower final : public dmrp::LocalController {
   }
 
  private:
-  // The speed that reaches nobody ahead within the headway. Other robots are the plan's business.
+  // The largest speed that reaches no person ahead within the headway. The plan keeps robots apart.
   double speed_behind_people(const dmrp::Observation& now) const {
     double speed = now.limits.v_max;
     for (const dmrp::Agent& other : now.agents) {
@@ -86,5 +88,5 @@ class CarrotFollower final : public dmrp::LocalController {
 
 }  // namespace
 
-// Every plugin class of the library, once.
+// All plugin classes of the library; once per library.
 DMRP_PLUGINS(CarrotFollower)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Scenarios from maps of map_server with their tasks, and an experiment of all of them: tasks_from_csv.sh DATA OUT
+# Makes scenarios from maps of map_server with lists of tasks, and an experiment with all of them.
+# tasks_from_csv.sh DATA OUT
 # reads DATA/NAME/map.yaml and DATA/NAME/starts_goals.csv, writes OUT/NAME_TEST/scenario.toml and OUT/experiment.toml.
 set -euo pipefail
 example=$(dirname "${BASH_SOURCE[0]}")/../ros_map.toml
@@ -34,7 +35,7 @@ END
   done < <(tail -n +2 "$tasks" | tr -d '\r')
 done
 
-# the example with these in place of its one scenario
+# The example with these scenarios instead of its own.
 awk -v scenarios="$scenarios" '
   /^\[\[scenario\]\]/ { printf "%s", scenarios; skipping = 1 }
   !skipping { print }

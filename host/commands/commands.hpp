@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// commands.hpp: what `dmrp-host` can do. Each returns the exit status; InputErrors are main()'s.
+// commands.hpp: the commands of `dmrp-host`. Each returns the exit status, and throws InputError, MachineError,
+// std::system_error or std::runtime_error, which main() reports.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "host/evaluate/evaluation.hpp"
+
 namespace dmrp::host {
 
 namespace exit_status {
 inline constexpr int done = 0;
 inline constexpr int faults = 1;  // some trials ended in a fault
 inline constexpr int bad_input = 2;
+inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memory
 inline constexpr int interrupted = 130;
 }  // namespace exit_status
 
@@ -36,26 +40,26 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 
 int validate_command(const std::filesystem::path& experiment);
 
-// All libraries of the plugin path if none is named.
+// Without names, all libraries of the plugin path.
 enum class PluginsFormat { text, json, markdown };
 int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
 
 struct DrawOptions {
   std::string scenario;
-  std::uint32_t agents = 0;  // to draw, in place of the scenario's; 0: none
+  std::uint32_t agents = 0;  // random robots that replace the scenario's; 0: keep the scenario's
   std::uint64_t seed = 1;
   std::string planner;                // id; empty: no plan
-  std::vector<std::string> plugins;   // libraries beside those of the plugin path
+  std::vector<std::string> plugins;   // libraries, in addition to the plugin path
   std::vector<std::string> settings;  // key=value for the planner
   std::filesystem::path svg;          // empty: standard output
 };
 int draw_command(const DrawOptions& options);
 
 struct PlanOptions {
-  std::filesystem::path map;  // MovingAI's, with tasks and a number of agents ...
+  std::filesystem::path map;  // either a MovingAI map, its tasks and a number of agents
   std::filesystem::path tasks;
   std::uint32_t agents = 0;
-  std::string scenario;  // ... or a scenario, named or by its path
+  std::string scenario;  // or a scenario: a name, or the path of a scenario.toml; `agents` then draws robots
   std::string planner;   // id
   std::vector<std::string> plugins;
   std::vector<std::string> settings;
@@ -66,15 +70,11 @@ struct PlanOptions {
 };
 int plan_command(const PlanOptions& options);
 
-// Writes report.html into the run directory; `replayed`: trials whose replay goes in whatever they are like.
+// Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
 struct EvaluateOptions {
-  std::filesystem::path run_directory;
-  std::string metric;                 // id; empty: all of the run's and of `plugins`
-  std::vector<std::string> plugins;   // libraries beside the run's, searched before these
-  std::vector<std::string> settings;  // key=value for `metric`
-  std::string parameter_file;         // likewise; empty: none
+  EvaluationChoice choice;
   std::vector<std::uint64_t> trials;  // empty: all
   std::filesystem::path csv;          // empty: standard output
 };

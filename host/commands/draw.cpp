@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a scenario; with a planner, its paths as well, planned as a trial would plan them, but in this process.
+// Draws a scenario, with the paths of a planner if one is named; the planner runs in this process.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,10 +8,10 @@
 
 #include "core/scene/robot_task.hpp"
 #include "core/world/world.hpp"
+#include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/files/atomic_file.hpp"
 #include "host/plugins/library.hpp"
 #include "host/scenario/read_scenario.hpp"
 #include "host/trial/instance_pool.hpp"
@@ -22,13 +22,11 @@ namespace dmrp::host {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double tall_m = 2.0;  // shapes this tall are walls, lower ones furniture
+constexpr double wall_height_m = 2.0;  // lower shapes are furniture
 
 void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   for (const core::Shape& shape : scenario.shapes) {
-    const char* look = shape.height_m >= tall_m ? "wall" : "furniture";
+    const char* look = shape.height_m >= wall_height_m ? "wall" : "furniture";
     if (shape.kind == core::Shape::Kind::circle)
       picture.circle(shape.center, shape.radius_m, {look}, shape.name);
     else
@@ -62,7 +60,7 @@ void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const 
   }
 }
 
-// Plans once with the planner's own parameters; says what came out on standard error.
+// Plans once, and prints the length, the time and the planner's statistics on standard error.
 Plan plan_once(const Experiment& experiment) {
   auto note = std::make_unique<CallNote>();
   CallGuard guard(*note);
@@ -94,7 +92,7 @@ Plan plan_once(const Experiment& experiment) {
 int draw_command(const DrawOptions& options) {
   Experiment experiment = adhoc_experiment(options.scenario, !options.planner.empty() || options.agents > 0);
   experiment.seed = options.seed;
-  if (options.agents > 0) draw_robots_in(experiment, options.agents, options.seed);
+  if (options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (!options.planner.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots to plan for (--agents draws some)", options.scenario));
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
@@ -109,10 +107,7 @@ int draw_command(const DrawOptions& options) {
     draw_robots(picture, experiment, &plan);
   }
   picture.scale_bar(5.0);
-  if (options.svg.empty())
-    fmt::print("{}", picture.document());
-  else
-    write_file_atomically(options.svg, picture.document());
+  write_output("--svg", options.svg, picture.document());
   return exit_status::done;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Joins runs of parts of one experiment: what they make together is what one run of all would have left.
+// Joins runs of parts of one experiment; the result is as one run of the whole experiment.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <map>
@@ -29,14 +30,16 @@ namespace fs = std::filesystem;
 struct Part {
   RunDirectory directory;
   std::string shown;
-  std::string effective;
+  std::string experiment;  // the text of experiment.toml
+  std::string effective;   // and of effective.toml
   Manifest manifest;
   std::vector<MetricColumn> metrics;
-  std::vector<TrialRecord> trials;  // those that were run
+  std::vector<TrialRecord> trials;  // without skipped ones
 };
 
 Part read_part(const fs::path& path) {
-  Part part = {RunDirectory::open_finished(path, path.string()), path.string(), {}, {}, {}, {}};
+  Part part = {RunDirectory::open_finished(path, path.string()), path.string(), {}, {}, {}, {}, {}};
+  part.experiment = read_file(path / "experiment.toml", (path / "experiment.toml").string());
   part.effective = read_file(path / "effective.toml", (path / "effective.toml").string());
   part.manifest = read_manifest(path / "manifest.json");
   const ResultsDatabase database = ResultsDatabase::open_read_only(path / "results.sqlite");
@@ -46,7 +49,7 @@ Part read_part(const fs::path& path) {
   return part;
 }
 
-// Results may only stand together where one run would have given the same bits.
+// Results can only be joined if one run would have given the same bits.
 void check_same(const Part& first, const Part& other) {
   if (other.effective != first.effective)
     throw InputError(
@@ -74,8 +77,8 @@ Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::
   return manifest;
 }
 
-// By a link where the file system can: traces are large, and never written again.
-void take_traces(const Part& part, const fs::path& out) {
+// Links the files if the file system can: traces are large, and never written again.
+void copy_traces(const Part& part, const fs::path& out) {
   const fs::path folder = part.directory.path() / "traces";
   if (std::error_code ignored; !fs::is_directory(folder, ignored)) return;
   fs::create_directories(out / "traces");
@@ -88,10 +91,11 @@ void take_traces(const Part& part, const fs::path& out) {
   }
 }
 
-void take_log(const Part& part, const fs::path& out) {
+void append_log(const Part& part, const fs::path& out) {
   std::ifstream from(part.directory.path() / "log.txt", std::ios::binary);
   if (!from || from.peek() == std::ifstream::traits_type::eof()) return;
-  std::ofstream(out / "log.txt", std::ios::binary | std::ios::app) << from.rdbuf();
+  std::ofstream to(out / "log.txt", std::ios::binary | std::ios::app);
+  if (!(to << from.rdbuf() << std::flush)) throw std::system_error(errno, std::generic_category(), out / "log.txt");
 }
 
 }  // namespace
@@ -102,12 +106,12 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   for (const Part& part : parts) check_same(parts.front(), part);
   check_apart(parts);
   if (std::error_code ignored; fs::exists(options.out, ignored) && !fs::is_empty(options.out, ignored))
-    throw InputError(fmt::format("{}: is there already and not empty", options.out.string()));
+    throw InputError(fmt::format("{}: exists already and is not empty", options.out.string()));
   const RunDirectory made = RunDirectory::make(options.out, "");
   const fs::path& out = made.path();
 
   const Manifest manifest = joined_manifest(parts, command_line);
-  fs::copy_file(parts.front().directory.path() / "experiment.toml", out / "experiment.toml");
+  write_file_atomically(out / "experiment.toml", parts.front().experiment);
   write_file_atomically(out / "effective.toml", parts.front().effective);
   write_file_atomically(out / "manifest.json", to_json_text(manifest));
   ResultsDatabase database = ResultsDatabase::create(out / "results.sqlite", parts.front().metrics);
@@ -117,8 +121,8 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   std::sort(trials.begin(), trials.end(), [](const auto* a, const auto* b) { return a->id < b->id; });
   for (const TrialRecord* trial : trials) database.write(*trial);
   for (const Part& part : parts) {
-    take_traces(part, out);
-    take_log(part, out);
+    copy_traces(part, out);
+    append_log(part, out);
   }
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
@@ -126,7 +130,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   write_tables(results, out);
   print_results(results, layout, out, try_to_report(results, out));
   if (trials.size() < manifest.experiment.trials_planned)
-    fmt::print(stderr, "{} of {} trials are there: go on with --resume --out {}\n", trials.size(),
+    fmt::print(stderr, "{} of {} trials are finished: continue with --resume --out {}\n", trials.size(),
                manifest.experiment.trials_planned, out.string());
   return exit_status::done;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plans once, in a process of its own, checks the paths and counts what they amount to.
+// Plans once, in a child process, validates the paths and computes their figures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/files/atomic_file.hpp"
 #include "host/plan/plan_figures.hpp"
 #include "host/plan/plan_task.hpp"
 #include "host/plan/planner_process.hpp"
@@ -22,13 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sums of the same numbers in another order are not a contradiction.
+// Tolerates the rounding of sums in another order.
 constexpr double same_cost = 1e-6;
 
-// What is known after planning; what is not, is nothing.
+// Figures that do not exist are std::nullopt.
 struct Outcome {
   bool solved = false;
-  std::optional<bool> valid;  // of the plan by what its planner promises
+  std::optional<bool> valid;  // the plan keeps the contract and the promises of its planner
   std::optional<PlanFigures> figures;
   std::optional<std::uint32_t> conflicts;
   std::optional<double> lower_bound;
@@ -37,37 +37,24 @@ struct Outcome {
   std::optional<double> low_level_expanded;
   double peak_rss_mb = 0.0;
   std::string status;  // "ok", "no_solution", "timeout", or the kind of a fault
-  std::string detail;  // the planner's words, or the fault's
+  std::string detail;  // the planner's text, or the fault's
   std::vector<std::string> warnings;
 };
 
-// Either a map with tasks, or a scenario, whose robots are drawn where a number is given.
-void check_what_is_planned(const PlanOptions& options) {
+// Either a map with tasks, or a scenario; --agents draws its robots.
+void check_task_options(const PlanOptions& options) {
   const bool whole_map = !options.map.empty() && !options.tasks.empty() && options.agents > 0;
   const bool no_map = options.map.empty() && options.tasks.empty();
   if (options.scenario.empty() ? !whole_map : !no_map)
     throw InputError("plan: needs --map, --scen and --agents together, or --scenario, with or without --agents");
 }
 
-void check_paths_file(const fs::path& file) {
-  if (file.empty()) return;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (std::error_code ignored; !fs::is_directory(folder, ignored))
-    throw InputError(fmt::format("--paths {}: there is no folder {}", file.string(), folder.string()));
-  if (std::error_code ignored; fs::is_directory(file, ignored))
-    throw InputError(fmt::format("--paths {}: is a folder", file.string()));
-}
-
-void warn(const std::string& text) {
-  fmt::print(stderr, "warning: {}\n", text);
-}
-
 std::unique_ptr<PlanTask> task_on_map(const PlanOptions& options, const Experiment& experiment) {
   const core::CellMap map = read_movingai_map(options.map, options.map.string());
   MovingAiTasks read = read_movingai_tasks(options.tasks, options.tasks.string(), map);
   if (options.agents > read.tasks.size())
-    throw InputError(fmt::format("--agents {}: {} has {} task{}", options.agents, read.shown_path, read.tasks.size(),
-                                 read.tasks.size() == 1 ? "" : "s"));
+    throw InputError(
+        fmt::format("--agents {}: {} has {}", options.agents, read.shown_path, plural(read.tasks.size(), "task")));
   read.tasks.resize(options.agents);
   for (std::size_t b = 0; b < read.tasks.size(); ++b)
     for (std::size_t a = 0; a < b; ++a)
@@ -85,12 +72,12 @@ std::optional<double> statistic(const PlannerAnswer& answer, const char* name) {
   return std::nullopt;
 }
 
-// A planner's own figures must agree with its paths.
+// Warns if figures of the planner contradict its paths.
 void compare(const PlannerAnswer& answer, Outcome& outcome) {
   const double cost = outcome.figures->cost;
   const double tolerance = same_cost * std::max(1.0, cost);
-  if (const auto told = statistic(answer, "cost"); told && !(std::abs(*told - cost) <= tolerance))
-    outcome.warnings.push_back(fmt::format("the planner tells of a cost of {}, its paths cost {}", *told, cost));
+  if (const auto reported = statistic(answer, "cost"); reported && !(std::abs(*reported - cost) <= tolerance))
+    outcome.warnings.push_back(fmt::format("the planner reports a cost of {}, its paths cost {}", *reported, cost));
   if (outcome.lower_bound && !(*outcome.lower_bound <= cost + tolerance))
     outcome.warnings.push_back(
         fmt::format("the planner's lower bound {} is above the cost {}", *outcome.lower_bound, cost));
@@ -137,7 +124,7 @@ bool is_fault(const Outcome& outcome) {
   return outcome.status != "ok" && outcome.status != "no_solution" && outcome.status != "timeout";
 }
 
-// Whole numbers without a fraction; null for what is unknown.
+// Whole numbers without a fraction; null if there is no number.
 nlohmann::ordered_json number(const std::optional<double>& value) {
   if (!value || !std::isfinite(*value)) return nullptr;
   constexpr double largest_whole = 9007199254740992.0;
@@ -165,10 +152,6 @@ void print_json(const Outcome& outcome, std::uint32_t robots) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-std::string plural(std::int64_t n, const std::string& noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
 void print_line(const char* name, const std::string& text) {
   fmt::print("  {:<13}{}\n", name, text);
 }
@@ -179,7 +162,7 @@ void print_text(const Outcome& outcome, const std::string& heading) {
   if (outcome.figures) {
     print_line("cost", fmt::format("{:.8g}", outcome.figures->cost));
     if (outcome.lower_bound) print_line("lower bound", fmt::format("{:.8g}", *outcome.lower_bound));
-    print_line("makespan", plural(outcome.figures->makespan, "step"));
+    print_line("makespan", plural(static_cast<std::uint64_t>(outcome.figures->makespan), "step"));
     print_line("turns", std::to_string(outcome.figures->turns));
     print_line("conflicts", std::to_string(outcome.conflicts.value_or(0)));
   } else if (outcome.lower_bound) {
@@ -196,12 +179,12 @@ void print_text(const Outcome& outcome, const std::string& heading) {
 }  // namespace
 
 int plan_command(const PlanOptions& options) {
-  check_what_is_planned(options);
-  check_paths_file(options.paths);
+  check_task_options(options);
+  check_output_file("--paths", options.paths);
   Experiment experiment = options.map.empty() ? adhoc_experiment(options.scenario) : Experiment();
   experiment.seed = options.seed;
   experiment.limits.planner_time_s = options.time_limit_s;
-  if (options.map.empty() && options.agents > 0) draw_robots_in(experiment, options.agents, options.seed);
+  if (options.map.empty() && options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));
   add_planner(experiment, options.planner, options.plugins, options.settings);
@@ -214,11 +197,10 @@ int plan_command(const PlanOptions& options) {
   for (const std::string& text : outcome.warnings) warn(info.id + ": " + text);
   if (is_fault(outcome)) fmt::print(stderr, "{}\n", outcome.detail);
   if (!options.paths.empty()) {
-    // what an earlier call has left there is not this one's plan
     if (outcome.solved)
-      write_file_atomically(options.paths, paths_csv(task->problem.c, run.answer->paths));
+      write_output("--paths", options.paths, paths_csv(task->problem.c, run.answer->paths));
     else if (std::error_code ignored; fs::is_regular_file(options.paths, ignored))
-      fs::remove(options.paths, ignored);
+      fs::remove(options.paths, ignored);  // the plan of an earlier call
   }
 
   if (options.json)

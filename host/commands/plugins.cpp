@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/plugins_markdown.hpp"
 #include "host/errors/input_error.hpp"
@@ -54,7 +54,7 @@ int plugins_command(const std::vector<std::string>& named, PluginsFormat format)
       throw InputError(file.string() + ": " + error.what());
     }
     for (const std::string& warning : {probe.warning, probe.init_error})
-      if (!warning.empty()) fmt::print(stderr, "warning: {}: {}\n", file.string(), warning);
+      if (!warning.empty()) warn(file.string() + ": " + warning);
     if (format == PluginsFormat::json) {
       all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
       continue;

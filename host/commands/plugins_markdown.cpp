@@ -12,7 +12,7 @@ namespace dmrp::host {
 
 namespace {
 
-// In a table a bar would end the cell.
+// A bar would end the table's cell.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -39,7 +39,7 @@ std::string given_for(const MetricValueSpec& value) {
   return out;
 }
 
-// What GitHub and others make of a heading.
+// The anchor that GitHub gives a heading.
 std::string anchor_of(const std::string& heading) {
   std::string out;
   for (const char c : heading) {

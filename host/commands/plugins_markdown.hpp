@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plugins_markdown.hpp: what a plugin library holds as a reference page.
+// plugins_markdown.hpp: a reference page of a plugin library.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace dmrp::host {
 
-// "0 to 1", ">= 0", "one of a, b"; empty where everything is allowed.
+// "0 to 1", ">= 0", "one of a, b"; empty without limits.
 std::string parameter_range(const ParameterSpec& spec);
 
-// Begins with a comment that says how it was made. `library` is the file's name alone: the page must not depend on the
-// machine.
+// Begins with a comment that names the command. `library` is the file's name without its folder: the page must not depend
+// on the machine.
 std::string plugins_markdown(const std::string& library, const std::vector<PluginInfo>& plugins);
 
 }  // namespace dmrp::host

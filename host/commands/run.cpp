@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/run_directory.hpp"
 #include "host/commands/run_results.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
 #include "host/results/database.hpp"
@@ -42,10 +42,6 @@ std::vector<std::uint64_t> trials_of_shard(std::uint64_t count, const Shard& sha
   return trials;
 }
 
-std::string plural(std::uint64_t n, const std::string& noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
 // "quickstart · mall · 4 robots, 12 people · 3 trials"
 std::string heading(const Experiment& experiment, std::size_t trials) {
   std::string out = experiment.name;
@@ -61,7 +57,7 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   return out + " · " + plural(trials, "trial");
 }
 
-// A line for the log of the terminal where a trial ended in a fault.
+// A line for the terminal about a trial's fault; "" if it has none.
 std::string fault_note(const TrialRecord& trial) {
   if (trial.faults.empty()) return "";
   const FaultRecord& fault = trial.faults.front();
@@ -84,7 +80,7 @@ ExperimentFacts facts_of(const Experiment& experiment, std::uint64_t trials_plan
   return facts;
 }
 
-// The manifest: what this run depends on beside the experiment's text.
+// The files and settings that the run depends on, beside the experiment's text.
 Manifest manifest_of(const Experiment& experiment, std::uint64_t trials_planned,
                      const std::vector<std::string>& command_line) {
   Manifest manifest = new_manifest(version, command_line, std::chrono::system_clock::now());
@@ -132,17 +128,15 @@ class RunFiles {
     ResultsDatabase::create(database(), columns_of(experiment));
   }
 
-  // A run may only go on where it would give the same bits.
+  // A run can only be continued if that gives the same bits.
   void check_same(const Experiment& experiment, const Manifest& manifest) const {
-    std::ifstream before(directory() / "effective.toml", std::ios::binary);
-    std::ostringstream text;
-    text << before.rdbuf();
-    if (text.str() != effective_toml(experiment))
+    const fs::path effective = directory() / "effective.toml";
+    if (read_file(effective, effective.string()) != effective_toml(experiment))
       throw InputError(
           fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory().string()));
     const auto reasons = differences(read_manifest(directory() / "manifest.json"), manifest);
     if (!reasons.empty())
-      throw InputError(fmt::format("--out {}: cannot go on: {}", directory().string(), reasons.front()));
+      throw InputError(fmt::format("--out {}: cannot be continued: {}", directory().string(), reasons.front()));
   }
 
   RunDirectory directory_;
@@ -153,7 +147,7 @@ class RunFiles {
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
   const Experiment experiment = load_experiment(options.experiment, options.trials);
   if (!options.quiet)
-    for (const std::string& warning : experiment.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : experiment.warnings) warn(warning);
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
@@ -178,7 +172,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const bool reported = try_to_report(results, files.directory());
   if (!options.quiet) print_results(results, layout, files.directory(), reported);
   if (ending == RunEnding::interrupted) {
-    fmt::print(stderr, "interrupted: what was finished is kept; go on with --resume --out {}\n",
+    fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());
     return exit_status::interrupted;
   }

@@ -7,10 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 
 namespace dmrp::host {
 
@@ -18,28 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// There once this returns, whoever made it.
+// Another process may have created it.
 void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw InputError(fmt::format("{}: cannot make the run directory: {}", path.string(), error.message()));
+  if (error) throw_path_error(path.string() + ": cannot make the run directory", error);
 }
 
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path) : path_(std::move(path)) {
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw InputError(fmt::format("{}: cannot be opened: {}", path_.string(), std::strerror(errno)));
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems know no locks
-  close(lock_);
-  lock_ = -1;
-}
-
-RunDirectory::RunDirectory(RunDirectory&& other) noexcept
-    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
-
-RunDirectory::~RunDirectory() {
-  if (lock_ >= 0) close(lock_);
+  lock_ = Descriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!lock_.is_open()) throw_path_error(path_.string() + ": cannot be opened", {errno, std::generic_category()});
+  if (flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems have no locks
+  lock_.close();
 }
 
 RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
@@ -49,16 +42,19 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) {
       make_directory(path);
       RunDirectory directory(path);
-      if (directory.locked() && fs::is_empty(path, ignored)) return directory;
+      if (directory.locked() && fs::is_empty(path, ignored)) {
+        if (access(path.c_str(), W_OK | X_OK) != 0)
+          throw_path_error(path.string() + ": cannot be written", {errno, std::generic_category()});
+        return directory;
+      }
     }
     if (!out.empty())
-      throw InputError(
-          fmt::format("--out {}: is there already and not empty (go on with it by --resume)", out.string()));
+      throw InputError(fmt::format("--out {}: exists already and is not empty (--resume continues it)", out.string()));
   }
 }
 
 RunDirectory RunDirectory::reopen(const fs::path& out) {
-  if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to go on with");
+  if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to continue");
   return open_finished(out, "--out " + out.string());
 }
 

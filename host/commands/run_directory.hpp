@@ -1,38 +1,36 @@
 // SPDX-License-Identifier: MIT
-// run_directory.hpp: where a run leaves its files.
+// run_directory.hpp: the directory of a run.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
+#include "host/process/descriptor.hpp"
+
 namespace dmrp::host {
 
-// A directory that this process alone runs in, until the object goes.
+// Locked while the object lives: no other dmrp-host uses it. All functions throw InputError and MachineError.
 class RunDirectory {
  public:
-  // For a new run: `out` itself, which must be missing or empty; without it runs/NAME, or runs/NAME-2, ... if taken.
-  // Makes the directory. Throws InputError.
+  // Makes the directory of a new run: `out`, which must be missing or empty; if `out` is empty, runs/NAME, or
+  // runs/NAME-2, ... if that is taken.
   static RunDirectory make(const std::filesystem::path& out, const std::string& name);
 
-  // Of a run to go on with, named by --out. Throws InputError.
+  // The directory of a run to continue, named by --out.
   static RunDirectory reopen(const std::filesystem::path& out);
 
-  // One that was run and runs no more; `shown` is how messages call it. Throws InputError.
+  // The directory of a run that no process works on; `shown`: its name in messages.
   static RunDirectory open_finished(const std::filesystem::path& path, const std::string& shown);
-
-  RunDirectory(RunDirectory&& other) noexcept;
-  RunDirectory& operator=(RunDirectory&&) = delete;
-  ~RunDirectory();
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  // Locks it, so that two runs that begin at the same moment do not share one: locked() says whether it is ours.
+  // Tries to lock it: two runs that begin at the same time do not share a directory.
   explicit RunDirectory(std::filesystem::path path);
-  bool locked() const { return lock_ >= 0; }
+  bool locked() const { return lock_.is_open(); }
 
   std::filesystem::path path_;
-  int lock_ = -1;
+  Descriptor lock_;
 };
 
 }  // namespace dmrp::host

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/report/write_report.hpp"
 #include "host/results/trials_csv.hpp"
@@ -36,6 +37,7 @@ bool try_to_report(const RunResults& results, const fs::path& directory) {
     write_report(directory);
     return true;
   } catch (const std::exception& error) {
+    if (is_machine_failure(error)) throw;
     fmt::print(stderr, "warning: no report.html: {}\n", error.what());
     return false;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// run_results.hpp: what a run directory has for people, from all that its database has.
+// run_results.hpp: the tables and the report of a run, from its database.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace dmrp::host {
 
-// All that the database has when a run ends.
+// The whole database.
 struct RunResults {
   std::vector<MetricColumn> metrics;
   std::vector<TrialRecord> trials;
@@ -22,10 +22,11 @@ RunResults read_results(const ResultsDatabase& database, const SummaryLayout& la
 // trials.csv and summary.csv.
 void write_tables(const RunResults& results, const std::filesystem::path& directory);
 
-// report.html. Whether there is one: the results are worth keeping without it; why not is said on standard error.
+// Writes report.html. False if that fails, with a warning on standard error: the results stand without it. Failures of
+// the machine are thrown.
 bool try_to_report(const RunResults& results, const std::filesystem::path& directory);
 
-// The table, the closing line, and where the files are.
+// Prints the table, the closing line and the files.
 void print_results(const RunResults& results, const SummaryLayout& layout, const std::filesystem::path& directory,
                    bool reported);
 

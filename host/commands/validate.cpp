@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cstdio>
-
+#include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/experiment/experiment.hpp"
 
@@ -10,11 +9,10 @@ namespace dmrp::host {
 
 int validate_command(const std::filesystem::path& file) {
   const Experiment experiment = load_experiment(file, 0);
-  for (const std::string& warning : experiment.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : experiment.warnings) warn(warning);
   const std::size_t count = combinations(experiment).size();
-  fmt::print("{}: good. {} combination{} of {} repetition{}: {} trials, {} metrics\n", file.string(), count,
-             count == 1 ? "" : "s", experiment.trials, experiment.trials == 1 ? "" : "s", count * experiment.trials,
-             experiment.metrics.size());
+  fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),
+             plural(experiment.trials, "repetition"), count * experiment.trials, experiment.metrics.size());
   return exit_status::done;
 }
 

@@ -11,7 +11,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/experiment/read_parameters.hpp"
-#include "host/experiment/read_settings.hpp"
+#include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/files/sha256.hpp"
 #include "host/program/version.hpp"
@@ -36,9 +36,9 @@ struct Found {
   const PluginInfo* info;
 };
 
-class Planner {
+class EvaluationPlanner {
  public:
-  explicit Planner(const EvaluationChoice& choice)
+  explicit EvaluationPlanner(const EvaluationChoice& choice)
       : choice_(choice),
         effective_file_(choice.run_directory / "effective.toml"),
         effective_(shown(effective_file_), read_effective()),
@@ -59,7 +59,7 @@ class Planner {
         use(find_metric(metric.need("use").text()));
       use_others();
     }
-    tell_changes();
+    warn_of_changes();
     return std::move(evaluation_);
   }
 
@@ -84,7 +84,7 @@ class Planner {
     for (const TomlValue& value : root_.find_table("experiment")->need("plugins").array()) add_of_run(value.text());
   }
 
-  // A run may have been copied from a machine where its libraries lie elsewhere.
+  // A run may come from a machine where its libraries are in other folders.
   void add_of_run(const std::string& path) {
     const fs::path file = fs::exists(path) ? fs::path(path) : find_library(fs::path(path).filename(), {});
     if (file.empty()) return missing_.push_back(fmt::format("the run's library {} is gone", path));
@@ -105,8 +105,8 @@ class Planner {
     candidates_.push_back(std::move(candidate));
   }
 
-  // " (the run's library ... is gone)" where a library of the run could not be searched.
-  std::string without() const { return missing_.empty() ? "" : fmt::format(" ({})", fmt::join(missing_, "; ")); }
+  // " (the run's library ... is gone)"; "" if all libraries of the run were searched.
+  std::string missing_note() const { return missing_.empty() ? "" : fmt::format(" ({})", fmt::join(missing_, "; ")); }
 
   Found find_metric(const std::string& id) const {
     std::vector<std::string> known;
@@ -119,8 +119,8 @@ class Planner {
       }
     if (choice_.metric.empty())
       throw InputError(fmt::format("{}: the run's metric {} is in none of its libraries{}",
-                                   choice_.run_directory.string(), id, without()));
-    throw InputError(fmt::format("--metric {}: no such metric (there: {}){}{}", id, join_names(known), without(),
+                                   choice_.run_directory.string(), id, missing_note()));
+    throw InputError(fmt::format("--metric {}: no such metric (there: {}){}{}", id, join_names(known), missing_note(),
                                  did_you_mean(id, known)));
   }
 
@@ -137,7 +137,7 @@ class Planner {
 
   void use(const Found& found) {
     const PluginInfo& info = *found.info;
-    if (!info.needs.empty())  // a host offers none to a metric
+    if (!info.needs.empty())  // metrics are offered no extension
       throw InputError(fmt::format("{} needs the extension {}, which this host does not offer to a metric", info.id,
                                    info.needs.front()));
     PluginUse made;
@@ -170,13 +170,13 @@ class Planner {
     return adhoc_parameters(choice_.settings, choice_.parameter_file, info, std::move(values));
   }
 
-  // Why the values may differ from the run's.
-  void tell_changes() {
+  // Warns of changes since the run: values may differ.
+  void warn_of_changes() {
     const Manifest before = read_manifest(choice_.run_directory / "manifest.json");
     Manifest now = new_manifest(version, {}, std::chrono::system_clock::now());
     now.files = before.files;
     for (const std::string& difference : differences(before, now))
-      evaluation_.warnings.push_back("not as it was at the run: " + difference);
+      evaluation_.warnings.push_back("changed since the run: " + difference);
     for (const LibraryUse& library : libraries_of_run_) {
       const auto recorded = std::find_if(before.files.begin(), before.files.end(), [&](const HashedFile& file) {
         return file.role == "plugin library" && file.path == library.written;
@@ -192,7 +192,7 @@ class Planner {
   TomlDocument effective_;
   TomlTable root_;
   std::vector<Candidate> candidates_;  // libraries to search, in this order
-  std::vector<std::string> missing_;   // libraries of the run that cannot be searched, and why
+  std::vector<std::string> missing_;   // libraries of the run that cannot be searched, with the reason
   std::vector<LibraryUse> libraries_of_run_;
   Evaluation evaluation_;
 };
@@ -202,7 +202,7 @@ class Planner {
 Evaluation plan_evaluation(const EvaluationChoice& choice) {
   if (choice.metric.empty() && !(choice.settings.empty() && choice.parameter_file.empty()))
     throw InputError("evaluate: --set and --params-file are for one metric: name it by --metric");
-  return Planner(choice).take();
+  return EvaluationPlanner(choice).take();
 }
 
 }  // namespace dmrp::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// measure_process.hpp: measures stored traces in a process of its own, so that a metric that crashes, hangs or eats all
-// memory takes nothing with it but its values for that trial.
+// measure_process.hpp: measures stored traces in child processes: a metric that crashes, hangs or takes all memory loses
+// its own values of that trial only.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ struct StoredTrial {
   std::filesystem::path trace;
 };
 
-// What comes of it, in the order of the trials and, for each, of the metrics.
+// Receive the results in the order of the trials and, for each trial, of the metrics.
 struct MeasureSinks {
   std::function<void(const StoredTrial&, const MetricResult&)> result;
-  std::function<void(const StoredTrial&, const std::string& text)> failure;  // of a metric or a trace, in one line
+  std::function<void(const StoredTrial&, const std::string& text)> failure;  // of a metric or a trace; one line
 };
 
-// Loads the libraries, makes the metrics and measures every trial as it was measured live. The metrics' warnings go to
-// standard error. Throws std::runtime_error where the libraries cannot be loaded, and std::system_error.
+// Loads the libraries, creates the metrics and measures every trial as during the run. The metrics' warnings go to
+// standard error. Throws std::runtime_error if the libraries cannot be loaded, and MachineError.
 void measure_stored(const Evaluation& evaluation, const std::vector<StoredTrial>& trials, const MeasureSinks& sinks);
 
 }  // namespace dmrp::host

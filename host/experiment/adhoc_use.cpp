@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Libraries to search for the planner: named ones first, then all of the plugin path.
+// The libraries to search for the planner: first the named ones, then those of the plugin path.
 std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named) {
   std::vector<fs::path> files;
   for (const std::string& name : named) {
@@ -64,7 +64,7 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
       fmt::format("--planner {}: no such planner (there: {}){}", id, join_names(known), did_you_mean(id, known)));
 }
 
-// "k=v" as a line of TOML; a value that is neither number, boolean nor quoted is a string.
+// Converts "key=value" to a line of TOML. A value that is neither a number, a boolean, an array nor quoted is a string.
 std::string toml_line(const std::string& setting) {
   const auto equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) throw InputError("--set " + setting + ": needs KEY=VALUE");
@@ -91,17 +91,17 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   return experiment;
 }
 
-void draw_robots_in(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
+void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
   core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::StaticGeometry geometry(scenario);
   const core::SimulationSettings& simulation = experiment.simulation;
   scenario.robots =
-      core::draw_robots(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
-                                                  simulation.planning_margin_m),
-                        robots, seed);
+      core::random_tasks(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
+                                                   simulation.planning_margin_m),
+                         robots, seed);
   if (scenario.robots.size() < robots)
-    throw InputError(fmt::format("--agents {}: scenario '{}' holds at most {} robots drawn so", robots, scenario.name,
-                                 scenario.robots.size()));
+    throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks", robots,
+                                 scenario.name, scenario.robots.size()));
 }
 
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
@@ -113,7 +113,7 @@ void add_planner(Experiment& experiment, const std::string& id, const std::vecto
   experiment.global_planners.push_back(std::move(use));
 }
 
-// A mistake is told with the setting in place of a position in the text that is made of them.
+// Errors name the setting instead of a position in the text made of all settings.
 std::vector<ParameterValue> adhoc_parameters(const std::vector<std::string>& settings,
                                              const std::string& parameter_file, const PluginInfo& info,
                                              std::vector<ParameterValue> values) {

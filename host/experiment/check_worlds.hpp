@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// check_worlds.hpp: whether the robots and people of a scenario can do what it asks of them.
+// check_worlds.hpp: checks that the robots and people of a scenario can follow their tasks and flows.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace dmrp::host {
 
-// Robots to be drawn in a scenario: how many at most, and where they are asked for.
-struct DrawnRobots {
-  std::size_t most = 0;
-  std::optional<TomlValue> at{};  // there where most > 0
+// The robots with random tasks of a scenario.
+struct RandomRobots {
+  std::size_t most = 0;           // the largest number in the experiment
+  std::optional<TomlValue> at{};  // its place in the experiment file, if most > 0
 };
 
-// Checks starts, goals and flows against the walls and the experiment's robot, and whether there is room for robots to
-// be drawn in every repetition: an InputError at the place in the file, or a warning in the experiment.
-void check_world(const ScenarioFile& file, Experiment& experiment, const DrawnRobots& drawn = {});
+// Checks starts, goals and flows against the walls and the experiment's robot, and that every repetition has room for
+// the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
+void check_world(const ScenarioFile& file, Experiment& experiment, const RandomRobots& drawn = {});
 
 }  // namespace dmrp::host

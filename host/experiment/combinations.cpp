@@ -8,7 +8,7 @@ namespace dmrp::host {
 
 namespace {
 
-// Indices of all uses, or just -1 where none is needed.
+// The indices of all uses, or -1 alone if none is needed.
 std::vector<std::int32_t> choices(const std::vector<PluginUse>& uses, bool needed) {
   if (!needed) return {-1};
   std::vector<std::int32_t> out(uses.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// digest.hpp: whether two processes, or two runs, mean the same experiment.
+// digest.hpp: a fingerprint of an experiment, equal in all processes and runs of the same experiment.
 #pragma once
 
 #include <string>

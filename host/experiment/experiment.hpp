@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// experiment.hpp: an experiment file, checked and complete. Everything that a trial needs to know follows from it.
+// experiment.hpp: an experiment file, checked and complete. It determines every trial.
 #pragma once
 
 #include <cstdint>
@@ -30,34 +30,34 @@ struct Experiment {
   std::string text;            // its content
   std::string name;
   std::uint64_t seed = 1;
-  std::uint32_t trials = 1;  // repetitions a combination
+  std::uint32_t trials = 1;  // repetitions of each combination
   std::vector<LibraryUse> libraries;
   std::vector<ScenarioVariant> scenarios;
-  std::vector<PluginUse> global_planners;    // these two: may be empty when no scenario has robots
-  std::vector<PluginUse> local_controllers;  //
-  std::vector<PluginUse> pedestrian_models;  // empty when no scenario has people and none is named
+  std::vector<PluginUse> global_planners;    // may be empty if no scenario has robots
+  std::vector<PluginUse> local_controllers;  // may be empty if no scenario has robots
+  std::vector<PluginUse> pedestrian_models;  // may be empty if no scenario has people
   std::vector<PluginUse> metrics;
-  bool time_limit_set = false;  // by [simulation]; else every scenario has its own
+  bool time_limit_set = false;  // by [simulation]; otherwise each scenario has its own limit
   core::SimulationSettings simulation;
   core::RobotSettings robot;
   RecordTraces traces = RecordTraces::all;
-  bool scans = false;        // traces keep what the robots' lidars see at every control tick
-  bool annotations = false;  // traces keep what plugins say through dmrp.annotate/1
+  bool scans = false;        // traces record the lidar scans of every control tick
+  bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
   std::vector<std::string> warnings;  // one line each
 };
 
-// What is tried out against each other: indices into the experiment's lists.
+// One combination of scenario and plugins: indices into the experiment's lists.
 struct Combination {
   std::uint32_t scenario = 0;
   std::int32_t global_planner = 0;     // -1: a scenario without robots
-  std::int32_t local_controller = 0;   // likewise
+  std::int32_t local_controller = 0;   // -1: a scenario without robots
   std::int32_t pedestrian_model = -1;  // -1: a scenario without people
 };
 
 std::vector<Combination> combinations(const Experiment& experiment);
 
-// Trial k is repetition k / C of combination k % C for C combinations: the same trial whatever number is asked for.
+// Trial k is repetition k / C of combination k % C for C combinations. It does not depend on the number of trials.
 struct TrialId {
   std::uint64_t number = 0;
   std::uint32_t combination = 0;
@@ -65,19 +65,19 @@ struct TrialId {
 };
 TrialId trial_id(std::uint64_t number, std::size_t combination_count);
 
-// The seed that all streams of a world come from: equal for every combination of a scenario and repetition, whatever the
+// The seed of all random streams of a world. It is equal for all combinations of a scenario in a repetition, for any
 // number of robots, so that all meet the same crowd.
 std::uint64_t world_seed(const Experiment& experiment, const std::string& scenario, std::uint32_t repetition);
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);  // the world_seed() of a trial
 
-// What a library's plugins are found out by: a probe in a child process, or the library itself.
+// Describes the plugins of a library: by a probe in a child process, or by loading the library.
 using PluginSource = std::function<Probe(const std::filesystem::path&)>;
 
-// Reads and checks an experiment: every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
+// Reads and checks an experiment. Every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
 Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials,
                            const PluginSource& source = &probe_library);
 
-// The experiment with every default written out; reads back as the same experiment.
+// The experiment as TOML with all defaults; reading it gives the same experiment.
 std::string effective_toml(const Experiment& experiment);
 
 }  // namespace dmrp::host

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_variants = 1000;
+constexpr std::size_t max_variants = 1000;
 
 fs::path parameter_set_folder() {
   return shared_data_path() / "parameter_sets";
@@ -37,7 +37,7 @@ void check_range(const TomlValue& value, const ParameterSpec& spec, double numbe
       fmt::format("'{}' must be from {} to {}{}, not {}", value.key(), spec.minimum, spec.maximum, unit, number));
 }
 
-// The default may name no file: it stays as it is.
+// Resolves a path. A default is not resolved, because it need not name a file.
 std::string resolve(const TomlValue& value, const ParameterSpec& spec, const fs::path& base) {
   if (value.text() == spec.fallback.text) return value.text();
   const fs::path path = base / value.text();
@@ -117,7 +117,7 @@ std::string label_of(const ParameterValue& value) {
   }
 }
 
-// The product of what there is with the values of one more swept key.
+// The product of the variants with the values of another swept key.
 std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& variants, std::size_t index,
                                        const std::vector<ParameterValue>& values) {
   std::vector<ParameterVariant> out;
@@ -131,7 +131,7 @@ std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& vari
   return out;
 }
 
-// The values of a swept key, told apart by their labels.
+// The values of a swept key, with different labels.
 std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSpec& spec, const fs::path& base) {
   std::vector<ParameterValue> values;
   for (const TomlValue& element : entry.array()) {
@@ -152,7 +152,7 @@ fs::path parameter_set(const std::string& name, const fs::path& base) {
   return {};
 }
 
-// By their paths in the folder of parameter sets.
+// Paths relative to the folder of parameter sets.
 std::vector<std::string> shipped_parameter_sets() {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -190,10 +190,10 @@ std::vector<ParameterVariant> read_parameters(const TomlTable& use, const Plugin
     }
   if (const auto sweep = use.find_table("sweep"))
     for (const auto& [entry, index] : declared_entries(*sweep, info)) {
-      if (set[index]) entry.fail_at_key(fmt::format("'{}' stands in 'params' already", entry.key()));
+      if (set[index]) entry.fail_at_key(fmt::format("'{}' is already set in 'params'", entry.key()));
       const auto values = read_sweep(entry, info.parameters[index], base);
-      if (variants.size() * values.size() > most_variants)
-        entry.fail(fmt::format("the sweep has more than {} variants", most_variants));
+      if (variants.size() * values.size() > max_variants)
+        entry.fail(fmt::format("the sweep has more than {} variants", max_variants));
       variants = multiply(variants, index, values);
     }
   return variants;

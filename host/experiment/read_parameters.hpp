@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// read_parameters.hpp: a plugin's parameters from the experiment file, checked against the table that it declares.
+// read_parameters.hpp: reads a plugin's parameters from the experiment file and checks them against its declared table.
 #pragma once
 
 #include <string>
@@ -10,23 +10,24 @@
 
 namespace dmrp::host {
 
-// One complete table of values and how it differs from the others of its sweep: "" or "suboptimality 1.2".
+// One complete table of values. `label`: the difference from the other variants of the sweep, "" or "suboptimality
+// 1.2".
 struct ParameterVariant {
   std::vector<ParameterValue> values;
   std::string label;
 };
 
-// The parameter file of that name, absolute: relative to `base`, else a shipped one, "controllers/tuned/dwa.toml". Empty
-// if there is none.
+// The absolute path of a parameter file: relative to `base`, or a shipped one ("controllers/tuned/dwa.toml"). Empty if
+// there is none.
 std::filesystem::path parameter_set(const std::string& name, const std::filesystem::path& base);
 std::vector<std::string> shipped_parameter_sets();
 
-// The same for the key `params_file` of a plugin's table; empty without that key. Throws InputError.
+// The parameter file of the key `params_file` of a plugin's table; empty without that key. Throws InputError.
 std::filesystem::path find_parameter_file(const TomlTable& use, const std::filesystem::path& base);
 
-// Reads the values of `file` (lines of key = value; empty: none), over them `params`, over these `sweep` of a plugin's
-// table: one variant without a sweep, else the product of the swept values. Paths are resolved against `base`, those of
-// `file` against its folder. Throws InputError.
+// Reads the values of `file` (lines of key = value; empty: none), overridden by `params` and then by `sweep` of a
+// plugin's table. Returns one variant without a sweep, otherwise the product of the swept values. Paths are relative to
+// `base`, those in `file` to its folder. Throws InputError.
 std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info,
                                               const std::filesystem::path& base, const std::filesystem::path& file);
 

@@ -29,7 +29,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   if (descriptor < 0) throw std::system_error(errno, std::generic_category(), path.string());
   try {
     write_all(descriptor, content);
-    // mkstemp makes the file private; what a run leaves behind is for all to read, as the umask allows
+    // mkstemp makes the file private; the files of a run are readable by all, as the umask allows.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::fchmod(descriptor, 0666 & ~mask) != 0 || ::fsync(descriptor) != 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// atomic_file.hpp: files that are either old or whole, never half.
+// atomic_file.hpp: replaces a file atomically: readers find the old or the new content.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,8 @@
 
 namespace dmrp::host {
 
-// Writes beside `path` and renames. Throws std::system_error with the path; nothing is left behind then.
+// Writes a temporary file beside `path`, syncs and renames it. Throws std::system_error with the path and then leaves
+// no temporary file.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace dmrp::host

@@ -37,7 +37,7 @@ class Sha256 {
 
  private:
   static void check(bool good) {
-    if (!good) throw std::runtime_error("SHA-256 is not to be had from libcrypto");
+    if (!good) throw std::runtime_error("libcrypto cannot compute SHA-256");
   }
 
   std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;

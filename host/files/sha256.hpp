@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sha256.hpp: fingerprints of files, in hexadecimal.
+// sha256.hpp: SHA-256 digests, in hexadecimal.
 #pragma once
 
 #include <filesystem>

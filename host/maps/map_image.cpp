@@ -15,21 +15,21 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::uint32_t highest_maxval = 65'535;
+constexpr std::uint32_t max_maxval = 65'535;
 constexpr std::string_view png_magic = "\x89PNG";
 
 bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-// Reads the numbers of a PGM one after the other.
+// Reads the numbers of a PGM in sequence.
 class PgmText {
  public:
   PgmText(std::string_view bytes, const std::string& shown_path) : bytes_(bytes), shown_path_(shown_path) {}
 
   std::size_t position() const { return position_; }
 
-  // Where a position is, as "file:line:column".
+  // A position as "file:line:column".
   std::string place(std::size_t position) const {
     const std::string_view before = bytes_.substr(0, position);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -41,7 +41,7 @@ class PgmText {
     throw InputError(place(position) + ": " + text);
   }
 
-  // The next number, after blanks and comments. `what`: as messages call it.
+  // The next number, after blanks and comments. `what`: its name in messages.
   std::uint32_t number(const char* what, std::uint32_t most) {
     skip_blanks();
     const std::size_t begin = position_;
@@ -55,7 +55,7 @@ class PgmText {
     return static_cast<std::uint32_t>(value);
   }
 
-  // The one blank that raw samples begin after.
+  // Skips the single blank before raw samples.
   void skip_one_blank() {
     if (position_ == bytes_.size() || !is_space(bytes_[position_])) fail(position_, "expected a blank after maxval");
     ++position_;
@@ -78,7 +78,7 @@ void read_plain_samples(PgmText& text, MapImage& image) {
   for (std::uint32_t& level : image.level) level = text.number("a grey value", image.white);
 }
 
-// One byte a sample, or two, the higher first, where maxval needs them.
+// One byte per sample, or two bytes, the higher first, if maxval needs them.
 void read_raw_samples(std::string_view bytes, const PgmText& text, MapImage& image) {
   const std::size_t begin = text.position();
   const std::size_t sample_bytes = image.white > 255 ? 2 : 1;
@@ -99,9 +99,9 @@ void read_raw_samples(std::string_view bytes, const PgmText& text, MapImage& ima
 
 void check_map_size(std::uint64_t width, std::uint64_t height, const std::string& place) {
   if (width == 0 || height == 0) throw InputError(fmt::format("{}: the image has no cells", place));
-  if (width > core::longest_map_side || height > core::longest_map_side || width * height > core::most_map_cells)
+  if (width > core::max_map_side || height > core::max_map_side || width * height > core::max_map_cells)
     throw InputError(fmt::format("{}: the map is too large: {} x {} cells, at most {} a side and {} altogether", place,
-                                 width, height, core::longest_map_side, core::most_map_cells));
+                                 width, height, core::max_map_side, core::max_map_cells));
 }
 
 MapImage read_pgm(std::string_view bytes, const std::string& shown_path) {
@@ -113,7 +113,7 @@ MapImage read_pgm(std::string_view bytes, const std::string& shown_path) {
   image.width = text.number("the width", std::numeric_limits<std::uint32_t>::max());
   image.height = text.number("the height", std::numeric_limits<std::uint32_t>::max());
   check_map_size(image.width, image.height, text.place(header));
-  image.white = text.number("maxval", highest_maxval);
+  image.white = text.number("maxval", max_maxval);
   if (image.white == 0) text.fail(text.position() - 1, "maxval must be at least 1");
   image.level.resize(std::size_t{image.width} * image.height);
   if (bytes[1] == '2') {

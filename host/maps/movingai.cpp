@@ -11,6 +11,7 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/text_lines.hpp"
 
 namespace dmrp::host {
 
@@ -19,110 +20,74 @@ namespace {
 constexpr std::string_view free_letters = ".GS";
 constexpr std::string_view blocked_letters = "@OTW";
 
-// A field of a line, with the column that it begins at.
-struct Field {
-  std::string_view text;
-  std::size_t column = 1;
-};
+// Message text: printable and short.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 24;
+  std::string out;
+  for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';
+  return text.size() > longest ? out + "..." : out;
+}
 
-// The lines of a file, without their ends, whichever those are.
-class Lines {
- public:
-  Lines(const std::filesystem::path& file, std::string shown_path)
-      : shown_path_(std::move(shown_path)), text_(read_file(file, shown_path_)) {
-    for (std::string_view rest = text_; !rest.empty();) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      std::string_view line = rest.substr(0, end);
-      if (line.ends_with('\r')) line.remove_suffix(1);
-      lines_.push_back(line);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
+// The fields of a line: between tabs if it has any, otherwise between blanks.
+std::vector<TextField> fields_of(std::string_view line) {
+  const bool tabs = line.find('\t') != std::string_view::npos;
+  std::vector<TextField> fields;
+  for (std::size_t begin = 0; begin < line.size();) {
+    const std::size_t end = std::min(line.find(tabs ? '\t' : ' ', begin), line.size());
+    if (end > begin || tabs) fields.push_back({line.substr(begin, end - begin), begin + 1});
+    begin = end + 1;
   }
-  Lines(const Lines&) = delete;
-  Lines& operator=(const Lines&) = delete;
+  return fields;
+}
 
-  std::size_t count() const { return lines_.size(); }
-  // Lines count from 1; beyond the last one they are empty.
-  std::string_view line(std::size_t number) const { return number <= count() ? lines_[number - 1] : ""; }
-
-  [[noreturn]] void fail(std::size_t line, std::size_t column, const std::string& text) const {
-    throw InputError(fmt::format("{}:{}:{}: {}", shown_path_, line, column, text));
-  }
-
-  // Between tabs where there are any, else between blanks.
-  std::vector<Field> fields(std::size_t number) const {
-    const std::string_view line = this->line(number);
-    const bool tabs = line.find('\t') != std::string_view::npos;
-    std::vector<Field> fields;
-    for (std::size_t begin = 0; begin < line.size();) {
-      const std::size_t end = std::min(line.find(tabs ? '\t' : ' ', begin), line.size());
-      if (end > begin || tabs) fields.push_back({line.substr(begin, end - begin), begin + 1});
-      begin = end + 1;
-    }
-    return fields;
-  }
-
-  std::uint32_t whole_number(std::size_t line, const Field& field, const char* what, std::uint32_t least,
-                             std::uint32_t most) const {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(field.text.begin(), field.text.end(), number);
-    if (error == std::errc::invalid_argument || end != field.text.end())
-      fail(line, field.column, fmt::format("{} must be a whole number, not '{}'", what, shortened(field.text)));
-    if (error != std::errc() || number < least || number > most)
-      fail(line, field.column, fmt::format("{} must be {} to {}, not {}", what, least, most, shortened(field.text)));
-    return static_cast<std::uint32_t>(number);
-  }
-
-  // What a message quotes: printable and not long.
-  static std::string shortened(std::string_view text) {
-    constexpr std::size_t longest = 24;
-    std::string out;
-    for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';
-    return text.size() > longest ? out + "..." : out;
-  }
-
- private:
-  std::string shown_path_;
-  std::string text_;
-  std::vector<std::string_view> lines_;
-};
+std::uint32_t whole_number(const TextLines& lines, std::size_t line, const TextField& field, const char* what,
+                           std::uint32_t least, std::uint32_t most) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(field.text.begin(), field.text.end(), number);
+  if (error == std::errc::invalid_argument || end != field.text.end())
+    lines.fail(line, field.column, fmt::format("{} must be a whole number, not '{}'", what, shortened(field.text)));
+  if (error != std::errc() || number < least || number > most)
+    lines.fail(line, field.column,
+               fmt::format("{} must be {} to {}, not {}", what, least, most, shortened(field.text)));
+  return static_cast<std::uint32_t>(number);
+}
 
 struct Size {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
 };
 
-// Lines 1 to 4: type, height, width, map.
-Size read_header(const Lines& lines) {
-  const auto type = lines.fields(1);
+// TextLines 1 to 4: type, height, width, map.
+Size read_header(const TextLines& lines) {
+  const auto type = fields_of(lines.line(1));
   if (type.size() != 2 || type[0].text != "type") lines.fail(1, 1, "expected 'type octile': this is no MovingAI map");
   Size size;
   for (std::size_t line = 2; line <= 3; ++line) {
-    const auto fields = lines.fields(line);
+    const auto fields = fields_of(lines.line(line));
     std::uint32_t Size::*side = nullptr;
     if (fields.size() == 2 && fields[0].text == "height") side = &Size::height;
     if (fields.size() == 2 && fields[0].text == "width") side = &Size::width;
     if (!side || size.*side != 0)
       lines.fail(line, 1, fmt::format("expected '{} N'", size.height == 0 ? "height" : "width"));
     size.*side =
-        lines.whole_number(line, fields[1], side == &Size::height ? "height" : "width", 1, core::longest_map_side);
+        whole_number(lines, line, fields[1], side == &Size::height ? "height" : "width", 1, core::max_map_side);
   }
-  if (std::uint64_t{size.width} * size.height > core::most_map_cells)
+  if (std::uint64_t{size.width} * size.height > core::max_map_cells)
     lines.fail(
         3, 1,
-        fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::most_map_cells));
+        fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::max_map_cells));
   if (lines.line(4) != "map") lines.fail(4, 1, "expected 'map'");
   return size;
 }
 
-void read_row(const Lines& lines, std::size_t line, std::uint32_t width, std::uint8_t* row) {
+void read_row(const TextLines& lines, std::size_t line, std::uint32_t width, std::uint8_t* row) {
   const std::string_view letters = lines.line(line);
   for (std::size_t x = 0; x < std::min<std::size_t>(letters.size(), width); ++x) {
     const bool is_free = free_letters.find(letters[x]) != std::string_view::npos;
     if (!is_free && blocked_letters.find(letters[x]) == std::string_view::npos)
       lines.fail(line, x + 1,
                  fmt::format("unknown cell '{}' (known: '.', 'G', 'S' free; '@', 'O', 'T', 'W' blocked)",
-                             Lines::shortened(letters.substr(x, 1))));
+                             shortened(letters.substr(x, 1))));
     row[x] = is_free ? 1 : 0;
   }
   if (letters.size() != width)
@@ -131,11 +96,11 @@ void read_row(const Lines& lines, std::size_t line, std::uint32_t width, std::ui
 }
 
 // A cell of a task, on the map and free.
-MovingAiCell read_cell(const Lines& lines, std::size_t line, const Field& x, const Field& y, const char* what,
-                       const core::CellMap& map) {
+MovingAiCell read_cell(const TextLines& lines, std::size_t line, const TextField& x, const TextField& y,
+                       const char* what, const core::CellMap& map) {
   MovingAiCell cell;
-  cell.x = lines.whole_number(line, x, fmt::format("the {}'s x", what).c_str(), 0, map.width - 1);
-  cell.y = lines.whole_number(line, y, fmt::format("the {}'s y", what).c_str(), 0, map.height - 1);
+  cell.x = whole_number(lines, line, x, fmt::format("the {}'s x", what).c_str(), 0, map.width - 1);
+  cell.y = whole_number(lines, line, y, fmt::format("the {}'s y", what).c_str(), 0, map.height - 1);
   if (!map.is_free(cell.x, map.height - 1 - cell.y))
     lines.fail(line, x.column, fmt::format("the {} ({}, {}) is on a blocked cell", what, cell.x, cell.y));
   return cell;
@@ -148,23 +113,22 @@ bool is_length(std::string_view text) {
   return !number.empty() && end == number.c_str() + number.size() && length >= 0.0;
 }
 
-MovingAiTask read_task(const Lines& lines, std::size_t line, const core::CellMap& map) {
+MovingAiTask read_task(const TextLines& lines, std::size_t line, const core::CellMap& map) {
   constexpr std::size_t field_count = 9;
-  const auto fields = lines.fields(line);
+  const auto fields = fields_of(lines.line(line));
   if (fields.size() != field_count)
     lines.fail(line, fields.empty() ? 1 : fields.back().column,
                fmt::format("a task has {} fields (bucket, map, width, height, start x, y, goal x, y, length), not {}",
                            field_count, fields.size()));
-  lines.whole_number(line, fields[0], "the bucket", 0, 1'000'000'000);
-  const std::uint32_t width = lines.whole_number(line, fields[2], "the map's width", 1, core::longest_map_side);
-  const std::uint32_t height = lines.whole_number(line, fields[3], "the map's height", 1, core::longest_map_side);
+  whole_number(lines, line, fields[0], "the bucket", 0, 1'000'000'000);
+  const std::uint32_t width = whole_number(lines, line, fields[2], "the map's width", 1, core::max_map_side);
+  const std::uint32_t height = whole_number(lines, line, fields[3], "the map's height", 1, core::max_map_side);
   if (width != map.width || height != map.height)
     lines.fail(line, fields[2].column,
-               fmt::format("the task is for another map: '{}' of {} x {} cells, not {} x {}",
-                           Lines::shortened(fields[1].text), width, height, map.width, map.height));
+               fmt::format("the task is for another map: '{}' of {} x {} cells, not {} x {}", shortened(fields[1].text),
+                           width, height, map.width, map.height));
   if (!is_length(fields[8].text))
-    lines.fail(line, fields[8].column,
-               fmt::format("the length must be a number, not '{}'", Lines::shortened(fields[8].text)));
+    lines.fail(line, fields[8].column, fmt::format("the length must be a number, not '{}'", shortened(fields[8].text)));
   return {read_cell(lines, line, fields[4], fields[5], "start", map),
           read_cell(lines, line, fields[6], fields[7], "goal", map), static_cast<std::uint32_t>(line)};
 }
@@ -173,7 +137,7 @@ MovingAiTask read_task(const Lines& lines, std::size_t line, const core::CellMap
 
 core::CellMap read_movingai_map(const std::filesystem::path& file, const std::string& shown_path) {
   constexpr std::size_t header_lines = 4;
-  const Lines lines(file, shown_path);
+  const TextLines lines(read_file(file, shown_path), shown_path);
   const Size size = read_header(lines);
   core::CellMap map{size.width, size.height, {}};
   map.free.resize(std::size_t{size.width} * size.height);
@@ -190,15 +154,15 @@ core::CellMap read_movingai_map(const std::filesystem::path& file, const std::st
 
 MovingAiTasks read_movingai_tasks(const std::filesystem::path& file, const std::string& shown_path,
                                   const core::CellMap& map) {
-  const Lines lines(file, shown_path);
-  const auto version = lines.fields(1);
+  const TextLines lines(read_file(file, shown_path), shown_path);
+  const auto version = fields_of(lines.line(1));
   if (version.size() != 2 || version[0].text != "version" || (version[1].text != "1" && version[1].text != "1.0"))
     lines.fail(1, 1, "expected 'version 1': this is no MovingAI scenario of version 1");
   MovingAiTasks out{shown_path, "", {}};
   for (std::size_t line = 2; line <= lines.count(); ++line) {
     if (lines.line(line).empty()) continue;
     out.tasks.push_back(read_task(lines, line, map));
-    if (out.map_name.empty()) out.map_name = std::string(lines.fields(line)[1].text);
+    if (out.map_name.empty()) out.map_name = std::string(fields_of(lines.line(line))[1].text);
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// movingai.hpp: the formats of the MovingAI benchmarks: maps of cells (.map) and tasks on them (.scen, version 1).
+// movingai.hpp: reads the formats of the MovingAI benchmarks: maps (.map) and tasks on them (.scen, version 1).
 // Every mistake in a file is an InputError in one line, `file:line:column: what was expected`.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-// A cell as the files count: from the upper left, y downward.
+// A cell in the files' coordinates: from the upper left, y downwards.
 struct MovingAiCell {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
@@ -22,17 +22,17 @@ struct MovingAiCell {
 struct MovingAiTask {
   MovingAiCell start;
   MovingAiCell goal;
-  std::uint32_t line = 0;  // of the file
+  std::uint32_t line = 0;  // in the file
 };
 
 struct MovingAiTasks {
   std::string shown_path;
-  std::string map_name;  // that the first task names; empty if there is none
+  std::string map_name;  // in the first task; empty if there is none
   std::vector<MovingAiTask> tasks;
 };
 
-// Free: '.', 'G' (ground) and 'S' (swamp, which is walked through like ground). Blocked: '@' and 'O' (out of bounds),
-// 'T' (trees) and 'W' (water, which nothing on the ground enters). The file's last line is the map's row 0.
+// Free: '.', 'G' (ground) and 'S' (swamp, passable like ground). Blocked: '@' and 'O' (out of bounds), 'T' (trees) and
+// 'W' (water, not passable from the ground). The last line of the file is row 0 of the map.
 core::CellMap read_movingai_map(const std::filesystem::path& file, const std::string& shown_path);
 
 // All tasks of the file; each starts and ends on a free cell of `map`.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// PNG by libpng, whatever its kind, as 8-bit red, green and blue, with alpha where the file has it.
+// Reads PNG images of every kind by libpng as 8-bit red, green and blue, with alpha if the file has it.
 #include <fmt/format.h>
 #include <png.h>
 
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 
 #include "host/errors/input_error.hpp"
 #include "host/maps/map_image.hpp"
@@ -14,13 +15,13 @@ namespace dmrp::host {
 
 namespace {
 
-// What libpng's callbacks work on.
+// The data of libpng's callbacks.
 struct Source {
   std::string_view rest;
   std::array<char, 160> message{};
 };
 
-// libpng owns both structs; this gives them back.
+// Owns libpng's structs.
 struct Decoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -45,7 +46,7 @@ void note_error(png_structp png, png_const_charp message) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-// The two steps that libpng leaves by longjmp on an error: nothing in them has a destructor.
+// Steps that libpng may leave by longjmp on an error: they have no variables with destructors.
 bool read_header(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_read_info(png, info);
@@ -79,9 +80,9 @@ MapImage read_png(std::string_view bytes, const std::string& shown_path) {
   Decoder decoder;
   decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, &note_error, &ignore_warning);
   decoder.info = decoder.png ? png_create_info_struct(decoder.png) : nullptr;
-  if (!decoder.info) throw InputError(shown_path + ":1:1: libpng cannot begin to read");
+  if (!decoder.info) throw std::bad_alloc();
   png_set_read_fn(decoder.png, &source, &take_bytes);
-  // sizes are checked below, with a message of ours
+  // The size is checked below, with our own message.
   png_set_user_limits(decoder.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   if (!read_header(decoder.png, decoder.info)) fail();
 

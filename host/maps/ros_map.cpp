@@ -19,11 +19,11 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::uintmax_t most_yaml_bytes = 1 << 16;
-constexpr double finest_resolution_m = 0.001;
-constexpr double coarsest_resolution_m = 100.0;
-constexpr double farthest_m = 1e6;    // of a coordinate
-constexpr int most_likely_free = 49;  // of 100
+constexpr std::uintmax_t max_yaml_bytes = 1 << 16;
+constexpr double min_resolution_m = 0.001;
+constexpr double max_resolution_m = 100.0;
+constexpr double max_length_m = 1e6;      // of a coordinate
+constexpr int max_free_probability = 49;  // of 100
 
 enum class Mode { trinary, scale, raw };
 
@@ -34,7 +34,7 @@ struct Shades {
   double free_thresh = 0.0;
 };
 
-// The one mapping of the file, key by key, with places for messages.
+// The YAML mapping of the file, with places for messages.
 class MapFile {
  public:
   MapFile(const std::string& text, const std::string& shown_path) : shown_path_(shown_path) {
@@ -81,7 +81,7 @@ class MapFile {
     return value;
   }
 
-  // map_server writes 0 and 1.
+  // Accepts 0 and 1, as map_server writes them, and YAML's booleans.
   bool flag(const YAML::Node& node, const std::string& key) const {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
     if (text == "0" || text == "1") return text == "1";
@@ -92,14 +92,14 @@ class MapFile {
   }
 
  private:
-  // Other tools add keys of their own: only those that were meant to be one of map_server's are refused.
+  // Other tools add keys, so an unknown key is refused only if it is probably a mistyped key of map_server.
   void check_key(const YAML::Node& key, std::vector<std::string>& seen) const {
     static const std::vector<std::string> known = {"image",           "resolution",  "origin", "negate",
                                                    "occupied_thresh", "free_thresh", "mode"};
     if (!key.IsScalar()) return;
     const std::string name = key.Scalar();
     if (std::find(seen.begin(), seen.end(), name) != seen.end())
-      fail(key.Mark(), fmt::format("'{}' is there twice", name));
+      fail(key.Mark(), fmt::format("'{}' occurs twice", name));
     seen.push_back(name);
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     if (const std::string meant = did_you_mean(name, known); !meant.empty())
@@ -118,7 +118,7 @@ class MapFile {
 dmrp_pose read_origin(const MapFile& file) {
   const YAML::Node node = file.need("origin");
   if (!node.IsSequence() || node.size() != 3) file.fail(node.Mark(), "'origin' must be [x, y, yaw]");
-  const double most = farthest_m;
+  const double most = max_length_m;
   return {file.number(node[0], "origin", -most, most), file.number(node[1], "origin", -most, most),
           file.number(node[2], "origin", -most, most)};
 }
@@ -148,12 +148,12 @@ Shades read_shades(const MapFile& file) {
   return shades;
 }
 
-// How likely a cell is occupied, of 100; none where that is unknown.
+// The occupancy probability of a cell in per cent; none if it is unknown.
 std::optional<int> chance(const MapImage& image, std::size_t pixel, const Shades& shades) {
   double level = image.level[pixel];
   double white = image.white;
   if (shades.mode == Mode::trinary && !image.alpha.empty()) {
-    // as map_server does: the mean is over all channels
+    // Like map_server: the mean over all channels, with alpha.
     level += image.alpha[pixel];
     white += 255.0;
   }
@@ -177,7 +177,7 @@ core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x) {
       const auto likely = chance(image, std::size_t{y} * image.width + x, shades);
-      const bool free = likely ? *likely <= most_likely_free : unknown == UnknownCells::free;
+      const bool free = likely ? *likely <= max_free_probability : unknown == UnknownCells::free;
       map.free[std::size_t{image.height - 1 - y} * image.width + x] = free ? 1 : 0;
     }
   return map;
@@ -186,11 +186,11 @@ core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells
 }  // namespace
 
 RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_path, UnknownCells unknown) {
-  const MapFile yaml(read_file(file, shown_path, most_yaml_bytes), shown_path);
+  const MapFile yaml(read_file(file, shown_path, max_yaml_bytes), shown_path);
   RosMap map;
   const YAML::Node name = yaml.need("image");
   const std::string image = yaml.text(name, "image");
-  map.resolution_m = yaml.number(yaml.need("resolution"), "resolution", finest_resolution_m, coarsest_resolution_m);
+  map.resolution_m = yaml.number(yaml.need("resolution"), "resolution", min_resolution_m, max_resolution_m);
   map.origin = read_origin(yaml);
   const Shades shades = read_shades(yaml);
   map.image = (file.parent_path() / image).lexically_normal();

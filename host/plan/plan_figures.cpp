@@ -13,10 +13,10 @@ namespace dmrp::host {
 
 namespace {
 
-// Rounding of coordinates makes no move and no turn.
+// Rounding of coordinates is neither a move nor a turn.
 constexpr double same_place_cells = 1e-6;
 
-// In cells of the grid; whole numbers are centres, (0, 0) that of the lower left cell.
+// In cells of the grid: integers are centres, (0, 0) that of the lower left cell.
 dmrp_vec2 cell_point(const dmrp_grid& grid, const dmrp_waypoint& w) {
   const dmrp_vec2 point = {(w.x - grid.origin.x) / grid.resolution_m - 0.5,
                            (w.y - grid.origin.y) / grid.resolution_m - 0.5};
@@ -24,11 +24,11 @@ dmrp_vec2 cell_point(const dmrp_grid& grid, const dmrp_waypoint& w) {
   return toolkit::distance(point, center) < same_place_cells ? center : point;
 }
 
-// The waypoints of a robot, in cells, up to the one from which on it rests at its last goal.
+// The waypoints of a robot, in cells, up to where it finally rests at its last goal.
 std::vector<dmrp_vec2> way_of(const dmrp_planning_problem& problem, const std::vector<dmrp_waypoint>& path) {
   std::vector<dmrp_vec2> way;
   for (const dmrp_waypoint& w : path) way.push_back(cell_point(*problem.grid, w));
-  // on a tour the robot may already stand at its last goal while it still heads for others
+  // on a tour the robot may pass its last goal on the way to others
   while (way.size() > 1 && way[way.size() - 2] == way.back() &&
          path[way.size() - 2].goal_index == path.back().goal_index)
     way.pop_back();
@@ -52,7 +52,7 @@ std::int64_t count_turns(const std::vector<dmrp_vec2>& way) {
   return count;
 }
 
-// Steps on the grid are counted before they are added up: sums of whole numbers have no rounding.
+// Counts steps before multiplying: sums of integers have no rounding.
 double step_cost(const std::vector<std::vector<dmrp_vec2>>& ways) {
   std::int64_t straight = 0;
   std::int64_t diagonal = 0;

@@ -27,7 +27,7 @@ core::Scenario scenario_of(const core::CellMap& map, const std::vector<MovingAiT
   return scenario;
 }
 
-// Starts and goals are on the centres of free cells already.
+// Starts and goals are at the centres of free cells.
 void stage_cells(const dmrp_world& world, const Experiment& experiment, StagedProblem& problem) {
   problem.grid = *world.planning_grid;
   problem.goals.resize(world.robot_count);
@@ -65,7 +65,7 @@ std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, variant.routes,
                           experiment.seed);
   if (!stage_problem(variant, world, nullptr, nanoseconds(experiment.limits.planner_time_s), task->problem))
-    throw std::logic_error("robots of a scenario that was checked do not stand on cells of their own");
+    throw std::logic_error("robots of a checked scenario do not stand on distinct cells");
   return task;
 }
 
@@ -76,7 +76,7 @@ std::unique_ptr<PlanTask> cell_task(const core::CellMap& map, const std::vector<
   task->geometry = std::make_shared<core::StaticGeometry>(scenario);
   core::RobotSettings point = experiment.robot;
   point.radius_m = 0.0;
-  // there are no people: their grid can be as coarse
+  // without people, the walking grid is unused: the planning grid serves
   const core::PlanningGrid grid = core::planning_grid_of(map, cell_m);
   task->cell_view = std::make_unique<core::WorldView>(scenario, point, experiment.simulation, *task->geometry, grid,
                                                       grid, nanoseconds(experiment.limits.step_time_s));

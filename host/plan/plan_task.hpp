@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plan_task.hpp: all that one call of plan() is given, and what its answer is checked against.
+// plan_task.hpp: the input of one call of plan(), and the validation of its answer.
 #pragma once
 
 #include <memory>
@@ -26,12 +26,12 @@ struct PlanTask {
   }
 };
 
-// The first planning problem of a trial in the experiment's only scenario, which must outlive the task. The robots must
-// stand on cells of their own, as check_world() has it.
+// The first planning problem of a trial in the experiment's only scenario. The experiment outlives the task. The robots
+// stand on distinct cells (check_world()).
 std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment);
 
-// Points on the cells of a map: 1 m cells, robots of radius 0, every free cell open. Of the simulation's settings the
-// step duration counts.
+// Robots of radius 0 on the 1 m cells of a map, on which every free cell is open. Of the experiment's simulation settings
+// only the step duration matters.
 std::unique_ptr<PlanTask> cell_task(const core::CellMap& map, const std::vector<MovingAiTask>& tasks,
                                     const Experiment& experiment);
 

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 
 #include "host/plugins/fp_control.hpp"
+#include "host/program/monotonic_time.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-// A call counts as hanging long after should_stop() has said yes, so that a slow machine makes no faults.
+// A call counts as hanging only long after should_stop() has returned true: a slow machine must not cause faults.
 constexpr std::int64_t grace_factor = 2;
 constexpr std::int64_t grace_ns = 5'000'000'000;
 
@@ -29,12 +29,6 @@ std::string status_detail(const char* status, const std::string& error) {
 }
 
 }  // namespace
-
-std::int64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
 
 bool CallGuard::should_stop() {
   const bool over = monotonic_ns() >= deadline_ns_;
@@ -68,7 +62,7 @@ void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
 
 CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bool threw) {
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
-  note_.call_number.fetch_add(1);  // before the next call's note is written
+  note_.call_number.fetch_add(1);  // before the note of the next call
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
     throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");

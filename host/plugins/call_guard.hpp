@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// call_guard.hpp: the one way into a plugin function. Notes who is called for the watchdog, times the call, compares
-// the floating-point control bits, turns statuses that end the trial into a PluginFault.
+// call_guard.hpp: the only way to call a plugin function. Records the call in the call note, measures its time, checks the
+// floating-point control bits, and turns statuses that end the trial into a PluginFault.
 #pragma once
 
 #include <dmrp/status.h>
@@ -10,12 +10,12 @@
 #include <mutex>
 #include <string>
 
-#include "host/plugins/call_note.hpp"
 #include "host/plugins/plugin_fault.hpp"
+#include "host/process/call_note.hpp"
 
 namespace dmrp::host {
 
-// One a process: plugins are entered one at a time.
+// One per process: only one plugin function runs at a time.
 class CallGuard {
  public:
   explicit CallGuard(CallNote& note) : note_(note) {}
@@ -25,8 +25,8 @@ class CallGuard {
     std::int64_t duration_ns;
   };
 
-  // Calls `function`, which returns a status. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, unknown statuses,
-  // changed control bits and exceptions. should_stop() says yes after `budget_ns`.
+  // Calls `function`, which returns a status. should_stop() returns true after `budget_ns`. Throws PluginFault for
+  // OUT_OF_MEMORY, ERROR, FATAL, unknown statuses, changed control bits and exceptions.
   template <class Function>
   Result call(const CallSite& site, std::int64_t budget_ns, Function&& function) {
     enter(site, budget_ns);
@@ -40,15 +40,15 @@ class CallGuard {
     return leave(site, status, threw);
   }
 
-  // What host.h offers to the plugin that is being called, on any of its threads.
+  // The functions of host.h for the plugin that runs, from any of its threads.
   bool should_stop();
   void set_error(const char* text);
 
-  // Whether should_stop() has said yes since the last reset.
+  // Whether should_stop() has returned true since reset_stopped().
   bool stopped() const { return stopped_; }
   void reset_stopped() { stopped_ = false; }
 
-  // The last text of set_error() since the call began.
+  // The last text of set_error() in this call.
   std::string error() const;
 
  private:
@@ -63,8 +63,5 @@ class CallGuard {
   std::uint32_t control_bits_ = 0;
   std::atomic<bool> stopped_ = false;
 };
-
-// Nanoseconds of the monotonic clock that worker and supervisor share.
-std::int64_t monotonic_ns();
 
 }  // namespace dmrp::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // fp_control.hpp: the floating-point control bits (rounding, flush to zero, exception masks). A library built with
-// -ffast-math sets some of them when it is loaded, and every later result in the process changes.
+// -ffast-math changes them when it is loaded, and with them every later result of the process.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace dmrp::host {
 
 #if defined(__x86_64__)
-// The x87 control word (long double, fegetround()) above all of MXCSR but the exception flags.
+// The x87 control word (long double, fegetround()) in the upper half, MXCSR without the exception flags in the lower.
 constexpr std::uint32_t fp_control_mask = 0xffc0;
 inline std::uint32_t fp_control() {
   std::uint16_t x87;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t create_budget_ns = 10'000'000'000;
 
-// v1.0 tables of each kind must be whole: every function is there.
+// Every function of v1.0 must be there.
 bool table_is_whole(const void* table, std::uint32_t kind) {
   if (!table) return false;
   switch (kind) {

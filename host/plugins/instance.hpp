@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// instance.hpp: a plugin instance with a host of its own.
+// instance.hpp: a plugin instance and its dmrp_host.
 #pragma once
 
 #include <dmrp/plugin.h>
@@ -17,7 +17,7 @@
 
 namespace dmrp::host {
 
-// Where log lines of plugins go: level (DMRP_LOG_*), plugin id, text.
+// Receives the log lines of plugins: level (DMRP_LOG_*), plugin id, text.
 using LogSink = std::function<void(std::int32_t level, const std::string& plugin, const std::string& text)>;
 
 class Instance {
@@ -28,13 +28,13 @@ class Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  // What get_extension() answers from now on; ids that it does not know give nullptr. Set before start().
+  // Sets the function behind get_extension(), which returns nullptr for unknown ids. Call it before start().
   void offer(std::function<const void*(const char* id)> extensions) { extensions_ = std::move(extensions); }
 
   // Begins a trial. Throws PluginFault.
   void start(const dmrp_world& world, std::uint64_t seed, std::int64_t budget_ns);
 
-  // The kind's function table, zero-filled where the plugin's is shorter.
+  // The kind's function table; functions that an older plugin lacks are nullptr.
   template <class Table>
   Table table() const {
     const auto& theirs = *static_cast<const Table*>(plugin_.interface_);
@@ -48,7 +48,7 @@ class Instance {
   CallSite site(const char* function, std::int64_t step) const { return {id_, function, step, robot_}; }
   const std::string& id() const { return id_; }
 
-  // Calls `function` of the plugin through the guard; logs the text of a WARNING.
+  // Calls `function` of the plugin through the guard; logs the text of a DMRP_WARNING.
   template <class Function>
   CallGuard::Result call(const char* name, std::int64_t step, std::int64_t budget_ns, Function&& function) {
     const CallGuard::Result result = guard_.call(site(name, step), budget_ns, std::forward<Function>(function));

@@ -18,7 +18,7 @@ struct Library::Handle {
 
 namespace {
 
-// The loader's own message without the path in front, which the caller prints better, and Boost's words around it.
+// The loader's message without the path, which the caller prints, and without Boost's text.
 std::string loader_message(const std::exception& error, const std::filesystem::path& file) {
   std::string text = error.what();
   if (const auto at = text.find(file.string()); at != std::string::npos) {
@@ -75,7 +75,7 @@ Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<H
 }
 
 Library::~Library() {
-  // Code of the library may still be referred to (thread-local destructors, static objects): leave it mapped.
+  // thread-local and static objects may still refer to the library's code: it stays mapped
   static std::vector<boost::dll::shared_library> kept;
   kept.push_back(std::move(handle_->library));
 }

@@ -15,8 +15,8 @@ namespace dmrp::host {
 
 class Library {
  public:
-  // Loads with every symbol resolved and checks the entry object. Throws std::runtime_error, in one line that does not
-  // name the file. Only do this to a file that a probe has survived: a truncated one kills the process.
+  // Loads the file with every symbol resolved, and checks the entry object. Throws std::runtime_error, one line without
+  // the file's name. Load only files that probe_library() has loaded: a truncated file kills the process.
   explicit Library(const std::filesystem::path& file);
   ~Library();
   Library(const Library&) = delete;
@@ -24,7 +24,7 @@ class Library {
 
   const dmrp_entry& entry() const { return entry_; }
   const std::vector<PluginInfo>& plugins() const { return plugins_; }
-  const std::string& warning() const { return warning_; }  // of loading; empty if there is none
+  const std::string& warning() const { return warning_; }  // about loading; empty if there is none
 
  private:
   struct Handle;
@@ -34,26 +34,26 @@ class Library {
   std::string warning_;
 };
 
-// The libraries that an experiment names, as written there or by absolute path:
-// a bare name is searched in DMRP_PLUGIN_PATH, then in ../lib/dmrp/plugins from the executable; else relative to `base`.
-// Returns an empty path if there is no such file.
+// The file of a library that an experiment names. A name without a slash is searched in plugin_path(); a path is relative
+// to `base`. Empty if there is no such file.
 std::filesystem::path find_library(const std::string& name, const std::filesystem::path& base);
 
-// The folders that bare names are searched in.
+// DMRP_PLUGIN_PATH, then ../lib/dmrp/plugins beside the executable.
 std::vector<std::filesystem::path> plugin_path();
 
-// All libraries (.so) in them, sorted, each once.
+// All libraries (.so) of plugin_path(), sorted, without duplicates.
 std::vector<std::filesystem::path> libraries_of_plugin_path();
 
-// What a library says of itself, found out by a child process that loads it. Throws std::runtime_error in one line.
+// The descriptors of a library, read by a child process that loads it. Throws std::runtime_error in one line, or
+// MachineError.
 struct Probe {
   std::vector<PluginInfo> plugins;
   std::string warning{};
-  std::string init_error{};  // why init() failed, in one line; empty if it did not
+  std::string init_error{};  // why init() failed, in one line; empty if it succeeded
 };
 Probe probe_library(const std::filesystem::path& file);
 
-// The child's side: writes the probe as JSON to the pipe `descriptor`. Returns the exit status.
-int run_probe(const std::filesystem::path& file, int descriptor);
+// The child's side: writes the probe as JSON to the pipe `descriptor`, and ends the process.
+[[noreturn]] void run_probe(const std::filesystem::path& file, int descriptor);
 
 }  // namespace dmrp::host

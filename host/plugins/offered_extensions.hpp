@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// offered_extensions.hpp: the extensions that this host has for each kind of plugin.
+// offered_extensions.hpp: the extensions that this host offers to each kind of plugin.
 #pragma once
 
 #include <dmrp/descriptor.h>
@@ -15,7 +15,7 @@
 
 namespace dmrp::host {
 
-// Their ids, for DMRP_KIND_*.
+// The ids for a DMRP_KIND_*.
 inline std::vector<std::string> offered_extensions(std::uint32_t kind) {
   if (kind == DMRP_KIND_METRIC) return {};
   std::vector<std::string> ids = {DMRP_EXT_ANNOTATE};

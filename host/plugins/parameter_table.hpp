@@ -10,7 +10,7 @@
 
 namespace dmrp::host {
 
-// Views `values`, which must outlive it.
+// Refers to `values`, which outlives it.
 class ParameterTable {
  public:
   explicit ParameterTable(const std::vector<ParameterValue>& values) {

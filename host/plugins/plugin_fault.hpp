@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plugin_fault.hpp: a plugin broke its contract; the trial (or the metric) ends as a fault.
+// plugin_fault.hpp: a plugin broke its contract; the trial, or the metric, ends as a fault.
 #pragma once
 
 #include <cstdint>
@@ -7,26 +7,22 @@
 #include <string>
 #include <string_view>
 
+#include "host/process/fault_kind.hpp"
+
 namespace dmrp::host {
 
-// As in results.sqlite. crash, hang and exit are found by the supervisor, never thrown.
-namespace fault_kind {
-inline constexpr const char* crash = "crash";
-inline constexpr const char* hang = "hang";
-inline constexpr const char* out_of_memory = "out_of_memory";
-inline constexpr const char* bad_output = "bad_output";
-inline constexpr const char* abi_breach = "abi_breach";
-inline constexpr const char* error_status = "error_status";
-inline constexpr const char* exit = "exit";
-}  // namespace fault_kind
-
-// A call into a plugin: who, what, when.
+// A call into a plugin.
 struct CallSite {
-  std::string_view plugin;    // id; lives as long as the instance
+  std::string_view plugin;    // id; valid as long as the instance
   const char* function = "";  // as in the contract: "plan", "step", ...
   std::int64_t step = 0;      // physics steps since the trial's start
   std::int32_t robot = -1;    // of a local controller
 };
+
+// "org.example.planner: plan(): TEXT"
+inline std::string call_text(const std::string& plugin, const std::string& function, const std::string& text) {
+  return plugin + ": " + function + "(): " + text;
+}
 
 class PluginFault : public std::runtime_error {
  public:
@@ -45,6 +41,8 @@ class PluginFault : public std::runtime_error {
   std::int64_t step() const { return step_; }
   std::int32_t robot() const { return robot_; }
   bool fatal() const { return fatal_; }
+
+  std::string text() const { return call_text(plugin_, function_, what()); }
 
  private:
   const char* kind_;

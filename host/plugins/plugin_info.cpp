@@ -38,7 +38,7 @@ ParameterSpec copy_parameter(const dmrp_param_spec& c) {
   return out;
 }
 
-// JSON has no infinity: no bound is null.
+// JSON has no infinity: a missing bound is null.
 nlohmann::json bound(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
@@ -46,7 +46,7 @@ double bound(const nlohmann::json& json, double none) {
   return json.is_null() ? none : json.get<double>();
 }
 
-// A default may be infinite or NaN all the same: a text then, as TOML writes it.
+// A default may be infinite or NaN: then a string, as TOML writes it.
 nlohmann::json any_number(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
@@ -55,7 +55,7 @@ double any_number(const nlohmann::json& json) {
   return json.is_string() ? std::strtod(json.get<std::string>().c_str(), nullptr) : json.get<double>();
 }
 
-// Elements have the size that v1.0 gave them, or more.
+// Array elements are at least as large as in v1.0.
 void check_stride(std::uint32_t count, std::uint32_t stride, std::size_t least, const char* what) {
   if (count > 0 && stride < least)
     throw std::runtime_error(std::string("has a descriptor with ") + what + " that are shorter than v1.0's");
@@ -100,7 +100,7 @@ void from_json(const nlohmann::json& json, ParameterSpec& spec) {
 
 namespace {
 
-// One list of fields for both directions.
+// The fields, for both directions.
 template <class Visit>
 void visit_fields(Visit&& visit) {
   visit("id", &PluginInfo::id);

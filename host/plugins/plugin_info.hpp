@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plugin_info.hpp: a plugin's descriptor as the host's own copy, so that it outlives the library and crosses processes.
+// plugin_info.hpp: the host's copy of a plugin's descriptor, which outlives the library and is sent between processes.
 #pragma once
 
 #include <dmrp/descriptor.h>
@@ -11,7 +11,7 @@
 
 namespace dmrp::host {
 
-// The value of a parameter; the field of its type counts.
+// The value of a parameter, in the member of its type.
 struct ParameterValue {
   std::string key;
   std::uint32_t type = 0;  // DMRP_PARAM_*
@@ -59,13 +59,13 @@ struct PluginInfo {
   std::uint32_t channels = 0;
 };
 
-// "global_planner", ...: as the experiment file's tables are called.
+// "global_planner", ...: the names of the tables in experiment files.
 const char* kind_name(std::uint32_t kind);
 
 // "bool", "int", "double", "string", "choice", "path", "double array", "string array".
 const char* parameter_type_name(std::uint32_t type);
 
-// Copies a descriptor. Throws std::runtime_error, in one line, when it is not usable (no id, unknown kind, ...).
+// Throws std::runtime_error, in one line, if the descriptor is not usable (no id, unknown kind, ...).
 PluginInfo copy_descriptor(const dmrp_descriptor& descriptor);
 
 void to_json(nlohmann::json& json, const PluginInfo& info);

@@ -22,9 +22,9 @@ struct LibraryUse {
 struct PluginUse {
   std::uint32_t library = 0;  // index into Experiment::libraries
   PluginInfo info;
-  std::string label;                       // for people; unique among the uses of its kind
+  std::string label;                       // shown in results; unique among the uses of its kind
   std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
-  std::filesystem::path parameter_file{};  // that some of them come from; absolute, empty if there is none
+  std::filesystem::path parameter_file{};  // the source of some of them; absolute, empty if there is none
 };
 
 }  // namespace dmrp::host

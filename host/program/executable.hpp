@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// executable.hpp: where this program is, and what is found from there. Installation and build tree look alike.
+// executable.hpp: the folders of this program. Installation and build tree have the same layout.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace dmrp::host {
 
-// Absolute, links resolved.
+// Absolute, without symbolic links.
 const std::filesystem::path& executable_path();
 
 // share/dmrp of the installation: scenarios/, layouts/, parameter_sets/.
 std::filesystem::path shared_data_path();
 
-// The folders of a colon-separated environment variable; empty ones left out.
+// The folders of a colon-separated environment variable, without empty ones.
 std::vector<std::filesystem::path> folders_of_variable(const char* name);
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// version.hpp: of the program, as the build states it.
+// version.hpp: the version of the program.
 #pragma once
 
 namespace dmrp::host {

@@ -19,8 +19,7 @@ std::string part(const fs::path& folder, const char* name) {
   return read_file(file, file.string());
 }
 
-// "</script" would end the element that holds it; in a script, within a string or a regular expression, "<\/script"
-// means the same.
+// "</script" ends a script element. In a string or a regular expression of a script, "<\/script" is equivalent.
 std::string script_text(std::string text) {
   constexpr std::string_view end_tag = "</script";
   for (std::size_t at = 0; at + end_tag.size() <= text.size(); ++at)
@@ -30,7 +29,7 @@ std::string script_text(std::string text) {
   return text;
 }
 
-// In JSON a "<" stands in texts only.
+// In JSON, "<" occurs in strings only.
 std::string json_text(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -64,7 +63,7 @@ std::string report_page(const fs::path& folder, const std::string& data_json, st
   if (!replays.empty()) data += packed_element("dmrp-three", base64(gzip(part(folder, "three.min.js"))));
   const std::string scripts = "<script>\n" + script_text(part(folder, "page.js")) + "</script>\n";
 
-  // from the page's end: what is put in is not searched again
+  // from the end of the page, so that inserted text is not searched
   replace_line(page, "<!-- dmrp:scripts -->", scripts, file);
   replace_line(page, "<!-- dmrp:data -->", data, file);
   replace_line(page, "<!-- dmrp:styles -->", styles, file);

@@ -30,8 +30,8 @@ void write_report(const std::filesystem::path& run_directory, const std::vector<
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
   ReplayPolicy policy = layouts.report.replays;
   policy.asked = replayed;
-  const Replays chosen = choose_and_encode_replays(run_directory, run.trials, run.metrics, policy);
-  ReplayIndex index{{}, chosen.left_out};
+  const Replays chosen = encode_replays(run_directory, run.trials, run.metrics, policy);
+  ReplayIndex index{{}, chosen.omitted};
   std::vector<EmbeddedReplay> embedded;
   for (const Replay& replay : chosen.replays) {
     const std::string element = "dmrp-replay-" + std::to_string(replay.trial);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// write_report.hpp: RUN_DIR/report.html, from what the run left behind.
+// write_report.hpp: writes RUN_DIR/report.html from the results of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace dmrp::host {
 
-// `replayed`: ids of trials whose replay goes in whatever they are like.
-// Throws InputError where `run_directory` is none, where nothing was measured yet, or for a trial that is not there; std::exceptions where a file is
-// damaged or cannot be written. An old report stays until the new one is whole.
+// `replayed`: ids of trials whose replays are embedded in any case. Replaces an existing report atomically. Throws
+// InputError if `run_directory` is no run directory, has no finished trial, or lacks a trial of `replayed`; other
+// std::exceptions if a file is damaged or cannot be written.
 void write_report(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed = {});
 
 }  // namespace dmrp::host

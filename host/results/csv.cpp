@@ -14,6 +14,7 @@ std::string shortest_number(double value) {
   return {buffer.data(), result.ptr};
 }
 
+// Written by hand: quoting takes fewer lines than the use of a CSV library.
 CsvWriter& CsvWriter::field(std::string_view text) {
   if (line_begun_) text_ += ',';
   line_begun_ = true;
@@ -34,7 +35,7 @@ CsvWriter& CsvWriter::field(const std::optional<double>& value) {
   return value ? field(*value) : field(std::string_view());
 }
 
-// RFC 4180 ends lines with CR LF; every reader takes LF, and text tools prefer it.
+// Lines end with LF instead of RFC 4180's CR LF: every reader accepts it, and text tools prefer it.
 void CsvWriter::end_line() {
   text_ += '\n';
   line_begun_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// csv.hpp: comma-separated lines by RFC 4180, with numbers that read back to the same bits.
+// csv.hpp: writes CSV by RFC 4180, with numbers that read back bit by bit.
 #pragma once
 
 #include <concepts>
@@ -9,7 +9,7 @@
 
 namespace dmrp::host {
 
-// The shortest text that reads back as the same number; "" for NaN.
+// The shortest text that reads back as the same number; empty for NaN.
 std::string shortest_number(double value);
 
 class CsvWriter {

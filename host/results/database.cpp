@@ -74,7 +74,7 @@ constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};
 std::uint32_t index_of(const std::array<const char*, 3>& names, const std::string& name) {
   for (std::uint32_t i = 0; i < names.size(); ++i)
     if (name == names[i]) return i;
-  throw SqliteError("'" + name + "' is not known here");
+  throw SqliteError("'" + name + "' is unknown");
 }
 
 std::int64_t as_signed(std::uint64_t value) {
@@ -163,7 +163,7 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
   return trials;
 }
 
-// Hands every row of `select`, which is ordered by trial, together with its trial to `take`.
+// Calls `take` with every row of `select`, which is ordered by trial, and its trial.
 template <class Take>
 void read_rows(const SqliteConnection& connection, std::string_view select_sql, std::vector<TrialRecord>& trials,
                Take take) {
@@ -171,7 +171,7 @@ void read_rows(const SqliteConnection& connection, std::string_view select_sql, 
   auto trial = trials.begin();
   while (select.step()) {
     const std::uint64_t id = as_unsigned(select.column_integer(0));
-    while (trial->id != id) ++trial;  // there is one: the column is a foreign key
+    while (trial->id != id) ++trial;  // exists: the column is a foreign key
     take(select, *trial);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// database.hpp: results.sqlite, what a run measured. Written by one process, a transaction a trial.
+// database.hpp: results.sqlite, the results of a run. One process writes it, with one transaction for each trial.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 
 namespace dmrp::host {
 
-// Throws SqliteError. Numbers keep their bits (but SQLite gives -0.0 back as 0.0); an undefined value is NULL. Seeds
-// above 2^63 stand in the file as the negative number with the same bits, since SQLite's integers are signed.
+// Throws SqliteError. Numbers keep their bits, except that SQLite returns -0.0 as 0.0; an undefined value is NULL. Seeds
+// of 2^63 and more are stored as the negative number with the same bits, because SQLite's integers are signed.
 class ResultsDatabase {
  public:
-  // A new file, which must not exist, for trials that are measured by `metrics`.
+  // Creates a file, which must not exist, for trials with these metrics.
   static ResultsDatabase create(const std::filesystem::path& path, std::span<const MetricColumn> metrics);
 
-  // An existing one, to go on writing or to be read.
+  // Opens an existing file.
   static ResultsDatabase open(const std::filesystem::path& path);
   static ResultsDatabase open_read_only(const std::filesystem::path& path);
 
-  // All of the trial or nothing; what was there under its id is replaced.
+  // Writes the whole trial or nothing; replaces a trial with the same id.
   void write(const TrialRecord& trial);
 
-  // Ids of the trials that a resumed run need not repeat, in order: all that are there but the skipped.
+  // Sorted ids of the trials that a resumed run does not repeat: all except skipped ones.
   std::vector<std::uint64_t> finished_trials() const;
 
-  std::vector<MetricColumn> metrics() const;  // as they were declared, in that order
-  std::vector<TrialRecord> trials() const;    // all of every trial, by id
+  std::vector<MetricColumn> metrics() const;  // in the order of declaration
+  std::vector<TrialRecord> trials() const;    // complete, by id
 
  private:
   explicit ResultsDatabase(SqliteConnection connection);

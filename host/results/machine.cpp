@@ -15,10 +15,10 @@ namespace {
 
 struct Level {
   const char* name;
-  std::vector<std::string> features;  // beyond the level before, as /proc/cpuinfo calls them
+  std::vector<std::string> features;  // in addition to the previous level, named as in /proc/cpuinfo
 };
 
-// The levels of the x86-64 psABI. (lzcnt is "abm" there, osxsave shows in "avx" being listed at all.)
+// The levels of the x86-64 psABI. (/proc/cpuinfo names lzcnt "abm", and lists "avx" only with osxsave.)
 const std::array<Level, 3>& levels() {
   static const std::array<Level, 3> all{
       {{"x86-64-v2", {"cx16", "lahf_lm", "popcnt", "pni", "sse4_1", "sse4_2", "ssse3"}},

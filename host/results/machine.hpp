@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// machine.hpp: what of the machine may show in the bits of a result.
+// machine.hpp: properties of the machine that can change the bits of a result.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace dmrp::host {
 
 struct Machine {
-  std::string libc;                       // "glibc 2.36"; its mathematics picks code by the features of the CPU
+  std::string libc;                       // "glibc 2.36"; libm selects code by CPU features
   std::string cpu_level;                  // "x86-64-v3", as in glibc's hwcaps; the architecture elsewhere
   std::vector<std::string> cpu_features;  // flags, sorted
   std::string compiler;                   // of the host
@@ -17,7 +17,7 @@ struct Machine {
 
 Machine this_machine();
 
-// For tests: the flags in a text like /proc/cpuinfo, sorted, and the highest level whose flags are all there.
+// For tests: the sorted flags in a text like /proc/cpuinfo, and the highest level whose flags are all present.
 std::vector<std::string> cpu_features_of(std::string_view cpuinfo);
 std::string x86_64_level_of(const std::vector<std::string>& features);
 

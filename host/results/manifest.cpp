@@ -90,8 +90,7 @@ std::vector<std::string> only_in(const std::vector<std::string>& some, const std
   return rest;
 }
 
-// Flags that glibc's choice of code may hang on: those that a level is made of are told by the level already, but a
-// machine may lack "fma" alone.
+// Flags by which glibc may select code. The level covers most of them, but a machine can lack "fma" alone.
 bool decides_on_code(const std::string& feature) {
   return feature == "fma" || feature == "fma4" || feature.rfind("avx", 0) == 0;
 }

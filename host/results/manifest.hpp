@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// manifest.hpp: manifest.json: what a run was made of, so that another one can be told to be the same.
+// manifest.hpp: manifest.json: the inputs of a run (software, machine, files), to decide whether runs are compatible.
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,12 @@
 namespace dmrp::host {
 
 struct HashedFile {
-  std::string role;  // "plugin library", "map", "scenario", "parameter": where the file came in
+  std::string role;  // "plugin library", "map", "scenario", "parameter"
   std::string path;
   std::string sha256;
 };
 
-// A scenario with a number of robots, as a report names it.
+// A scenario with a number of robots.
 struct ScenarioFacts {
   std::string name;
   std::string title;
@@ -29,7 +29,7 @@ struct ScenarioFacts {
   double time_limit_s = 0.0;
 };
 
-// What the run set out to do, whatever came of it.
+// The plan of the run, whether or not it was completed.
 struct ExperimentFacts {
   std::string name;
   std::uint64_t seed = 0;
@@ -48,7 +48,7 @@ struct Manifest {
   std::vector<HashedFile> files;
 };
 
-// What of the program and the machine is known here is filled in.
+// Fills in the properties of the program and the machine.
 Manifest new_manifest(std::string dmrp_version, std::vector<std::string> command_line,
                       std::chrono::system_clock::time_point started_at);
 
@@ -57,8 +57,8 @@ HashedFile hashed_file(std::string role, const std::filesystem::path& path);  //
 std::string to_json_text(const Manifest& manifest);
 Manifest read_manifest(const std::filesystem::path& path);  // throws std::runtime_error
 
-// Why results of the two may differ in their bits, a line each; empty where they may be joined. Files are compared by
-// role and content in order, not by where they lie.
+// The reasons why results of the two can differ in their bits, one line each; empty if they can be merged. Compares
+// files by role and content in order, not by path.
 std::vector<std::string> differences(const Manifest& before, const Manifest& now);
 
 }  // namespace dmrp::host

@@ -5,13 +5,28 @@
 
 #include <cmath>
 
+#include "host/errors/machine_error.hpp"
+
 namespace dmrp::host {
 namespace {
 
-// With the connection's last message and its file's name.
+// The wrapper is written by hand: it covers the few calls of the C API that are used here.
+
+[[noreturn]] void fail(int code, const std::string& line) {
+  switch (code & 0xff) {  // the primary code
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_NOMEM:
+      throw MachineError(line);
+    default:
+      throw SqliteError(line);
+  }
+}
+
+// Throws the connection's last message with the file's name.
 [[noreturn]] void fail(sqlite3* connection, const std::string& what) {
   const char* file = sqlite3_db_filename(connection, "main");
-  throw SqliteError(std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
+  fail(sqlite3_errcode(connection), std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
 }
 
 }  // namespace
@@ -22,14 +37,14 @@ void SqliteConnection::Close::operator()(sqlite3* handle) const {
 
 SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode mode) {
   if (mode == SqliteMode::create && std::filesystem::exists(path))
-    throw SqliteError(path.string() + ": exists already");
+    throw SqliteError(path.string() + ": already exists");
   const int flags = mode == SqliteMode::create       ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
                     : mode == SqliteMode::read_write ? SQLITE_OPEN_READWRITE
                                                      : SQLITE_OPEN_READONLY;
   sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &connection, flags, nullptr);
   handle_.reset(connection);
-  if (code != SQLITE_OK) throw SqliteError(path.string() + ": " + sqlite3_errstr(code));
+  if (code != SQLITE_OK) fail(code, path.string() + ": " + sqlite3_errstr(code));
   sqlite3_extended_result_codes(connection, 1);
   sqlite3_busy_timeout(connection, 10'000);
 }
@@ -66,7 +81,7 @@ SqliteStatement& SqliteStatement::bind(double value) {
 }
 
 SqliteStatement& SqliteStatement::bind(std::string_view value) {
-  const char* data = value.data() ? value.data() : "";  // a null pointer would be bound as NULL
+  const char* data = value.data() ? value.data() : "";  // SQLite binds a null pointer as NULL
   check(sqlite3_bind_text64(handle_.get(), next_parameter_++, data, value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
   return *this;
 }
@@ -90,7 +105,7 @@ void SqliteStatement::run() {
 }
 
 void SqliteStatement::reset() {
-  sqlite3_reset(handle_.get());  // repeats the code of the last step
+  sqlite3_reset(handle_.get());  // returns the code of the last step again
   next_parameter_ = 1;
 }
 

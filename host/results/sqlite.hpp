@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sqlite.hpp: handles of SQLite that close themselves, and errors as exceptions.
+// sqlite.hpp: RAII handles for SQLite, with errors as exceptions.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class SqliteConnection {
  public:
   SqliteConnection(const std::filesystem::path& path, SqliteMode mode);
 
-  // Runs statements that give no rows.
+  // Runs statements that return no rows.
   void execute(const std::string& sql);
 
   sqlite3* handle() const { return handle_.get(); }
@@ -37,21 +37,21 @@ class SqliteConnection {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-// A prepared statement; parameters and columns are counted from 0. Rows:
+// A prepared statement; parameters and columns count from 0. To read rows:
 //   while (statement.step()) use(statement.column_text(0));
 class SqliteStatement {
  public:
   SqliteStatement(const SqliteConnection& connection, std::string_view sql);
 
-  // Each binds the next parameter, beginning with the first after a run or reset. A NaN is bound as NULL.
+  // Binds the next parameter, starting with the first after run() or reset(). Binds NaN as NULL.
   SqliteStatement& bind(std::int64_t value);
   SqliteStatement& bind(double value);
   SqliteStatement& bind(std::string_view value);
   SqliteStatement& bind_null();
 
-  bool step();   // true: there is a row. After the last row the statement is ready to be bound anew
+  bool step();   // true: there is a row. After the last row the statement is reset
   void run();    // steps to the end
-  void reset();  // before the last row was reached
+  void reset();  // needed if step() did not reach the end
 
   bool column_is_null(int column) const;
   std::int64_t column_integer(int column) const;
@@ -59,11 +59,12 @@ class SqliteStatement {
   std::string column_text(int column) const;
 
  private:
-  void check(int code);
-
   struct Finalize {
     void operator()(sqlite3_stmt* handle) const;
   };
+
+  void check(int code);
+
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
   int next_parameter_ = 1;
 };

@@ -10,13 +10,13 @@
 namespace dmrp::host {
 namespace {
 
-// What the metrics of one combination are summed up from: its trials, and those of each seed.
+// The trials of one combination, and its trials with each seed.
 struct Group {
   std::vector<std::size_t> trials;  // indices
   std::map<std::uint64_t, std::vector<std::size_t>> of_seed;
 };
 
-// The intervals of all metrics come from the same draws: those of as many seeds as have a value.
+// All metrics with values for the same number of seeds share the bootstrap draws.
 class Intervals {
  public:
   core::Interval of(std::span<const std::vector<double>> clusters) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// summary.hpp: what the trials of each combination have in common: the numbers behind summary.csv and the table.
+// summary.hpp: summary statistics of the trials of each combination, for summary.csv and the table.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dmrp::host {
 
-// What is compared: all repetitions of one choice of everything.
+// A combination: its trials differ in repetition and seed only.
 struct CombinationLabels {
   std::string scenario;
   std::uint32_t robots = 0;
@@ -26,33 +26,33 @@ struct CombinationLabels {
 
 // One metric's system values over the trials of a combination. NaN where undefined.
 struct MetricSummary {
-  std::uint32_t defined = 0;  // trials in which it has a value
+  std::uint32_t defined = 0;  // trials with a value
   double mean = 0.0;
-  double sd = 0.0;  // between trials
+  double sd = 0.0;  // over trials
   double median = 0.0;
   core::Interval interval{};  // 95 %, of the mean, over seeds
-  core::TrimmedMean paper{};  // of the trials that succeeded; of all where failures count
+  core::TrimmedMean paper{};  // over successful trials, or all trials if the metric counts failures
 };
 
 struct CombinationSummary {
   CombinationLabels combination;
-  std::uint32_t trials = 0;            // that ran; skipped ones don't count
-  std::vector<MetricSummary> metrics;  // as in the list of metrics
+  std::uint32_t trials = 0;            // without skipped ones
+  std::vector<MetricSummary> metrics;  // in the order of the metrics
 };
 
 CombinationLabels combination_of(const TrialRecord& trial);
 
-// In the order in which the combinations first appear. Trials are ordered by id. `counts_failures`: the metrics that are
-// about failing itself (SummaryLayout).
+// In order of first appearance. `trials` are ordered by id. `counts_failures`: metrics that count failures
+// (SummaryLayout).
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures);
 
-// The same over coarser groups: trials whose labels are equal belong together.
+// The same for groups of trials with equal `labels_of`.
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures,
                                           CombinationLabels (*labels_of)(const TrialRecord&));
 
-// summary.csv: a line for each combination and metric.
+// summary.csv: one line for each combination and metric.
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries);
 
 }  // namespace dmrp::host

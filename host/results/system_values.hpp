@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// system_values.hpp: the system's values of all metrics in one table: found once, read often.
+// system_values.hpp: a table of the system's values of all metrics, for fast access.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dmrp::host {
 
-// [trial][metric], as in the lists; curves and other subjects left out. None where undefined or not measured.
+// [trial][metric] in the order of the lists, without curves and other subjects. None if undefined or not measured.
 using SystemValues = std::vector<std::vector<std::optional<double>>>;
 SystemValues system_values(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
 

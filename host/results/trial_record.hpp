@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trial_record.hpp: what one trial left behind, as results.sqlite keeps it.
+// trial_record.hpp: the results of one trial, as in results.sqlite.
 #pragma once
 
 #include <dmrp/descriptor.h>
@@ -13,12 +13,12 @@
 
 namespace dmrp::host {
 
-// A value that a metric gives, as it is declared.
+// The declaration of a metric's value.
 struct MetricColumn {
   std::string name;
   std::string unit;
   std::uint32_t direction = 0;  // DMRP_DIRECTION_*
-  bool wall_clock = false;      // not repeatable to the bit
+  bool wall_clock = false;      // differs from run to run
   std::string description;
 };
 
@@ -29,7 +29,7 @@ struct MetricValue {
   std::uint32_t subject_kind = 0;        // DMRP_SUBJECT_*
   std::optional<std::uint64_t> subject;  // none for the system
   std::optional<double> coordinate;      // of a curve
-  std::optional<double> value;           // none where it is undefined
+  std::optional<double> value;           // none if undefined
 };
 
 struct MetricEvent {
@@ -40,7 +40,7 @@ struct MetricEvent {
   std::string text;
 };
 
-// What one metric says of a trial.
+// The result of one metric for a trial.
 struct MetricResult {
   std::uint32_t index = 0;  // of Experiment::metrics
   std::vector<MetricValue> values;
@@ -55,10 +55,10 @@ struct FaultRecord {
   std::int32_t robot = -1;  // -1: none
   std::int32_t signal = 0;  // 0: none
   std::string detail;
-  std::string rerun;  // the command that runs just this trial again
+  std::string rerun;  // the command that repeats this trial alone
 };
 
-// outcome of a trial.
+// Values of TrialRecord::outcome.
 namespace trial_outcome {
 inline constexpr const char* succeeded = "succeeded";  // all robots arrived
 inline constexpr const char* failed = "failed";
@@ -72,7 +72,7 @@ struct TrialRecord {
   std::uint32_t robots = 0;
   std::string global_planner;
   std::string local_controller;
-  std::string pedestrian_model;  // empty where nobody walks
+  std::string pedestrian_model;  // empty without pedestrians
   std::uint32_t repetition = 0;
   std::uint64_t seed = 0;
   std::string outcome;
@@ -84,7 +84,7 @@ struct TrialRecord {
   std::vector<FaultRecord> faults;
 };
 
-// The system's value of a metric that is no curve; none where it is undefined or was not measured.
+// The system's value of a metric without a coordinate; none if undefined or not measured.
 inline std::optional<double> system_value(const TrialRecord& trial, std::string_view metric) {
   for (const MetricValue& value : trial.values)
     if (value.subject_kind == DMRP_SUBJECT_SYSTEM && !value.coordinate && value.metric == metric) return value.value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trials_csv.hpp: trials.csv, one line a trial.
+// trials_csv.hpp: trials.csv, one line for each trial.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace dmrp::host {
 
-// What is known of each trial, then the system's value of every metric; empty where it is undefined.
+// The properties of each trial, then the system's value of every metric, empty if undefined.
 std::string trials_csv(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
 
 }  // namespace dmrp::host

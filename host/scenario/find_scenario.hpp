@@ -8,13 +8,13 @@
 
 namespace dmrp::host {
 
-// The folders in which scenarios are found by name: the shipped ones, then those of DMRP_SCENARIO_PATH.
+// The folders that are searched for scenarios by name: the shipped ones, then those of DMRP_SCENARIO_PATH.
 std::vector<std::filesystem::path> scenario_folders();
 
-// The scenario.toml behind a name or a path relative to `base`; empty if there is none.
+// The scenario.toml for a name or a path relative to `base`; empty if there is none.
 std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base);
 
 std::vector<std::string> shipped_scenarios();
-std::vector<std::string> known_scenarios();  // these and those of DMRP_SCENARIO_PATH
+std::vector<std::string> known_scenarios();  // the shipped ones and those of DMRP_SCENARIO_PATH
 
 }  // namespace dmrp::host

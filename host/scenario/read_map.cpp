@@ -9,7 +9,7 @@
 
 #include "host/maps/movingai.hpp"
 #include "host/maps/ros_map.hpp"
-#include "host/toml/nearest_name.hpp"
+#include "host/scenario/named_file.hpp"
 
 namespace dmrp::host {
 
@@ -17,67 +17,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file that scenario.toml names, relative to itself, with one of these endings.
-fs::path named_file(const TomlValue& value, const fs::path& scenario_file, const std::vector<std::string>& endings,
-                    ScenarioFile& out) {
-  const fs::path file = (scenario_file.parent_path() / value.line()).lexically_normal();
-  if (std::find(endings.begin(), endings.end(), file.extension().string()) == endings.end())
-    value.fail(fmt::format("'{}' must be a {} file", value.key(), fmt::join(endings, " or ")));
-  if (std::error_code ignored; !fs::is_regular_file(file, ignored))
-    value.fail(fmt::format("no file '{}' beside the scenario file", value.text()));
-  out.files.push_back(file);
-  return file;
+// A file with one of these extensions that scenario.toml names.
+NamedFile file_of_type(const TomlValue& value, const fs::path& scenario_file, const std::string& shown_path,
+                       const std::vector<std::string>& extensions, ScenarioFile& out) {
+  if (const std::string type = fs::path(value.line()).extension().string();
+      std::find(extensions.begin(), extensions.end(), type) == extensions.end())
+    value.fail(fmt::format("'{}' must be a {} file", value.key(), fmt::join(extensions, " or ")));
+  return named_file(value, scenario_file, shown_path, out);
 }
 
-// As a message calls a file that is named in the one shown as `shown_path`.
-std::string shown_beside(const std::string& shown_path, const std::string& name) {
-  return (fs::path(shown_path).parent_path() / name).lexically_normal().string();
-}
-
-// Noise has more boxes than anybody's walls; they would fill the memory. `at`: what names the map.
+// A noisy map has more boxes than any building and would fill the memory. `at`: the name of the map.
 void check_roughness(const TomlValue& at, const core::CellMap& cells) {
-  constexpr std::size_t most_boxes = 250'000;
-  if (const std::size_t boxes = core::count_boxes(cells); boxes > most_boxes)
-    at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, most_boxes));
+  constexpr std::size_t max_boxes = 250'000;
+  if (const std::size_t boxes = core::count_boxes(cells); boxes > max_boxes)
+    at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, max_boxes));
 }
 
-// `at`: what the size hangs on.
-void check_extent(const TomlValue& at, double width_m, double height_m) {
-  if (width_m > longest_side_m || height_m > longest_side_m)
-    at.fail(fmt::format("the world must be at most {0} m by {0} m", longest_side_m));
-}
-
-TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const fs::path& file, const std::string& shown,
-                      core::Scenario& scenario) {
+TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const NamedFile& file, core::Scenario& scenario) {
   table.allow_only({"file", "cell_m"}, " for a MovingAI map");
   TaskMap map;
-  map.cells = read_movingai_map(file, shown);
+  map.cells = read_movingai_map(file.path, file.shown_path);
   check_roughness(name, map.cells);
   const auto cell = table.find("cell_m");
   if (cell) {
     cell->positive();
-    map.cell_m = cell->number(0.0, longest_side_m);
+    map.cell_m = cell->number(0.0, max_side_m);
   }
   const dmrp_vec2 extent = {map.cell_m * map.cells.width, map.cell_m * map.cells.height};
-  check_extent(cell ? *cell : name, extent.x, extent.y);
+  check_extent(cell ? *cell : name, extent);
   scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
   scenario.shapes = core::boxes_of(map.cells, map.cell_m, scenario.lower);
   return map;
 }
 
-void read_map_server(const TomlTable& root, const TomlTable& table, const TomlValue& name, const fs::path& file,
-                     const std::string& shown, ScenarioFile& out) {
+void read_map_server(const TomlTable& root, const TomlTable& table, const TomlValue& name, const NamedFile& file,
+                     ScenarioFile& out) {
   table.allow_only({"file", "unknown"}, " for a map of map_server");
   if (const auto origin = root.find_table("scenario")->find("origin_m"))
     origin->fail_at_key("a map of map_server has an 'origin' of its own");
   auto unknown = UnknownCells::occupied;
   if (const auto asked = table.find("unknown"); asked && asked->choice({"occupied", "free"}) == "free")
     unknown = UnknownCells::free;
-  const RosMap map = read_ros_map(file, shown, unknown);
+  const RosMap map = read_ros_map(file.path, file.shown_path, unknown);
   check_roughness(name, map.cells);
   out.files.push_back(map.image);
   core::PlacedBoxes placed = core::place_boxes(map.cells, map.resolution_m, map.origin);
-  check_extent(name, placed.world.upper.x - placed.world.lower.x, placed.world.upper.y - placed.world.lower.y);
+  check_extent(name, {placed.world.upper.x - placed.world.lower.x, placed.world.upper.y - placed.world.lower.y});
   out.scenario.lower = placed.world.lower;
   out.scenario.upper = placed.world.upper;
   out.scenario.shapes = std::move(placed.shapes);
@@ -92,10 +77,9 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
   table->allow_only(map_keys);
   const TomlValue name = table->need("file");
   out.size = name.position();
-  const fs::path map_file = named_file(name, file, {".map", ".yaml", ".yml"}, out);
-  const std::string shown = shown_beside(shown_path, name.text());
-  if (map_file.extension() == ".map") return read_movingai(*table, name, map_file, shown, out.scenario);
-  read_map_server(root, *table, name, map_file, shown, out);
+  const NamedFile map = file_of_type(name, file, shown_path, {".map", ".yaml", ".yml"}, out);
+  if (map.path.extension() == ".map") return read_movingai(*table, name, map, out.scenario);
+  read_map_server(root, *table, name, map, out);
   return std::nullopt;
 }
 
@@ -105,8 +89,8 @@ void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const
   table.allow_only(tasks_keys);
   const TomlValue name = table.need("scen");
   if (!map) name.fail("'scen' needs a [map] of MovingAI that its tasks are for");
-  const fs::path tasks_file = named_file(name, file, {".scen"}, out);
-  const MovingAiTasks read = read_movingai_tasks(tasks_file, shown_beside(shown_path, name.text()), map->cells);
+  const NamedFile tasks = file_of_type(name, file, shown_path, {".scen"}, out);
+  const MovingAiTasks read = read_movingai_tasks(tasks.path, tasks.shown_path, map->cells);
   std::size_t count = read.tasks.size();
   if (const auto asked = table.find("count")) {
     count = static_cast<std::size_t>(asked->integer(1));

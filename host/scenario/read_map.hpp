@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// read_map.hpp: the parts of scenario.toml that name files of others: [map], and [robots] for tasks on it.
+// read_map.hpp: reads maps in foreign formats into a scenario: [map] of scenario.toml, and [robots] for tasks on it.
 #pragma once
 
 #include <filesystem>
@@ -15,18 +15,18 @@ namespace dmrp::host {
 inline const std::vector<std::string> map_keys = {"file", "cell_m", "unknown"};  // of [map]
 inline const std::vector<std::string> tasks_keys = {"scen", "count"};            // of [robots]
 
-// A MovingAI map, whose cells tasks count in; its lower left corner is the world's.
+// A MovingAI map; the coordinates of its tasks are its cells. Its lower left corner is that of the world.
 struct TaskMap {
   core::CellMap cells;
   double cell_m = 1.0;
 };
 
-// Reads [map] into the scenario: its world and its shapes. `file`, `shown_path`: of scenario.toml. None where there is
-// no [map], or one of map_server, which has no tasks.
+// Reads [map] into the scenario: its rectangle and its shapes. `file`, `shown_path`: of scenario.toml. Returns the map
+// for tasks; none without [map], or for a map of map_server, which has no tasks.
 std::optional<TaskMap> read_map(const TomlTable& root, const std::filesystem::path& file, const std::string& shown_path,
                                 ScenarioFile& out);
 
-// Reads [robots]: the tasks of a .scen file.
+// Reads [robots]: tasks of a .scen file.
 void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const std::filesystem::path& file,
                 const std::string& shown_path, ScenarioFile& out);
 

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
-#include "host/errors/input_error.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/text_lines.hpp"
+#include "host/scenario/named_file.hpp"
 
 namespace dmrp::host {
 
@@ -19,14 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_s = 1e6;
+constexpr double max_time_s = 1e6;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some spreadsheets write it
 constexpr std::array<std::string_view, 4> columns = {"time", "id", "x", "y"};
-
-// A field of a line and where it begins, from 1.
-struct Field {
-  std::string_view text;
-  std::size_t column = 1;
-};
 
 std::string_view trimmed(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r");
@@ -36,36 +33,34 @@ std::string_view trimmed(std::string_view text) {
 
 class Recording {
  public:
-  Recording(const std::string& text, std::string shown_path) : text_(text), shown_path_(std::move(shown_path)) {}
+  Recording(std::string text, const std::string& shown_path)
+      : lines_(std::move(text), shown_path), shown_path_(shown_path) {}
 
   void read(ScenarioFile& out) {
-    std::string_view rest = text_;
-    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // the byte order mark of spreadsheets
     bool has_header = false;
-    while (!rest.empty()) {
-      const auto end = rest.find('\n');
-      const std::string_view line = rest.substr(0, end);
-      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-      ++line_;
+    for (line_ = 1; line_ <= lines_.count(); ++line_) {
+      std::string_view line = lines_.line(line_);
+      if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
       if (trimmed(line).empty()) continue;
-      const std::array<Field, 4> fields = split(line);
+      const std::array<TextField, 4> fields = split(line);
       if (has_header)
         read_row(fields, out);
       else
         check_header(fields);
       has_header = true;
     }
+    line_ = lines_.count();
     if (!has_header) fail(1, "the file needs the line 'time,id,x,y'");
-    if (persons_.empty()) fail(1, "nobody is recorded");
+    if (persons_.empty()) fail(1, "the recording has no rows");
   }
 
  private:
   [[noreturn]] void fail(std::size_t column, const std::string& text) const {
-    throw InputError(fmt::format("{}:{}:{}: {}", shown_path_, std::max<std::size_t>(line_, 1), column, text));
+    lines_.fail(std::max<std::size_t>(line_, 1), column, text);
   }
 
-  std::array<Field, 4> split(std::string_view line) const {
-    std::array<Field, 4> fields;
+  std::array<TextField, 4> split(std::string_view line) const {
+    std::array<TextField, 4> fields;
     std::size_t begin = 0;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto end = line.find(',', begin);
@@ -77,14 +72,14 @@ class Recording {
     return fields;
   }
 
-  void check_header(const std::array<Field, 4>& fields) const {
+  void check_header(const std::array<TextField, 4>& fields) const {
     for (std::size_t i = 0; i < fields.size(); ++i)
       if (fields[i].text != columns[i])
         fail(fields[i].column,
              fmt::format("the first line must be 'time,id,x,y': '{}' should be '{}'", fields[i].text, columns[i]));
   }
 
-  // Whether all of the field is such a number.
+  // Whether the whole field is a number of this type.
   template <class Number>
   static bool parse(std::string_view text, Number& value) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -93,7 +88,7 @@ class Recording {
     return read.ec == std::errc() && read.ptr == end;
   }
 
-  double number(const Field& field, std::size_t index, double farthest) const {
+  double number(const TextField& field, std::size_t index, double farthest) const {
     double value = 0.0;
     if (!parse(field.text, value) || !(std::abs(value) <= farthest))
       fail(field.column,
@@ -101,15 +96,15 @@ class Recording {
     return value;
   }
 
-  std::uint64_t id(const Field& field) const {
+  std::uint64_t id(const TextField& field) const {
     std::uint64_t value = 0;
     if (!parse(field.text, value))
       fail(field.column, fmt::format("'id' must be a whole number of at least 0, not '{}'", field.text));
     return value;
   }
 
-  void read_row(const std::array<Field, 4>& fields, ScenarioFile& out) {
-    const std::int64_t t_ns = std::llround(number(fields[0], 0, longest_s) * 1e9);
+  void read_row(const std::array<TextField, 4>& fields, ScenarioFile& out) {
+    const std::int64_t t_ns = std::llround(number(fields[0], 0, max_time_s) * 1e9);
     const auto [person, is_new] = persons_.try_emplace(id(fields[1]), out.scenario.tracks.size());
     if (is_new) {
       out.scenario.tracks.emplace_back();
@@ -122,12 +117,12 @@ class Recording {
     if (!points.empty() && t_ns < points.back().t_ns)
       fail(fields[0].column, fmt::format("the rows of person {} must be in order of time: {} s comes after {} s",
                                          person->first, fields[0].text, static_cast<double>(points.back().t_ns) / 1e9));
-    const double x = number(fields[2], 2, longest_side_m);
-    points.push_back({t_ns, {x, number(fields[3], 3, longest_side_m)}});
+    const double x = number(fields[2], 2, max_side_m);
+    points.push_back({t_ns, {x, number(fields[3], 3, max_side_m)}});
     out.tracks[person->second].lines.push_back(line_);
   }
 
-  const std::string& text_;
+  TextLines lines_;
   std::string shown_path_;
   std::size_t line_ = 0;
   std::map<std::uint64_t, std::size_t> persons_;  // by id: the track
@@ -139,15 +134,10 @@ void read_recordings(const TomlTable& root, const fs::path& file, const std::str
   for (const TomlTable& table : root.tables("recording")) {
     table.allow_only(recording_keys);
     const TomlValue name = table.need("file");
-    const fs::path recording = (file.parent_path() / name.line()).lexically_normal();
-    if (std::error_code ignored; !fs::is_regular_file(recording, ignored))
-      name.fail(fmt::format("no file '{}' beside the scenario file", name.text()));
-    const std::string shown = (fs::path(shown_path).parent_path() / name.text()).lexically_normal().string();
-    out.files.push_back(recording);
-    const std::string text = read_file(recording, shown);
+    const NamedFile recording = named_file(name, file, shown_path, out);
     const std::size_t first = out.scenario.tracks.size();
-    Recording(text, shown).read(out);
-    out.recordings.push_back({name.position(), shown, first, out.scenario.tracks.size()});
+    Recording(read_file(recording.path, recording.shown_path), recording.shown_path).read(out);
+    out.recordings.push_back({name.position(), recording.shown_path, first, out.scenario.tracks.size()});
   }
 }
 

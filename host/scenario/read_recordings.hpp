@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// read_recordings.hpp: [[recording]] of scenario.toml: people as they walked when somebody recorded them.
+// read_recordings.hpp: reads [[recording]] of scenario.toml: recorded tracks of people.
 //
-// A recording is a CSV file: the line `time,id,x,y`, then a row for each person and moment, in s and m, in the world's
-// frame; the trial begins at time 0. The rows of one person are in order of time; ids are whole numbers, persons of
-// several recordings are different people.
+// A recording is a CSV file: the line `time,id,x,y`, then a row for each person and time, in s and m, in the world
+// frame; the trial begins at time 0. The rows of one person are in order of time. Ids are integers; equal ids in
+// different recordings mean different people.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace dmrp::host {
 
 inline const std::vector<std::string> recording_keys = {"file"};
 
-// Reads all of them into the scenario's tracks, in the order in which people first appear in the files. `file`,
-// `shown_path`: of scenario.toml.
+// Reads all recordings into the scenario's tracks, in the order of each person's first row. `file`, `shown_path`: of
+// scenario.toml.
 void read_recordings(const TomlTable& root, const std::filesystem::path& file, const std::string& shown_path,
                      ScenarioFile& out);
 

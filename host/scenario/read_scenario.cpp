@@ -20,9 +20,9 @@ namespace dmrp::host {
 namespace {
 
 constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-constexpr double farthest_m = 1e6;  // of a coordinate
-constexpr double longest_s = 1e6;
-constexpr std::int64_t most_people = 10'000;  // of a flow
+constexpr double max_length_m = 1e6;  // of a coordinate
+constexpr double max_time_s = 1e6;
+constexpr std::int64_t max_people = 10'000;  // of a flow
 
 const std::vector<std::string> root_keys = {"scenario", "map",    "box",    "circle", "polygon", "robot",
                                             "robots",   "people", "region", "flow",   "tiles",   "recording"};
@@ -36,7 +36,7 @@ const std::vector<std::string> flow_keys = {"name", "from", "via", "to", "people
 
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
-  for (const TomlValue& element : value.array()) out.push_back(element.number(-farthest_m, farthest_m));
+  for (const TomlValue& element : value.array()) out.push_back(element.number(-max_length_m, max_length_m));
   if (out.size() < least || out.size() > most)
     value.fail(fmt::format("'{}' must be {}, not {} number{}", value.key(),
                            least == most ? "[x, y]" : "[x, y] or [x, y, theta]", out.size(),
@@ -61,7 +61,7 @@ dmrp_pose pose(const TomlValue& value) {
   return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : free_heading};
 }
 
-// At most `maximum`, and more than nothing.
+// A number > 0, at most `maximum`.
 double positive(const TomlValue& value, double maximum) {
   value.positive();
   return value.number(0.0, maximum);
@@ -78,7 +78,7 @@ core::Shape read_box(const TomlTable& table) {
   const dmrp_vec2 center = point(table.need("center_m"));
   const dmrp_vec2 extent = size(table.need("size_m"));
   const auto angle = table.find("angle_rad");
-  const double theta = angle ? angle->number(-farthest_m, farthest_m) : 0.0;
+  const double theta = angle ? angle->number(-max_length_m, max_length_m) : 0.0;
   const double c = std::cos(theta);
   const double s = std::sin(theta);
   for (const auto& [i, j] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
@@ -92,7 +92,7 @@ core::Shape read_circle(const TomlTable& table) {
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
   shape.center = point(table.need("center_m"));
-  shape.radius_m = positive(table.need("radius_m"), farthest_m);
+  shape.radius_m = positive(table.need("radius_m"), max_length_m);
   return shape;
 }
 
@@ -115,7 +115,7 @@ void read_shapes(const TomlTable& root, const std::string& kind, Read&& read, Sc
     shape.name = name.line();
     for (const core::Shape& other : out.scenario.shapes)
       if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
-    if (const auto height = table.find("height_m")) shape.height_m = positive(*height, farthest_m);
+    if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_length_m);
     out.scenario.shapes.push_back(std::move(shape));
   }
 }
@@ -197,9 +197,9 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
   return static_cast<std::uint32_t>(found - names.begin());
 }
 
-// With nobody in the flow there are no groups either.
+// A flow without people has no groups, so its group size is not limited.
 std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
-  const auto size = static_cast<std::uint32_t>(value.integer(1, most_people));
+  const auto size = static_cast<std::uint32_t>(value.integer(1, max_people));
   if (flow.people > 0 && size > flow.people)
     value.fail(fmt::format("'group_size' must be at most 'people', {}, not {}", flow.people, size));
   return size;
@@ -227,7 +227,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     if (const auto via = table.find("via"))
       for (const TomlValue& region : via->array()) lead_to(region);
     lead_to(table.need("to"));
-    flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, most_people));
+    flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, max_people));
     if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
       flow.start = core::FlowStart::from;
     if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
@@ -258,12 +258,12 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   } else {
     const TomlValue size_value = header->need("size_m");
     const dmrp_vec2 extent = size(size_value);
-    if (extent.x > longest_side_m || extent.y > longest_side_m)
-      size_value.fail(fmt::format("'size_m' must be at most [{0}, {0}]", longest_side_m));
+    if (extent.x > max_side_m || extent.y > max_side_m)
+      size_value.fail(fmt::format("'size_m' must be at most [{0}, {0}]", max_side_m));
     scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
     out.size = size_value.position();
   }
-  if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, longest_s);
+  if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, max_time_s);
 }
 
 std::vector<TomlKeys> keys_of_tables() {
@@ -283,6 +283,11 @@ std::vector<TomlKeys> keys_of_tables() {
 }
 
 }  // namespace
+
+void check_extent(const TomlValue& at, dmrp_vec2 extent) {
+  if (extent.x > max_side_m || extent.y > max_side_m)
+    at.fail(fmt::format("the world must be at most {0} m by {0} m", max_side_m));
+}
 
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// read_scenario.hpp: scenario.toml as data, with the places that later checks point at.
+// read_scenario.hpp: reads scenario.toml, with the places in the file for later checks.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace dmrp::host {
 
-inline constexpr double longest_side_m = 10'000.0;  // of a world
+inline constexpr double max_side_m = 10'000.0;  // of a world
 
-// Where a recorded person stands in its file.
+// The place of a recorded person in its file.
 struct TrackPlace {
   std::string shown_path;
   std::string id;
   std::vector<std::size_t> lines;  // parallel to the track's points
 };
 
-// A [[recording]]: the tracks from `first` up to before `end`.
+// A [[recording]]: the tracks from `first` to `end`, exclusive.
 struct RecordingPlace {
   SourcePosition position;
   std::string shown_path;
@@ -32,18 +32,21 @@ struct RecordingPlace {
 
 struct ScenarioFile {
   core::Scenario scenario;
-  std::vector<std::filesystem::path> files;  // that it is made of beside scenario.toml, absolute: a map, tasks
+  std::vector<std::filesystem::path> files;  // other files that it names, absolute: maps, tasks, recordings, tiles
   std::shared_ptr<const TomlDocument> document;
   SourcePosition size;                  // of the world
   std::vector<SourcePosition> robots;   // parallel to scenario.robots
-  std::vector<SourcePosition> regions;  // likewise
-  std::vector<SourcePosition> flows;
-  std::vector<TrackPlace> tracks;
+  std::vector<SourcePosition> regions;  // parallel to scenario.regions
+  std::vector<SourcePosition> flows;    // parallel to scenario.flows
+  std::vector<TrackPlace> tracks;       // parallel to scenario.tracks
   std::vector<RecordingPlace> recordings;
 };
 
-// Reads and checks the file, `file` being its absolute path, by itself: not yet against a robot. `shown_path`: as
-// messages call it.
+// Fails at `at` if a world of this size is too large.
+void check_extent(const TomlValue& at, dmrp_vec2 extent);
+
+// Reads the file and checks everything that does not depend on a robot. `file`: its absolute path; `shown_path`: its
+// path in messages. Throws InputError.
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path);
 
 }  // namespace dmrp::host

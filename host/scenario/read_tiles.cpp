@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t most_tiles = 100;  // along a side
+constexpr std::int64_t max_tiles = 100;  // along a side
 
 dmrp_vec2 moved(dmrp_vec2 point, dmrp_vec2 by) {
   return {point.x + by.x, point.y + by.y};
 }
 
-// The tile's shapes, regions and flows, moved and renamed; `at`: where [tiles] stands.
+// Adds the tile's shapes, regions and flows, moved and renamed. `at`: the place of [tiles].
 void add_tile(const core::Scenario& tile, dmrp_vec2 by, const std::string& suffix, SourcePosition at,
               ScenarioFile& out) {
   core::Scenario& scenario = out.scenario;
@@ -51,7 +51,7 @@ ScenarioFile read_tile(const TomlValue& of, const fs::path& file) {
   if (tile_file == file) of.fail("a scenario cannot be made of itself");
   ScenarioFile tile = read_scenario_file(tile_file, shown(tile_file));
   if (tile.document->root().find_table("tiles")) of.fail(fmt::format("'{}' is made of tiles itself", of.text()));
-  if (!tile.scenario.tracks.empty()) of.fail(fmt::format("'{}' has a [[recording]], which has its place", of.text()));
+  if (!tile.scenario.tracks.empty()) of.fail(fmt::format("'{}' has a [[recording]], which cannot be tiled", of.text()));
   tile.files.insert(tile.files.begin(), tile_file);
   return tile;
 }
@@ -64,9 +64,9 @@ void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) 
   table->allow_only(tiles_keys);
   if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
   const TomlValue of = table->need("of");
-  const auto columns = table->need("columns").integer(1, most_tiles);
+  const auto columns = table->need("columns").integer(1, max_tiles);
   const auto asked_rows = table->find("rows");
-  const auto rows = asked_rows ? asked_rows->integer(1, most_tiles) : 1;
+  const auto rows = asked_rows ? asked_rows->integer(1, max_tiles) : 1;
   const ScenarioFile tile = read_tile(of, file);
   out.size = of.position();
   out.files.insert(out.files.end(), tile.files.begin(), tile.files.end());
@@ -75,8 +75,7 @@ void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) 
   const dmrp_vec2 extent = {tile.scenario.upper.x - tile.scenario.lower.x,
                             tile.scenario.upper.y - tile.scenario.lower.y};
   const dmrp_vec2 whole = {extent.x * static_cast<double>(columns), extent.y * static_cast<double>(rows)};
-  if (whole.x > longest_side_m || whole.y > longest_side_m)
-    of.fail(fmt::format("the world must be at most {0} m by {0} m", longest_side_m));
+  check_extent(of, whole);
   scenario.upper = moved(scenario.lower, whole);
   scenario.people = tile.scenario.people;
   for (std::int64_t row = 0; row < rows; ++row)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// read_tiles.hpp: [tiles] of scenario.toml: a larger world of copies of another.
+// read_tiles.hpp: reads [tiles] of scenario.toml: a larger world made of copies of another.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,9 @@ namespace dmrp::host {
 
 inline const std::vector<std::string> tiles_keys = {"of", "columns", "rows"};
 
-// Reads [tiles] into the scenario: its size, and in every tile the shapes, regions and flows of the scenario that it
-// names, so that people grow with the area; neither its robots nor the border between tiles. `file`: scenario.toml.
+// Reads [tiles] into the scenario: its size, and for every tile the shapes, regions and flows of the named scenario, so
+// that the number of people grows with the area. The robots and the borders of the tiles are not copied. `file`:
+// scenario.toml.
 void read_tiles(const TomlTable& root, const std::filesystem::path& file, ScenarioFile& out);
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// scenario_variant.hpp: a scenario with a number of robots, as an experiment runs it.
+// scenario_variant.hpp: a scenario with a number of robots, as used by an experiment.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace dmrp::host {
 
-// A scenario with a number of robots: the first of those that it lists, or as many drawn for each trial.
+// A scenario with a number of robots: either the first of the listed ones, or robots with random tasks for each trial.
 struct ScenarioVariant {
-  core::Scenario scenario;     // holds exactly the listed robots that take part
-  std::string label;           // the scenario's name; "mall/2" where it runs with another number than it lists
-  std::filesystem::path file;  // of scenario.toml
-  std::vector<std::filesystem::path> files{};  // that it names: a map, tasks
-  std::uint32_t drawn_robots = 0;              // none of the listed ones takes part then
-  std::uint32_t most_drawn = 0;  // by the variants of one [[scenario]]: people keep clear of all their starts
-  std::uint32_t entry = 0;       // the [[scenario]] that it comes from
+  core::Scenario scenario;     // with exactly the listed robots that take part
+  std::string label;           // the scenario's name; "mall/2" if the number of robots differs from the listed number
+  std::filesystem::path file;  // scenario.toml
+  std::vector<std::filesystem::path> files{};  // other files that it names: maps, tasks, recordings, tiles
+  std::uint32_t drawn_robots = 0;              // robots with random tasks; then no listed robot takes part
+  std::uint32_t most_drawn = 0;  // the largest drawn_robots of this [[scenario]]: people keep clear of all their starts
+  std::uint32_t entry = 0;       // index of the [[scenario]]
   bool all_drawn = false;        // tasks = "drawn"
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// closing_line.hpp: the last lines that a run prints, below its table; without indent and line end.
+// closing_line.hpp: the last lines that a run prints below its table, without indent and line end.
 #pragma once
 
 #include <filesystem>

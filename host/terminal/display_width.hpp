@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// display_width.hpp: how many columns of a terminal a text takes.
+// display_width.hpp: the number of terminal columns of a text.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace dmrp::host {
 // Asian wide characters and emoji take two. Does not depend on the process's locale and does not change it.
 std::size_t display_width(std::string_view text);
 
-// The text with spaces after or before it, so that it takes at least `width` columns.
+// The text padded with spaces on the right or left to at least `width` columns.
 std::string pad_right(std::string_view text, std::size_t width);
 std::string pad_left(std::string_view text, std::size_t width);
 

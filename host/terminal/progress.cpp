@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/program/monotonic_time.hpp"
 #include "host/terminal/display_width.hpp"
 
 namespace dmrp::host {
@@ -45,7 +45,7 @@ Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
 }
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_ && drawn_ns_ > 0) fmt::print("\n");  // what is said of an error begins on a line of its own
+  if (!quiet_ && terminal_ && drawn_ns_ > 0) fmt::print("\n");  // an error message starts on a new line
   std::fflush(stdout);
 }
 
@@ -64,9 +64,9 @@ void Progress::draw() const {
   if (done_ > 0 && done_ < total_)
     times +=
         fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
-  const unsigned columns = terminal_width();  // 0 where the terminal does not say
+  const unsigned columns = terminal_width();  // 0 if unknown
   const std::size_t width = (columns > 0 ? columns : 80) - 1;
-  // On a narrow terminal first the heading gives way, then the bar: a line that wraps cannot be drawn over.
+  // A wrapped line cannot be overwritten: a narrow terminal gets no heading, then no bar.
   std::string line = fmt::format("{} {}{}", bar, count, times);
   const std::size_t used = display_width(heading_) + display_width(line);
   if (used + 2 <= width)

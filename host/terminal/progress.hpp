@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// progress.hpp: how far a run is: a bar with the time to go on a terminal, plain lines elsewhere.
+// progress.hpp: the progress of a run: a bar with the remaining time on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@ namespace dmrp::host {
 
 class Progress {
  public:
-  // `heading`: what is being run. Writes to standard output.
+  // `heading`: the name of the run. Writes to standard output.
   Progress(std::string heading, std::uint64_t total, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // One more trial is done. `note`: a line worth keeping, or "".
+  // Counts a finished trial. `note`: a line to print above the bar, or "".
   void add(const std::string& note);
 
-  // Draws the bar again, at most a few times a second.
+  // Redraws the bar, at most five times a second.
   void refresh();
 
-  // Draws it for the last time.
+  // Draws the bar for the last time.
   void finish();
 
  private:
@@ -34,10 +34,10 @@ class Progress {
   bool quiet_;
   bool terminal_;
   std::int64_t start_ns_;
-  std::int64_t drawn_ns_ = 0;  // 0: not, or it is finished
+  std::int64_t drawn_ns_ = 0;  // 0: not drawn, or finished
 };
 
-// Columns of the terminal behind standard output; 0 if it is none.
+// Columns of the terminal at standard output; 0 if it is no terminal.
 unsigned terminal_width();
 
 }  // namespace dmrp::host

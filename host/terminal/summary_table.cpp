@@ -30,14 +30,14 @@ struct Cell {
 
 struct Column {
   std::string header;
-  std::vector<Cell> cells;  // a row each
+  std::vector<Cell> cells;  // one for each row
   std::size_t width = 0;
 };
 
 struct Row {
   const CombinationSummary* summary;
   std::string label;
-  std::string group;  // heading under which it stands
+  std::string group;  // heading of its group
 };
 
 std::string fixed(double value, std::uint32_t decimals) {
@@ -45,7 +45,7 @@ std::string fixed(double value, std::uint32_t decimals) {
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed,
                                     static_cast<int>(decimals));
   const std::string text(buffer.data(), result.ptr);
-  // what rounds to zero has no sign
+  // zero has no sign
   return text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
 }
 
@@ -69,7 +69,7 @@ std::string label_of(const CombinationLabels& combination) {
   return combination.pedestrian_model.empty() ? "recorded people" : combination.pedestrian_model;
 }
 
-// Those that can be compared stand together, whatever the order of trials was.
+// Rows that can be compared are adjacent, regardless of the order of trials.
 std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   const bool several_models = std::any_of(summaries.begin(), summaries.end(), [&](const CombinationSummary& summary) {
     return summary.combination.pedestrian_model != summaries.front().combination.pedestrian_model;
@@ -88,7 +88,8 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   return rows;
 }
 
-// Whether a row may be the best of its group: only who arrived most is compared in how. (Who gives up early drives less.)
+// Whether a row can be the best of its group: only rows with the most arrivals, since a robot that fails early drives
+// less.
 std::vector<char> contenders(const std::optional<std::size_t>& arrived, const std::vector<Row>& rows) {
   std::vector<char> contends(rows.size(), true);
   if (!arrived) return contends;
@@ -100,7 +101,7 @@ std::vector<char> contenders(const std::optional<std::size_t>& arrived, const st
   return contends;
 }
 
-// Marks the best of the cells [begin, end), as they are shown; nothing where all are alike or only one has a value.
+// Marks the best of the rounded cells [begin, end); none if all are equal or only one has a value.
 void mark_best(std::vector<Cell>& cells, const std::vector<double>& shown, std::uint32_t direction, std::size_t begin,
                std::size_t end) {
   if (direction == DMRP_DIRECTION_NONE) return;
@@ -161,7 +162,7 @@ std::string without_trailing_spaces(std::string line) {
   return line;
 }
 
-// The columns [begin, end) under each other, with labels and groups.
+// Prints the columns with labels and groups.
 std::string print_block(const std::vector<Row>& rows, std::span<const Column> columns, std::size_t label_width,
                         bool with_groups, const TableStyle& style) {
   std::string text;
@@ -178,7 +179,7 @@ std::string print_block(const std::vector<Row>& rows, std::span<const Column> co
   return text;
 }
 
-// How many columns from `begin` on fit in the width; one at least.
+// The number of columns from `begin` that fit in the width, at least one.
 std::size_t columns_that_fit(std::span<const Column> columns, std::size_t begin, std::size_t label_width,
                              const TableStyle& style) {
   std::size_t width = indent + label_width;
@@ -203,12 +204,12 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
 
   const std::optional<std::size_t> arrived = index_of(metrics, layout.arrived);
   const std::vector<char> contends = contenders(arrived, rows);
-  const std::vector<char> everybody(rows.size(), true);
+  const std::vector<char> all_rows(rows.size(), true);
   std::vector<Column> columns;
   for (const SummaryTableColumn& column : layout.columns) {
     const std::optional<std::size_t> metric = index_of(metrics, column.metric);
     if (!metric) continue;
-    columns.push_back(make_column(column, metrics, *metric, rows, metric == arrived ? everybody : contends));
+    columns.push_back(make_column(column, metrics, *metric, rows, metric == arrived ? all_rows : contends));
     set_width(columns.back(), style);
   }
 

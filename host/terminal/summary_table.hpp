@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// summary_table.hpp: the table that a run prints at its end.
+// summary_table.hpp: the table at the end of a run.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 namespace dmrp::host {
 
 struct TableStyle {
-  std::size_t width = 0;  // columns of the terminal; 0: as wide as need be
-  bool ansi = false;      // bold for the best values of a column; else they are marked by an asterisk
+  std::size_t width = 0;  // columns of the terminal; 0: unlimited
+  bool ansi = false;      // bold for the best values of a column; else an asterisk
 };
 
-// A row a combination, in groups of those that can be compared (same scenario, robots and people); the mean over
-// trials, "–" where no trial has a value. Columns that don't fit go below, with the labels again.
+// One row for each combination, in groups that can be compared (same scenario, robots and pedestrian model). Cells are
+// means over trials, "–" if no trial has a value. Columns that do not fit follow below, with the labels repeated.
 std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                           std::span<const CombinationSummary> summaries, const TableStyle& style);
 

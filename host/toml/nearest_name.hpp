@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// nearest_name.hpp: the known name that somebody probably meant.
+// nearest_name.hpp: suggestions for mistyped names. Written by hand: no library of the project offers an
+// edit distance.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace dmrp::host {
 
-// The one with the least edit distance, if it is near enough to be meant; "" otherwise.
+// The known name with the least edit distance, if that is small enough; "" otherwise.
 std::string nearest_name(const std::string& written, const std::vector<std::string>& known);
 
 // " (did you mean 'x'?)" or "".

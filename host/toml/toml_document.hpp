@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// toml_document.hpp: reads a TOML file so that every mistake is one line: `file:line:column: what was expected`.
-// All errors are InputErrors.
+// toml_document.hpp: reads a TOML file; every mistake is an InputError in one line, `file:line:column: what was
+// expected`.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct SourcePosition {
 
 class TomlTable;
 
-// What keys a table of the format has; `title`: as messages call it, "[robot]".
+// The keys of a table of the format. `title`: its name in messages, for example "[robot]".
 struct TomlKeys {
   std::string title;
   std::vector<std::string> keys;
@@ -37,13 +37,13 @@ struct TomlKeys {
 
 class TomlDocument {
  public:
-  // `shown_path`: the file as the user wrote it.
+  // `shown_path`: the path of the file in messages.
   TomlDocument(std::string shown_path, std::string_view text);
   ~TomlDocument();
   TomlDocument(const TomlDocument&) = delete;
   TomlDocument& operator=(const TomlDocument&) = delete;
 
-  // All tables of the format, so that messages about an unknown key can say where it belongs.
+  // Sets all tables of the format, so that messages about an unknown key can name the table to which it belongs.
   void know(std::vector<TomlKeys> tables) { tables_ = std::move(tables); }
   std::vector<std::string> tables_with(const std::string& key) const;  // their titles
 
@@ -57,7 +57,7 @@ class TomlDocument {
   std::vector<TomlKeys> tables_;
 };
 
-// A value of the document. The accessors say what was expected when it is something else.
+// A value of the document. An accessor fails with the expected type if the value has another one.
 class TomlValue {
  public:
   TomlValue(const TomlDocument& document, const toml::v3::node& node, std::string key, SourcePosition key_position)
@@ -73,10 +73,10 @@ class TomlValue {
   std::int64_t integer(std::int64_t minimum = std::numeric_limits<std::int64_t>::min(),
                        std::int64_t maximum = std::numeric_limits<std::int64_t>::max()) const;
   double number(double minimum = -std::numeric_limits<double>::infinity(),
-                double maximum = std::numeric_limits<double>::infinity()) const;  // finite; an integer will do
+                double maximum = std::numeric_limits<double>::infinity()) const;  // finite; may be an integer
   double positive() const;                                                        // a number > 0
   std::string text() const;
-  std::string line() const;  // a text that can stand in a message or a table: not empty, no control characters
+  std::string line() const;  // a text for messages and tables: not empty, without control characters
   std::string choice(const std::vector<std::string>& choices) const;
   std::vector<TomlValue> array() const;
   TomlTable table() const;
@@ -92,22 +92,22 @@ class TomlValue {
   SourcePosition key_position_;
 };
 
-// A table. Who reads it says first which keys it can have.
+// A table. Its reader must first state the allowed keys, by read() or allow_only().
 class TomlTable {
  public:
-  // `title`: as messages call it, "[experiment]"; "" for the root.
+  // `title`: its name in messages, for example "[experiment]"; "" for the root.
   TomlTable(const TomlDocument& document, const toml::v3::table& table, std::string title);
 
   SourcePosition position() const;
   [[noreturn]] void fail(const std::string& text) const;
   const std::string& title() const { return title_; }
 
-  // Reads every key in the order of the file, so that the first mistake is the one told; refuses other keys.
+  // Reads every key in the order of the file, so that the first mistake is reported; refuses other keys.
   using KeyReader = std::pair<std::string, std::function<void(const TomlValue&)>>;
   void read(const std::vector<KeyReader>& readers) const;
   static std::vector<std::string> keys_of(const std::vector<KeyReader>& readers);
 
-  // Refuses the first key that is none of these. `whose`: "" or " for org.example.planner", for the message.
+  // Refuses the first key that is not in the list. `whose`: "" or " for org.example.planner", for the message.
   void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;
 
   std::optional<TomlValue> find(const std::string& key) const;

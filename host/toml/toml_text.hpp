@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// toml_text.hpp: values as TOML writes them, so that they read back as the same.
+// toml_text.hpp: values as TOML text; reading the text gives the same value. Written by hand: a few lines
+// keep toml.hpp, which is slow to compile, out of the files that write TOML.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 namespace dmrp::host {
 
 std::string toml_text(const std::string& text);  // quoted and escaped
-std::string toml_text(double value);             // the shortest that reads back as the same float
+std::string toml_text(double value);             // the shortest text of the same double
 std::string toml_text(const std::vector<std::string>& texts);
 std::string toml_text(const std::vector<double>& values);
 

@@ -10,7 +10,7 @@
 namespace dmrp::host {
 namespace {
 
-// As ext/annotate.h promises.
+// The limits that ext/annotate.h states.
 constexpr std::uint32_t most_poses = 1000;
 constexpr std::size_t most_note_bytes = 1000;
 constexpr std::size_t most_trace_bytes = std::size_t{256} << 20;
@@ -19,7 +19,7 @@ bool is_finite(const dmrp_pose& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
 }
 
-// Its beginning, no character cut in two.
+// The first most_note_bytes bytes, without a partial UTF-8 character.
 std::string_view shortened(const char* text) {
   std::size_t length = strnlen(text, most_note_bytes + 1);
   if (length > most_note_bytes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// annotations.hpp: dmrp.annotate/1 for one plugin instance in one trial: what it says goes to the trace.
+// annotations.hpp: dmrp.annotate/1 for one plugin instance in one trial: writes its annotations to the trace.
 #pragma once
 
 #include <dmrp/ext/annotate.h>
@@ -10,10 +10,10 @@
 
 namespace dmrp::host {
 
-// Takes whatever a plugin says without complaint: what cannot be kept is dropped, so that no result depends on it.
+// Drops invalid annotations silently, so that no result depends on them.
 class Annotations {
  public:
-  // `trace` outlives it; nullptr where no annotations are kept.
+  // `trace` outlives it; nullptr if no annotations are recorded.
   Annotations(core::TraceEncoder* trace, core::AnnotationSource source);
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;

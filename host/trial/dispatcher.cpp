@@ -12,7 +12,7 @@ namespace dmrp::host {
 
 namespace {
 
-// At its end after its last time.
+// The position along a path at a time; after the last waypoint, the end of the path.
 dmrp_vec2 position_at(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   const auto after = std::find_if(path.begin(), path.end(), [&](const dmrp_waypoint& w) { return w.t_ns > t_ns; });
   if (after == path.begin()) return toolkit::position(path.front());
@@ -32,7 +32,7 @@ Dispatcher::Dispatcher(const VariantWorld& variant, const core::World& world)
       progress_(world.robots().size()),
       gained_m_(world.robots().size()) {}
 
-void Dispatcher::take_up(const Plan& plan) {
+void Dispatcher::set_plan(const Plan& plan) {
   std::vector<dmrp_vec2> positions;
   for (std::uint32_t i = 0; i < courses_.size(); ++i) {
     const core::RobotState& robot = world_.robots()[i];
@@ -49,7 +49,8 @@ void Dispatcher::take_up(const Plan& plan) {
   if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
 }
 
-// As the graph counts them: the legs to goals off their cells' centres stay in their cells.
+// Numbers the cells along the course as the dependency graph does: a leg from a cell's centre to a goal in the same cell
+// does not count.
 void Dispatcher::find_stages(Course& course) const {
   const dmrp_grid view = variant_.planning_grid.view();
   const toolkit::GridView grid(view);
@@ -61,7 +62,7 @@ void Dispatcher::find_stages(Course& course) const {
   }
 }
 
-void Dispatcher::follow() {
+void Dispatcher::update_progress() {
   for (std::size_t i = 0; i < progress_.size(); ++i) {
     const core::RobotState& robot = world_.robots()[i];
     progress_[i].update(toolkit::position(robot.pose), robot.goal_index);
@@ -69,11 +70,11 @@ void Dispatcher::follow() {
   }
 }
 
-void Dispatcher::direct() {
+void Dispatcher::update_targets() {
   if (ordered()) release();
   if (!by_waypoint()) return;
   for (std::uint32_t i = 0; i < courses_.size(); ++i)
-    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) send_on(i);
+    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) advance(i);
 }
 
 void Dispatcher::release() {
@@ -93,11 +94,11 @@ void Dispatcher::release() {
   }
 }
 
-void Dispatcher::send_on(std::uint32_t robot) {
+void Dispatcher::advance(std::uint32_t robot) {
   Course& course = courses_[robot];
-  while (course.sent < course.released && !ends_at_goal(robot, course.sent) &&
-         is_near(robot, course.path[course.sent])) {
-    ++course.sent;
+  while (course.target < course.released && !ends_at_goal(robot, course.target) &&
+         is_near(robot, course.path[course.target])) {
+    ++course.target;
     course.is_new = true;
   }
 }
@@ -108,17 +109,17 @@ bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) con
          world_.goals(robot)[state.goal_index].tolerance_m;
 }
 
-// The way to the current goal ends at this waypoint.
+// Whether the path to the robot's current goal ends at this waypoint.
 bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const {
   const auto& path = courses_[robot].path;
   const std::uint32_t current = world_.robots()[robot].goal_index;
   return waypoint + 1 == path.size() || path[waypoint + 1].goal_index > current;
 }
 
-std::span<const dmrp_waypoint> Dispatcher::hand_over(std::uint32_t robot) {
+std::span<const dmrp_waypoint> Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
-  if (by_waypoint()) return {&course.path[course.sent], 1};
+  if (by_waypoint()) return {&course.path[course.target], 1};
   return course.path;
 }
 
@@ -127,36 +128,36 @@ Guidance Dispatcher::guidance(std::uint32_t robot) const {
   const dmrp_goal& goal = world_.goals(robot)[world_.robots()[robot].goal_index];
   if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint(), course.released};
   Guidance guidance = {goal, 0.0, 0, 0};
-  if (!ends_at_goal(robot, course.sent)) {
-    const dmrp_waypoint& waypoint = course.path[course.sent];
+  if (!ends_at_goal(robot, course.target)) {
+    const dmrp_waypoint& waypoint = course.path[course.target];
     guidance.goal.pose = {waypoint.x, waypoint.y, waypoint.theta};
   }
   return guidance;
 }
 
-std::vector<OnTheWay> Dispatcher::on_the_way(std::int64_t later_ns) const {
-  std::vector<OnTheWay> ways;
+std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) const {
+  std::vector<PathPosition> positions;
   for (std::uint32_t i = 0; i < courses_.size(); ++i) {
     const auto& path = courses_[i].path;
     const dmrp_vec2 position = toolkit::position(world_.robots()[i].pose);
     if (path.empty() || world_.robots()[i].state == DMRP_ROBOT_FAILED) {
-      ways.push_back({position, position, position});
+      positions.push_back({position, position, position});
       continue;
     }
     std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
-    OnTheWay way;
-    way.next = toolkit::position(path[next]);
-    way.then = later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns);
+    PathPosition on_path;
+    on_path.next_waypoint = toolkit::position(path[next]);
+    on_path.position_then = later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns);
     const std::int64_t until_ns = path[next].t_ns + later_ns;
     while (next + 1 < path.size() && path[next + 1].t_ns <= until_ns) ++next;
-    way.next_then = toolkit::position(path[next]);
-    ways.push_back(way);
+    on_path.next_waypoint_then = toolkit::position(path[next]);
+    positions.push_back(on_path);
   }
-  return ways;
+  return positions;
 }
 
-// When the robot should have been where it has come to.
+// The time at which the plan puts the robot at its current progress.
 std::int64_t Dispatcher::time_on_path_ns(std::uint32_t robot) const {
   const auto& path = courses_[robot].path;
   const std::uint32_t passed = progress_[robot].waypoint();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// dispatcher.hpp: how a plan reaches the robots: what each is handed to drive, and how far it may go.
+// dispatcher.hpp: passes a plan to the robots: the path or waypoint of each, and how far it may drive.
 #pragma once
 
 #include <dmrp/path.h>
@@ -17,7 +17,7 @@
 
 namespace dmrp::host {
 
-// What a robot is told of its task at a control tick, in the terms of dmrp_observation.
+// The part of a robot's dmrp_observation that concerns its path.
 struct Guidance {
   dmrp_goal goal{};
   double progress_m = 0.0;
@@ -25,47 +25,47 @@ struct Guidance {
   std::uint32_t released_waypoint = 0;
 };
 
-// Of one trial. A plan's path becomes a robot's course, which leads to the goals themselves (path_to_drive()); progress
-// is counted along it whatever the robot is handed.
-// - dispatch = "full_path": a robot is handed its course, once a plan.
-// - dispatch = "waypoint": one waypoint of it at a time, the next when the robot is within the goal's tolerance of it,
-//   without waiting for others and without coming to rest. A wait is a waypoint that is reached at once: a dispatcher
-//   that knows neither times nor others drops it. At a goal the robot has to arrive, as on a full path.
-// - execution = "ordered": the course is released as far as the action dependency graph of the plan allows. A robot
-//   counts as having reached a cell when it is within the goal's tolerance of its centre or has passed that.
+// For one trial. A robot's course is its planned path extended to the goals themselves (path_to_drive()). Progress is
+// measured along the course in both modes of dispatch.
+// - dispatch = "full_path": the controller gets the course, once per plan.
+// - dispatch = "waypoint": the controller gets one waypoint at a time, and the next one when the robot is within the
+//   goal's tolerance of it; the robot neither stops nor waits for others. A wait in the plan is reached at once, so it
+//   has no effect. At a goal the robot has to arrive, as on a full path.
+// - execution = "ordered": the course is released as far as the action dependency graph of the plan allows. A robot has
+//   reached a cell when it is within the goal's tolerance of the cell's centre or has passed it.
 class Dispatcher {
  public:
-  // Both outlive it.
+  // Both arguments outlive it.
   Dispatcher(const VariantWorld& variant, const core::World& world);
 
-  // A plan, which exists, takes effect.
-  void take_up(const Plan& plan);
+  // Puts a plan, which exists(), in force.
+  void set_plan(const Plan& plan);
 
-  // After every step of the world: robots make progress.
-  void follow();
+  // Measures the robots' progress; after every step of the world.
+  void update_progress();
 
-  // At every control tick: releases what may be released, and sends robots on.
-  void direct();
+  // Releases waypoints and advances robots to the next ones; at every control tick, before the functions below.
+  void update_targets();
 
-  // The path that the robot is to be handed now, once; empty if what it has stands. Valid until the next plan.
-  std::span<const dmrp_waypoint> hand_over(std::uint32_t robot);
+  // The path that the robot's controller gets now; empty if it keeps the one that it has. Returned once, valid until the
+  // next plan.
+  std::span<const dmrp_waypoint> take_new_path(std::uint32_t robot);
 
-  // After direct().
   Guidance guidance(std::uint32_t robot) const;
 
-  // Where each robot is on its path, now and this much later.
-  std::vector<OnTheWay> on_the_way(std::int64_t later_ns) const;
+  // The robots on their paths, now and `later_ns` from now.
+  std::vector<PathPosition> positions_on_paths(std::int64_t later_ns) const;
 
   std::span<const core::PathProgress> progress() const { return progress_; }
   std::span<const double> gained_m() const { return gained_m_; }
 
  private:
   struct Course {
-    std::vector<dmrp_waypoint> path;    // empty of a robot that the plan does not move
-    std::vector<std::uint32_t> stages;  // of its waypoints, where execution is ordered
+    std::vector<dmrp_waypoint> path;    // empty for a robot that is not active
+    std::vector<std::uint32_t> stages;  // of its waypoints, if execution is ordered
     std::uint32_t released = 0;         // the last waypoint that may be passed
-    std::uint32_t sent = 0;             // the waypoint that the robot is sent to, where dispatch is by waypoint
-    bool is_new = false;                // what the robot is to be handed
+    std::uint32_t target = 0;           // the waypoint that the robot drives to, if dispatch is by waypoint
+    bool is_new = false;                // the controller does not have it yet
   };
 
   bool ordered() const { return variant_.simulation.execution == core::Execution::ordered; }
@@ -75,7 +75,7 @@ class Dispatcher {
   void find_stages(Course& course) const;
   std::int64_t time_on_path_ns(std::uint32_t robot) const;
   void release();
-  void send_on(std::uint32_t robot);
+  void advance(std::uint32_t robot);
 
   const VariantWorld& variant_;
   const core::World& world_;

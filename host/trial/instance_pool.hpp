@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// instance_pool.hpp: the plugin libraries of an experiment in this process, and instances that live over trials.
+// instance_pool.hpp: the plugin libraries of an experiment in this process, and instances that last for many trials.
 #pragma once
 
 #include <compare>
@@ -19,16 +19,16 @@ class InstancePool {
   InstancePool(const InstancePool&) = delete;
   InstancePool& operator=(const InstancePool&) = delete;
 
-  // The instance for this use of a plugin, made when first asked for; `use` is known by its address and outlives the
+  // The instance for this use of a plugin, created by the first call. `use` is identified by its address and outlives the
   // pool. `robot`: of a local controller, -1 otherwise. Throws PluginFault.
   Instance& get(const PluginUse& use, std::int32_t robot);
 
-  // Forgets the instances of all uses: after an error, fresh ones are safer.
+  // Destroys all instances: after an error, new ones are safer.
   void clear() { instances_.clear(); }
 
  private:
   struct Key {
-    const PluginUse* use;  // for identity alone: never iterated over in an order that matters
+    const PluginUse* use;  // only for identity: no result depends on the order of the keys
     std::int32_t robot;
     auto operator<=>(const Key&) const = default;
   };

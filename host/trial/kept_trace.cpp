@@ -7,7 +7,7 @@ namespace fs = std::filesystem;
 
 KeptTrace::KeptTrace(const fs::path& recorded, const fs::path& scratch, std::size_t most_bytes_in_memory)
     : scratch_(scratch), most_bytes_in_memory_(most_bytes_in_memory) {
-  // all at once: what is not used takes no memory, and growing would take it twice
+  // at once: unused pages take no memory, and a growing array would need twice as much
   memory_.reserve(most_bytes_in_memory_);
   if (!recorded.empty()) file_.emplace(recorded);
 }
@@ -29,7 +29,7 @@ void KeptTrace::move_to_spool() {
 }
 
 core::TraceRecords KeptTrace::records() {
-  if (file_) file_->flush();  // whatever metrics do
+  if (file_) file_->flush();  // it is complete even if a metric crashes
   return spool_ ? core::TraceRecords(*spool_) : core::TraceRecords(memory_);
 }
 

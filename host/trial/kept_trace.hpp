@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kept_trace.hpp: where a trial's trace is between the trial and its metrics.
+// kept_trace.hpp: stores a trial's trace until its metrics are measured.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace dmrp::host {
 
-// A small trace stays in memory, a large one in a spool, so that crowds and long trials take no more memory than others.
-// Beside that it may be recorded in a file.
+// A small trace stays in memory, a large one goes to a spool file: crowds and long trials need no more memory than others.
+// In addition the trace can be recorded in an MCAP file.
 //
 //   KeptTrace kept(file, scratch);
 //   TraceEncoder trace(world, [&](std::int64_t t_ns, auto record) { kept.write(t_ns, record); }, kept.foxglove());
@@ -22,8 +22,8 @@ namespace dmrp::host {
 //   TraceReader reader(kept.records(), TraceExtent::samples);
 class KeptTrace {
  public:
-  // `recorded`: the file that is wanted, with what there is to look at; empty for none. `scratch`: a path in a folder
-  // with room for the spool. Throws std::system_error, as all it does.
+  // `recorded`: the MCAP file, with channels for Foxglove; empty for none. `scratch`: the path of the spool. All functions
+  // throw std::system_error.
   KeptTrace(const std::filesystem::path& recorded, const std::filesystem::path& scratch,
             std::size_t most_bytes_in_memory = core::TraceRecords::small_trace_bytes);
   KeptTrace(const KeptTrace&) = delete;
@@ -33,7 +33,7 @@ class KeptTrace {
   core::FoxgloveChannels* foxglove() { return is_recorded() ? &file_->foxglove() : nullptr; }
   bool is_recorded() const { return file_.has_value(); }
 
-  // All that was written; nothing more is, but to foxglove(). It outlives the reading.
+  // All records written so far; write() may not be called afterwards. Valid as long as this object.
   core::TraceRecords records();
 
   // Ends the recorded file, if any.
@@ -44,8 +44,8 @@ class KeptTrace {
 
   std::filesystem::path scratch_;
   std::size_t most_bytes_in_memory_;
-  core::TraceBytes memory_;                // all of it, as long as ...
-  std::optional<core::TraceSpool> spool_;  // ... it is not here
+  core::TraceBytes memory_;                // the records, until there are too many
+  std::optional<core::TraceSpool> spool_;  // then it has all of them
   std::optional<core::TraceFileWriter> file_;
 };
 

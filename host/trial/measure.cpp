@@ -15,14 +15,14 @@ namespace dmrp::host {
 
 namespace {
 
-// Where a value belongs: the declared name, the subject, the coordinate.
-using Place = std::tuple<std::size_t, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>;
+// The key of a value: the declared name, the subject, the coordinate.
+using Key = std::tuple<std::size_t, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>;
 
 struct Collected {
   const PluginInfo& info;
   std::uint32_t robot_count;
   MetricResult result;
-  std::set<Place> given;
+  std::set<Key> given;
 };
 
 std::optional<double> or_none(double value) {
@@ -38,10 +38,10 @@ std::int32_t collect_value(dmrp_metric_sink* sink, const char* name, std::uint32
     return DMRP_ERROR;
   if (subject_kind == DMRP_SUBJECT_ROBOT && subject >= collected.robot_count) return DMRP_ERROR;
   if (std::isinf(value) || std::isinf(coordinate) || (!spec->curve && !std::isnan(coordinate))) return DMRP_ERROR;
-  const auto whom = subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional<std::uint64_t>(subject);
-  const auto place = static_cast<std::size_t>(spec - specs.begin());
-  if (!collected.given.emplace(place, subject_kind, whom, or_none(coordinate)).second) return DMRP_ERROR;
-  collected.result.values.push_back({spec->name, subject_kind, whom, or_none(coordinate), or_none(value)});
+  const auto subject_id = subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional<std::uint64_t>(subject);
+  const auto index = static_cast<std::size_t>(spec - specs.begin());
+  if (!collected.given.emplace(index, subject_kind, subject_id, or_none(coordinate)).second) return DMRP_ERROR;
+  collected.result.values.push_back({spec->name, subject_kind, subject_id, or_none(coordinate), or_none(value)});
   return DMRP_OK;
 }
 
@@ -56,7 +56,7 @@ std::int32_t collect_event(dmrp_metric_sink* sink, const char* name, std::int64_
   return DMRP_OK;
 }
 
-// A metric that is silent about a value would leave a hole that looks like a crash.
+// A missing value would look as if the metric had crashed.
 void check_complete(const Collected& collected, const CallSite& site) {
   for (const MetricValueSpec& spec : collected.info.values) {
     const auto& values = collected.result.values;
@@ -78,7 +78,7 @@ MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInf
   const dmrp_metric_trial trial = {sizeof(trial), 0, trace.first_plan()};
   metric.call("begin", 0, call_budget_ns, [&] { return table.begin(metric.self(), &trial); });
 
-  // where planning failed nothing moved: the sample is there for the planner's call
+  // without a plan nothing moved: the only sample records the planner's call
   const bool shown = trace.end()->ending != DMRP_ENDING_NO_PLAN || (info.channels & DMRP_CHANNEL_CALLS) != 0;
   trace.rewind();
   std::int64_t step = 0;

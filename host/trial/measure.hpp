@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// measure.hpp: runs a metric over an encoded trace: the one code path, live and for stored traces.
+// measure.hpp: runs a metric over an encoded trace, during a run as for stored traces.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,8 @@
 
 namespace dmrp::host {
 
-// Rewinds the trace, which outlives the call, and measures it; the metric is started on the trace's world. `info`
-// describes the metric, `index` goes into the result. Throws PluginFault; values that the metric gave before are lost.
-// Throws std::invalid_argument where the trace has no end.
+// Rewinds the trace, starts the metric on the trace's world and measures the trace. `info` describes the metric, `index`
+// goes into the result. Throws PluginFault, and std::invalid_argument if the trace has no end.
 MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInfo& info, std::uint32_t index,
                      std::uint64_t seed, std::int64_t call_budget_ns);
 

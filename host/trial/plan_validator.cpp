@@ -41,7 +41,8 @@ std::string where(std::size_t robot, std::size_t waypoint) {
   return fmt::format("robot {}, waypoint {}", robot, waypoint);
 }
 
-// What holds for every planner: finite, from the start, forward in time, through all goals in order, rest at the last.
+// For every planner: waypoints are finite, begin at the start, have increasing times, and visit all goals in order; the
+// path ends at the last goal.
 std::string check_structure(const dmrp_planning_problem& problem, const dmrp_planning_robot& robot, std::size_t index,
                             const std::vector<dmrp_waypoint>& path) {
   if (path.empty()) return fmt::format("robot {} has no waypoints", index);
@@ -78,13 +79,13 @@ std::string check_structure(const dmrp_planning_problem& problem, const dmrp_pla
   if (!near(path.back().x, path.back().y, last.pose.x, last.pose.y))
     return fmt::format("robot {} ends at ({}, {}), not at its goal ({}, {})", index, path.back().x, path.back().y,
                        last.pose.x, last.pose.y);
-  // A goal may be passed on the way to itself with the next goal's index already: only the order matters.
+  // the waypoint at a goal may already have the index of the next goal: only the order matters
   if (reached < robot.goal_count)
     return fmt::format("robot {} does not visit its goal {}", index, robot.first_goal_index + reached);
   return "";
 }
 
-// Moves of a step-wise plan on the grid; fills in the cells, one a step.
+// For plans on the grid: every move takes one step to an open neighbour. Fills in the cells, one per step.
 std::string check_steps(const dmrp_planning_problem& problem, std::size_t index, const std::vector<dmrp_waypoint>& path,
                         std::uint32_t connectivity, std::vector<Cell>& cells) {
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -150,7 +151,7 @@ void count_step_conflicts(const std::vector<std::vector<Cell>>& cells, PlanVerdi
     }
 }
 
-// Where a robot is at a time, moving evenly between waypoints and resting after the last.
+// A robot's position at a time: linear between waypoints, at the last one afterwards.
 dmrp_vec2 position(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   if (t_ns >= path.back().t_ns) return {path.back().x, path.back().y};
   const auto next = std::upper_bound(path.begin(), path.end(), t_ns,
@@ -161,7 +162,7 @@ dmrp_vec2 position(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   return {from.x + share * (next->x - from.x), from.y + share * (next->y - from.y)};
 }
 
-// Least distance of two points that move evenly over one interval.
+// The least distance of two points that move linearly over one interval.
 double least_distance(dmrp_vec2 a0, dmrp_vec2 a1, dmrp_vec2 b0, dmrp_vec2 b1) {
   const dmrp_vec2 offset{a0.x - b0.x, a0.y - b0.y};
   const dmrp_vec2 change{a1.x - a0.x - b1.x + b0.x, a1.y - a0.y - b1.y + b0.y};

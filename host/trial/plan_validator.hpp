@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// plan_validator.hpp: checks every plan, independently of the planner that made it.
+// plan_validator.hpp: validates plans, independently of the planners.
 #pragma once
 
 #include <dmrp/global_planner.h>
@@ -11,15 +11,15 @@
 
 namespace dmrp::host {
 
-// The paths of a plan, one a robot.
+// The paths of a plan, one per robot.
 using PlannedPaths = std::vector<std::vector<dmrp_waypoint>>;
 
-// Whether a disc swept from one point to another stays clear of the static world; for any-angle plans.
+// Whether a disc swept from one point to another stays clear of the static geometry; for any-angle plans.
 using SweepIsFree = std::function<bool(dmrp_vec2 from, dmrp_vec2 to, double radius_m)>;
 
 struct PlanVerdict {
   std::string error;            // the first breach of the contract, in one line; empty if there is none
-  std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing and passing; or discs that meet
+  std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing and passing; any angle: discs that overlap
   std::string first_conflict;   // in one line
 };
 

@@ -12,7 +12,7 @@ namespace dmrp::host {
 
 namespace {
 
-// A robot may have strayed this far from the cell that it is planned from, in cells.
+// The largest distance of a robot from the cell that its plan starts in, in cells.
 constexpr double snap_reach_cells = 2.0;
 
 struct Collected {
@@ -36,7 +36,7 @@ void collect_statistic(dmrp_plan_sink* sink, const char* name, double value) {
   if (name) static_cast<Collected*>(sink->context)->statistics.push_back({name, value});
 }
 
-// Planners work on cells: a goal becomes the centre of its cell.
+// Planners work on cells: moves a goal to the centre of its cell.
 dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
   const dmrp_vec2 center = grid.center(grid.cell_of({goal.pose.x, goal.pose.y}));
   goal.pose.x = center.x;
@@ -44,10 +44,10 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
   return goal;
 }
 
-// False where robots cannot be put on distinct cells.
+// False if the robots cannot be put on distinct cells.
 bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
                   const InForce* in_force, StagedProblem& problem) {
-  // a robot that touches something may still leave it
+  // a robot in contact can still leave the obstacle
   const auto can_move = [&](dmrp_vec2 from, dmrp_vec2 to) {
     return variant.geometry->sweep_is_free(from, to, std::min(radius_m, variant.geometry->clearance(from)));
   };
@@ -58,9 +58,10 @@ bool put_on_cells(const VariantWorld& variant, double radius_m, const core::Worl
       requests.push_back({position, toolkit::no_cell});
       continue;
     }
-    // who cannot get back to its path straight will hardly be where that says
-    const OnTheWay& way = in_force->robots[i];
-    requests.push_back({can_move(position, way.next) ? way.then : position, grid.index_of(way.next_then)});
+    // a robot that cannot return straight to its path will not be where the path predicts
+    const PathPosition& on_path = in_force->robots[i];
+    requests.push_back({can_move(position, on_path.next_waypoint) ? on_path.position_then : position,
+                        grid.index_of(on_path.next_waypoint_then)});
   }
   const auto cells =
       toolkit::snap_to_cells(grid, requests, snap_reach_cells * variant.planning_grid.resolution_m, can_move);
@@ -114,7 +115,7 @@ const dmrp_plan& Plan::view() {
   return c_;
 }
 
-PlannerAnswer ask_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step) {
+PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step) {
   Collected collected;
   collected.paths.resize(problem.robot_count);
   collected.given.resize(problem.robot_count);
@@ -172,8 +173,8 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
 
   StagedProblem problem;
   if (!stage_problem(variant, world, in_force, time_budget_ns, problem)) return plan;
-  plan.asked = true;
-  PlannerAnswer answer = ask_planner(planner, problem.c, step);
+  plan.planner_called = true;
+  PlannerAnswer answer = call_planner(planner, problem.c, step);
   plan.status = answer.status;
   plan.planning_ns = answer.planning_ns;
   plan.statistics = std::move(answer.statistics);
@@ -191,7 +192,7 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
 std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
                                          std::int64_t step_duration_ns) {
   std::vector<dmrp_waypoint> path;
-  std::int64_t later_ns = 0;  // what the legs so far add to the times planned
+  std::int64_t later_ns = 0;  // the duration of the legs that were inserted so far
   const auto add_leg = [&](dmrp_pose to, std::uint32_t goal_index) {
     later_ns += step_duration_ns;
     path.push_back({to.x, to.y, to.theta, path.back().t_ns + step_duration_ns, goal_index, 0});
@@ -202,7 +203,7 @@ std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& plann
     const std::uint32_t heads_for = planned[i].goal_index;
     const bool is_last = i + 1 == planned.size();
     if (!is_last && planned[i + 1].goal_index == heads_for) continue;
-    // here the plan counts the goal as reached
+    // this waypoint reaches the goal
     const dmrp_pose& goal = goals[heads_for].pose;
     if (std::hypot(planned[i].x - goal.x, planned[i].y - goal.y) > 1e-9) {
       add_leg(goal, heads_for);

@@ -65,8 +65,8 @@ const std::vector<dmrp_agent>& RobotSensors::agents() {
     core::visible_agents(world_, robot_, agents_);
     core::disturb_agents(world_.settings().tracking_velocity_noise_sd, {seed_, robot_, world_.t_ns()}, agents_);
     for (dmrp_agent& agent : agents_) {
-      agent.pose = odometry_.as_believed(agent.pose);
-      agent.velocity = odometry_.direction_as_believed(agent.velocity);
+      agent.pose = odometry_.to_estimated(agent.pose);
+      agent.velocity = odometry_.direction_to_estimated(agent.velocity);
     }
     agents_are_fresh_ = true;
   }

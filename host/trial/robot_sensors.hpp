@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// robot_sensors.hpp: what a robot perceives, as the extensions that its controller asks for.
+// robot_sensors.hpp: a robot's sensors, as the extensions of its controller.
 #pragma once
 
 #include <dmrp/ext/distance_field.h>
@@ -19,30 +19,29 @@
 
 namespace dmrp::host {
 
-// One robot's sensors in one trial. Nothing is computed that nobody asked for: scans when they are read, the costmap
-// on every scan from the moment it is subscribed to (it has a history), its distance field and the obstacles' clusters
-// when they are read.
+// One robot's sensors in one trial, computed on demand: scans, distance field and obstacle clusters when they are read;
+// the costmap, which accumulates scans, on every scan once it is subscribed to.
 class RobotSensors {
  public:
-  // `world` and `lidar` outlive it; the lidar serves all robots. `seed` is the trial's.
+  // `world` and `lidar` outlive it; all robots share the lidar. `seed` is the trial's.
   RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed);
   RobotSensors(const RobotSensors&) = delete;
   RobotSensors& operator=(const RobotSensors&) = delete;
 
-  // The extension behind an id, nullptr if it is not offered. Asking for the costmap or what is derived from it
-  // subscribes to it.
+  // The extension with this id, nullptr if it is not offered. Asking for the costmap, or for an extension derived from it,
+  // subscribes to the costmap.
   const void* extension(const std::string& id);
 
-  // A control tick begins: what was read before is out of date.
+  // A control tick begins: earlier readings are out of date.
   void tick();
 
-  // Where the robot believes it is and how fast; all that it is told of lies about it there.
+  // The robot's estimate of its pose and velocity, to which all other readings are relative.
   const core::Odometry& odometry() const { return odometry_; }
 
-  // What its lidar sees; the same however often it is asked for.
+  // The lidar's scan; the same for the whole tick.
   const dmrp_scan& scan();
 
-  // The others that the robot is told of, as in its observation.
+  // The robots and people that the robot perceives, as in its observation.
   const std::vector<dmrp_agent>& agents();
 
  private:
@@ -58,7 +57,7 @@ class RobotSensors {
   bool scan_is_fresh_ = false;
   std::vector<dmrp_agent> agents_;
   bool agents_are_fresh_ = false;
-  std::unique_ptr<core::LocalCostmap> costmap_;  // there once somebody has subscribed
+  std::unique_ptr<core::LocalCostmap> costmap_;  // nullptr until somebody subscribes
   core::ObstacleClusters clusters_;
   const dmrp_obstacle_cluster_list* fresh_clusters_ = nullptr;
   dmrp_lidar lidar_extension_{};

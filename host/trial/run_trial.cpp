@@ -9,8 +9,8 @@
 #include "core/execution/ending.hpp"
 #include "core/execution/replanning.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/cast.hpp"
 #include "host/trial/dispatcher.hpp"
+#include "host/trial/trial_plugins.hpp"
 
 namespace dmrp::host {
 
@@ -22,7 +22,7 @@ class Run {
       : settings_(trial.variant.simulation),
         world_(trial.variant.scenario, trial.experiment.robot, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
-        cast_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
+        plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),
         dispatcher_(trial.variant, world_),
         replanning_(settings_.replan, world_.robots().size()),
@@ -31,35 +31,34 @@ class Run {
   dmrp_trial_end run() {
     if (has_robots()) {
       plan(nullptr);
-      if (!plan_.exists() && !coming_plan_) {
+      if (!has_plan() && !pending_plan_) {
         record({});  // for the call
         return end_without_plan();
       }
     }
     record({});
 
-    std::uint32_t ending = watch();
+    std::uint32_t ending = check_ending();
     while (ending == 0) {
-      if (control_due()) {  // sees the state that was recorded last
-        take_up_coming_plan();
-        if (plan_.exists() && !coming_plan_ && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress()))
-          replan();
-        if (plan_.exists())
+      if (control_due()) {  // on the state that was recorded last
+        activate_pending_plan();
+        if (replan_due()) replan();
+        if (has_plan())
           control();
         else
-          wait();
+          wait_for_plan();
       }
-      const auto contacts = world_.step(cast_.walk(step_));
+      const auto contacts = world_.step(plugins_.people_velocities(step_));
       ++step_;
-      dispatcher_.follow();
+      dispatcher_.update_progress();
       record(contacts);
-      ending = watch();
+      ending = check_ending();
     }
     ends_ = monitor_.robot_ends(ending, world_.robots());
     return end(ending);
   }
 
-  // All arrived, and none of them oscillated on the way: so does a trial without robots, which has no task to fail.
+  // All robots arrived, and none oscillated. A trial without robots succeeds.
   bool succeeded() const {
     return std::all_of(ends_.begin(), ends_.end(), [](const dmrp_robot_end& end) {
       return end.state == DMRP_ROBOT_FINISHED && end.failure == DMRP_FAILURE_NONE;
@@ -68,47 +67,53 @@ class Run {
 
  private:
   bool has_robots() const { return !world_.robots().empty(); }
+  bool has_plan() const { return plan_.exists(); }
 
-  std::uint32_t watch() {
+  // DMRP_ENDING_*, 0 until the trial is over.
+  std::uint32_t check_ending() {
     return monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m(), world_.is_deserted());
   }
 
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
-  // Without a new plan, the one in force stays.
+  bool replan_due() {
+    return has_plan() && !pending_plan_ && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress());
+  }
+
+  // Without a new plan, the plan in force stays.
   void plan(const InForce* in_force) {
-    Plan plan = cast_.plan(in_force, step_);
+    Plan plan = plugins_.plan(in_force, step_);
     trace_.plan(plan.view(), plan.conflicts);
     if (!plan.exists()) return;
-    coming_plan_ = std::move(plan);
-    take_up_coming_plan();
+    pending_plan_ = std::move(plan);
+    activate_pending_plan();
   }
 
-  void take_up_coming_plan() {
-    if (!coming_plan_ || world_.t_ns() < coming_plan_->from_ns) return;
-    plan_ = *std::exchange(coming_plan_, std::nullopt);
-    dispatcher_.take_up(plan_);
+  void activate_pending_plan() {
+    if (!pending_plan_ || world_.t_ns() < pending_plan_->from_ns) return;
+    plan_ = *std::exchange(pending_plan_, std::nullopt);
+    dispatcher_.set_plan(plan_);
   }
 
-  // For the first plan: robots sense, and stand.
-  void wait() {
-    cast_.sense();
+  // The first plan is not in force yet: robots sense and stand still.
+  void wait_for_plan() {
+    plugins_.sense();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) monitor_.command_given(i, world_.t_ns());
   }
 
   void replan() {
-    const std::vector<OnTheWay> ways = dispatcher_.on_the_way(settings_.planning_latency_ns);
-    const InForce in_force = {plan_.view(), ways};
+    const std::vector<PathPosition> positions = dispatcher_.positions_on_paths(settings_.planning_latency_ns);
+    const InForce in_force = {plan_.view(), positions};
     plan(&in_force);
   }
 
   void control() {
-    dispatcher_.direct();
-    cast_.sense();
+    dispatcher_.update_targets();
+    plugins_.sense();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
       if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-      if (const auto path = dispatcher_.hand_over(i); !path.empty()) cast_.set_path(i, path, step_);
-      if (const auto command = cast_.drive(i, dispatcher_.guidance(i), step_)) {
+      if (const auto path = dispatcher_.take_new_path(i); !path.empty()) plugins_.set_path(i, path, step_);
+      if (const auto command = plugins_.control(i, dispatcher_.guidance(i), step_)) {
         world_.set_command(i, *command);
         monitor_.command_given(i, world_.t_ns());
       } else {
@@ -126,7 +131,7 @@ class Run {
                          dispatcher_.progress()[i].progress_m()});
     }
     const auto people = world_.people();
-    const auto calls = cast_.take_calls();
+    const auto calls = plugins_.take_calls();
     dmrp_sample sample{};
     sample.struct_size = sizeof(sample);
     sample.control_tick = control_due();
@@ -160,27 +165,42 @@ class Run {
                               ends_.data(),
                               static_cast<std::uint32_t>(ends_.size()),
                               sizeof(dmrp_robot_end)};
-    static constexpr const char* const reasons[] = {"",         "all robots arrived",        "time limit",
-                                                    "deadlock", "the planner found no plan", "everybody left"};
-    trace_.end(c, reasons[ending]);
+    trace_.end(c, ending_text(ending));
     return c;
   }
 
   const core::SimulationSettings& settings_;
   core::World world_;
-  Cast cast_;
+  TrialPlugins plugins_;
   core::TraceEncoder& trace_;
   Dispatcher dispatcher_;
   core::ReplanMonitor replanning_;
   core::EndingMonitor monitor_;
-  Plan plan_;                        // in force
-  std::optional<Plan> coming_plan_;  // made, and not yet in force
+  Plan plan_;                         // in force
+  std::optional<Plan> pending_plan_;  // comes into force after the planning latency
   std::int64_t step_ = 0;
   std::vector<dmrp_robot_sample> robots_;
   std::vector<dmrp_robot_end> ends_;
 };
 
 }  // namespace
+
+const char* ending_text(std::uint32_t ending) {
+  switch (ending) {
+    case DMRP_ENDING_ARRIVED:
+      return "all robots arrived";
+    case DMRP_ENDING_TIME_LIMIT:
+      return "time limit";
+    case DMRP_ENDING_DEADLOCK:
+      return "deadlock";
+    case DMRP_ENDING_NO_PLAN:
+      return "the planner found no plan";
+    case DMRP_ENDING_DESERTED:
+      return "everybody left";
+    default:
+      return "";
+  }
+}
 
 TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace) {
   Run run(trial, pool, trace);

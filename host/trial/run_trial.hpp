@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// run_trial.hpp: one trial, from the plan to the end, written down in a trace.
+// run_trial.hpp: simulates one trial and records it in a trace.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,10 @@ struct TrialEnding {
   double sim_time_s = 0.0;
 };
 
-// Runs it. The trace has the world's record already. Throws PluginFault; the trace then ends where it happened.
+// The trace has the world's record already. Throws PluginFault; the trace then ends at the fault.
 TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace);
+
+// For the trace's end: a DMRP_ENDING_* as text.
+const char* ending_text(std::uint32_t ending);
 
 }  // namespace dmrp::host

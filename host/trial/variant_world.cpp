@@ -17,10 +17,11 @@ core::SimulationSettings with_time_limit(const Experiment& experiment, const cor
   return settings;
 }
 
-// The robots of the trial; the starts of those that would be drawn for more stay clear of people as well.
+// The scenario with the trial's robots. It draws for the variant with the most robots, and keeps people clear of the other
+// starts too: the first robots and the people are the same in all variants.
 core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrid& grid, std::uint64_t seed) {
   core::Scenario scenario = variant.scenario;
-  std::vector<core::RobotTask> drawn = core::draw_robots(grid, variant.most_drawn, seed);
+  std::vector<core::RobotTask> drawn = core::random_tasks(grid, variant.most_drawn, seed);
   if (drawn.size() < variant.most_drawn)
     throw std::runtime_error(fmt::format("scenario '{}' has no room for {} robots", scenario.name, variant.most_drawn));
   for (std::size_t i = variant.drawn_robots; i < drawn.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// variant_world.hpp: what all trials of a scenario variant share: its static geometry, grids and the contract's view.
-// Where robots are drawn, each trial has one of its own.
+// variant_world.hpp: the data that all trials of a scenario variant share: static geometry, grids, the contract's view.
+// If the variant draws robots at random, each trial has its own.
 #pragma once
 
 #include <memory>
@@ -15,15 +15,15 @@
 namespace dmrp::host {
 
 struct VariantWorld {
-  // Without the robots that are drawn.
+  // Without random robots.
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant);
 
-  // With the robots that are drawn for the trial of this seed (world_seed()).
+  // With the robots drawn for the trial with this seed.
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                std::uint64_t seed);
 
   core::Scenario scenario;
-  core::SimulationSettings simulation;  // with the time limit that holds for this scenario
+  core::SimulationSettings simulation;  // with the time limit of this scenario
   std::shared_ptr<const core::StaticGeometry> geometry;
   core::PlanningGrid planning_grid;
   core::PlanningGrid walking_grid;
@@ -31,12 +31,12 @@ struct VariantWorld {
   core::WorldView view;
 };
 
-// Whether every trial of the variant is set in a world of its own.
+// Whether the variant draws robots: every trial has its own world.
 inline bool is_drawn(const ScenarioVariant& variant) {
   return variant.most_drawn > 0;
 }
 
-// A number of seconds from the experiment file, as the contract counts them.
+// Seconds of the experiment file, in the contract's unit.
 inline std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(seconds * 1e9 + 0.5);
 }

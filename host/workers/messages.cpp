@@ -5,7 +5,7 @@
 
 namespace dmrp::host {
 
-// As nlohmann's own macro, but not inline: these are declared in the header, which stays light.
+// As NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE, but not inline: the header needs no json.hpp.
 #define DMRP_FIELDS(Type, ...)                                                   \
   void to_json(nlohmann::json& nlohmann_json_j, const Type& nlohmann_json_t) {   \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))     \
@@ -32,7 +32,7 @@ std::optional<T> from_null(const nlohmann::json& json) {
 
 }  // namespace
 
-// A row, not an object: there are many. Finite doubles keep their bits in JSON (shortest round trip).
+// An array, not an object: there are many values. JSON keeps the bits of finite doubles (shortest round trip).
 void to_json(nlohmann::json& json, const MetricValue& v) {
   json = nlohmann::json::array({v.metric, v.subject_kind, or_null(v.subject), or_null(v.coordinate), or_null(v.value)});
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// messages.hpp: what supervisor and worker say to each other.
+// messages.hpp: the messages between supervisor and worker.
 //
-//   worker  -> {"type": "ready", "digest"}           the experiment as it reads it
+//   worker     -> {"type": "ready", "digest"}        of the experiment as the worker reads it
 //   supervisor -> Job                                one trial
-//   worker  -> {"type": "measuring", "index"}        as each metric begins
-//   worker  -> {"type": "metric"} + MetricResult     as each metric finishes
-//   worker  -> {"type": "fault", "fatal"} + FaultRecord   a plugin broke its contract; the worker goes on unless the
-//                                                    fault is fatal: the library is unusable, another worker must
-//   worker  -> {"type": "done"} + TrialDone          the trial is over
-//   worker  -> {"type": "error", "text"}             the run cannot go on: a file is gone, the disk is full
+//   worker     -> {"type": "measuring", "index"}     a metric begins
+//   worker     -> {"type": "metric"} + MetricResult  a metric has finished
+//   worker     -> {"type": "fault", "fatal"} + FaultRecord   a plugin broke its contract. The worker continues unless the
+//                                                    fault is fatal: no function of the library may be called again
+//   worker     -> {"type": "done"} + TrialDone       the trial is over
+//   worker     -> {"type": "error", "text", "machine"}   the run cannot continue. machine: the machine failed (the disk
+//                                                    is full); otherwise the input is at fault (a file is gone)
 //
-// A worker that cannot go on just dies: the supervisor knows from the call note where.
+// A worker whose plugin crashes sends nothing: the supervisor reads the plugin and the function from the call note.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +23,16 @@
 
 namespace dmrp::host {
 
-// Exit status of a worker that ran out of memory outside a plugin call.
-inline constexpr int out_of_memory_exit = 86;
-
 struct Job {
   std::uint64_t trial = 0;
   std::string trace_file;    // "" for none
   std::string scratch_file;  // where a large trace goes until it has been measured
   bool keep_trace_of_success = true;
-  std::vector<std::uint32_t> skip_metrics;  // that killed a worker before, or were measured before another one did
-  std::vector<MetricEvent> known_events;    // that these gave, for the trace
+  std::vector<std::uint32_t> skip_metrics;  // measured in an earlier attempt, or killed the worker in one
+  std::vector<MetricEvent> known_events;    // of the measured ones, for the trace
 };
 
-// The end of a trial, without its values.
+// The result of a trial, without the values of its metrics.
 struct TrialDone {
   std::string outcome;
   bool repeatable = true;

@@ -3,11 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/signalfd.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -17,11 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/experiment/digest.hpp"
-#include "host/plugins/call_guard.hpp"
-#include "host/plugins/plugin_fault.hpp"
+#include "host/process/stop_signals.hpp"
+#include "host/process/watchdog.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/worker_process.hpp"
 
@@ -31,24 +28,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int poll_interval_ms = 100;
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
-constexpr std::int64_t farewell_ns = 2 * second_ns;  // for plugins' deinit() when a run is over
+constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
 
-std::string for_shell(const std::string& word) {
+std::string quoted_for_shell(const std::string& word) {
   if (word.find_first_of(" \t\"'\\$&;()<>|*?`~#!") == std::string::npos) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
 
-// A trial that is waited for: what is known of it so far, and which metrics need not be asked (again).
+// A trial that is not over: its results so far.
 struct OpenTrial {
   TrialRecord record;
-  std::vector<std::uint32_t> skip_metrics;
+  std::vector<std::uint32_t> skip_metrics;  // that are measured, or ended in a fault
   std::int64_t started_ns = 0;
-  std::optional<std::uint32_t> measuring;  // the metric that runs now
+  std::optional<std::uint32_t> measuring;  // the metric that runs
 };
 
 struct Slot {
@@ -58,74 +54,38 @@ struct Slot {
   std::optional<OpenTrial> trial;
 };
 
-// SIGINT, SIGTERM and SIGHUP (unless nohup took it away) as a descriptor to poll, while it lives.
-class StopSignals {
- public:
-  StopSignals() {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    struct sigaction hangup {};
-    sigaction(SIGHUP, nullptr, &hangup);
-    if (hangup.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
-    sigprocmask(SIG_BLOCK, &set, &before_);
-    descriptor_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
-  }
-  ~StopSignals() {
-    // those that were heeded shall not kill the process when they are let through again
-    for (signalfd_siginfo heeded; read(descriptor_, &heeded, sizeof(heeded)) > 0;) {
-    }
-    close(descriptor_);
-    sigprocmask(SIG_SETMASK, &before_, nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  sigset_t before_{};
-  int descriptor_ = -1;
-};
-
 class Supervisor {
  public:
   Supervisor(const Experiment& experiment, const std::vector<std::uint64_t>& trials, const SupervisorSettings& settings,
              const std::function<void(TrialRecord&&)>& on_trial)
       : experiment_(experiment), settings_(settings), on_trial_(on_trial), digest_(experiment_digest(experiment)) {
-    log_ = open((settings.run_directory / "log.txt").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (log_ < 0) throw std::runtime_error("cannot write log.txt");
+    const fs::path log = settings.run_directory / "log.txt";
+    log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());
     for (const std::uint64_t trial : trials) waiting_.push_back({blank_record(experiment, trial), {}, 0, {}});
     open_trials_ = trials.size();
     slots_.resize(std::min<std::size_t>(settings.jobs, trials.size()));
   }
-  ~Supervisor() { close(log_); }
-  Supervisor(const Supervisor&) = delete;
-  Supervisor& operator=(const Supervisor&) = delete;
 
   RunEnding run(const std::function<void()>& on_idle) {
     const StopSignals stop;
-    signal(SIGPIPE, SIG_IGN);
     while (open_trials_ > 0) {
-      for (Slot& slot : slots_) supply(slot);
-      const std::int64_t before_ns = monotonic_ns();
-      if (wait_for_news(stop.descriptor())) return RunEnding::interrupted;
-      // a terminal's Ctrl-Z stops the workers too: the time until it goes on is nobody's hang
-      if (monotonic_ns() - before_ns > second_ns) awake_since_ns_ = monotonic_ns();
+      for (Slot& slot : slots_) assign_work(slot);
+      if (wait_for_messages(stop.descriptor())) return RunEnding::interrupted;
       for (Slot& slot : slots_)
-        if (slot.worker) watch(slot);
+        if (slot.worker) check_time(slot);
       on_idle();
     }
-    dismiss_workers();
+    shut_down_workers();
     return RunEnding::done;
   }
 
  private:
-  // Gives the slot a worker, and the worker a trial, if it needs one.
-  void supply(Slot& slot) {
+  // Starts a worker if the slot has none, and gives an idle worker a trial.
+  void assign_work(Slot& slot) {
     if (slot.trial || waiting_.empty()) return;
     if (!slot.worker) {
-      slot.worker = std::make_unique<WorkerProcess>(experiment_.file, experiment_.trials, log_);
+      slot.worker = std::make_unique<WorkerProcess>(experiment_.file, experiment_.trials, log_.number());
       slot.worker_started_ns = monotonic_ns();
       slot.ready = false;
     }
@@ -134,18 +94,18 @@ class Supervisor {
     waiting_.pop_front();
     slot.trial->started_ns = monotonic_ns();
     slot.trial->measuring.reset();
-    // A worker that died in between is noticed by its closed pipe.
+    // a worker that has died is noticed by its closed pipe
     slot.worker->channel().send(job_of(*slot.trial));
   }
 
-  // Lets plugins say goodbye: destroy() and deinit().
-  void dismiss_workers() {
+  // Lets the workers call destroy() and deinit() of the plugins.
+  void shut_down_workers() {
     for (Slot& slot : slots_)
-      if (slot.worker) slot.worker->channel().hang_up();
-    const std::int64_t until_ns = monotonic_ns() + farewell_ns;
+      if (slot.worker) slot.worker->channel().close_write_end();
+    const std::int64_t until_ns = monotonic_ns() + shutdown_limit_ns;
     for (Slot& slot : slots_)
       if (slot.worker)
-        slot.worker->ends_within(static_cast<int>(std::max<std::int64_t>(until_ns - monotonic_ns(), 0) / 1'000'000));
+        watchdog_.wait(slot.worker->process().ended().number(), [&] { return monotonic_ns() >= until_ns; });
   }
 
   nlohmann::json job_of(const OpenTrial& trial) const {
@@ -161,38 +121,38 @@ class Supervisor {
     return job;
   }
 
-  // True when the user wants it to end.
-  bool wait_for_news(int stop) {
+  // True when a signal asks to stop.
+  bool wait_for_messages(int stop) {
     std::vector<pollfd> watched = {{stop, POLLIN, 0}};
     for (const Slot& slot : slots_)
       if (slot.worker) watched.push_back({slot.worker->channel().read_end(), POLLIN, 0});
-    poll(watched.data(), watched.size(), poll_interval_ms);
+    watchdog_.wait(watched);
     std::size_t next = 1;
     for (Slot& slot : slots_) {
       if (!slot.worker) continue;
-      if (watched[next++].revents != 0) listen(slot);
+      if (watched[next++].revents != 0) read_messages(slot);
     }
     return (watched[0].revents & POLLIN) != 0;
   }
 
-  void listen(Slot& slot) {
-    const bool alive = slot.worker->channel().fill();
+  void read_messages(Slot& slot) {
+    const bool open = slot.worker->channel().fill();
     try {
       while (slot.worker)
         if (const auto message = slot.worker->channel().take())
-          hear(slot, *message);
+          read_message(slot, *message);
         else
           break;
     } catch (const nlohmann::json::exception&) {
-      FaultRecord fault = fault_at(slot.worker->noted_call());
+      FaultRecord fault = fault_at(slot.worker->last_call());
       fault.kind = fault_kind::abi_breach;
       fault.detail = "the worker process sent a message that cannot be read";
       return end_by_fault(slot, std::move(fault));
     }
-    if (!alive && slot.worker) bury(slot);
+    if (!open && slot.worker) reap(slot);
   }
 
-  void hear(Slot& slot, const nlohmann::json& message) {
+  void read_message(Slot& slot, const nlohmann::json& message) {
     const auto type = message.at("type").get<std::string>();
     if (type == "ready") {
       if (message.at("digest").get<std::string>() != digest_)
@@ -200,13 +160,15 @@ class Supervisor {
       slot.ready = true;
       failed_starts_ = 0;
     } else if (type == "error") {
-      throw InputError(message.at("text").get<std::string>());
+      const auto text = message.at("text").get<std::string>();
+      if (message.at("machine").get<bool>()) throw MachineError(text);
+      throw InputError(text);
     } else if (slot.trial) {
-      hear_of_trial(slot, type, message);
+      read_trial_message(slot, type, message);
     }
   }
 
-  void hear_of_trial(Slot& slot, const std::string& type, const nlohmann::json& message) {
+  void read_trial_message(Slot& slot, const std::string& type, const nlohmann::json& message) {
     OpenTrial& trial = *slot.trial;
     if (type == "measuring") {
       trial.measuring = message.at("index").get<std::uint32_t>();
@@ -218,7 +180,7 @@ class Supervisor {
     } else if (type == "fault") {
       if (message.at("fatal").get<bool>()) return end_by_fault(slot, message.get<FaultRecord>());
       add_fault(trial, message.get<FaultRecord>());
-      // should a later metric kill the worker, this one need not fail a second time
+      // should a later metric kill the worker, this one is not measured a second time
       if (trial.measuring) trial.skip_metrics.push_back(*trial.measuring);
     } else if (type == "done") {
       const auto done = message.get<TrialDone>();
@@ -230,9 +192,9 @@ class Supervisor {
   }
 
   void add_fault(OpenTrial& trial, FaultRecord fault) const {
-    fault.rerun =
-        fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}", for_shell(experiment_.file.string()),
-                    experiment_.trials, trial.record.id, settings_.trial_count, trial.record.id);
+    fault.rerun = fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}",
+                              quoted_for_shell(experiment_.file.string()), experiment_.trials, trial.record.id,
+                              settings_.trial_count, trial.record.id);
     trial.record.faults.push_back(std::move(fault));
   }
 
@@ -245,48 +207,46 @@ class Supervisor {
     on_trial_(std::move(record));
   }
 
-  // Looks for calls, trials and starts that take too long. The note is only believed where it is possible.
-  void watch(Slot& slot) {
+  // Ends a worker whose call, trial or start takes too long.
+  void check_time(Slot& slot) {
     if (slot.ready && !slot.trial) return;
     const auto longest_ns =
         static_cast<std::int64_t>(experiment_.limits.trial_wall_time_s * static_cast<double>(second_ns));
     const std::int64_t began_ns = slot.trial ? slot.trial->started_ns : slot.worker_started_ns;
-    const NotedCall call = slot.worker->noted_call();
-    const std::int64_t now = monotonic_ns();
+    const NotedCall call = slot.worker->last_call();
     FaultRecord fault = fault_at(call);
     fault.kind = fault_kind::hang;
-    if (now - std::max(began_ns, awake_since_ns_) > longest_ns) {
+    if (watchdog_.elapsed_ns(began_ns) > longest_ns) {
       fault.detail = fmt::format("the {} took longer than trial_wall_time_s = {} s",
                                  slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
       return end_by_fault(slot, std::move(fault));
     }
-    if (!call.inside || call.start_ns < began_ns || call.start_ns > now) return;
     const std::int64_t limit_ns = call.limit_ns > 0 ? std::min(call.limit_ns, longest_ns) : longest_ns;
-    if (now - std::max(call.start_ns, awake_since_ns_) <= limit_ns) return;
-    fault.detail = fmt::format("did not return within {:.1f} s", static_cast<double>(now - call.start_ns) * 1e-9);
+    if (!watchdog_.is_overdue(call, began_ns, limit_ns)) return;
+    fault.detail =
+        fmt::format("did not return within {:.1f} s", static_cast<double>(monotonic_ns() - call.start_ns) * 1e-9);
     end_by_fault(slot, std::move(fault));
   }
 
-  // The worker died by itself.
-  void bury(Slot& slot) {
-    FaultRecord fault = fault_at(slot.worker->noted_call());
-    slot.worker->kill();  // it may have closed its channel and live on; one that is dying keeps its status
-    const int status = slot.worker->wait();
-    if (WIFSIGNALED(status)) {
-      fault.kind = fault_kind::crash;
-      fault.signal = WTERMSIG(status);
+  // The worker ended by itself.
+  void reap(Slot& slot) {
+    FaultRecord fault = fault_at(slot.worker->last_call());
+    ChildProcess& process = slot.worker->process();
+    process.kill();  // it can have closed its channel and live on; one that is dying keeps its status
+    const ProcessEnding& ending = process.wait();
+    fault.kind = ending.fault_kind();
+    if (ending.signal != 0) {
+      fault.signal = ending.signal;
       fault.detail = strsignal(fault.signal);
-    } else if (WEXITSTATUS(status) == out_of_memory_exit) {
-      fault.kind = fault_kind::out_of_memory;
+    } else if (ending.exit_status == out_of_memory_exit) {
       fault.detail = fmt::format("more than memory_mb = {}", experiment_.limits.memory_mb);
     } else {
-      fault.kind = fault_kind::exit;
-      fault.detail = fmt::format("the process ended with status {}", WEXITSTATUS(status));
+      fault.detail = fmt::format("the process ended with status {}", ending.exit_status);
     }
     end_by_fault(slot, std::move(fault));
   }
 
-  // Ends the worker, and with it what it was about.
+  // Kills the worker, and ends its trial.
   void end_by_fault(Slot& slot, FaultRecord fault) {
     slot.worker.reset();
     if (slot.trial)
@@ -307,7 +267,7 @@ class Supervisor {
     return fault;
   }
 
-  // A metric that killed the worker loses only itself: the trial is run again without it. Otherwise it is over.
+  // A trial whose metric killed the worker is run again without that metric. Otherwise the trial is over.
   void conclude(Slot& slot, FaultRecord fault) {
     OpenTrial& trial = *slot.trial;
     if (fault.kind == fault_kind::hang) trial.record.repeatable = false;
@@ -326,12 +286,12 @@ class Supervisor {
   const SupervisorSettings& settings_;
   const std::function<void(TrialRecord&&)>& on_trial_;
   const std::string digest_;
-  int log_ = -1;
+  Descriptor log_;
+  Watchdog watchdog_;
   std::deque<OpenTrial> waiting_;
   std::vector<Slot> slots_;
   std::size_t open_trials_ = 0;
   int failed_starts_ = 0;
-  std::int64_t awake_since_ns_ = 0;
 };
 
 }  // namespace

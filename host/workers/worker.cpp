@@ -13,14 +13,15 @@
 
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/experiment/digest.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/line_channel.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
-#include "host/workers/line_channel.hpp"
 #include "host/workers/messages.hpp"
-#include "host/workers/resource_limits.hpp"
-#include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {
 
@@ -102,7 +103,7 @@ class Worker {
     done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && kept.is_recorded())
       std::filesystem::remove(job.trace_file);
-    if (own) pool_.clear();  // instances may look at their world until they go
+    if (own) pool_.clear();  // instances may keep pointers into their world
     channel_.send(typed("done", done));
   }
 
@@ -111,7 +112,7 @@ class Worker {
                      [](const MetricEvent& a, const MetricEvent& b) { return a.from_ns < b.from_ns; });
     if (core::FoxgloveChannels* const foxglove = kept.foxglove())
       for (const MetricEvent& event : events)
-        foxglove->mark({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
+        foxglove->metric_event({event.metric, event.from_ns, event.to_ns, event.robots, event.text});
     kept.finish();
   }
 
@@ -119,7 +120,7 @@ class Worker {
     nlohmann::json message = typed("fault", record_of(fault));
     message["fatal"] = fault.fatal();
     channel_.send(message);
-    // The library is unusable, its destroy() included: a fresh process goes on.
+    // no function of the library may be called, not even destroy(): another worker continues
     if (fault.fatal()) _exit(1);
   }
 
@@ -144,11 +145,11 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   CallGuard guard_;
-  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances see these worlds until they go
+  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
   InstancePool pool_;
 };
 
-// Descriptors without a probe: the supervisor's probe has survived these libraries.
+// Without a child process: the supervisor has already probed these libraries.
 Probe read_descriptors(const std::filesystem::path& file) {
   const Library library(file);
   return {library.plugins(), library.warning(), ""};
@@ -157,21 +158,22 @@ Probe read_descriptors(const std::filesystem::path& file) {
 }  // namespace
 
 int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
-  // Inherited, but not for what a plugin may start.
+  // processes that a plugin starts do not inherit them
   for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
-  LineChannel channel(read_end, write_end);
+  LineChannel channel{Descriptor(read_end), Descriptor(write_end)};
   try {
     const Experiment experiment = load_experiment(file, trials, &read_descriptors);
     set_resource_limits(experiment.limits.memory_mb);
-    Worker(experiment, channel, map_call_note(note)).serve();
+    const SharedCallNote shared{Descriptor(note)};
+    Worker(experiment, channel, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;
   } catch (const PluginFault& fault) {
-    channel.send({{"type", "error"}, {"text", fault.plugin() + ": " + fault.function() + "(): " + fault.what()}});
+    channel.send({{"type", "error"}, {"text", fault.text()}, {"machine", false}});
     return 1;
   } catch (const std::exception& error) {
-    channel.send({{"type", "error"}, {"text", error.what()}});
+    channel.send({{"type", "error"}, {"text", error_text(error)}, {"machine", is_machine_failure(error)}});
     return 1;
   }
 }

@@ -1,47 +1,32 @@
 // SPDX-License-Identifier: MIT
-// worker_process.hpp: one worker as its supervisor holds it: the process, the channel, the shared call note.
+// worker_process.hpp: a worker as its supervisor sees it: the process, the channel, the shared call note.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
 
-#include "host/plugins/call_note.hpp"
-#include "host/workers/line_channel.hpp"
+#include "host/process/call_note.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/line_channel.hpp"
 
 namespace dmrp::host {
 
 class WorkerProcess {
  public:
-  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`; its output goes to the descriptor `log`. It inherits no other
-  // descriptor but its channel and its note, and outlives neither the supervisor nor this object. Throws
-  // std::system_error.
+  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`, whose output goes to the descriptor `log`. The destructor kills it.
+  // Throws MachineError.
   WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log);
-  ~WorkerProcess();  // kills it
-  WorkerProcess(const WorkerProcess&) = delete;
-  WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  LineChannel& channel() { return *channel_; }
-  NotedCall noted_call() const { return host::noted_call(*note_); }
-
-  void kill();
-  // Whether it is over by itself, now or in the next `wait_ms`.
-  bool ends_within(int wait_ms) const;
-  // Waits for its end; the status as waitpid() gives it.
-  int wait();
+  ChildProcess& process() { return process_; }
+  LineChannel& channel() { return channel_; }
+  NotedCall last_call() const { return note_.read(); }
 
  private:
-  pid_t pid_ = -1;
-  int pid_descriptor_ = -1;
-  CallNote* note_ = nullptr;
-  std::unique_ptr<LineChannel> channel_;
-};
+  WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log, Descriptor note, Pipe to_worker,
+                Pipe from_worker);
 
-// Maps the call note behind a descriptor, for as long as the process lives, and closes the descriptor.
-// Throws std::system_error.
-CallNote& map_call_note(int descriptor);
+  ChildProcess process_;
+  SharedCallNote note_;
+  LineChannel channel_;
+};
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The built-in metrics as one plugin library.
+// The plugin library of the built-in metrics.
 #include "metrics/compute/compute_time.hpp"
 #include "metrics/execution/idle_time.hpp"
 #include "metrics/execution/smoothness.hpp"
@@ -26,7 +26,7 @@
 #include "metrics/social/proxemics.hpp"
 #include "metrics/social/social_work.hpp"
 
-// In the order in which they are listed, documented and, where an experiment names none, measured.
+// The order of lists and documents, and of measurement where an experiment names no metrics.
 DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::PlanningTime,
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Arrivals, dmrp::metrics::Spl,
              dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd, dmrp::metrics::Collisions,

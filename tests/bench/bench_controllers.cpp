@@ -25,6 +25,7 @@
 #include "host/workers/supervisor.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"
 #include "tests/bench/bench_controllers_trial.hpp"
+#include "tests/bench/bench_rows.hpp"
 
 namespace {
 
@@ -38,13 +39,7 @@ struct Options {
   std::vector<std::string> settings;  // key=value
   std::string parameters;             // file
   bool quick = false;
-  bool json = false;
-};
-
-struct Row {
-  std::string name;
-  double value;
-  std::string unit;
+  bench::Output output;
 };
 
 // All calls on one scenario.
@@ -150,13 +145,13 @@ Measured measure(const Options& options, const std::string& controller, const st
   return measured;
 }
 
-void add_rows(const std::string& name, const Measured& measured, std::vector<Row>& rows) {
+void add_rows(const std::string& name, const Measured& measured, std::vector<bench::Row>& rows) {
   rows.push_back({name + "/median", quantile(measured.call_ms, 0.5), "ms"});
   rows.push_back({name + "/p99", quantile(measured.call_ms, 0.99), "ms"});
 }
 
-std::vector<Row> rows_of(const Options& options, const std::string& controller) {
-  std::vector<Row> rows;
+std::vector<bench::Row> rows_of(const Options& options, const std::string& controller) {
+  std::vector<bench::Row> rows;
   const std::string name = "controller/" + controller;
   const Measured mall = measure(options, controller, "mall", options.quick ? 1 : 3);
   add_rows(name + "/cycle", mall, rows);
@@ -179,19 +174,6 @@ std::vector<std::string> known_controllers() {
   return ids;
 }
 
-void print(const std::vector<Row>& rows, bool json) {
-  if (json) std::printf("[");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (json) {
-      std::printf("%s\n  {\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\"}", i == 0 ? "" : ",",
-                  rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
-    } else {
-      std::printf("%-55s %12.6g %s\n", rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
-    }
-  }
-  if (json) std::printf("\n]\n");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -201,15 +183,16 @@ int main(int argc, char** argv) {
   app.add_option("--set", options.settings, "a parameter: key=value")->allow_extra_args(false);
   app.add_option("--params", options.parameters, "a parameter set (TOML)")->check(CLI::ExistingFile);
   app.add_flag("--quick", options.quick, "one trial, every call timed once");
-  app.add_flag("--json", options.json, "a list of name, value, unit");
+  app.add_flag("--json", options.output.json, "a list of name, value, unit");
+  app.add_option("--csv", options.output.csv, "append the values to this file")->type_name("FILE");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::vector<Row> rows;
+    std::vector<bench::Row> rows;
     for (const std::string& id : options.controllers.empty() ? known_controllers() : options.controllers) {
-      const std::vector<Row> more = rows_of(options, id);
+      const std::vector<bench::Row> more = rows_of(options, id);
       rows.insert(rows.end(), more.begin(), more.end());
     }
-    print(rows, options.json);
+    bench::write_rows(rows, options.output);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_controllers: %s\n", error.what());
     return 1;

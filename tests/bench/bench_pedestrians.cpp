@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// bench_pedestrians: how many people the pedestrian models move in a second of processor time, one core.
+// bench_pedestrians: the number of people that the pedestrian models move per second of processor time, on one core.
 //
-//   pedestrian/MODEL/N    agent-steps/s with N people at 0.25 people/m2 who cross each other and walk round furniture
+//   pedestrian/MODEL/N    agent-steps/s of N people in crossing flows at 0.25 people/m2 among furniture
 //
-// Only the models' step() is timed, through the plugins' C entry. Best of three stretches of the same walk.
+// Times only the models' step(), through the plugins' C entry. Best of three parts of the same walk.
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,16 +17,16 @@ namespace {
 
 using namespace dmrp::bench;
 
-constexpr std::uint32_t people_at_least = 1000;          // small crowds are measured by the dozen
-constexpr std::uint32_t agent_steps_at_least = 150'000;  // a stretch
-constexpr int stretches = 3;
+constexpr std::uint32_t people_at_least = 1000;          // small crowds are measured several at a time
+constexpr std::uint32_t agent_steps_at_least = 150'000;  // in a part
+constexpr int parts = 3;
 constexpr int warm_up_steps = 25;
 
 using Crowds = std::vector<std::unique_ptr<CrossingCrowd>>;
 
 double seconds_of_step(Crowds& crowds) {
   const double start_s = processor_s();
-  for (const auto& crowd : crowds) crowd->ask_model();
+  for (const auto& crowd : crowds) crowd->step_model();
   const double used_s = processor_s() - start_s;
   for (const auto& crowd : crowds) crowd->move();
   return used_s;
@@ -43,7 +42,7 @@ double agent_steps_per_second(const std::string& model, std::uint32_t people) {
 
   for (int i = 0; i < warm_up_steps; ++i) seconds_of_step(crowds);
   double best = 0.0;
-  for (int stretch = 0; stretch < stretches; ++stretch) {
+  for (int part = 0; part < parts; ++part) {
     double used_s = 0.0;
     for (std::uint32_t i = 0; i < steps; ++i) used_s += seconds_of_step(crowds);
     best = std::max(best, static_cast<double>(steps) * agents / used_s);
@@ -54,12 +53,12 @@ double agent_steps_per_second(const std::string& model, std::uint32_t people) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const Output output = output_options(argc, argv);
   std::vector<Row> rows;
   for (const char* model : {"social_force", "orca", "collision_free_speed"})
     for (const std::uint32_t people : {10u, 100u, 1000u, 10000u})
       rows.push_back({"pedestrian/" + std::string(model) + "/" + std::to_string(people),
                       agent_steps_per_second(model, people), "agent-steps/s"});
-  print_rows(rows, json);
+  write_rows(rows, output);
   return 0;
 }

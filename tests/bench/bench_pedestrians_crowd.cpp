@@ -15,7 +15,7 @@ namespace dmrp::bench {
 namespace {
 
 constexpr double people_per_m2 = 0.25;
-constexpr double block_m = 10.0;  // of the furniture's pattern
+constexpr double block_m = 10.0;  // period of the furniture
 constexpr double side_depth_m = 1.5;
 constexpr std::int64_t step_ns = 20'000'000;
 
@@ -66,7 +66,7 @@ CrossingCrowd::CrossingCrowd(const Square& square, const std::string& model, std
     : side_m_(square.scenario.upper.x),
       model_("libdmrp_pedestrians.so", model),
       geometry_(square.geometry),
-      motion_(geometry_) {
+      motion_(geometry_, step_ns) {
   place_people(square, seed);
   velocities_.resize(people_.size());
   if (model_.start(square.view.world(), seed) != DMRP_OK) throw std::runtime_error(model + " does not start");
@@ -90,11 +90,11 @@ void CrossingCrowd::place_people(const Square& square, std::uint64_t seed) {
         chance.truncated_normal(settings.speed_mean, settings.speed_sd, settings.speed_min, settings.speed_max);
     send_to(person, static_cast<std::uint32_t>(person.id % 4));
     people_.push_back(person);
-    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::Bearing::gives_way});
+    bodies_.push_back({at, settings.radius_m, {}, core::SolidBody::ContactResponse::yield});
   }
 }
 
-// West, south, east, north: 0 to 3. Everybody keeps to their own line.
+// Sides 0 to 3: west, south, east, north. Everybody walks along a straight line.
 void CrossingCrowd::send_to(dmrp_person& person, std::uint32_t side) const {
   const double near_m = side < 2 ? 0.0 : side_m_ - side_depth_m;
   const double along_m = side < 2 ? 0.5 : side_m_ - 0.5;
@@ -105,7 +105,7 @@ void CrossingCrowd::send_to(dmrp_person& person, std::uint32_t side) const {
   person.target = across_x ? dmrp_vec2{along_m, person.position.y} : dmrp_vec2{person.position.x, along_m};
 }
 
-void CrossingCrowd::ask_model() {
+void CrossingCrowd::step_model() {
   dmrp_crowd crowd{};
   crowd.struct_size = sizeof(crowd);
   crowd.person_count = static_cast<std::uint32_t>(people_.size());

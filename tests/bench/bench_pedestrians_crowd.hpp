@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench_pedestrians_crowd.hpp: crowds that cross each other, to measure pedestrian models with.
+// bench_pedestrians_crowd.hpp: crossing crowds for measurements of pedestrian models.
 #pragma once
 
 #include <dmrp/pedestrian_model.h>
@@ -16,7 +16,7 @@
 
 namespace dmrp::bench {
 
-// A square for so many people at 0.25 people/m2, with a bench of 2 x 0.5 m and a pillar in every 100 m2.
+// A square for this number of people at 0.25 people/m2, with a bench of 2 x 0.5 m and a pillar in every 100 m2.
 struct Square {
   explicit Square(std::uint32_t people);
 
@@ -26,13 +26,13 @@ struct Square {
   core::WorldView view;
 };
 
-// People anywhere on a square, a quarter of them bound for each side; who has reached it turns back. The world keeps
-// them solid, as the host's does.
+// People at random positions on a square. Each side is the target of a quarter of them; people who reach it turn back.
+// Contacts are resolved as in the host's world.
 class CrossingCrowd {
  public:
   CrossingCrowd(const Square& square, const std::string& model, std::uint64_t seed);
 
-  void ask_model();  // what is measured
+  void step_model();  // the measured part
   void move();
 
  private:

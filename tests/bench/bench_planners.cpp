@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How much the planners solve, and how fast: instances of the MovingAI benchmark and the shipped scenarios, each
-// planned by a `dmrp-host plan` of its own, the paths judged from their files. A table; with --json that goes to
-// standard error, and a list of {"name", "value", "unit"} to standard output.
+// Measures how many instances the planners solve, and how fast: instances of the MovingAI benchmark and the shipped
+// scenarios. Runs one `dmrp-host plan` for each plan and validates the files of paths. Prints a table; with --json the
+// table goes to standard error, and a list of {"name", "value", "unit"} to standard output.
 //
-// median: of planning_ms over all instances, where one that was not solved counts as the time limit; mean: over the
-// solved ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
+// median: of planning_ms over all instances, where an unsolved one counts as the time limit; mean: over the solved ones;
+// nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,11 +13,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/bench/bench_rows.hpp"
 #include "tests/bench/planner_runs.hpp"
 #include "tests/bench/planner_sets.hpp"
 
@@ -31,17 +31,17 @@ struct Options {
   std::vector<std::string> on;  // MAP:N[,N]...
   std::vector<std::string> scenarios;
   std::vector<std::string> libraries;
-  int instances = 0;  // 0: as the set says
+  int instances = 0;  // 0: those of the set
   int times = 20;
   double time_limit_s = 10.0;
   bool quick = false;
-  bool json = false;
+  Output output;
   fs::path host;
   fs::path data;
 };
 
-// What became of a set.
-struct Row {
+// The results of a set.
+struct SetResult {
   PlannerSet set;
   int robots = 0;
   int solved = 0;
@@ -49,7 +49,7 @@ struct Row {
   std::optional<double> mean_ms;
   std::optional<double> nodes;
   double peak_rss_mb = 0.0;
-  std::vector<std::string> troubles;
+  std::vector<std::string> errors;
 };
 
 class ScratchFolder {
@@ -73,7 +73,7 @@ std::optional<double> median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-// The folder of a map, in the layout of the test data; nothing if it is not there.
+// The instance in the test data; nothing if its files are missing.
 std::optional<Instance> instance_of(const fs::path& data, const PlannerSet& set, int number) {
   if (!set.scenario.empty()) return Instance{{}, {}, 0, set.scenario};
   const std::string tasks = fmt::format("{}-random-{}.scen", set.map, number);
@@ -84,18 +84,18 @@ std::optional<Instance> instance_of(const fs::path& data, const PlannerSet& set,
   return std::nullopt;
 }
 
-std::string place_of(const Row& row) {
+std::string place_of(const SetResult& row) {
   return row.set.scenario.empty() ? row.set.map : row.set.scenario;
 }
 
-Row measure(const Bench& bench, const PlannerSet& set, const KnownPlanner& known, const fs::path& data) {
-  Row row{set, set.agents, 0, 0.0, {}, {}, 0.0, {}};
+SetResult measure(const Bench& bench, const PlannerSet& set, const KnownPlanner& known, const fs::path& data) {
+  SetResult row{set, set.agents, 0, 0.0, {}, {}, 0.0, {}};
   std::vector<double> all_ms, solved_ms, nodes;
   for (int number = 1; number <= set.instances; ++number) {
     const auto instance = instance_of(data, set, number);
     if (!instance) throw std::runtime_error(fmt::format("{}-random-{}.scen is missing", set.map, number));
     const PlannerRunResult result = run(bench, set.planner, known, *instance);
-    if (!result.trouble.empty()) row.troubles.push_back(fmt::format("instance {}: {}", number, result.trouble));
+    if (!result.error.empty()) row.errors.push_back(fmt::format("instance {}: {}", number, result.error));
     row.peak_rss_mb = std::max(row.peak_rss_mb, result.peak_rss_mb);
     if (result.robots > 0) row.robots = result.robots;
     all_ms.push_back(result.solved ? result.planning_ms : 1e3 * bench.time_limit_s);
@@ -121,18 +121,18 @@ void print_heading(std::FILE* out) {
              "median ms", "mean ms", "nodes", "memory MB");
 }
 
-void print(std::FILE* out, const Row& row) {
+void print(std::FILE* out, const SetResult& row) {
   fmt::print(out, "{:<14} {:<24} {:>6}  {:>6}  {:>11} {:>11} {:>9} {:>9.1f}{}\n", short_name(row.set.planner),
              place_of(row), row.robots, fmt::format("{}/{}", row.solved, row.set.instances), cell(row.median_ms, 3),
              cell(row.mean_ms, 3), cell(row.nodes, 0), row.peak_rss_mb,
              row.solved < row.set.wanted ? fmt::format("  wanted: {}", row.set.wanted) : "");
-  for (const std::string& trouble : row.troubles) fmt::print(out, "    {}\n", trouble);
+  for (const std::string& error : row.errors) fmt::print(out, "    {}\n", error);
   std::fflush(out);
 }
 
-// The id, and the settings where another row has the same planner on the same agents.
-std::string name_of(const Row& row, const std::vector<Row>& rows) {
-  const auto twins = std::count_if(rows.begin(), rows.end(), [&](const Row& other) {
+// The id; with the settings if another row has the same planner and the same agents.
+std::string name_of(const SetResult& row, const std::vector<SetResult>& rows) {
+  const auto twins = std::count_if(rows.begin(), rows.end(), [&](const SetResult& other) {
     return other.set.planner.id == row.set.planner.id && place_of(other) == place_of(row) && other.robots == row.robots;
   });
   std::string id = row.set.planner.id;
@@ -141,20 +141,17 @@ std::string name_of(const Row& row, const std::vector<Row>& rows) {
   return fmt::format("planner/{}/{}/{}/", id, place_of(row), row.robots);
 }
 
-void print_json(const std::vector<Row>& rows) {
-  std::vector<std::string> lines;
-  for (const Row& row : rows) {
-    const std::string name = name_of(row, rows);
-    const auto add = [&](const char* what, const nlohmann::ordered_json& value, const char* unit) {
-      lines.push_back(nlohmann::ordered_json{{"name", name + what}, {"value", value}, {"unit", unit}}.dump());
-    };
-    add("solved", row.solved, "1");
-    add("median_ms", row.median_ms, "ms");
-    if (row.mean_ms) add("mean_ms", *row.mean_ms, "ms");
-    if (row.nodes) add("high_level_expanded", *row.nodes, "1");
-    add("peak_rss_mb", row.peak_rss_mb, "MB");
+std::vector<Row> rows_of(const std::vector<SetResult>& results) {
+  std::vector<Row> rows;
+  for (const SetResult& result : results) {
+    const std::string name = name_of(result, results);
+    rows.push_back({name + "solved", static_cast<double>(result.solved), "1"});
+    rows.push_back({name + "median_ms", result.median_ms, "ms"});
+    if (result.mean_ms) rows.push_back({name + "mean_ms", *result.mean_ms, "ms"});
+    if (result.nodes) rows.push_back({name + "high_level_expanded", *result.nodes, "1"});
+    rows.push_back({name + "peak_rss_mb", result.peak_rss_mb, "MB"});
   }
-  fmt::print("[\n  {}\n]\n", fmt::join(lines, ",\n  "));
+  return rows;
 }
 
 std::vector<std::string> scenarios_beside(const fs::path& host) {
@@ -178,7 +175,7 @@ void add_sets(const PlannerChoice& planner, const std::string& on, std::vector<P
   }
 }
 
-// What is asked for: the chosen planners on the chosen places, or the standing list, narrowed to the chosen planners.
+// The chosen planners on the chosen maps and scenarios; or the standing list, restricted to the chosen planners.
 std::vector<PlannerSet> sets_of(const Options& options, const std::vector<KnownPlanner>& known) {
   std::vector<PlannerChoice> chosen;
   for (const std::string& text : options.planners) chosen.push_back(planner_choice(text));
@@ -213,23 +210,24 @@ int run_all(const Options& options) {
   const ScratchFolder scratch;
   const Bench bench{options.host, scratch.path(), options.libraries, options.time_limit_s};
   const std::vector<KnownPlanner> known = known_planners(bench);
-  std::vector<Row> rows;
+  std::vector<SetResult> rows;
   bool sound = true;
-  std::FILE* const table = options.json ? stderr : stdout;
+  std::FILE* const table = options.output.json ? stderr : stdout;
   print_heading(table);
   for (const PlannerSet& set : sets_of(options, known)) {
     const auto planner = std::find_if(known.begin(), known.end(),
                                       [&](const KnownPlanner& candidate) { return candidate.id == set.planner.id; });
     if (planner == known.end() || !instance_of(options.data, set, set.instances)) {
-      fmt::print(stderr, "left out: {} on {}: {}\n", short_name(set.planner), set.map,
+      fmt::print(stderr, "skipped: {} on {}: {}\n", short_name(set.planner), set.map,
                  planner == known.end() ? "there is no such planner" : "not in the test data");
       continue;
     }
     rows.push_back(measure(bench, set, *planner, options.data));
-    sound = sound && rows.back().troubles.empty();
+    sound = sound && rows.back().errors.empty();
     print(table, rows.back());
   }
-  if (options.json) print_json(rows);
+  if (options.output.json) write_rows(rows_of(rows), {true, ""});
+  if (!options.output.csv.empty()) append_csv(rows_of(rows), options.output.csv);
   return sound ? 0 : 1;
 }
 
@@ -253,7 +251,8 @@ int main(int argc, char** argv) {
   app.add_option("--times", options.times, "how often a scenario is planned")->check(CLI::Range(1, 1000));
   app.add_option("--time-limit", options.time_limit_s, "seconds for each plan")->check(CLI::Range(1e-3, 1e6));
   app.add_flag("--quick", options.quick, "some of the standing list");
-  app.add_flag("--json", options.json, "a list of name, value, unit");
+  app.add_flag("--json", options.output.json, "a list of name, value, unit");
+  app.add_option("--csv", options.output.csv, "append the values to this file")->type_name("FILE");
   app.add_option("--host", options.host, "dmrp-host (default: the one beside this program)");
   app.add_option("--data", options.data, "folder of the maps (default: DMRP_TEST_DATA)");
   CLI11_PARSE(app, argc, argv);

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-// bench_rows.hpp: what benchmarks print, and the time they measure in.
+// bench_rows.hpp: what benchmarks measure, where they write it, and the time they measure in.
 #pragma once
 
-#include <time.h>
-
-#include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -17,25 +13,23 @@ struct Row {
   std::string unit;
 };
 
-// Lines for people, or [{"name", "value", "unit"}, ...].
-inline void print_rows(const std::vector<Row>& rows, bool json) {
-  if (json) std::printf("[");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (json) {
-      std::printf("%s\n  {\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\"}", i == 0 ? "" : ",",
-                  rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
-    } else {
-      std::printf("%-50s %12.6g %s\n", rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
-    }
-  }
-  if (json) std::printf("\n]\n");
-}
+struct Output {
+  bool json = false;
+  std::string csv;  // a file to append to; empty: none
+};
 
-// Of processor time: of one core, whoever else is using the machine.
-inline double processor_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+// The options --json and --csv FILE of a benchmark that has no others; ends the program with status 2 on anything else.
+Output output_options(int argc, char** argv);
+
+// To standard output as lines for people or as [{"name", "value", "unit"}, ...]; and to the CSV file, with its head if it
+// is new: commit,date,cpu,name,value,unit. The commit is that of the source tree now, with "-dirty" where files differ
+// from it; the date is UTC. Throws std::runtime_error if the file cannot be written.
+void write_rows(const std::vector<Row>& rows, const Output& output);
+
+// The second part of write_rows alone.
+void append_csv(const std::vector<Row>& rows, const std::string& file);
+
+// Of processor time: of this thread, independent of the machine's load.
+double processor_s();
 
 }  // namespace dmrp::bench

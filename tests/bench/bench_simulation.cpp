@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench_simulation: how much faster than real time the world runs, one core. Robots are on constant commands.
+// bench_simulation: the real-time factor of the world on one core. Robots have constant commands.
 //
 //   simulation/mall_bare/real_time_factor                 4 robots, 12 people, 50 Hz, no plugin: people walk straight
 //   simulation/mall_lidar/real_time_factor                the same with lidars of 360 beams at 10 Hz
@@ -9,7 +9,6 @@
 //   simulation/hall_bare/real_time_factor                 100 robots, 1,000 people, 50 Hz, no plugin
 //   simulation/hall_social_force/real_time_factor         people by the social force plugin
 #include <algorithm>
-#include <cstring>
 #include <dmrp/toolkit/vec2.hpp>
 #include <memory>
 #include <stdexcept>
@@ -41,20 +40,20 @@ struct Setup {
   double duration_s;
 };
 
-// What moves the people of one world.
-class Walkers {
+// Computes the velocities of the people of one world.
+class PeopleVelocities {
  public:
-  Walkers(const Setup& setup, const core::StaticGeometry& geometry, const core::PlanningGrid& walking_grid)
+  PeopleVelocities(const Setup& setup, const core::StaticGeometry& geometry, const core::PlanningGrid& walking_grid)
       : view_(setup.scenario, {}, {}, geometry, walking_grid, walking_grid, 0) {
     if (setup.walking == Walking::straight) return;
     model_ = std::make_unique<test::PluginUnderTest>("libdmrp_pedestrians.so", "dmrp.pedestrian.social_force");
     if (model_->start(view_.world()) != DMRP_OK) throw std::runtime_error("the model does not start");
   }
 
-  const std::vector<dmrp_vec2>& velocities(const core::World& world) {
+  const std::vector<dmrp_vec2>& of(const core::World& world) {
     velocities_.resize(world.people().size());
     if (model_) {
-      ask_model(world);
+      step_model(world);
     } else {
       for (std::size_t i = 0; i < velocities_.size(); ++i) {
         const dmrp_person& person = world.people()[i];
@@ -65,7 +64,7 @@ class Walkers {
   }
 
  private:
-  void ask_model(const core::World& world) {
+  void step_model(const core::World& world) {
     dmrp_crowd crowd{};
     crowd.struct_size = sizeof(crowd);
     crowd.person_count = static_cast<std::uint32_t>(world.people().size());
@@ -93,7 +92,7 @@ void sense(const core::World& world, core::Lidar& lidar, std::vector<std::unique
   }
 }
 
-// Simulated over used time.
+// Simulated time over processor time.
 double real_time_factor(const Setup& setup) {
   const core::Scenario& scenario = setup.scenario;
   const core::RobotSettings robot;
@@ -102,7 +101,7 @@ double real_time_factor(const Setup& setup) {
   const core::PlanningGrid walking_grid = core::build_walking_grid(*geometry, scenario.people.radius_m);
   const core::FlowRoutes routes = core::find_flow_routes(scenario, walking_grid);
   core::World world(scenario, robot, settings, geometry, routes, 1);
-  Walkers walkers(setup, *geometry, walking_grid);
+  PeopleVelocities people(setup, *geometry, walking_grid);
   core::Lidar lidar(robot.lidar, geometry);
   std::vector<float> ranges(lidar.beams());
   std::vector<std::unique_ptr<core::LocalCostmap>> costmaps;
@@ -110,7 +109,7 @@ double real_time_factor(const Setup& setup) {
     for (std::size_t i = 0; i < scenario.robots.size(); ++i)
       costmaps.push_back(std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m));
 
-  walkers.velocities(world);  // computes the fields by which people find their ways, once a trial
+  people.of(world);  // computes the navigation fields, once a trial
   const double start_s = bench::processor_s();
   const std::int64_t steps_per_tick = settings.control_period_ns / settings.step_ns;
   const auto steps = static_cast<std::int64_t>(setup.duration_s * 1e9) / settings.step_ns;
@@ -120,7 +119,7 @@ double real_time_factor(const Setup& setup) {
       for (std::uint32_t i = 0; i < scenario.robots.size(); ++i)
         world.set_command(i, {0.6, 0.0, i % 2 == 0 ? 0.15 : -0.15});
     }
-    world.step(walkers.velocities(world));
+    world.step(people.of(world));
   }
   return setup.duration_s / (bench::processor_s() - start_s);
 }
@@ -134,7 +133,7 @@ double best_of_three(const Setup& setup) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const bench::Output output = bench::output_options(argc, argv);
   const core::Scenario mall = bench::shipped_mall();
   const core::Scenario hall = bench::make_hall(100, 1000);
   std::vector<bench::Row> rows;
@@ -148,6 +147,6 @@ int main(int argc, char** argv) {
   add("mall_social_force_lidar", {mall, Walking::social_force, Sensors::lidar, 120.0});
   add("hall_bare", {hall, Walking::straight, Sensors::none, 20.0});
   add("hall_social_force", {hall, Walking::social_force, Sensors::none, 20.0});
-  bench::print_rows(rows, json);
+  bench::write_rows(rows, output);
   return 0;
 }

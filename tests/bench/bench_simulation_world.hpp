@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench_simulation_world.hpp: worlds to measure in.
+// bench_simulation_world.hpp: worlds for measurements.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace dmrp::bench {
 
-// The mall as it is shipped: 40 x 40 m, 4 robots, 12 people.
+// The shipped mall: 40 x 40 m, 4 robots, 12 people.
 core::Scenario shipped_mall();
 
-// 100 x 60 m with rows of pillars, for many: people walk to and fro along it, robots across.
+// A hall of 100 x 60 m with rows of pillars: people walk along it in both directions, robots across.
 core::Scenario make_hall(std::uint32_t robots, std::uint32_t people);
 
 }  // namespace dmrp::bench

@@ -41,7 +41,7 @@ std::string last_line(const std::string& text) {
 }
 
 struct Called {
-  int status = 0;  // of the exit, 128 + signal if it had none
+  int status = 0;  // exit status, or 128 + signal
   nlohmann::json document;
   std::string errors;
 };
@@ -65,17 +65,17 @@ std::optional<double> number(const nlohmann::json& document, const char* key) {
   return found != document.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-// What the host says of a plan, against the file and the task.
-std::string judge(const nlohmann::json& document, const KnownPlanner& known, const Instance& instance,
+// Checks the host's figures of a plan against the file of paths and the tasks. Returns the error, or nothing.
+std::string validate(const nlohmann::json& document, const KnownPlanner& known, const Instance& instance,
                   const fs::path& paths) {
-  if (!document.at("valid").get<bool>()) return "the host says that the plan is not valid";
-  if (!instance.scenario.empty()) return "";  // no map to judge by
+  if (!document.at("valid").get<bool>()) return "the host reports an invalid plan";
+  if (!instance.scenario.empty()) return "";  // there is no map to check against
   const test::PathVerdict verdict = test::check_paths(instance.map.string(), instance.tasks.string(), instance.agents,
                                                       known.connectivity, paths.string());
   if (!verdict.error.empty()) return "wrong paths: " + verdict.error;
   if (verdict.conflicts > 0 && !known.uncoordinated) return "wrong paths: " + verdict.first_conflict;
   if (std::abs(verdict.cost() - number(document, "cost").value_or(-1.0)) > 1e-6 * verdict.cost())
-    return "the paths do not cost what the host says";
+    return "the cost of the paths differs from the host's";
   return "";
 }
 
@@ -101,7 +101,7 @@ std::string short_name(const PlannerChoice& planner) {
 
 std::vector<KnownPlanner> known_planners(const Bench& bench) {
   std::vector<std::string> arguments = {"plugins", "--json"};
-  Called called = call(bench, arguments);  // of the plugin path
+  Called called = call(bench, arguments);  // libraries of the plugin path
   nlohmann::json libraries = called.document;
   if (!bench.libraries.empty()) {
     arguments.insert(arguments.end(), bench.libraries.begin(), bench.libraries.end());
@@ -133,20 +133,20 @@ PlannerRunResult run(const Bench& bench, const PlannerChoice& planner, const Kno
     arguments.insert(arguments.end(), {"--scenario", instance.scenario});
 
   const Called called = call(bench, arguments);
-  if (called.status == 2) throw std::runtime_error(called.errors);  // every other instance would fail likewise
+  if (called.status == 2) throw std::runtime_error(called.errors);  // all other instances would fail, too
   PlannerRunResult result;
   if (!called.document.is_object()) {
-    result.trouble = "no JSON: " + called.errors;
+    result.error = "no JSON: " + called.errors;
     return result;
   }
   result.planning_ms = number(called.document, "planning_ms").value_or(0.0);
   result.high_level_expanded = number(called.document, "high_level_expanded");
   result.peak_rss_mb = number(called.document, "peak_rss_mb").value_or(0.0);
   result.robots = static_cast<int>(number(called.document, "robots").value_or(0.0));
-  if (called.status != 0) result.trouble = called.errors;
+  if (called.status != 0) result.error = called.errors;
   if (!called.document.at("solved").get<bool>()) return result;
-  result.trouble = judge(called.document, known, instance, paths);
-  result.solved = result.trouble.empty();
+  result.error = validate(called.document, known, instance, paths);
+  result.solved = result.error.empty();
   return result;
 }
 

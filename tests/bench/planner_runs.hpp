@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// planner_runs.hpp: runs planners by `dmrp-host plan`, one process a run, and judges the paths that they write.
+// planner_runs.hpp: runs planners by `dmrp-host plan`, one process for each run, and validates the paths.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ struct PlannerChoice {
   bool operator==(const PlannerChoice&) const = default;
 };
 
-// "eecbs suboptimality=1.2" for dmrp.planner.eecbs; ids of others are written in full.
+// Parses "eecbs suboptimality=1.2". An id without a dot gets the prefix dmrp.planner.
 PlannerChoice planner_choice(const std::string& text);
 
-// The same for people: "eecbs 1.2".
+// A short name for tables: "eecbs 1.2".
 std::string short_name(const PlannerChoice& planner);
 
 // One instance: either tasks on a map, or a shipped scenario.
@@ -28,7 +28,7 @@ struct Instance {
   std::filesystem::path map;
   std::filesystem::path tasks;
   int agents = 0;
-  std::string scenario;  // empty: the map's
+  std::string scenario;  // empty: the tasks on the map
 };
 
 struct PlannerRunResult {
@@ -37,17 +37,17 @@ struct PlannerRunResult {
   std::optional<double> high_level_expanded;
   double peak_rss_mb = 0.0;
   int robots = 0;
-  std::string trouble;  // a plan that is not what it is said to be, a fault, a mistake; empty otherwise
+  std::string error;  // an invalid plan, a fault or an error of the host; empty if there is none
 };
 
 struct Bench {
   std::filesystem::path host;     // dmrp-host
-  std::filesystem::path scratch;  // a folder of its own
+  std::filesystem::path scratch;  // a folder for temporary files
   std::vector<std::string> libraries;
   double time_limit_s = 10.0;
 };
 
-// What the libraries hold: ids and connectivity of the planners.
+// The planners of the libraries.
 struct KnownPlanner {
   std::string id;
   int connectivity = 4;

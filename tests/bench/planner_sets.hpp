@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// planner_sets.hpp: what the planners are measured on.
+// planner_sets.hpp: the instances on which bench_planners measures the planners.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace dmrp::bench {
 
-// A row of the table: a planner on so many agents of a map, or on a shipped scenario.
+// A row of the table: a planner with a number of agents on a map, or on a shipped scenario.
 struct PlannerSet {
   PlannerChoice planner;
   std::string map;         // its name; "" for a scenario
   int agents = 0;          // 0 for a scenario: all of its robots
-  int instances = 5;       // random-1 to random-K; of a scenario: times that it is planned
-  int wanted = -1;         // instances that should be solved; -1: nobody has said
+  int instances = 5;       // random-1 to random-K; for a scenario: the number of runs
+  int wanted = -1;         // instances that should be solved; -1: no target
   std::string scenario{};  // "" for a map
 };
 
-// What the project wants its planners to solve within 10 s.
+// The instances that the project wants its planners to solve within 10 s.
 std::vector<PlannerSet> acceptance_sets();
 
-// Some of it, for a look in half a minute.
+// A selection that takes half a minute.
 std::vector<PlannerSet> quick_sets();
 
 // Every planner on every scenario, `times` times.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every function of every kind, called as a host calls it: what arrives, what comes back, and how it fails.
+// Every function of every kind, called as a host calls it: arguments, results and errors.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace dmrp::test;
 
 namespace {
 
-// An element of a host that knows more fields than the plugin does.
+// An array element of a newer host, with fields that the plugin does not know.
 template <class T>
 struct Longer {
   T known;
@@ -39,7 +39,7 @@ constexpr CallOutcome outcomes[] = {
 };
 constexpr CallOutcome statuses[] = {{"warning", DMRP_WARNING, ""}, {"no solution", DMRP_NO_SOLUTION, ""}};
 
-// Calls `call(sample)` on an instance of `id` for each way to leave.
+// Calls `call(sample)` on an instance of `id` for each kind of return.
 template <class Call>
 void check_outcomes(const char* id, bool returns_status, Call&& call) {
   std::vector<CallOutcome> all(std::begin(outcomes), std::end(outcomes));
@@ -113,7 +113,7 @@ TEST_CASE("DMRP_HAS tells which fields a shorter or longer struct holds") {
   command.struct_size = offsetof(dmrp_command, omega);
   CHECK(DMRP_HAS(&command, v_y));
   CHECK(!DMRP_HAS(&command, omega));
-  command.struct_size = offsetof(dmrp_command, omega) + 4;  // half a field is none
+  command.struct_size = offsetof(dmrp_command, omega) + 4;  // half a field does not count
   CHECK(!DMRP_HAS(&command, omega));
   CHECK(DMRP_STRIDE_HAS(dmrp_waypoint, sizeof(dmrp_waypoint), reserved));
   CHECK(!DMRP_STRIDE_HAS(dmrp_waypoint, offsetof(dmrp_waypoint, reserved), reserved));
@@ -146,7 +146,7 @@ TEST_CASE("a controller sees its path and observation, and its command comes bac
   CHECK(seen().numbers == std::vector<double>{6.0, 0.0, 1.0, 2.0});
 
   const Scene scene;
-  // a host of tomorrow: its command has more fields, which are not ours to write
+  // a newer host: the plugin must not write the additional fields of its command
   Longer<dmrp_command> command{};
   command.known.struct_size = sizeof(command);
   REQUIRE(table.step(sample.c.self, &scene.observation, &command.known) == DMRP_OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the C++ layer publishes about plugins, and how parameters reach them.
+// The descriptors that the C++ layer exports, and the parameters of plugins.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -147,7 +147,7 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
   given[0].integer = 0;
   given[1].integer = 3;
   given[2].number = 0.125;
-  std::string text = "mine";  // dies before the plugin looks at it
+  std::string text = "mine";  // destroyed before the plugin reads it
   given[3].text = text.c_str();
   given[4].text = "blue";
   given[5].text = "/data/other.csv";
@@ -175,7 +175,7 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
 }
 
 TEST_CASE("instances are told apart, and destroy() ends them") {
-  CHECK(seen().alive == 0);  // the prototype that declared the parameters is gone
+  CHECK(seen().alive == 0);  // the prototype that declared the parameters has been destroyed
   {
     const Sample first("sample.controller", "nothing");
     const Sample second("sample.controller", "no solution");
@@ -197,7 +197,7 @@ TEST_CASE("create() answers what it cannot make with a status and a text") {
   CHECK(create("sample.other") == DMRP_ERROR);
   CHECK(host.error == "no plugin of that id in this library");
 
-  CHECK(dmrp_entry_v1.descriptor(4) != nullptr);  // made while it could be
+  CHECK(dmrp_entry_v1.descriptor(4) != nullptr);  // created before the error
   seen().texts = {"throw"};
   CHECK(create("sample.unmakeable") == DMRP_ERROR);
   CHECK(host.error == "thrown on purpose");

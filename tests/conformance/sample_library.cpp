@@ -14,7 +14,7 @@ Seen& seen() {
 
 namespace {
 
-// Leaves a call by the way that `does` names.
+// Returns from a call as `does` says.
 dmrp::Status leave(const std::string& does) {
   if (does == "throw") throw std::runtime_error("thrown on purpose");
   if (does == "throw bad_alloc") throw std::bad_alloc();
@@ -52,12 +52,12 @@ class SampleController final : public dmrp::LocalController {
   dmrp::Param<std::vector<std::string>> texts = param("texts", std::vector<std::string>{"a", "b", "c"});
 
   dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
-    // what create() brought
+    // the values of create()
     seen().numbers = {flag ? 1.0 : 0.0, static_cast<double>(integer), static_cast<double>(large), number};
     seen().numbers.insert(seen().numbers.end(), numbers->begin(), numbers->end());
     seen().texts = {text, choice, file};
     seen().texts.insert(seen().texts.end(), texts->begin(), texts->end());
-    // what start() brought
+    // the values of start()
     seen().numbers.push_back(static_cast<double>(seed));
     seen().numbers.push_back(static_cast<double>(world.robots().size()));
     seen().numbers.push_back(this->world()->time_limit_ns == world->time_limit_ns ? 1.0 : 0.0);
@@ -89,7 +89,7 @@ class SampleController final : public dmrp::LocalController {
   }
 };
 
-// Its constructor throws when `seen().texts` says so: parameters are not there yet.
+// Its constructor throws if `seen().texts` says so: it has no parameters yet.
 class SampleThatCannotBeMade final : public dmrp::LocalController {
  public:
   SampleThatCannotBeMade() {

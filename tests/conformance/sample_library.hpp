@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sample_library.hpp: a plugin library inside the test program, and what its plugins were last told.
+// sample_library.hpp: a plugin library inside the test program, and the arguments of its last calls.
 #pragma once
 
 #include <dmrp/dmrp.h>
@@ -9,12 +9,12 @@
 #include <vector>
 
 // As exported by a library. Holds sample.controller, sample.planner, sample.pedestrian and sample.metric; their
-// parameter `does` says what they do in each call: see sample_library.cpp.
+// parameter `does` determines their calls: see sample_library.cpp.
 extern "C" const dmrp_entry dmrp_entry_v1;
 
 namespace dmrp::test {
 
-// What the plugins saw, for the test to look at.
+// The arguments that the plugins received.
 struct Seen {
   std::vector<double> numbers;
   std::vector<std::string> texts;
@@ -22,7 +22,7 @@ struct Seen {
 };
 Seen& seen();
 
-// A dmrp_host that keeps what it is told.
+// A dmrp_host that stores log lines and errors.
 class RecordingHost {
  public:
   RecordingHost();
@@ -36,7 +36,7 @@ class RecordingHost {
   std::string asked_extension;
 };
 
-// Values as a host passes them: each in `stride` bytes, more than the plugin knows of.
+// Values as a newer host passes them: each in `stride` bytes, more than the plugin knows.
 class ParamList {
  public:
   explicit ParamList(std::vector<dmrp_param_value> values);

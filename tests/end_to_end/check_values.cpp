@@ -44,7 +44,7 @@ std::uint32_t subject_kind_of(const std::string& text) {
   throw std::runtime_error("no subject: '" + text + "'");
 }
 
-// No field of these needs quotes.
+// None of these fields needs quotes.
 std::vector<Row> read_csv(const std::string& path) {
   std::ifstream file(path);
   std::string line;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by the end-to-end tests, which are called as: TEST.sh DMRP_HOST. Gives them
-#   host, here, scratch   the executable, this folder, a folder that goes when the test ends
+#   host, here, scratch   the executable, this folder, a folder that is deleted when the test ends
 #   fail, expect_status, query, values_of
 set -uo pipefail
 
@@ -30,7 +31,7 @@ query() {
   sqlite3 -batch "$1/results.sqlite" "$2" || fail "sqlite3 on $1: $2"
 }
 
-# All that must be the same bits whenever these trials are run: values with 17 digits, events, trials.
+# Everything that must have the same bits in every run of these trials: values with 17 digits, events, trials.
 values_of() {
   query "$1" "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, seed, outcome,
                 repeatable, printf('%!.17g', sim_time_s) FROM trial ORDER BY id;

@@ -9,7 +9,7 @@ expect_status 0 "$host" draw mall --planner dmrp.planner.cbs --svg "$scratch/mal
 expect_status 0 "$host" draw mall
 grep -q '^<svg' "$scratch/stdout" || fail "no picture on standard output"
 
-# robots that are drawn are those that plan draws for the same seed
+# draw and plan draw the same random robots for the same seed
 starts() { sed -nE 's/.*<circle cx="([0-9.]+)" cy="([0-9.]+)"[^>]* class="robot".*/\1,\2/p' "$1"; }
 relative() { awk -F, -v scale="$1" 'NR == 1 { x = $1; y = $2 } { print ($1 - x) / scale, ($2 - y) / scale }'; }
 expect_status 0 "$host" draw mall --agents 6 --seed 3 --planner dmrp.planner.cbs --svg "$scratch/six.svg"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Metrics over stored traces give what they gave live, bit by bit; others can be measured later; what cannot be measured
-# is said. Called as: evaluate.sh DMRP_HOST CHECK_VALUES LIBRARY_OF_FAULTS
+# Metrics over stored traces have the values of the run, bit by bit; other metrics can be measured later; traces that
+# cannot be measured are reported. Called as: evaluate.sh DMRP_HOST CHECK_VALUES LIBRARY_OF_FAULTS
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 check_values=$2 faults=$3
 run=$scratch/run all=$scratch/all.csv some=$scratch/some.csv
@@ -31,7 +31,7 @@ expect_same "$run" "$scratch/stdout"
 [[ $(cut -d, -f1 "$scratch/stdout" | sort -u | tr '\n' ' ') == "3 5 trial " ]] || fail "not trials 3 and 5"
 cp "$scratch/stdout" "$some"
 
-# other parameters give other values; a run with these has them without being told
+# other parameters give other values; evaluate takes the parameters of the run
 evaluate 0 --metric dmrp.metric.sto --set distance_m=1.5 --csv "$scratch/wider.csv"
 grep -q , "$scratch/wider.csv" && ! cmp -s <(grep -E '^(3|5),' "$scratch/wider.csv") <(grep -E '^(3|5),' "$some") ||
   fail "a wider distance should show"
@@ -39,7 +39,7 @@ sed '$a [[metric]]\nuse = "dmrp.metric.sto"\nparams = { distance_m = 1.5 }' "$he
 expect_status 0 "$host" "$scratch/wide.toml" --trials 2 --quiet --out "$scratch/wide"
 expect_same "$scratch/wide" "$scratch/wider.csv"
 expect_status 0 "$host" evaluate "$scratch/wide" --csv "$scratch/again.csv"
-cmp -s "$scratch/again.csv" "$scratch/wider.csv" || fail "a run's own parameters should be taken"
+cmp -s "$scratch/again.csv" "$scratch/wider.csv" || fail "the run's own parameters should be used"
 metrics=$(dirname "$host")/../lib/dmrp/plugins/libdmrp_metrics.so
 expect_status 0 "$host" evaluate "$scratch/wide" --plugin "$metrics"
 other=$(query "$run" "SELECT group_concat(name, '|') FROM metric WHERE wall_clock OR name LIKE 'sto%'")
@@ -56,7 +56,7 @@ evaluate 0 --metric test.metric.none --plugin "$faults"
 [[ $(sed -n 2p "$scratch/stdout") == "0,test_none,system,,,$(query "$run" \
   "SELECT CAST(round(sim_time_s / 0.02) AS INTEGER) + 1 FROM trial WHERE id = 0")" ]] || fail "$(sed -n 2p "$scratch/stdout")"
 
-# a metric that takes its process with it loses its own value of that trial alone
+# a metric that ends its process loses only its own value of that trial
 evaluate 1 --metric test.metric.crash --plugin "$faults" --trial 2
 expect_line '^trial 2: test.metric.crash: observe\(\): crashed \(signal 11, Segmentation fault\)$'
 for fault in "exit: observe\(\): ended the process with status 0" "throw_in_begin: begin\(\): thrown on purpose" \
@@ -70,7 +70,7 @@ evaluate 1 --metric test.metric.recovers --plugin "$faults" --trial 1 --trial 2
 expect_line "^trial 1: test.metric.recovers: begin\(\): thrown on purpose"
 [[ $(cut -d, -f1,2 "$scratch/stdout" | tail -1) == 2,test_recovers ]] || fail "the next trial should be measured"
 
-# traces that are cut short, damaged or gone: said, and the rest is evaluated
+# traces that are truncated, damaged or missing are reported, and the others evaluated
 cp -r "$run" "$scratch/damaged"
 trace() { printf '%s/damaged/traces/trial_%06d.mcap' "$scratch" "$1"; }
 head -c 4000 "$(trace 1)" >"$scratch/short" && mv "$scratch/short" "$(trace 1)"
@@ -96,7 +96,7 @@ for kept in failed none; do
   ((status == expected)) || fail "traces = $kept: status $status"
 done
 
-# a library that is not the one that was run
+# a library that has changed since the run
 cp "$metrics" "$scratch/libmine.so"
 sed 's|libdmrp_metrics|./libmine|' "$here/crossing.toml" >"$scratch/mine.toml"
 expect_status 0 "$host" "$scratch/mine.toml" --trials 1 --quiet --out "$scratch/mine"
@@ -104,7 +104,7 @@ printf 'x' >>"$scratch/libmine.so"
 expect_status 0 "$host" evaluate "$scratch/mine" --csv "$some"
 expect_line '^warning: .*/libmine.so has changed since the run: values may differ'
 expect_same "$scratch/mine" "$some"
-# gone, but given by hand
+# a library that is gone, and one that replaces it
 mv "$scratch/libmine.so" "$scratch/libyours.so"
 expect_status 2 "$host" evaluate "$scratch/mine"
 expect_line "the run's library .*/libmine.so is gone"

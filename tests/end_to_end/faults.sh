@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by faulty_*.sh, which are called as: TEST.sh DMRP_HOST LIBRARY_OF_FAULTS [SANITIZERS]. Gives them
-#   run_with_faults NAME STATUS   runs the crossing with what is appended to $scratch/NAME.toml
+#   run_with_faults NAME STATUS   runs $scratch/NAME.toml
 #   expect_fault ...              looks for a row of the table `fault`
 #   limited                       whether workers live under a memory limit (not under sanitizers)
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -8,7 +9,8 @@ library=$2
 limited=true
 [[ -z ${3:-} ]] || limited=false
 
-# begin_experiment NAME TABLE...: the crossing, once, without its [[TABLE]]s, with the library of faults
+# begin_experiment NAME TABLE...: writes $scratch/NAME.toml: the crossing with one trial, without its [[TABLE]]s, with the
+# library of faults
 begin_experiment() {
   local file=$scratch/$1.toml table
   sed "s|^plugins = \[|&\"$library\", |; s/^trials .*/trials = 1/" "$here/crossing.toml" >"$file"
@@ -24,7 +26,7 @@ use() {
 
 run_with_faults() {
   expect_status "$2" "$host" "$scratch/$1.toml" --quiet --jobs 2 --out "$scratch/$1"
-  [[ ! -s $scratch/stderr ]] || fail "$1: faults belong into the results, not here: $(cat "$scratch/stderr")"
+  [[ ! -s $scratch/stderr ]] || fail "$1: faults belong in the results, not here: $(cat "$scratch/stderr")"
 }
 
 # expect_fault NAME CONDITION_ON_TRIAL "KIND|PLUGIN|FUNCTION|STEP|ROBOT|SIGNAL" DETAIL_PATTERN

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Whatever a controller does wrong becomes a row that says what, who and when; its trial alone is lost.
+# Every fault of a controller becomes a row with its kind, plugin, step and robot; only its trial is lost.
 source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 
 begin_experiment faults local_controller
@@ -17,7 +17,7 @@ use faults local_controller test.controller.faulty none "" none
 use faults local_controller test.controller.faulty no_solution ', at_s = 0.0' "no solution"
 run_with_faults faults 1
 
-# at 1 s, the fiftieth step of physics, in the controller of robot 1 (both planners' trials: two rows each)
+# at 1 s, the fiftieth physics step, in the controller of robot 1; one row in the trials of each planner
 site='test.controller.faulty|step|50|1'
 expect() {
   expect_fault faults "local_controller = '$1' AND global_planner = 'together'" "$2" "$3"
@@ -46,7 +46,7 @@ run=$scratch/faults
 [[ $(query "$run" "SELECT count(*) FROM trial WHERE local_controller IN ('none', 'no solution')
        AND outcome = 'failed'") == 4 ]] || fail "robots that stand still, or whose controllers know no way, are results"
 
-# the trials of the others are as they are without this company
+# the trials of other controllers are the same without the faulty ones
 begin_experiment alone local_controller
 use alone metric dmrp.metric.success
 use alone metric dmrp.metric.path_length

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A metric that fails, even one that takes its process with it, loses its own values and nothing else.
+# A metric that fails, even one that ends its process, loses only its own values.
 source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 
 built_in=(success path_length completion_time sto ibtr ldf pfd collisions speed)
@@ -54,7 +54,7 @@ for trial in 0 1; do
   done
 done
 
-# one that fails once is asked again in the next trial
+# a metric that fails once is measured again in the next trial
 begin_experiment once global_planner local_controller
 sed -i 's/^trials .*/trials = 3/' "$scratch/once.toml"
 use once global_planner dmrp.planner.cbs
@@ -63,4 +63,4 @@ use once metric test.metric.recovers
 expect_status 1 "$host" "$scratch/once.toml" --quiet --jobs 1 --out "$scratch/once"
 [[ $(query "$scratch/once" "SELECT trial_id FROM fault") == 0 &&
   $(query "$scratch/once" "SELECT group_concat(trial_id) FROM value WHERE metric = 'test_recovers'") == 1,2 ]] ||
-  fail "start() should be the way back from an error"
+  fail "a metric should recover from an error by start()"

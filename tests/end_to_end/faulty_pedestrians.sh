@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A model of people that fails is a fault of the trial; the models beside it are not touched.
+# A pedestrian model that fails is a fault of its trial; trials of other models are unaffected.
 source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 
 begin_experiment faults global_planner local_controller

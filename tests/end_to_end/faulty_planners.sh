@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A plan is believed only after it was checked, and a planner may fail in every way without taking the run with it.
+# Every plan is validated, and no failure of a planner ends the run.
 source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 
 begin_experiment faults global_planner local_controller

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# People who walk in groups, by every model: what is measured of groups has values, and the same ones from the traces.
+# People who walk in groups, with every model: metrics of groups have values, and the same values from the traces.
 # Called as groups.sh DMRP_HOST SOURCE_DIR CHECK_VALUES.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 example=$2/examples/groups.toml check_values=$3
@@ -20,12 +20,12 @@ expect_status 0 "$host" "$example" --quiet --trials 1 --jobs 2 --out "$scratch/t
 
 expect_status 0 "$host" evaluate "$run" --csv "$scratch/values.csv"
 "$check_values" "$run" "$scratch/values.csv" || fail "the traces give other values"
-grep -q ',group_intrusions,' "$scratch/values.csv" || fail "nothing was measured of groups in the traces"
+grep -q ',group_intrusions,' "$scratch/values.csv" || fail "no metric of groups was measured from the traces"
 
 expect_status 0 "$host" "$run/effective.toml" --quiet --out "$scratch/again"
 [[ $(values_of "$run") == "$(values_of "$scratch/again")" ]] || fail "effective.toml gives other groups"
 
-# Where the way leads off at 45 degrees, a pair stands across that: 0.62 m each way are room enough, a strip of 0.1 m is none.
+# If the path begins at 45 degrees, a pair stands across it: 0.62 m in each direction suffice, a strip of 0.1 m does not.
 diagonal() {
   cat >"$scratch/diagonal.toml" <<TOML
 [scenario]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What a third party does: the installation, moved to where it likes; a plugin built against it from a folder of its
-# own; an experiment that names the .so by its path. Called as: installed_sdk.sh DMRP_HOST SOURCE_DIR CMAKE C_COMPILER
+# The steps of a third party: the installation, moved to another folder; a plugin built against it in a separate folder; an
+# experiment that names the .so by its path. Called as: installed_sdk.sh DMRP_HOST SOURCE_DIR CMAKE C_COMPILER
 # CXX_COMPILER
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2 cmake=$3 cc=$4 cxx=$5
@@ -22,7 +22,7 @@ made_here=(-e "$source_dir/sdk" -e "$build_dir/" -e "$scratch/installed")
 ! grep -rqF "${made_here[@]}" "$prefix/include" "$prefix/lib/cmake" ||
   fail "the package knows where it was made: $(grep -rF "${made_here[@]}" "$prefix/include" "$prefix/lib/cmake")"
 
-# build FOLDER: as its README says, knowing nothing but the prefix
+# build FOLDER: as its README says, with the prefix only
 build() {
   expect_status 0 env -u CFLAGS -u CXXFLAGS CC="$cc" CXX="$cxx" \
     "$cmake" -S "$1" -B "$1/build" -DCMAKE_PREFIX_PATH="$prefix"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A signal ends a run with status 130, keeps what was finished, and leaves no worker behind; --resume completes it.
-# (SIGTERM: a shell starts what runs in its background with SIGINT ignored.)
+# A signal ends a run with status 130, keeps finished trials, and leaves no worker behind; --resume completes the run.
+# (SIGTERM, because a shell starts background processes with SIGINT ignored.)
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 run=$scratch/run

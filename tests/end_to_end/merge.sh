@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Shards that are joined are the run that was divided.
+# Shards that are joined equal one run of all trials.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_file=$here/crossing.toml
 
@@ -33,13 +33,13 @@ mv "$scratch/stdout" "$scratch/of_joined"
 expect_status 0 "$host" evaluate "$scratch/whole" --metric dmrp.metric.path_length
 cmp -s "$scratch/stdout" "$scratch/of_joined" || fail "the traces differ"
 
-# what is missing is run by --resume
+# --resume runs missing trials
 expect_status 0 "$host" merge "$scratch/part" "$scratch/a" "$scratch/b"
 run --resume --out "$scratch/part"
 [[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
 expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"
-expect_refusal "$scratch/joined: is there already and not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
+expect_refusal "$scratch/joined: exists already and is not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
 mkdir "$scratch/empty"
 expect_refusal "$scratch/empty: is no run directory" "$scratch/none" "$scratch/a" "$scratch/empty"
 sed 's/^seed .*/seed = 8/' "$source_file" >"$scratch/other.toml"

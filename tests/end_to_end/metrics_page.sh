@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# metrics_page.sh DMRP_HOST SOURCE_DIR: docs/metrics.md says of the built-in metrics what they say of themselves. Its
-# text above the comment is written by hand; what follows is the output of the command in the comment.
+# metrics_page.sh DMRP_HOST SOURCE_DIR: docs/metrics.md agrees with the descriptors of the built-in metrics. The
+# text above the comment is written by hand; the rest is the output of the command in the comment.
 set -eu
 host=$1
 page=$2/docs/metrics.md

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A mistake of the user gets one line that says where and what, exit status 2, and nothing is written.
+# A mistake in the input gives one line with its place, exit status 2, and no file.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 work=$scratch/work
@@ -13,7 +13,7 @@ echo "no library" >libtext.so
 head -c 20000 "$plugins/libdmrp_planners.so" >libtruncated.so
 contents() { find "$work" -type f -not -name experiment.toml -exec sha256sum {} + | sort; }
 
-# expect_mistake NAME SED_ON_EXPERIMENT SED_ON_SCENARIO PATTERN: what is answered to the crossing, so changed
+# expect_mistake NAME SED_ON_EXPERIMENT SED_ON_SCENARIO PATTERN: of the answer to the crossing, changed by sed
 expect_mistake() {
   local name=$1 pattern=$4
   sed "$2" "$here/crossing.toml" >experiment.toml
@@ -72,7 +72,7 @@ rm experiment.toml
 expect_status 2 "$host" experiment.toml
 [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "a missing experiment file gets one line"
 
-# the same for a run that is looked at again
+# the same for evaluate
 cp "$here/crossing.toml" experiment.toml
 cp "$here/worlds/crossing/scenario.toml" worlds/crossing/scenario.toml
 expect_status 0 "$host" experiment.toml --trials 1 --quiet --out "$scratch/run"

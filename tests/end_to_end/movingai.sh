@@ -14,13 +14,13 @@ expect_success() {
     fail "no robot arrived"
 }
 
-# a map of our own
+# a map of this project
 sed 's/"crossing"/"rooms"/; s/^trials .*/trials = 1/' "$here/crossing.toml" >"$scratch/rooms.toml"
 expect_status 0 "$host" validate "$scratch/rooms.toml"
 expect_status 0 "$host" "$scratch/rooms.toml" --out "$scratch/rooms" --quiet
 expect_success "$scratch/rooms"
 for name in rooms/scenario.toml rooms.map rooms.scen; do
-  grep -q "/$name\"" "$scratch/rooms/manifest.json" || fail "the manifest does not tell of $name"
+  grep -q "/$name\"" "$scratch/rooms/manifest.json" || fail "the manifest does not list $name"
 done
 expect_status 0 "$host" draw rooms --planner dmrp.planner.cbs --svg "$scratch/rooms.svg"
 grep -q "cells 1" "$scratch/rooms.svg" || fail "the map's cells are not in the picture"
@@ -29,10 +29,10 @@ expect_status 0 "$host" plan --scenario rooms --planner dmrp.planner.cbs --paths
 grep -qx "0,0,0,0" "$scratch/rooms.csv" || fail "robot 0 should begin at (0, 0): $(head -3 "$scratch/rooms.csv")"
 [[ $(grep "^0," "$scratch/rooms.csv" | tail -1) == *,9,8 ]] || fail "robot 0 should end at (9, 8)"
 
-# the example, with the files that it asks for
+# the example, with its files
 if [[ ! -d $data/movingai ]]; then
   echo "skipped: DMRP_TEST_DATA is not set"
-  exit 0
+  exit 77
 fi
 cp -r "$source_dir/examples/movingai.toml" "$source_dir/examples/movingai" "$scratch"
 cp "$data/movingai/maps/random-32-32-20.map" "$data/movingai/scens/random-32-32-20-random-1.scen" "$scratch/movingai" ||

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every controller drives one robot through the maps of MRPB 1.0, where the data is there: called as
-# mrpb.sh DMRP_HOST SOURCE_DIR TEST_DATA [SANITIZERS]. With sanitizers a task of each map is enough.
+# Every controller drives one robot through the maps of MRPB 1.0, if the data is there. Called as
+# mrpb.sh DMRP_HOST SOURCE_DIR TEST_DATA [SANITIZERS]. With sanitizers, one task of each map.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2
 data=${DMRP_TEST_DATA:-${3:-}}
@@ -9,7 +9,7 @@ sanitizers=${4:-}
 
 if [[ ! -d $data/mrpb ]]; then
   echo "skipped: DMRP_TEST_DATA is not set"
-  exit 0
+  exit 77
 fi
 cp -r "$data/mrpb" "$scratch/data" && chmod -R u+w "$scratch/data"
 [[ -z $sanitizers ]] || sed -i '3,$d' "$scratch"/data/*/starts_goals.csv

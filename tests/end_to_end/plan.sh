@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# `dmrp-host plan`: called as plan.sh DMRP_HOST CHECK_PATHS LIBRARY_OF_FAULTS [SANITIZERS]. What the planners' paths are
-# worth is judged by CHECK_PATHS from the files alone.
+# `dmrp-host plan`: called as plan.sh DMRP_HOST CHECK_PATHS LIBRARY_OF_FAULTS [SANITIZERS]. CHECK_PATHS
+# validates the path files independently.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 check_paths=$2
 faults=$3
@@ -17,7 +17,7 @@ json() {
 value() { json "$scratch/stdout" "coalesce(json_extract(json, '$.$1'), 'null')"; }
 expect_value() { [[ $(value "$1") == "$2" ]] || fail "$1 is $(value "$1"), not $2: $(cat "$scratch/stdout")"; }
 
-# plan STATUS MAP AGENTS ARGUMENT...: as JSON, which must have all keys
+# plan STATUS MAP AGENTS ARGUMENT...: as JSON, with all keys
 plan() {
   expect_status "$1" "$host" plan --map "$maps/$2.map" --scen "$maps/$2.scen" --agents "$3" --json "${@:4}"
   local key
@@ -26,7 +26,7 @@ plan() {
   done
 }
 
-# --- every planner of the library: its paths, judged, and its figures, compared
+# --- every planner of the library: its paths are valid, and its figures agree with them
 
 "$host" plugins --json "$planners" >"$scratch/plugins.json" || fail "plugins --json"
 sqlite3 -batch -separator ' ' :memory: "SELECT json_extract(plugin.value, '\$.id'),
@@ -65,7 +65,7 @@ while read -r id connectivity uncoordinated; do
   [[ ! -e $csv ]] || fail "$id: the paths of an earlier plan are still there"
 done <"$scratch/planners"
 
-# --- figures counted by hand: one robot along the bay's corridor; the mall by its name, for people
+# --- figures computed by hand: one robot along the bay's corridor; the mall, as text
 
 plan 0 bay 1 --planner dmrp.planner.cbs --paths "$scratch/one.csv"
 expect_value cost 6
@@ -74,11 +74,11 @@ expect_value plan_turns 0
 [[ $(cat "$scratch/one.csv") == $'agent,t,x,y\n0,0,0,2\n0,1,1,2\n0,2,2,2\n0,3,3,2\n0,4,4,2\n0,5,5,2\n0,6,6,2' ]] ||
   fail "$(cat "$scratch/one.csv")"
 plan 0 rooms 8 --planner dmrp.planner.individual
-[[ $(value conflicts) -gt 0 ]] || fail "conflicts of uncoordinated paths should be told"
+[[ $(value conflicts) -gt 0 ]] || fail "conflicts of uncoordinated paths should be counted"
 expect_status 0 "$host" plan --scenario mall --planner dmrp.planner.cbs
 grep -q "cost  *63$" "$scratch/stdout" || fail "$(cat "$scratch/stdout")"
 
-# --- planners that break their contract: one line, status 1, and a host that lives on
+# --- planners that break their contract: one line, status 1
 
 # expect_fault FAULT STATUS_WORD PATTERN ARGUMENT...
 expect_fault() {
@@ -111,10 +111,10 @@ if [[ -z $sanitizers ]]; then (
 expect_status 0 "$host" plan --scenario crossing --planner test.planner.faulty --plugin "$faults" --set fault=timeout --json
 expect_value status timeout
 
-# a planner's own sums are not believed, but that is no fault
+# figures of a planner that contradict its paths are no fault
 expect_status 0 "$host" plan --scenario crossing --planner test.planner.faulty --plugin "$faults" --set fault=wrong_cost --json
 expect_value cost 13
-grep -q "^warning: test.planner.faulty: the planner tells of a cost of 12, its paths cost 13$" "$scratch/stderr" ||
+grep -q "^warning: test.planner.faulty: the planner reports a cost of 12, its paths cost 13$" "$scratch/stderr" ||
   fail "$(cat "$scratch/stderr")"
 
 # --- mistakes: one line, status 2
@@ -164,7 +164,7 @@ expect_mistake "there is no such library" --scenario mall --planner dmrp.planner
 expect_mistake "there is no folder" --scenario mall --planner dmrp.planner.cbs --paths nowhere/paths.csv
 expect_mistake "time-limit" --scenario mall --planner dmrp.planner.cbs --time-limit -1
 
-# a renamed map is only remarked upon
+# a renamed map is a warning only
 cp bay.map other.map
 expect_status 0 "$host" plan --map other.map --scen bay.scen --agents 2 --planner dmrp.planner.cbs
 [[ $(cat stderr) == "warning: bay.scen: its tasks are for 'bay.map', not 'other.map'" ]] || fail "$(cat stderr)"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The quickstart does what it is there to show: called as quickstart.sh DMRP_HOST SOURCE_DIR.
+# The quickstart succeeds: called as quickstart.sh DMRP_HOST SOURCE_DIR.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2
 
@@ -18,8 +18,8 @@ arrived=$(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'suc
 [[ $(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'collisions_static' AND subject_kind = 'system'") == 0.0 ]] ||
   fail "a robot touched something static"
 
-# every metric has a system value for every trial; only what nobody finished may be undefined,
-# and what asks for groups of people, of which the mall has none
+# every metric has a system value for every trial; only values of robots that did not arrive, and of groups of people,
+# which the mall has not, may be undefined
 [[ -z $(query "$scratch/run" "SELECT t.id, m.name FROM trial t, metric m WHERE NOT EXISTS (SELECT 1 FROM value v
    WHERE v.trial_id = t.id AND v.metric = m.name AND v.subject_kind = 'system')") ]] || fail "a metric has no value"
 [[ -z $(query "$scratch/run" "SELECT metric FROM value WHERE value IS NULL AND metric <> 'completion_time'

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A run leaves report.html; `report` writes the same file again; what is no run gets one line.
+# A run writes report.html; `report` reproduces the same file; a folder that is no run directory gets an error of one
+# line.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 run=$scratch/run
 expect_status 0 "$host" "$here/crossing.toml" --out "$run"
-grep -Eq "run   report.html  results.sqlite  traces/" "$scratch/stdout" || fail "the files are not named in a line"
+grep -Eq "run   report.html  results.sqlite  traces/" "$scratch/stdout" || fail "the last line does not name the files"
 cp "$run/report.html" "$scratch/before.html"
 expect_status 0 "$host" report "$run"
-[[ $(cat "$scratch/stdout") == "$run/report.html" ]] || fail "report names its file: $(cat "$scratch/stdout")"
-cmp "$scratch/before.html" "$run/report.html" || fail "the same results give another report"
-grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a part is not filled in"
+[[ $(cat "$scratch/stdout") == "$run/report.html" ]] || fail "report does not print its file: $(cat "$scratch/stdout")"
+cmp "$scratch/before.html" "$run/report.html" || fail "the same results give a different report"
+grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a placeholder remains"
 grep -Eq '<(script|img|iframe)[^>]* src=|<link[^>]* href="(http|/)' "$run/report.html" && fail "the page fetches something"
 
-# what the data say, without a browser
+# the data, without a browser
 data() {
   sed -n 's|.*<script type="application/json" id="dmrp-data">\(.*\)</script>$|\1|p' "$run/report.html"
 }
@@ -21,15 +22,15 @@ data() {
 data | grep -q '"trials_planned":12,"trials_finished":12' || fail "the trials are not counted"
 data | grep -q '"varied":"local_controller"' || fail "controllers are not compared"
 
-# of an interrupted run
+# an interrupted run
 query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id > 4;"
 expect_status 0 "$host" report "$run"
-data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials are not told of"
+data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials are not counted"
 
-# of nothing
+# a run without trials, and folders that are no run directory
 query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial;"
-for what in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
-  expect_status 2 "$host" report "${what%%:*}"
+for error in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
+  expect_status 2 "$host" report "${error%%:*}"
   [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
-  grep -Eq "$what" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$what'"
+  grep -Eq "$error" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$error'"
 done

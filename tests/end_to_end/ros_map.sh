@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The example with a map of ROS's map_server, and what is said of damaged ones: called as ros_map.sh DMRP_HOST SOURCE_DIR.
+# The example with a map of ROS's map_server, and the errors of damaged ones: called as ros_map.sh DMRP_HOST SOURCE_DIR.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2
 
@@ -17,16 +17,16 @@ expect_status 0 "$host" ros_map.toml --out "$scratch/run" --quiet
 [[ $(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'collisions' AND subject_kind = 'system'") == 0.0 ]] ||
   fail "a robot touched something"
 for name in ros_map/flat.toml ros_map/flat.yaml ros_map/flat.pgm parameter_sets/controllers/tuned/dwa.toml; do
-  grep -q "/$name\"" "$scratch/run/manifest.json" || fail "the manifest does not tell of $name"
+  grep -q "/$name\"" "$scratch/run/manifest.json" || fail "the manifest does not list $name"
 done
-# the set's values are the effective ones
+# the values of the parameter set are in effective.toml
 sed -n '/dmrp.controller.dwa/,/^$/p' "$scratch/run/effective.toml" >"$scratch/dwa.toml"
 grep -q '^occdist_scale = ' "$scratch/dwa.toml" || fail "effective.toml lacks DWA's parameters"
 expect_status 0 "$host" draw ros_map/flat.toml --svg "$scratch/flat.svg"
 grep -q "cells 1" "$scratch/flat.svg" || fail "the map's cells are not in the picture"
 
 contents() { find "$work" -type f -exec sha256sum {} + | sort; }
-# expect_mistake FILE SED PATTERN: what is answered where FILE is so changed; then it is as before
+# expect_mistake FILE SED PATTERN: of the answer to FILE, changed by sed; then restores FILE
 expect_mistake() {
   local file=$1 change=$2 pattern=$3 before call
   cp "$file" "$scratch/whole"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# However a run is divided among workers, processes and sittings, it leaves the same bits.
+# A run has the same bits however it is divided among workers, processes and --resume.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 experiment=$here/crossing.toml
@@ -21,7 +21,7 @@ expected=$(values_of "$scratch/alone")
 [[ $(values_of "$scratch/two") == "$expected" ]] || fail "--jobs 2 differs from --jobs 1"
 [[ $(values_of "$scratch/again") == "$expected" ]] || fail "a second run differs from the first"
 
-# trials that are missing are run by --resume, the others stay as they are
+# --resume runs missing trials and leaves the others as they are
 query "$scratch/two" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id IN (0, 5, 11);"
 [[ $(values_of "$scratch/two") != "$expected" ]] || fail "deleting rows should show"
 kept="SELECT id, wall_time_s FROM trial WHERE id NOT IN (0, 5, 11) ORDER BY id"
@@ -40,7 +40,7 @@ query "$scratch/even" "ATTACH '$scratch/odd/results.sqlite' AS odd; INSERT INTO 
   INSERT INTO value SELECT * FROM odd.value; INSERT INTO event SELECT * FROM odd.event;"
 [[ $(values_of "$scratch/even") == "$expected" ]] || fail "the shards together differ from a run in one go"
 
-# nor does it matter when plans come one after the other, by waypoint and in order
+# the same with replanning, dispatch by waypoint and ordered execution
 directed=$scratch/directed.toml
 sed 's/dmrp.planner.individual/dmrp.planner.ecbs8/' "$experiment" >"$directed"
 cat >>"$directed" <<'EOF'
@@ -60,10 +60,10 @@ query "$scratch/directed_two" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE
 run_directed --resume --jobs 2 --out "$scratch/directed_two"
 [[ $(values_of "$scratch/directed_two") == $(values_of "$scratch/directed") ]] ||
   fail "with replanning, --jobs 2 and --resume differ from --jobs 1"
-[[ $(values_of "$scratch/directed") != "$expected" ]] || fail "how plans reach robots should show"
+[[ $(values_of "$scratch/directed") != "$expected" ]] || fail "dispatch and execution should change values"
 
-# a run with another experiment cannot be gone on with
+# a run cannot be continued with another experiment
 sed 's/^seed .*/seed = 8/' "$experiment" >"$scratch/other.toml"
 expect_status 2 "$host" "$scratch/other.toml" --quiet --resume --out "$scratch/two"
-# nor does a run write where something is
+# a run does not write into a folder that is not empty
 expect_status 2 "$host" "$experiment" --quiet --out "$scratch/two"

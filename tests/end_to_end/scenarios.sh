@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The shipped scenarios keep their design targets: called as scenarios.sh DMRP_HOST.
-# lengths of the paths in all, 3 % either way; pairs of robots that come nearer than 2 m in a run without people;
-# people and time limits; no warning, so starts and goals farther apart than 2 m; pictures of the worlds as they are.
+# total lengths of the paths, within 3 %; pairs of robots that come nearer than 2 m in a run without people; people and
+# time limits; no warning, so starts and goals are more than 2 m apart; up-to-date pictures.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 shipped=$(dirname "$host")/../share/dmrp/scenarios
 
@@ -16,14 +16,14 @@ expect_length() {
   (($(grep -c 'class="path"' "$scratch/$1.$2.svg") == 4)) || fail "$1: the picture should show four paths"
 }
 
-# The world as it is shipped, without anybody in it: flows come last in the file.
+# The shipped world without people: flows come last in the file.
 empty_world() {
   mkdir -p "$scratch/empty/$1"
   awk '/^\[\[flow\]\]/ { exit } { print }' "$shipped/$1/scenario.toml" >"$scratch/empty/$1/scenario.toml"
 }
 
-# experiment_on SCENARIO [TOML line...]: CBS and DWA, one trial. IBTR with a threshold that nobody exceeds has an event
-# for every time two robots that are on their way are within 2 m.
+# experiment_on SCENARIO [TOML line...]: CBS and DWA, one trial. IBTR with a threshold of speed that no robot exceeds
+# has an event whenever two active robots are within 2 m.
 experiment_on() {
   cat <<EOF
 [experiment]
@@ -50,7 +50,7 @@ EOF
   printf '%s\n' "$@"
 }
 
-# expect_encounters SCENARIO PAIRS: at least so many; everybody arrives and touches nothing static.
+# expect_encounters SCENARIO PAIRS: at least; all robots arrive without a contact with static shapes.
 expect_encounters() {
   local run=$scratch/run-$1
   empty_world "$1"
@@ -64,7 +64,7 @@ expect_encounters() {
   ((pairs >= $2)) || fail "$1: $pairs pairs of robots came nearer than 2 m, at least $2 should"
 }
 
-# expect_world SCENARIO PEOPLE SECONDS: valid without a warning, so many people, the time limit, a picture.
+# expect_world SCENARIO PEOPLE SECONDS: valid without a warning, with these people and time limit, and a picture.
 expect_world() {
   experiment_on "$1" '[[pedestrian_model]]' 'use = "dmrp.pedestrian.social_force"' >"$scratch/$1.valid.toml"
   expect_status 0 "$host" validate "$scratch/$1.valid.toml"
@@ -74,7 +74,7 @@ expect_world() {
   ((people == $2)) || fail "$1: $people people, not $2"
   grep -q "^time_limit_s = $3\$" "$shipped/$1/scenario.toml" || fail "$1: the time limit is not $3 s"
   grep -q "]($1.svg)" "$shipped/$1/README.md" || fail "$1: the README shows no picture"
-  # the picture is of this world; of equally short paths a planner may choose others one day
+  # without paths: a planner may choose others of the same length
   cmp -s <(grep -v 'class="path"' "$scratch/$1.dmrp.planner.cbs.svg") <(grep -v 'class="path"' "$shipped/$1/$1.svg") ||
     fail "$1.svg is old: dmrp-host draw $1 --planner dmrp.planner.cbs --svg $1.svg"
 }

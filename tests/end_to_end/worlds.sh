@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Worlds without robots, with robots drawn, with recorded people, and imperfect ones, from end to end:
+# Worlds without robots, with random robots, with recorded people, and with noise and latencies:
 # called as worlds.sh DMRP_HOST SOURCE_DIR.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2
 
-# The crossing, with this in place of its scenario, planners and controllers: crossing_with SCENARIO [TOML line...]
+# The crossing, with another scenario and other tables instead of its planners and controllers: crossing_with SCENARIO [TOML line...]
 crossing_with() {
   cat <<EOT
 [experiment]
@@ -26,7 +26,7 @@ EOT
   printf '%s\n' "$@"
 }
 
-# run NAME: NAME.toml with one worker and with two; all bits the same.
+# run NAME: NAME.toml with one worker and with two: the same bits.
 run() {
   expect_status 0 "$host" "$scratch/$1.toml" --quiet --jobs 1 --out "$scratch/$1"
   expect_status 0 "$host" "$scratch/$1.toml" --quiet --jobs 2 --out "$scratch/$1.two"
@@ -34,7 +34,7 @@ run() {
   [[ $(query "$scratch/$1" "SELECT count(*) FROM fault") == 0 ]] || fail "$1: there are faults"
 }
 
-# the same crowd without robots: one trial a model and repetition, with the seed of the trials that have robots
+# the same crowd without robots: one trial per model and repetition, with the seeds of the trials with robots
 crossing_with crossing 'robots = [0, 2]' >"$scratch/pair.toml"
 run pair
 [[ $(query "$scratch/pair" "SELECT count(*), count(DISTINCT seed) FROM trial") == "4|2" ]] || fail "four trials, two seeds"
@@ -44,9 +44,9 @@ run pair
    WHERE v.trial_id = t.id AND v.metric = m.name AND v.subject_kind = 'system')") ]] || fail "a metric has no value"
 [[ -z $(query "$scratch/pair" "SELECT metric FROM value JOIN trial ON id = trial_id WHERE robots = 0 AND value IS NOT NULL
    AND metric IN ('success', 'completion_time', 'path_length', 'planning_time', 'pfd', 'sto')") ]] ||
-  fail "what is about robots has a value where there are none"
+  fail "metrics of robots have values in trials without robots"
 
-# robots drawn: other tasks in each repetition, the same for all; with a latency, noise and replanning
+# random robots: other tasks in each repetition, the same for all combinations; with latency, noise and replanning
 crossing_with crossing 'robots = [0, 1, 3]' '[simulation]' 'replan_period_s = 2' 'planning_latency_s = 0.7' \
   'control_latency_s = 0.05' '[robot]' 'actuation_latency_s = 0.1' \
   'odometry = { noise = [0.01, 0.01, 0.01, 0.01], fix_period_s = 1 }' >"$scratch/drawn.toml"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Puts the packages of package-lock.json beside a copy of it: install.sh FOLDER. Status 77 where that cannot be: without
-# node and npm, or without a network the first time.
+# Installs the packages of package-lock.json: install.sh FOLDER. Status 77 without node, npm or, at the first time, a
+# network.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$1
@@ -12,14 +12,14 @@ for tool in node npm; do
   exit 77
 done
 
-# `done` is written last: an installation that was cut short is made again
+# `done` is written last: an interrupted installation is repeated
 mkdir -p "$folder"
 if [[ -e $folder/done ]] && cmp -s "$here/package-lock.json" "$folder/package-lock.json"; then exit 0; fi
 rm -f "$folder/done"
 cp "$here/package.json" "$here/package-lock.json" "$folder"
 cd "$folder" || exit 1
 if timeout 90 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error >npm.log 2>&1; then
-  touch done
+  touch "done"
   exit 0
 fi
 cat npm.log

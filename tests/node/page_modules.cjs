@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// page_modules.cjs: the modules of the report's page in node, bundled by esbuild as for a browser.
+// page_modules.cjs: loads modules of the report's page into node, bundled by esbuild as for a browser.
 'use strict';
 const {execFileSync} = require('node:child_process');
 const fs = require('node:fs');

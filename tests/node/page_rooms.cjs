@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order of the rooms of the report's page, from esbuild's account of its imports: page_rooms.cjs PAGE_FOLDER.
+// Checks the order of the rooms of the report's page, from esbuild's list of imports: page_rooms.cjs PAGE_FOLDER.
 'use strict';
 const assert = require('node:assert');
 const {execFileSync} = require('node:child_process');

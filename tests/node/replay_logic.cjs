@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the report's replay works out without a browser: replay_logic.cjs PAGE_FOLDER.
+// The calculations of the replay, without a browser: replay_logic.cjs PAGE_FOLDER.
 'use strict';
 const assert = require('node:assert');
 const {page_modules} = require('./page_modules.cjs');
@@ -100,7 +100,7 @@ function packed() {
 }
 
 const tests = {
-  'a replay comes out in metres, radians and seconds'() {
+  'a replay is decoded to metres, radians and seconds'() {
     const replay = recording.from_json(packed());
     near(replay.end, 0.24);
     near(replay.robots[1].y[3], 1.5);
@@ -115,7 +115,7 @@ const tests = {
     ]);
   },
 
-  'a moment lies between two samples, and at most at the last'() {
+  'a time lies between two samples, and at most at the last'() {
     const replay = recording.from_json(packed());
     const at = recording.moment(replay, 0.15);
     assert.strictEqual(at.k, 1);
@@ -168,7 +168,7 @@ const tests = {
     ]);
   },
 
-  'people are there from their first to their last sample'() {
+  'people are present from their first to their last sample'() {
     const replay = recording.from_json(packed());
     const person = (t) => recording.person_pose(replay.people[0], recording.moment(replay, t));
     assert.strictEqual(person(0.05), null);
@@ -187,7 +187,7 @@ const tests = {
     assert.strictEqual(recording.planned_position({x: [], y: [], t: []}, 1), null);
   },
 
-  'hits of a scan lie in the world, as seen from where it was taken'() {
+  'hits of a scan are transformed to the world by the pose of the scan'() {
     const replay = recording.from_json(packed());
     const robot = replay.robots[1];
     const hits = recording.scan_hits(robot, recording.moment(replay, 0));
@@ -213,7 +213,7 @@ const tests = {
     assert.ok(events.is_now(found[2], 1.0), 'a contact is seen for a second');
   },
 
-  'the active part of the world holds tracks and goals, and stays inside'() {
+  'the active part of the world contains tracks and goals, and lies inside the world'() {
     const [lower, upper] = recording.active_box(recording.from_json(packed()));
     assert.deepStrictEqual(plain([lower, upper]), [
       [0, 0],
@@ -221,7 +221,7 @@ const tests = {
     ]);
   },
 
-  'zooming keeps what lies under the pointer, and the whole world is the least'() {
+  'zooming keeps the point under the pointer, and stops at the whole world'() {
     const view = map_view.make_map_view();
     view.width = 400;
     view.height = 300;

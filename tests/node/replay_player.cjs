@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a reader does with the report's replay: replay_player.cjs PROJECT.
+// The replay in a browser: replay_player.cjs PROJECT.
 'use strict';
 const assert = require('node:assert');
 const path = require('node:path');
@@ -92,7 +92,7 @@ tests['a robot is picked on the map, an event is jumped to'] = async (browser) =
   await close(opened);
 };
 
-tests['another trial begins at its beginning'] = async (browser) => {
+tests['another trial starts at time zero'] = async (browser) => {
   const opened = await open_replay(browser);
   const {page} = opened;
   const ids = await page.evaluate(() => dmrp.data.replays.map((replay) => replay.trial));
@@ -126,7 +126,7 @@ tests['the time and the picture agree with the trace'] = async (browser) => {
   await close(opened);
 };
 
-tests['without WebGL the flat map stays, and it is said why'] = async (browser) => {
+tests['without WebGL the flat map stays, with a message'] = async (browser) => {
   const opened = await open_replay(browser);
   const {page} = opened;
   await page.evaluate(() => {
@@ -184,7 +184,7 @@ tests['a damaged three.js is reported, the flat map stays'] = async (browser) =>
   await close(opened);
 };
 
-tests['a damaged replay is told, the others play'] = async (browser) => {
+tests['a damaged replay is reported, the others play'] = async (browser) => {
   const opened = await open_replay(browser);
   const {page} = opened;
   await page.evaluate(() => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// report_browser.cjs: what the tests of the report's page share: runs of dmrp-host, a browser, and that nothing is said
-// on its console and nothing asked of any network.
+// report_browser.cjs: helpers of the browser tests: run dmrp-host, open a report, record console messages, errors and
+// network requests.
 'use strict';
 const assert = require('node:assert');
 const {spawnSync} = require('node:child_process');
@@ -18,7 +18,7 @@ function find_browser() {
   return names.flatMap((name) => folders.map((folder) => path.join(folder, name))).find((file) => fs.existsSync(file));
 }
 
-// {chromium, executable}, or ends the test as skipped.
+// Returns {chromium, executable}, or ends the test as skipped.
 function browser_or_skip() {
   const executable = find_browser();
   if (!executable) {
@@ -66,8 +66,8 @@ function scratch_folder() {
   return folder;
 }
 
-// Opens a report; `said` gathers what a reader should never meet. Sections come as they are scrolled to: all are asked
-// for here.
+// Opens a report and waits for its last section. `said` collects console messages, errors and requests: it must stay
+// empty.
 async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'light'} = {}) {
   const context = await browser.newContext({
     viewport,
@@ -79,7 +79,7 @@ async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'l
   const said = [];
   const url = `file://${report}`;
   page.on('console', (message) => {
-    // of the software renderer, not of the page
+    // from the software renderer, not from the page
     if (!/GL Driver Message|GPU stall|Automatic fallback to software WebGL/.test(message.text()))
       said.push(`console: ${message.text()}`);
   });
@@ -92,7 +92,7 @@ async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'l
   return {page, said};
 }
 
-// No empty plot, nothing wider than the screen, no text over the edge of its plot.
+// Checks that no plot or section is empty, the page fits the screen, and no text is NaN, null or an object.
 async function check_layout(page, where) {
   const found = await page.evaluate(() => {
     const problems = [];
@@ -108,13 +108,13 @@ async function check_layout(page, where) {
         if (/NaN|undefined/.test(value)) problems.push(`${name}="${value}" in ${attribute.closest('section').id}`);
     for (const text of document.querySelectorAll('.page-head, .section p, .section th, .section td'))
       if (/\bNaN\b|\[object|\bnull\b/.test(text.textContent))
-        problems.push(`'${text.textContent}' is no text to be read`);
+        problems.push(`'${text.textContent}' is no readable text`);
     return problems;
   });
   assert.deepStrictEqual(found, [], where);
 }
 
-// A copy of a report with its data changed, for what no quick run gives by itself.
+// Writes a copy of a report with changed data, for cases that no quick run produces.
 function with_data(report, change) {
   const text = fs.readFileSync(report, 'utf8');
   const [, before, json, after] = text.match(
@@ -136,7 +136,7 @@ function read_csv(file) {
   return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, line[i]])));
 }
 
-// Runs async tests one after the other and ends the process.
+// Runs async tests in sequence and ends the process.
 async function run_tests(tests) {
   const browser = await launch();
   let failed = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the report's page works out without a browser: report_logic.cjs PAGE_FOLDER.
+// The calculations of the report's page, without a browser: report_logic.cjs PAGE_FOLDER.
 'use strict';
 const assert = require('node:assert');
 const {page_modules} = require('./page_modules.cjs');
@@ -125,7 +125,7 @@ function sample() {
 }
 
 const tests = {
-  'numbers carry a real minus, none before zero, and a dash where undefined'() {
+  'numbers have a minus sign, none for zero, and a dash if undefined'() {
     const n = numbers;
     same([n.fixed(-1.25, 1), n.fixed(-0.001, 2), n.fixed(null, 2), n.fixed(NaN, 2)], ['\u22121.3', '0.00', '—', '—']);
     same([n.signed(0.5, 1), n.signed(-0.5, 1), n.signed(0, 1)], ['+0.5', '\u22120.5', '0.0']);
@@ -146,12 +146,12 @@ const tests = {
       ['3\u00a0m', '3', '1 trial', '2 people']
     );
   },
-  'undefined values come last both ways, equal ones keep their places'() {
+  'undefined values come last in both orders, and the sort is stable'() {
     same(ranking.order([3, null, 1, 3], false), [2, 0, 3, 1]);
     same(ranking.order([3, null, 1, 3], true), [0, 3, 2, 1]);
     same(ranking.order(['a10', 'a9', 'b'], false), [1, 0, 2]);
   },
-  'the best follows the direction, and is nothing where most share it'() {
+  'the best follows the direction, and there is none if most share it'() {
     same([...ranking.best([3, null, 1, 2], 'lower', 1)], [2]);
     same([...ranking.best([3, null, 1, 2], 'higher', 1)], [0]);
     same([...ranking.best([1, 1, 2, 2.04], 'higher', 1)], [2, 3]);
@@ -232,7 +232,7 @@ const tests = {
       ]
     );
   },
-  'worlds without robots are no rows of their own'() {
+  'scenarios without robots have no rows'() {
     const data = sample();
     data.scenarios.push({name: 'mall', robots: 0, people: 3});
     data.combinations.push({
@@ -252,7 +252,7 @@ const tests = {
       ['P', 'Q']
     );
   },
-  'the verdict says what went wrong, the worst first'() {
+  'the verdict lists problems, the worst first'() {
     const data = sample();
     data.values.arrived = data.trials.id.map(() => 1);
     same(
@@ -301,12 +301,12 @@ const tests = {
     same([next(-1, 'ArrowRight'), next(0, 'ArrowRight'), next(1, 'ArrowRight'), next(3, 'ArrowRight')], [0, 1, 3, 3]);
     same([next(1, 'ArrowLeft'), next(1, 'ArrowDown'), next(2, 'ArrowUp'), next(0, 'ArrowUp')], [0, 2, 1, 0]);
   },
-  'a difference is told by the estimate of its test'() {
+  'a difference has the estimate of its test'() {
     const comparison = {median_difference: 1, low: 0, high: 2, mean_difference: 5, mean_low: 4, mean_high: 6};
     same(comparisons.estimate_of({...comparison, test: 'signed_rank'}), {estimate: 1, low: 0, high: 2});
     same(comparisons.estimate_of({...comparison, test: 'sign_flip'}), {estimate: 5, low: 4, high: 6});
   },
-  'faults of one kind in one function stand together'() {
+  'faults are grouped by kind, plugin and function'() {
     const fault = (trial, kind, plugin) => ({trial, kind, plugin, function: 'step'});
     const all = [fault(0, 'crash', 'a'), fault(1, 'hang', 'b'), fault(2, 'crash', 'a'), fault(3, 'crash', 'b')];
     same(
@@ -316,7 +316,7 @@ const tests = {
     assert.strictEqual(faults.count_words(all), '3 crash, 1 hang');
   },
 
-  'metrics are found by all words'() {
+  'the search finds metrics that contain all words'() {
     const data = sample();
     same(metrics_table.found(data, ''), [0, 1]);
     same(metrics_table.found(data, 'HOW time'), [1]);

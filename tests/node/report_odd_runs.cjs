@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reports of runs in which things went wrong: report_odd_runs.cjs SOURCE_FOLDER LIBRARY_OF_FAULTS. Each says so plainly
-// and shows the rest.
+// Reports of runs with failures: report_odd_runs.cjs SOURCE_FOLDER LIBRARY_OF_FAULTS. Each states the failure and shows
+// the other results.
 'use strict';
 const assert = require('node:assert');
 const fs = require('node:fs');
@@ -40,7 +40,7 @@ const one_planner = (text) => `${without(text, 'global_planner')}\n[[global_plan
 const one_controller = (text) =>
   `${without(text, 'local_controller')}\n[[local_controller]]\nuse = "dmrp.controller.dwa"\n`;
 
-// Opens it at both widths; gives the verdict and the contents.
+// Opens the report at both widths and passes its verdict and contents to `more`.
 async function look(browser, report, more = async () => {}) {
   for (const viewport of [undefined, PHONE]) {
     const opened = await open_report(browser, report, {viewport});
@@ -144,7 +144,7 @@ const tests = {
     });
   },
 
-  async 'a run that was not finished'(browser) {
+  async 'an incomplete run'(browser) {
     const report = with_data(run('unfinished'), (data) => {
       data.run.trials_planned = 20;
       data.trials.repeatable[3] = false;

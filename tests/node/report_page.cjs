@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report's page in a browser: report_page.cjs SOURCE_FOLDER. Reports of the quickstart and of a small experiment
-// with something to compare, opened from a file as a reader does.
+// with several combinations, opened from a file.
 'use strict';
 const assert = require('node:assert');
 const fs = require('node:fs');
@@ -150,7 +150,7 @@ tests['a header sorts its table, by pointer and by key'] = async (browser) => {
   await close(opened);
 };
 
-tests['intervals and the paper\u2019s rule are shown when asked for'] = async (browser) => {
+tests['intervals and the paper\u2019s rule are shown on request'] = async (browser) => {
   const opened = await open_report(browser, crossing);
   const interval = opened.page.locator('.tables .interval:not(:empty)').first();
   const paper = opened.page.locator('.tables .paper').first();
@@ -161,7 +161,7 @@ tests['intervals and the paper\u2019s rule are shown when asked for'] = async (b
   await close(opened);
 };
 
-tests['light and dark change by a button'] = async (browser) => {
+tests['a button switches between light and dark'] = async (browser) => {
   const opened = await open_report(browser, quickstart);
   const background = () => opened.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await background();
@@ -172,7 +172,7 @@ tests['light and dark change by a button'] = async (browser) => {
   await close(opened);
 };
 
-tests['the heat map and the points follow the metric that is chosen'] = async (browser) => {
+tests['the heat map and the points show the selected metric'] = async (browser) => {
   const opened = await open_report(browser, crossing);
   const {page} = opened;
   for (const section of ['#heat-map', '#distributions']) {
@@ -185,7 +185,7 @@ tests['the heat map and the points follow the metric that is chosen'] = async (b
   await close(opened);
 };
 
-tests['points are reached by keys and tell their trial'] = async (browser) => {
+tests['points are selected by keys and describe their trial'] = async (browser) => {
   const opened = await open_report(browser, crossing);
   const {page} = opened;
   await page.locator('#distributions .plot svg').first().focus();
@@ -199,7 +199,7 @@ tests['points are reached by keys and tell their trial'] = async (browser) => {
   await close(opened);
 };
 
-tests['a name leads to all metrics of its combination'] = async (browser) => {
+tests['a name links to all metrics of its combination'] = async (browser) => {
   const opened = await open_report(browser, crossing);
   const link = opened.page.locator('.results tbody th a').nth(2);
   const name = await link.textContent();
@@ -208,14 +208,14 @@ tests['a name leads to all metrics of its combination'] = async (browser) => {
   await close(opened);
 };
 
-tests['on paper the report is complete'] = async (browser) => {
+tests['the printed report is complete'] = async (browser) => {
   const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
   const pdf = await opened.page.pdf({format: 'A4'});
   assert.ok(pdf.length > 20000, `a PDF of ${pdf.length} bytes`);
   await close(opened);
 };
 
-tests['the replay plays, is scrubbed and turns to 3-D'] = async (browser) => {
+tests['the replay plays, seeks and switches to 3-D'] = async (browser) => {
   const opened = await open_report(browser, quickstart);
   const {page} = opened;
   assert.ok((await page.evaluate(() => dmrp.data.replays.length)) > 0, 'the quickstart has no replay');
@@ -274,7 +274,7 @@ function enlarged(report) {
 }
 
 // Three seconds on an idle machine; here machines may be busy.
-tests['960 trials are ready soon'] = async (browser) => {
+tests['960 trials open quickly'] = async (browser) => {
   const report = enlarged(crossing);
   assert.ok(fs.statSync(report).size < 25e6);
   const start = Date.now();
@@ -293,7 +293,7 @@ tests['960 trials are ready soon'] = async (browser) => {
   await close(opened);
 };
 
-tests['nothing in the file asks for another'] = async () => {
+tests['the file requests no other file'] = async () => {
   for (const report of [quickstart, crossing]) {
     const text = fs.readFileSync(report, 'utf8');
     assert.doesNotMatch(

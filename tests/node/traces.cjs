@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traces as others read them: by the MCAP library of Foxglove, against its message schemas. Called as:
+// Reads traces by Foxglove's MCAP library and checks them against its message schemas. Called as:
 //   traces.cjs FOLDER_OF_END_TO_END_TESTS, with the host in DMRP_HOST
 'use strict';
 

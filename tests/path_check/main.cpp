@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check_paths MAP SCEN AGENTS CONNECTIVITY PATHS.csv: one line "cost C makespan M conflicts N"; status 1 with conflicts
-// or where a path is wrong by itself.
+// or if a single path is invalid.
 #include <cstdio>
 #include <cstdlib>
 

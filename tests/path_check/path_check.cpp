@@ -63,7 +63,7 @@ std::vector<std::pair<Place, Place>> read_tasks(const std::string& file, int age
   return tasks;
 }
 
-// Agents in order, their times from 0 without a gap.
+// Agents in ascending order, each with times from 0 without a gap.
 std::vector<Path> read_paths(const std::string& file) {
   std::ifstream in(file);
   std::string line;
@@ -109,7 +109,7 @@ std::string check_path(const Rows& map, const std::pair<Place, Place>& task, con
   return "";
 }
 
-// Who stands where at one time. Two on one place are in conflict there; the first one is kept.
+// The agent at each place at one time. Of two agents at one place, which conflict, it keeps the first.
 using Standing = std::map<Place, std::size_t>;
 
 class ConflictCount {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The judge is judged: each rule has a file that breaks it alone.
+// Each rule of the path check has a file that violates only this rule.
 #include "tests/path_check/path_check.hpp"
 
 #include <unistd.h>
@@ -42,7 +42,7 @@ const std::string second = "1,0,3,2\n1,1,3,1\n1,2,3,0\n";
 
 }  // namespace
 
-TEST_CASE("good paths are good, and counted") {
+TEST_CASE("valid paths have no error, and their steps are counted") {
   const Files files;
   const PathVerdict verdict = files.judge(first + "1,0,3,2\n1,1,3,2\n1,2,3,1\n1,3,3,0\n");
   CHECK(verdict.error == "");
@@ -51,7 +51,7 @@ TEST_CASE("good paths are good, and counted") {
   CHECK(verdict.makespan == 3);
 }
 
-TEST_CASE("a path that is wrong by itself is refused") {
+TEST_CASE("an invalid single path is rejected") {
   const Files files;
   const auto error = [&](const std::string& paths, int connectivity = 4) {
     return files.judge(paths, connectivity).error;

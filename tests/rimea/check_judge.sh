@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The judge passes what lies in its bands and fails what does not: a run made up by hand.
+# The judge passes values inside their bands and fails others, for a run made by hand.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scratch=$(mktemp -d)
@@ -13,7 +13,7 @@ sqlite3 -batch "$scratch/results.sqlite" "
   INSERT INTO trial VALUES (0, 's', 'm', 0);
   INSERT INTO value VALUES (0, 'travel_time', 'system', NULL, NULL, 30.0), (0, 'wall_overlap', 'system', NULL, NULL, 0.05);"
 
-# expect STATUS WORDS [SQL]: after the change, the judge ends so and says that
+# expect STATUS WORDS [SQL]: after the change, the judge exits with STATUS and prints WORDS
 expect() {
   local output status=0
   sqlite3 -batch "$scratch/results.sqlite" "${3-}"

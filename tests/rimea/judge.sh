@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Holds a run of one of these experiments against its bands: judge.sh RUN_DIR TEST_FOLDER
+# Compares a run of one of these experiments with its bands: judge.sh RUN_DIR TEST_FOLDER
 #
-# Prints a table in Markdown; exit status 1 where a value that has to lie in its band does not. TEST_FOLDER/bands.sql
-# selects rows (model, what, measured, low, high, held) from the view measured(model, scenario, repetition, metric,
-# value); low and high may be NULL; held = 0 reports a value without judging it. That nobody leaves the free space and
-# nobody overlaps anything by more than 5 cm is held for every run.
+# Prints a table in Markdown. Exits with status 1 if a judged value is outside its band. TEST_FOLDER/bands.sql selects
+# rows (model, what, measured, low, high, held) from the view measured(model, scenario, repetition, metric, value); low
+# and high may be NULL; held = 0 reports a value without judging it. All runs are also judged by two conditions: nobody
+# leaves the free space, and nobody overlaps anything by more than 5 cm.
 set -euo pipefail
 results=$1/results.sqlite
 bands=$2/bands.sql

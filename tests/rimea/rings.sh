@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Writes the closed rings of tests 4 and 16, one file a density: rings.sh [FOLDER] (default: this folder).
+# Writes the closed rings of tests 4 and 16, one file for each density: rings.sh [FOLDER] (default: this folder).
 #
-# A ring keeps its density for ever, and nobody meets an end, an entrance or a corner. People begin evenly in its four
-# quarters and walk round counter-clockwise by 16 gates, more often than anybody can in the time.
+# A ring keeps its density, and has no ends, entrances or corners. People start evenly in its four quarters and walk
+# counter-clockwise through 16 gates, for more laps than anybody can finish in the time.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 to=${1:-$here}
@@ -33,7 +33,7 @@ ring() {
         printf "\n[[polygon]]\nname = \"outer wall %d\"\nvertices_m = [%s, %s, %s, %s]\n", i + 1, at(outer, i),
           at(1.5 * outer, i), at(1.5 * outer, i + 1), at(outer, i + 1)
 
-      # not up to the axes, so that nobody begins in anybody of the next quarter
+      # a gap at the axes, so that people of adjacent quarters do not overlap
       gap = 0.23
       region("quarter 1", c + gap, c + gap, 2 * c, 2 * c)
       region("quarter 2", 0, c + gap, c - gap, 2 * c)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Runs RiMEA tests and judges them: run.sh DMRP_HOST PLUGINS [--out DIR] TEST...
 #
-# PLUGINS is the folder of libdmrp_rimea_metrics.so. TEST is a folder here, as 01_corridor, or an experiment file in one,
-# as 04_fundamental_diagram/quick.toml. Runs are left in DIR/TEST, in a scratch folder without --out. Example:
+# PLUGINS is the folder of libdmrp_rimea_metrics.so. TEST is a folder here, like 01_corridor, or an experiment file in
+# one, like 04_fundamental_diagram/quick.toml. Runs are written to DIR/TEST, without --out to a temporary folder. Example:
 #
 #     tests/rimea/run.sh build/release/bin/dmrp-host build/release/tests/plugins --out runs/rimea 01_corridor
 set -uo pipefail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_comparisons.hpp: what was tried against each other, trial against trial of the same seed.
+// report_comparisons.hpp: paired comparisons of combinations, over trials with the same seed.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace dmrp::host {
 
 enum class Varied { global_planner, local_controller, pedestrian_model };
 
-// One metric of two combinations that differ in one choice only. Differences are b - a, a pair a seed.
+// One metric of two combinations that differ in one label only. Differences are b - a, one pair for each seed.
 struct PairedComparison {
   std::size_t metric;  // index
   Varied varied;
@@ -32,11 +32,11 @@ struct PairedComparison {
   PairedTest test;
   bool exact;
   double p;
-  double p_holm;  // over all comparisons of the metric in that scenario with the same choice varied
+  double p_holm;  // corrected for all comparisons of the metric and `varied` in the scenario
 };
 
-// The metrics that the layout names, in its order; combinations without a common seed, in which both succeeded where that
-// is asked for, are left out.
+// For the metrics of the layout, in its order. Omits pairs of combinations without a common seed (for `both_succeeded`:
+// a seed with which both trials succeeded).
 std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const ExperimentFacts& facts,
                                                  const ReportLayout& layout,
                                                  std::span<const std::string> counts_failures);

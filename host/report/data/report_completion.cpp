@@ -8,7 +8,7 @@
 namespace dmrp::host {
 namespace {
 
-// One a robot; a trial that ended in a fault before it was measured has robots that did not arrive.
+// One for each robot. The robots of a trial that a fault ended before it was measured did not arrive.
 void add_robots(const TrialRecord& trial, const std::string& metric, double horizon_s,
                 std::vector<core::TimeToEvent>& robots) {
   bool measured = false;
@@ -21,7 +21,7 @@ void add_robots(const TrialRecord& trial, const std::string& metric, double hori
     robots.insert(robots.end(), trial.robots, {horizon_s, false, trial.seed});
 }
 
-// Where the manifest knows no limit, the longest trial's end.
+// The time limit, or the end of the longest trial if the manifest has none.
 double horizon_of(const ReportFrame& frame, const ExperimentFacts& facts, std::size_t combination) {
   if (const auto limit_s = time_limit_s(facts, frame.combinations[combination])) return *limit_s;
   double longest_s = 0.0;

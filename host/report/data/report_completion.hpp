@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_completion.hpp: when robots arrive, those that never do included.
+// report_completion.hpp: arrival times, including robots that never arrive.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,8 @@
 
 namespace dmrp::host {
 
-// Robots of all trials of a combination. Who had not arrived when the trial ended, by the time limit, a deadlock or a
-// fault, counts as watched until the time limit: a deadlock is no reason to think that the robot would soon have been
-// there.
+// The robots of all trials of a combination. A robot that has not arrived at the end of its trial (time limit, deadlock
+// or fault) is censored at the time limit, not at the end: a deadlock does not mean that it would have arrived soon.
 struct ArrivalTimes {
   std::size_t combination;
   std::uint32_t robots;
@@ -23,10 +22,10 @@ struct ArrivalTimes {
   double restricted_mean_s;
   core::Interval interval;  // 95 %, over seeds
   double arrived_share;
-  std::vector<core::SurvivalStep> not_arrived;  // share of robots that is still under way
+  std::vector<core::SurvivalStep> not_arrived;  // share of robots that have not arrived
 };
 
-// Combinations with robots, where the layout names a metric that was measured.
+// For each combination with robots; empty if the metric of the layout was not measured.
 std::vector<ArrivalTimes> arrival_times(const ReportFrame& frame, const ExperimentFacts& facts,
                                         const ReportLayout& layout);
 

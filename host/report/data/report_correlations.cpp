@@ -32,7 +32,7 @@ core::RankCorrelation correlate(const ReportFrame& frame, const Stratum& stratum
   std::vector<double> xs;
   std::vector<double> ys;
   std::vector<std::uint64_t> seeds;
-  std::vector<std::uint32_t> controllers;  // by their combination: all else is the stratum's
+  std::vector<std::uint32_t> controllers;  // by combination: the other labels are constant in the stratum
   for (const std::size_t trial : stratum.trials) {
     const auto& values = frame.values[trial];
     if (!values[x] || !values[y]) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// report_correlations.hpp: the diagnosis plot's rank correlations, each within one scenario, planner and crowd: pooling
-// planners invites Simpson's paradox.
+// report_correlations.hpp: rank correlations of metrics, within one scenario, planner and pedestrian model each, because
+// pooling planners can cause Simpson's paradox.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 namespace dmrp::host {
 
 struct StratumCorrelation {
-  CombinationLabels stratum;  // without a controller: its trials are those of all of them
+  CombinationLabels stratum;  // without a controller: includes the trials of all controllers
   std::size_t x;              // metrics
   std::size_t y;
-  core::RankCorrelation correlation;  // over the trials in which both are defined, those of one controller exchangeable
+  core::RankCorrelation correlation;  // over the trials in which both are defined; permutes within a controller
 };
 
 std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes);

@@ -10,7 +10,7 @@
 namespace dmrp::host {
 namespace {
 
-using ValuesBySeed = std::map<std::uint64_t, std::vector<double>>;  // undefined values are not kept
+using ValuesBySeed = std::map<std::uint64_t, std::vector<double>>;  // without undefined values
 
 CurvePoint summarise_point(double coordinate, const ValuesBySeed& by_seed,
                            std::map<std::size_t, core::BootstrapDraws>& draws) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_curves.hpp: metrics that are given for several coordinates (thresholds), over the trials of a combination.
+// report_curves.hpp: metrics with values at several coordinates (thresholds), over the trials of a combination.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct MetricCurve {
   std::vector<CurvePoint> points;  // by coordinate
 };
 
-// The system's curves; metrics in their order, combinations within. Left out: what the layout
-// needs for delays, and curves without a defined point.
+// The system's curves, by metric, then combination. Omits the metric for pedestrian delays and curves without a
+// defined point.
 std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const ReportLayout& layout);
 
 }  // namespace dmrp::host

@@ -123,7 +123,7 @@ Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
           {"paper_trimmed_all_nonzero", summary.paper.trimmed_all_nonzero}};
 }
 
-// [group][metric], for groups that need not have a summary: those of skipped trials.
+// [group][metric]. Groups of skipped trials have no summary.
 Json summaries_json(std::span<const CombinationLabels> groups, std::span<const CombinationSummary> summaries,
                     std::size_t metrics) {
   Json json = Json::array();
@@ -139,7 +139,7 @@ Json summaries_json(std::span<const CombinationLabels> groups, std::span<const C
   return json;
 }
 
-// As far as a plan knows.
+// The labels that a plan depends on.
 CombinationLabels planner_of(const TrialRecord& trial) {
   return {trial.scenario, trial.robots, trial.global_planner, "", ""};
 }
@@ -149,7 +149,7 @@ void add_planners(Json& json, const ReportFrame& frame, std::span<const std::str
   json["planners"] = Json::array();
   std::vector<CombinationLabels> groups;
   for (const CombinationSummary& summary : summaries) {
-    if (summary.combination.robots == 0) continue;  // nobody to plan for
+    if (summary.combination.robots == 0) continue;  // no plans
     const CombinationLabels& labels = groups.emplace_back(summary.combination);
     json["planners"].push_back(
         {{"scenario", labels.scenario}, {"robots", labels.robots}, {"global_planner", labels.global_planner}});
@@ -191,15 +191,14 @@ Json faults_json(std::span<const TrialRecord> trials) {
 
 void add_replays(Json& json, const ReplayIndex& index) {
   json["replays"] = Json::array();
-  for (const ReplayMention& replay : index.replays)
+  for (const ReplayEntry& replay : index.replays)
     json["replays"].push_back({{"trial", replay.trial}, {"why", replay.why}, {"element", replay.element}});
   json["replays_left_out"] = Json::array();
-  for (const ReplaysLeftOut& left_out : index.left_out)
-    json["replays_left_out"].push_back(
-        {{"why", left_out.why}, {"trials", left_out.trials}, {"reason", left_out.reason}});
+  for (const OmittedReplays& omitted : index.omitted)
+    json["replays_left_out"].push_back({{"why", omitted.why}, {"trials", omitted.trials}, {"reason", omitted.reason}});
 }
 
-// Metrics that have values with a coordinate, whoever's.
+// Metrics that have values with a coordinate, for any subject.
 std::set<std::size_t> curve_metrics(const ReportFrame& frame) {
   std::set<std::string_view> names;
   for (const TrialRecord& trial : frame.trials)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// report_data.hpp: all that the page of a report knows, as one JSON text. NaN is written as null, seeds as text (64 bits
-// do not fit a number of JavaScript), lists of equal length run in parallel:
+// report_data.hpp: the data of a report as one JSON text. NaN is null; seeds are strings (JavaScript's numbers hold 53
+// bits); lists of equal length are parallel:
 //
 //   format            1
 //   run               name, seed, repetitions, trials_planned, trials_finished, version, started, command_line,
-//                     effective_toml, manifest (as it is)
+//                     effective_toml, manifest (the whole file)
 //   scenarios         [{name, robots, title, description, people, time_limit_s}]
 //   metrics           [{name, unit, direction: higher | lower | none, wall_clock, description}]
 //   combinations      [{scenario, robots, global_planner, local_controller, pedestrian_model}]; the index is its id
 //   trials            columns: {id, combination, repetition, seed, outcome, repeatable, sim_time_s, wall_time_s}
-//   values            {metric: [the system's value of each trial]}; metrics that are curves alone are left out
+//   values            {metric: [the system's value of each trial]}; without metrics that have curves only
 //   summaries         [combination][metric]: {trials, defined, mean, sd, median, low, high, paper_mean, paper_count,
 //                     paper_trimmed_all_nonzero}: the numbers of summary.csv
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all
@@ -39,19 +39,19 @@ struct ReportLayouts {
   ReportLayout report;
 };
 
-// Those of share/dmrp/layouts.
+// Reads the files of share/dmrp/layouts.
 ReportLayouts read_report_layouts(const std::filesystem::path& folder);
 
-// A replay that the page holds in the element of that id.
-struct ReplayMention {
+// A replay in the page and the id of its element.
+struct ReplayEntry {
   std::uint64_t trial = 0;
   std::vector<std::string> why;  // "median", "worst", "failure", "fault", "asked"
   std::string element;
 };
 
 struct ReplayIndex {
-  std::vector<ReplayMention> replays;
-  std::vector<ReplaysLeftOut> left_out;
+  std::vector<ReplayEntry> replays;
+  std::vector<OmittedReplays> omitted;
 };
 
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays);

@@ -27,7 +27,7 @@ Curve progress_of(const TrialRecord& trial, const std::string& metric) {
   return curve;
 }
 
-// What was lost by the last second that both have, m.
+// The lost progress at the last second that both curves have, m.
 std::optional<double> lost_m(const Curve& without, const Curve& with) {
   for (auto second = with.rbegin(); second != with.rend(); ++second)
     if (const auto same = without.find(second->first); same != without.end()) return same->second - second->second;

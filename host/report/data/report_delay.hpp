@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_delay.hpp: what the robots cost the people, from pairs of trials with and without robots.
+// report_delay.hpp: the delay of pedestrians by robots, from pairs of trials with and without robots.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace dmrp::host {
 
-// Both trials of a pair have the same scenario, pedestrian model and seed, hence the same people. With P(t) the mean
-// distance that a person has gained towards its goals by t, P0(t) the same without robots, v the mean desired speed and
-// T the last second that both trials have (the mission's end, as long as people are about without robots):
-//   delay = (P0(T) - P(T)) / v,
-// the time that a person would need to make up what it has lost. Negative where people got ahead.
+// Both trials of a pair have the same scenario, pedestrian model and seed, hence the same people. Let P(t) be the mean
+// progress of a person towards its goals by time t, P0(t) the progress without robots, v the mean desired speed and T
+// the last second that both trials have (the end of the mission if people are still present without robots). Then
+//   delay = (P0(T) - P(T)) / v
+// is the time that a person needs to walk the lost distance. It is negative if people progress faster with robots.
 struct PedestrianDelay {
   std::size_t combination;  // with robots
   std::uint32_t pairs;
@@ -24,7 +24,7 @@ struct PedestrianDelay {
   core::Interval interval;  // 95 %, over seeds
 };
 
-// Combinations with robots that have a partner without; empty where the metrics were not measured.
+// For each combination with robots that has a counterpart without robots; empty if the metrics were not measured.
 std::vector<PedestrianDelay> pedestrian_delays(const ReportFrame& frame, const PedestrianDelayMetrics& metrics);
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_frame.hpp: the trials of a run, sorted out once for all parts of the report's data.
+// report_frame.hpp: the trials of a run with indices of their combinations and values, shared by all parts of the data.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@ namespace dmrp::host {
 struct ReportFrame {
   std::span<const MetricColumn> metrics;
   std::span<const TrialRecord> trials;
-  std::vector<CombinationLabels> combinations;  // in the order in which they first appear; of skipped trials too
+  std::vector<CombinationLabels> combinations;  // in order of first appearance, including those of skipped trials
   std::vector<std::size_t> combination_of;      // of each trial
   SystemValues values;                          // [trial][metric]
 
-  // None where no such metric was measured.
+  // The index of a metric; none if it was not measured.
   std::optional<std::size_t> metric(std::string_view name) const;
 };
 
-// The frame refers to both lists.
+// The frame keeps references to both lists.
 ReportFrame make_report_frame(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
 
 }  // namespace dmrp::host

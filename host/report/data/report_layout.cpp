@@ -36,7 +36,7 @@ ComparedMetric parse_comparison(const Json& json) {
       throw std::runtime_error("unknown key '" + key + "' of a comparison");
   }
   if (compared.censored && compared.both_succeeded)
-    throw std::runtime_error("a comparison is either 'censored' or of those that 'both_succeeded'");
+    throw std::runtime_error("a comparison cannot be both 'censored' and 'both_succeeded'");
   if (compared.metric.empty()) throw std::runtime_error("a comparison without 'metric'");
   return compared;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// report_layout.hpp: what a report shows and compares: a data file (host/layouts/report.json), so that code names no
-// metric. What is for the page alone (tables, heat map) stays JSON; here stands what statistics are made of.
+// report_layout.hpp: the metrics that a report shows and compares, from a data file (host/layouts/report.json), so that
+// the code names no metric. Parses the keys for statistics; those for the page alone (tables, heat map) stay JSON.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,12 @@ namespace dmrp::host {
 
 enum class PairedTest { signed_rank, sign_flip };
 
-// A metric whose values are compared, by seed, between the planners, the controllers, the pedestrian models.
+// A metric that is compared between planners, controllers and pedestrian models, paired by seed.
 struct ComparedMetric {
   std::string metric;
   PairedTest test = PairedTest::signed_rank;
-  bool censored = false;  // a time: where it is undefined, the trial's time limit counts
-  bool both_succeeded =
-      false;  // means something of trials that succeeded only: pairs in which one did not are left out
+  bool censored = false;        // a time: an undefined value counts as the trial's time limit
+  bool both_succeeded = false;  // omits pairs in which a trial did not succeed
 };
 
 // x against each of y, within each scenario and planner.
@@ -29,7 +28,7 @@ struct DiagnosisAxes {
   std::vector<std::string> y;
 };
 
-// Of the pair of trials with and without robots.
+// The metrics from which pedestrian delays are computed.
 struct PedestrianDelayMetrics {
   std::string progress;       // curve over seconds: mean distance gained by a person, m
   std::string desired_speed;  // mean over people, m/s
@@ -37,7 +36,7 @@ struct PedestrianDelayMetrics {
 
 struct CurveAxis {
   std::string metric;
-  std::string coordinate;  // what it is, for people
+  std::string coordinate;  // its name for readers
   std::string coordinate_unit;
 };
 
@@ -45,13 +44,13 @@ struct ReportLayout {
   std::string json;  // the whole file
   std::vector<ComparedMetric> comparisons;
   DiagnosisAxes diagnosis;
-  std::string completion;  // metric: when a robot arrived, undefined if it did not
+  std::string completion;  // metric: arrival time of a robot, undefined if it did not arrive
   PedestrianDelayMetrics pedestrian_delay;
   std::vector<CurveAxis> curves;
   ReplayPolicy replays;
 };
 
-// `name` is for messages. Throws std::runtime_error.
+// `name`: the file's name for error messages. Throws std::runtime_error.
 ReportLayout parse_report_layout(std::string_view json, const std::string& name);
 ReportLayout read_report_layout(const std::filesystem::path& path);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_run.hpp: a run directory as a report reads it.
+// report_run.hpp: reads the parts of a run directory that a report needs.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct ReportRun {
   std::vector<TrialRecord> trials;  // by id; an interrupted run lacks some
 };
 
-// Throws InputError where it is no run directory, SqliteError or std::runtime_error where a file is damaged.
+// Throws InputError if it is no run directory, SqliteError or std::runtime_error if a file is damaged.
 ReportRun read_report_run(const std::filesystem::path& directory);
 
 }  // namespace dmrp::host

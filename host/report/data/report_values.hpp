@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_values.hpp: what a trial counts with, where a metric that it does not define has a meaning all the same.
+// report_values.hpp: the value of a metric for a trial, with substitutes for undefined values.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace dmrp::host {
 
-// Rules for the metric: none by default.
+// Rules for substitutes; none by default.
 struct CountedValue {
   std::size_t metric = 0;        // index
-  bool counts_failures = false;  // a trial that ended in a fault counts with 0 (SummaryLayout)
-  bool censored = false;         // a time: whoever has none counts with the time limit
-  bool successes_only = false;   // other trials count with nothing
+  bool counts_failures = false;  // a trial that ended in a fault counts as 0 (SummaryLayout)
+  bool censored = false;         // a time: an undefined value counts as the time limit
+  bool successes_only = false;   // excludes other trials
 };
 
-// The time limit of a trial's scenario; none where the manifest does not know it.
+// The time limit of a trial's scenario; none if the manifest lacks it.
 std::optional<double> time_limit_s(const ExperimentFacts& facts, const CombinationLabels& combination);
 
 // The system's value of that trial; none for a skipped trial.

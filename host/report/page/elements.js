@@ -29,6 +29,20 @@ export function fill(parent, ...children) {
   append(parent, children);
 }
 
+// The head of a table with one row.
+export function head_row(...cells) {
+  return element('thead', {}, element('tr', {}, cells));
+}
+
+// The row above a group of rows.
+export function group_row(title, columns) {
+  return element(
+    'tr',
+    {class: 'group'},
+    element('th', {scope: 'rowgroup', colspan: columns}, element('span', {}, title))
+  );
+}
+
 // A table below its title, in a box that scrolls horizontally on a narrow screen.
 export function titled_table(id, title, note, table) {
   table.setAttribute('aria-labelledby', id);

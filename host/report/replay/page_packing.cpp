@@ -10,9 +10,9 @@
 namespace dmrp::host {
 
 std::string gzip(std::string_view text) {
-  constexpr int gzip_window_bits = 15 + 16;  // 16 asks for gzip's header and end in place of zlib's
+  constexpr int gzip_window_bits = 15 + 16;  // 16 selects the format gzip instead of zlib
   constexpr int memory_level = 9;
-  if (text.size() > std::numeric_limits<uInt>::max()) throw std::runtime_error("too much to be packed for a page");
+  if (text.size() > std::numeric_limits<uInt>::max()) throw std::runtime_error("too much text for a page");
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, gzip_window_bits, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot compress");
@@ -29,8 +29,8 @@ std::string gzip(std::string_view text) {
 }
 
 std::string base64(std::string_view bytes) {
-  if (bytes.size() > std::numeric_limits<int>::max()) throw std::runtime_error("too much to be packed for a page");
-  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // and the zero that OpenSSL puts behind it
+  if (bytes.size() > std::numeric_limits<int>::max()) throw std::runtime_error("too much text for a page");
+  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // with OpenSSL's terminating zero
   EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), reinterpret_cast<const unsigned char*>(bytes.data()),
                   static_cast<int>(bytes.size()));
   text.pop_back();

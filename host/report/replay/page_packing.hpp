@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// page_packing.hpp: large text as a page carries it: gzip in base64, which a browser unpacks by DecompressionStream.
+// page_packing.hpp: packs large text for the page as gzip in base64, which browsers unpack by DecompressionStream.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace dmrp::host {
 
-// Equal texts give equal results: no time and no file name goes in. Throws std::runtime_error.
+// Deterministic: the header contains no time and no file name. Throws std::runtime_error.
 std::string gzip(std::string_view text);
 
 std::string base64(std::string_view bytes);  // on one line, padded

@@ -15,7 +15,7 @@ auto labels(const TrialRecord& trial) {
   return std::tie(trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model);
 }
 
-// In the order in which the combinations first appear.
+// In order of first appearance.
 std::vector<Group> combinations(std::span<const TrialRecord> trials) {
   std::vector<Group> groups;
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -34,7 +34,7 @@ bool higher_is_better(std::span<const MetricColumn> metrics, std::string_view na
   return found != metrics.end() && found->direction == DMRP_DIRECTION_HIGHER;
 }
 
-// Best first; empty where no metric of the list has a value.
+// Best first; empty if no metric of `rank_by` has a value.
 Group ranked(std::span<const TrialRecord> trials, const Group& group, std::span<const MetricColumn> metrics,
              std::span<const std::string> rank_by) {
   for (const std::string& metric : rank_by) {
@@ -51,41 +51,43 @@ Group ranked(std::span<const TrialRecord> trials, const Group& group, std::span<
   return {};
 }
 
-void wish_by_outcome(std::span<const TrialRecord> trials, const std::vector<Group>& groups, std::string_view outcome,
-                     const char* why, std::vector<ReplayWish>& wishes) {
-  std::vector<Group> wanted(groups.size());
+void add_by_outcome(std::span<const TrialRecord> trials, const std::vector<Group>& groups, std::string_view outcome,
+                    const char* why, std::vector<ReplayCandidate>& candidates) {
+  std::vector<Group> matching(groups.size());
   std::size_t rounds = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    std::copy_if(groups[g].begin(), groups[g].end(), std::back_inserter(wanted[g]),
+    std::copy_if(groups[g].begin(), groups[g].end(), std::back_inserter(matching[g]),
                  [&](std::size_t trial) { return trials[trial].outcome == outcome; });
-    rounds = std::max(rounds, wanted[g].size());
+    rounds = std::max(rounds, matching[g].size());
   }
   for (std::size_t round = 0; round < rounds; ++round)
-    for (const Group& group : wanted)
-      if (round < group.size()) wishes.push_back({group[round], why});
+    for (const Group& group : matching)
+      if (round < group.size()) candidates.push_back({group[round], why});
 }
 
 }  // namespace
 
-std::vector<ReplayWish> wished_replays(std::span<const TrialRecord> trials, std::span<const MetricColumn> metrics,
-                                       std::span<const std::string> rank_by, std::span<const std::uint64_t> asked) {
-  std::vector<ReplayWish> wishes;
+std::vector<ReplayCandidate> replay_candidates(std::span<const TrialRecord> trials,
+                                               std::span<const MetricColumn> metrics,
+                                               std::span<const std::string> rank_by,
+                                               std::span<const std::uint64_t> asked) {
+  std::vector<ReplayCandidate> candidates;
   for (const std::uint64_t id : asked)
     for (std::size_t i = 0; i < trials.size(); ++i)
-      if (trials[i].id == id) wishes.push_back({i, "asked"});
+      if (trials[i].id == id) candidates.push_back({i, "asked"});
 
   const std::vector<Group> groups = combinations(trials);
-  std::vector<ReplayWish> worst;
+  std::vector<ReplayCandidate> worst;
   for (const Group& group : groups) {
     const Group best_first = ranked(trials, group, metrics, rank_by);
     if (best_first.empty()) continue;
-    wishes.push_back({best_first[(best_first.size() - 1) / 2], "median"});
+    candidates.push_back({best_first[(best_first.size() - 1) / 2], "median"});
     worst.push_back({best_first.back(), "worst"});
   }
-  wishes.insert(wishes.end(), worst.begin(), worst.end());
-  wish_by_outcome(trials, groups, trial_outcome::fault, "fault", wishes);
-  wish_by_outcome(trials, groups, trial_outcome::failed, "failure", wishes);
-  return wishes;
+  candidates.insert(candidates.end(), worst.begin(), worst.end());
+  add_by_outcome(trials, groups, trial_outcome::fault, "fault", candidates);
+  add_by_outcome(trials, groups, trial_outcome::failed, "failure", candidates);
+  return candidates;
 }
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_choice.hpp: which trials of a run are worth a replay, and in which order where there is no room for all.
+// replay_choice.hpp: selects the trials of a run for replays, in order of priority.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,18 @@
 
 namespace dmrp::host {
 
-struct ReplayWish {
+struct ReplayCandidate {
   std::size_t trial = 0;  // index into the trials
   std::string why;        // "asked", "median", "worst", "fault", "failure"
 };
 
-// Most wanted first: the trials asked for by id; every combination's median trial (the lower one of an even number),
-// then every combination's worst; then faults and failures, of each combination one, of each a second, and so on.
-// Trials are ranked by the first metric of `rank_by` that is defined anywhere in their combination, equals by id. A
-// trial may be wished for more than one reason. Skipped trials count for nothing.
-std::vector<ReplayWish> wished_replays(std::span<const TrialRecord> trials, std::span<const MetricColumn> metrics,
-                                       std::span<const std::string> rank_by, std::span<const std::uint64_t> asked);
+// In order of priority: requested trials; the median trial of every combination (the lower one of an even number); the
+// worst of every combination; faults, then failures, in rounds of one for each combination. Trials are ranked by the
+// first metric of `rank_by` that is defined in their combination, ties by id. A trial appears once for each reason.
+// Ignores skipped trials.
+std::vector<ReplayCandidate> replay_candidates(std::span<const TrialRecord> trials,
+                                               std::span<const MetricColumn> metrics,
+                                               std::span<const std::string> rank_by,
+                                               std::span<const std::uint64_t> asked);
 
 }  // namespace dmrp::host

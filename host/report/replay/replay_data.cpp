@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-// Everything that is sampled.
+// The tracks and contacts, from the samples.
 struct Tracks {
   std::vector<std::int64_t> times_ms;
   std::vector<RobotTrack> robots;
@@ -43,7 +43,7 @@ void keep_sample(Tracks& to, const dmrp_sample& sample, const std::deque<core::T
   to.plan.add(index, index_of(sample.plan, plans));
 }
 
-// Where planning failed nothing was sampled: the robots stand at their starts.
+// Without a plan there are no samples: one sample with the robots at their starts.
 void keep_start(Tracks& to, const dmrp_world& world) {
   to.times_ms.push_back(0);
   for (std::uint32_t i = 0; i < world.robot_count; ++i) {
@@ -55,7 +55,7 @@ void keep_start(Tracks& to, const dmrp_world& world) {
   to.plan.add(0, -1);
 }
 
-// Contacts are told from every sample; of the rest, the first at or after each period and the last of all are kept.
+// Contacts use every sample; the tracks keep the first sample at or after each period and the last one.
 Tracks follow(core::TraceReader& trace) {
   Tracks tracks;
   tracks.robots.resize(trace.world().robot_count);

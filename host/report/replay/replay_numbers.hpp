@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_numbers.hpp: numbers of a replay: integers, and the two ways in which many of them are written.
+// replay_numbers.hpp: converts numbers of a replay to integers, and encodes series of them.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace dmrp::host {
 
-// Millimetres, milliradians, mm/s of a number in SI units.
+// A number in SI units as millimetres, milliradians or mm/s.
 inline std::int64_t thousandths(double value) {
   return std::llround(value * 1000.0);
 }
@@ -20,7 +20,7 @@ inline std::int64_t milliseconds(std::int64_t ns) {
   return (ns + 500'000) / 1'000'000;
 }
 
-// A series that changes little from sample to sample: the first value, then differences.
+// A series as its first value and differences.
 class Deltas {
  public:
   void add(std::int64_t value) {
@@ -35,7 +35,7 @@ class Deltas {
   std::int64_t last_ = 0;
 };
 
-// A series that seldom changes: [sample, value, sample, value, ...], a pair where a new value begins.
+// A series with few changes as [sample, value, sample, value, ...], one pair for each change.
 class Runs {
  public:
   void add(std::size_t sample, std::int64_t value) {

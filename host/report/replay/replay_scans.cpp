@@ -17,7 +17,7 @@ std::int64_t microradians(double angle) {
   return std::llround(angle * 1e6);
 }
 
-// Centimetres from beam to beam; 0 where nothing was hit.
+// Differences between beams in centimetres; 0 for a beam without a hit.
 void write_ranges(const core::TraceScan& scan, std::size_t every, std::vector<std::int64_t>& to) {
   std::int64_t last = 0;
   for (std::size_t i = 0; i < scan.ranges.size(); i += every) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_scans.hpp: what the lidars of a trial saw, where that was recorded, coarser than it was: a picture needs less.
+// replay_scans.hpp: the recorded lidar scans of a trial, at reduced resolution.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace dmrp::host {
 
-// Of one robot; null where it has no scans. `times_ms`: of the replay's samples. All scans of a robot have the same
-// beams.
+// The scans of one robot; null if there are none. `times_ms`: times of the replay's samples. All scans of a robot have
+// the same beams.
 nlohmann::json replay_scans(const std::vector<core::TraceScan>& scans, std::uint32_t robot,
                             std::span<const std::int64_t> times_ms);
 

@@ -14,7 +14,7 @@ dmrp_vec2 waypoint(const dmrp_path& path, std::uint32_t index) {
   return {path.waypoints[index].x, path.waypoints[index].y};
 }
 
-// From a point to the closest point of a path that is not empty.
+// The distance of a point from a path that is not empty.
 double distance_to(const dmrp_path& path, dmrp_vec2 point) {
   double nearest = toolkit::squared_distance(waypoint(path, 0), point);
   for (std::uint32_t i = 1; i < path.count; ++i)
@@ -33,7 +33,7 @@ void RobotTrack::add(std::size_t sample, const dmrp_robot_sample& robot, const d
   state_.add(sample, robot.state);
   goal_.add(sample, robot.goal_index);
 
-  // the curves end where the robot's task did
+  // the curves end with the robot's task
   if (!active_) return;
   active_ = robot.state == DMRP_ROBOT_ACTIVE;
   const double speed = std::hypot(robot.velocity.v_x, robot.velocity.v_y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_tracks.hpp: what moves in a replay: robots and people, sample by sample.
+// replay_tracks.hpp: the tracks of robots and people in a replay.
 #pragma once
 
 #include <dmrp/metric.h>
@@ -16,10 +16,10 @@ namespace dmrp::host {
 
 class RobotTrack {
  public:
-  // `plan`: in force; may be null.
+  // `path`: the current path; may be null.
   void add(std::size_t sample, const dmrp_robot_sample& robot, const dmrp_path* path);
 
-  // Adds its series to what is known of the robot already.
+  // Adds the series to the robot's JSON object.
   void write_to(nlohmann::json& robot) &&;
 
  private:
@@ -31,7 +31,7 @@ class RobotTrack {
   Runs goal_;
   bool active_ = true;
   Deltas speed_;
-  Deltas deviation_;  // -1 where there was no path
+  Deltas deviation_;  // -1 without a path
 };
 
 class PeopleTracks {
@@ -40,7 +40,7 @@ class PeopleTracks {
   nlohmann::json json() &&;
 
  private:
-  // From entering to leaving.
+  // One person's presence, from entering to leaving.
   struct Visit {
     std::uint64_t id;
     std::uint32_t group;
@@ -50,7 +50,7 @@ class PeopleTracks {
     Deltas y;
   };
   std::vector<Visit> visits_;
-  std::map<std::uint64_t, std::size_t> latest_;  // by id: its last visit
+  std::map<std::uint64_t, std::size_t> latest_;  // by id: index of the last visit
 };
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replay_world.hpp: what stands still in a replay: the world, and the plans.
+// replay_world.hpp: the static parts of a replay: world, robots' properties, plans.
 #pragma once
 
 #include <dmrp/world.h>
@@ -13,7 +13,7 @@ namespace dmrp::host {
 
 nlohmann::json replay_world(const dmrp_world& world);
 
-// What of a robot does not change: name, outline, limits, goals.
+// Name, outline, limits and goals of a robot.
 nlohmann::json replay_robot(const dmrp_robot& robot);
 
 nlohmann::json replay_plans(const std::deque<core::TracePlan>& plans);

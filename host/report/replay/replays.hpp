@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// replays.hpp: the replays that a report carries.
+// replays.hpp: selects and encodes the replays of a report.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@
 namespace dmrp::host {
 
 struct ReplayPolicy {
-  std::vector<std::string> rank_by;       // metrics: the first that is defined in a combination ranks its trials
-  std::size_t budget_bytes = 12'000'000;  // of all replays together, as they stand in the page
-  std::vector<std::uint64_t> asked = {};  // ids of trials to take whatever they are like
+  std::vector<std::string> rank_by;       // metrics: the first one defined in a combination ranks its trials
+  std::size_t budget_bytes = 12'000'000;  // of all packed replays
+  std::vector<std::uint64_t> asked = {};  // ids of requested trials
 };
 
 struct Replay {
@@ -25,20 +25,20 @@ struct Replay {
   std::string packed;            // replay_json() by gzip, in base64
 };
 
-struct ReplaysLeftOut {
-  std::string why;  // they were wished for
+struct OmittedReplays {
+  std::string why;  // reason for the selection
   std::uint64_t trials = 0;
-  std::string reason;  // for people
+  std::string reason;  // reason for the omission, for readers
 };
 
 struct Replays {
-  std::vector<Replay> replays;           // by id
-  std::vector<ReplaysLeftOut> left_out;  // most wanted first
+  std::vector<Replay> replays;          // by id
+  std::vector<OmittedReplays> omitted;  // by priority
 };
 
-// From RUN_DIRECTORY/traces/trial_000000.mcap and so on. A trial whose trace is missing or damaged, and what does not
-// fit into the budget, is left out and counted. `trials` are ordered by id.
-Replays choose_and_encode_replays(const std::filesystem::path& run_directory, std::span<const TrialRecord> trials,
-                                  std::span<const MetricColumn> metrics, const ReplayPolicy& policy);
+// Reads RUN_DIRECTORY/traces/trial_000000.mcap and so on. Omits and counts trials whose trace is missing or damaged or
+// whose replay exceeds the budget. `trials` are ordered by id.
+Replays encode_replays(const std::filesystem::path& run_directory, std::span<const TrialRecord> trials,
+                       std::span<const MetricColumn> metrics, const ReplayPolicy& policy);
 
 }  // namespace dmrp::host

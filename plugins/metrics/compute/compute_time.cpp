@@ -14,11 +14,11 @@ Descriptor ComputeTime::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.compute_time", "Compute time")
-      .summary("wall time of calls of planner and controllers: mean, 99th percentile, missed deadlines")
-      .source("the benchmark's own; after MRPB 1.0, Wen et al., ICRA 2021: computation cost of a control cycle")
+      .summary("wall time of planner and controller calls: mean, 99th percentile, missed deadlines")
+      .source("own definition; after MRPB 1.0, Wen et al., ICRA 2021: computation cost of a control cycle")
       .channels(DMRP_CHANNEL_CALLS)
       .value("plan_call_mean", "ms", lower, Subjects::system,
-             "mean wall time of all calls of plan(), replans too; undefined without one")
+             "mean wall time of all calls of plan(), including replans; undefined without a call")
       .wall_clock()
       .value("plan_call_p99", "ms", lower, Subjects::system,
              "99th percentile of the same by nearest rank; undefined without a call")
@@ -28,7 +28,7 @@ Descriptor ComputeTime::describe() {
       .wall_clock()
       .value("control_call_mean", "ms", lower, robots,
              "mean wall time of the robot's calls of step(); system: over the calls of all robots; undefined without "
-             "one")
+             "a call")
       .wall_clock()
       .value("control_call_p99", "ms", lower, robots,
              "99th percentile of the same by nearest rank; system: over the calls of all robots; undefined without a "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// compute_time.hpp: how long calls of planners and controllers took, and how many took too long.
+// compute_time.hpp: wall time of planner and controller calls, and the share of calls that took too long.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ class ComputeTime final : public Metric {
     std::vector<std::int64_t> durations_ns;
     std::size_t missed = 0;
     double mean_ms() const;
-    double p99_ms() const;  // nearest rank: the least that 99 % of the calls do not exceed
+    double p99_ms() const;  // nearest rank: the smallest duration that 99 % of the calls do not exceed
     double missed_percent() const;
   };
 
   Calls planning_;
-  std::vector<Calls> control_;  // a robot
+  std::vector<Calls> control_;  // by robot
 };
 
 }  // namespace dmrp::metrics

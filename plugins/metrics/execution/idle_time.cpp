@@ -18,10 +18,10 @@ constexpr double still_omega = 0.02;  // rad/s
 
 Descriptor IdleTime::describe() {
   return describe_metric("dmrp.metric.idle_time", "Idle time")
-      .summary("time in which a robot on its way neither drives nor turns")
+      .summary("time in which an active robot neither drives nor turns")
       .source("HuNavSim, Perez-Higueras et al., RA-L 2023: time not moving")
       .value("idle_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "active time with |v| < 0.01 m/s and |omega| < 0.02 rad/s, both measured; system: mean over robots; "
+             "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; system: mean over robots; "
              "undefined if planning failed");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// idle_time.hpp: how long robots stand still on their way.
+// idle_time.hpp: the time in which robots stand still before they arrive.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class IdleTime final : public Metric {
   };
 
   ActiveSteps active_;
-  std::vector<Times> times_;  // a robot
+  std::vector<Times> times_;  // by robot
 };
 
 }  // namespace dmrp::metrics

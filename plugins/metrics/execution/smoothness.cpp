@@ -12,22 +12,23 @@
 namespace dmrp::metrics {
 namespace {
 
-// By one turn to the first goal's direction, one at every goal to the next, and one to the last goal's own heading.
+// The least turning that the task needs: toward the first goal, at every goal toward the next, and to the last goal's
+// heading.
 double least_turning(const Robot& robot) {
   double sum_rad = 0.0;
   double heading = robot.start.theta;
   Vec2 at = toolkit::position(robot.start);
-  double asked = undefined;
+  double goal_heading = undefined;
   for (const Goal& goal : Span<Goal>(robot.goals, robot.goal_count, robot.goal_stride)) {
     const Vec2 next = toolkit::position(goal.pose);
-    asked = goal.pose.theta;
+    goal_heading = goal.pose.theta;
     if (next == at) continue;
     const double bearing = toolkit::bearing(at, next);
     sum_rad += std::fabs(toolkit::difference(heading, bearing));
     heading = bearing;
     at = next;
   }
-  return std::isnan(asked) ? sum_rad : sum_rad + std::fabs(toolkit::difference(heading, asked));
+  return std::isnan(goal_heading) ? sum_rad : sum_rad + std::fabs(toolkit::difference(heading, goal_heading));
 }
 
 }  // namespace
@@ -36,24 +37,23 @@ Descriptor Smoothness::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.smoothness", "Smoothness")
-      .summary("turning, and mean size of acceleration and jerk, until the robot arrived")
+      .summary("turning, and mean acceleration and jerk, until the robot arrives")
       .source(
           "Guzzi et al., Human-friendly robot navigation in dynamic environments, ICRA 2013: path irregularity; "
           "acceleration and jerk as in HuNavSim, Perez-Higueras et al., RA-L 2023")
       .value("heading_change", "rad", lower, robots,
-             "sum over the steps of its active time of |wrap(theta - theta before)|; system: mean over robots; "
+             "sum over the steps of active time of |wrap(theta - previous theta)|; system: mean over robots; "
              "undefined if planning failed")
       .value("path_irregularity", "rad/m", lower, robots,
              "max(0, heading_change - least turning) / length driven while active; least turning: from the start's "
-             "heading to the straight line to the first goal, from there to the next goal's, ..., to the last goal's "
-             "heading where one is asked; system: mean over robots; undefined where nothing was driven")
+             "heading to the direction of the first goal, from there to the direction of the next goal, ..., to the "
+             "last goal's heading if it has one; system: mean over robots; undefined if the robot did not move")
       .value("acceleration", "m/s^2", lower, robots,
-             "mean over its active time of |dv/dt|, v = (v_x, v_y) in the robot's own frame, from sample to sample; "
+             "mean over active time of |dv/dt|, v = (v_x, v_y) in the robot's frame, from sample to sample; "
              "system: mean over robots; undefined if planning failed")
-      .value(
-          "jerk", "m/s^3", lower, robots,
-          "mean over its active time of |da/dt|, a = dv/dt of one step, from the middle of one step to the middle of "
-          "the next; system: mean over robots; undefined without two steps");
+      .value("jerk", "m/s^3", lower, robots,
+             "mean over active time of |da/dt|, a = dv/dt of one step, from the middle of one step to the middle of "
+             "the next; system: mean over robots; undefined without two steps");
 }
 
 void Smoothness::begin(const dmrp_plan*) {
@@ -85,7 +85,7 @@ void Smoothness::Motion::add_step(const RobotSample& robot, std::int64_t dt_ns) 
   const Vec2 acceleration = change / seconds(dt_ns);
   if (last_dt_ns > 0) {
     acceleration_change.add(toolkit::norm(acceleration - last_acceleration));
-    shook_ns += (last_dt_ns + dt_ns) / 2;
+    jerk_ns += (last_dt_ns + dt_ns) / 2;
   }
   last_acceleration = acceleration;
   last_dt_ns = dt_ns;
@@ -110,7 +110,7 @@ void Smoothness::finish(const TrialEnd&, MetricSink& sink) {
   give_mean(sink, "acceleration",
             values_of(motions_, [&](const Motion& motion) { return mean(motion.velocity_change, motion.moved_ns); }));
   give_mean(sink, "jerk", values_of(motions_, [&](const Motion& motion) {
-              return mean(motion.acceleration_change, motion.shook_ns);
+              return mean(motion.acceleration_change, motion.jerk_ns);
             }));
 }
 

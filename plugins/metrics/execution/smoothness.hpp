@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// smoothness.hpp: how much robots turn, and how hard they speed up and brake.
+// smoothness.hpp: turning, acceleration and jerk of robots.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,13 @@ class Smoothness final : public Metric {
   // Sums over the active steps of one robot.
   struct Motion {
     CompensatedSum turned_rad, driven_m, velocity_change, acceleration_change;
-    std::int64_t moved_ns = 0;  // over which the velocity's changes were summed
-    std::int64_t shook_ns = 0;  // over which the acceleration's were
+    std::int64_t moved_ns = 0;  // the time over which velocity_change sums
+    std::int64_t jerk_ns = 0;   // the time over which acceleration_change sums
 
     Pose last_pose;
-    Vec2 last_velocity;           // own frame, m/s
-    Vec2 last_acceleration;       // mean of the step before, m/s^2
-    std::int64_t last_dt_ns = 0;  // of the step before; 0: there was none
+    Vec2 last_velocity;           // in the robot's frame, m/s
+    Vec2 last_acceleration;       // mean of the previous step, m/s^2
+    std::int64_t last_dt_ns = 0;  // of the previous step; 0: there was none
     void add_step(const RobotSample& robot, std::int64_t dt_ns);
   };
 
@@ -36,7 +36,7 @@ class Smoothness final : public Metric {
 
   ActiveSteps active_;
   bool begun_ = false;
-  std::vector<Motion> motions_;  // a robot
+  std::vector<Motion> motions_;  // by robot
 };
 
 }  // namespace dmrp::metrics

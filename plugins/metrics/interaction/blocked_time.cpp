@@ -17,37 +17,37 @@ constexpr double moving_speed = 0.01;  // m/s
 
 Descriptor BlockedTime::describe() {
   return describe_metric("dmrp.metric.blocked_time", "Blocked time")
-      .summary("time in which a robot that has set out, and has not arrived, gains nothing along its path")
-      .source("the benchmark's own; waits that the plan asks for count too")
+      .summary("time in which a robot makes no progress along its path, after it first moved and before it arrives")
+      .source("own definition; waits that the plan demands count too")
       .value("blocked_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
              "length of the union of all windows of window_s, after the robot first moved (|v| >= 0.01 m/s) and while "
-             "it is active, in which it gained less than progress_m along its paths; system: mean over robots; "
+             "it is active, in which it progressed by less than progress_m along its paths; system: mean over robots; "
              "undefined if planning failed");
 }
 
 void BlockedTime::begin(const dmrp_plan*) {
   active_.begin(world().robots().size());
-  watched_.assign(world().robots().size(), {});
-  for (Watched& watched : watched_) watched.progress.begin(std::llround(window_s * 1e9));
+  robots_.assign(world().robots().size(), {});
+  for (RobotProgress& robot : robots_) robot.progress.begin(std::llround(window_s * 1e9));
 }
 
 void BlockedTime::observe(const Sample& sample) {
   active_.observe(sample);
-  for (std::size_t robot = 0; robot < watched_.size(); ++robot) {
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
-    Watched& watched = watched_[robot];
+    RobotProgress& state = robots_[robot];
     const RobotSample& now = sample.robots[robot];
-    watched.measured = true;
-    watched.started = watched.started || speed_of(now) >= moving_speed;
-    if (!watched.started) continue;
-    watched.progress.observe(sample, now);
-    if (watched.progress.stalls(progress_m)) watched.blocked.add(watched.progress.since_ns(), sample.t_ns);
+    state.measured = true;
+    state.started = state.started || speed_of(now) >= moving_speed;
+    if (!state.started) continue;
+    state.progress.observe(sample, now);
+    if (state.progress.stalls(progress_m)) state.blocked.add(state.progress.since_ns(), sample.t_ns);
   }
 }
 
 void BlockedTime::finish(const TrialEnd&, MetricSink& sink) {
-  give_mean(sink, "blocked_time", values_of(watched_, [](const Watched& watched) {
-              return watched.measured ? in_seconds(watched.blocked.value_ns()) : undefined;
+  give_mean(sink, "blocked_time", values_of(robots_, [](const RobotProgress& state) {
+              return state.measured ? in_seconds(state.blocked.value_ns()) : undefined;
             }));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// blocked_time.hpp: how long robots that have set out make no progress.
+// blocked_time.hpp: the time in which robots make no progress after they first moved.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -14,27 +14,29 @@ namespace dmrp::metrics {
 class BlockedTime final : public Metric {
  public:
   static Descriptor describe();
-  Param<double> window_s =
-      param("window_s", 2.0).unit("s").range(0.001, 1000.0).doc("time without progress that counts as blocked");
+  Param<double> window_s = param("window_s", 2.0)
+                               .unit("s")
+                               .range(0.001, 1000.0)
+                               .doc("a robot without progress for this time counts as blocked");
   Param<double> progress_m = param("progress_m", 0.1)
                                  .unit("m")
                                  .range(0.0, 100.0)
-                                 .doc("gaining less than this along the path in a window is no progress");
+                                 .doc("less than this along the path within a window is no progress");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  struct Watched {
-    bool measured = false;  // was active in some step
+  struct RobotProgress {
+    bool measured = false;  // was active in at least one step
     bool started = false;
     RecentProgress progress;
     UnionLength blocked;
   };
 
   ActiveSteps active_;
-  std::vector<Watched> watched_;  // a robot
+  std::vector<RobotProgress> robots_;  // by robot
 };
 
 }  // namespace dmrp::metrics

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-// From `position` to the place on the path at progress_m and on along the path for look_ahead_m.
+// The polyline from `position` to the path at progress_m and along the path for look_ahead_m.
 std::vector<Vec2> way_ahead(const Path& path, Vec2 position, double progress_m, double look_ahead_m) {
   const std::vector<double> arcs = toolkit::arc_lengths(path);
   const double end_m = std::min(progress_m + look_ahead_m, arcs.back());
@@ -30,7 +30,7 @@ std::vector<Vec2> way_ahead(const Path& path, Vec2 position, double progress_m, 
   return way;
 }
 
-// How far along the way one first comes within reach_m of a point; infinity where never.
+// The arc length at which the way first comes within reach_m of a point; infinity if it never does.
 double first_within(const std::vector<Vec2>& way, Vec2 point, double reach_m) {
   double arc_m = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) {
@@ -50,9 +50,9 @@ double first_within(const std::vector<Vec2>& way, Vec2 point, double reach_m) {
   return std::numeric_limits<double>::infinity();
 }
 
-// Each begins with its lowest index; in order of that.
-std::vector<std::vector<std::uint32_t>> circles_of(const std::vector<std::uint32_t>& waits_for) {
-  std::vector<std::vector<std::uint32_t>> circles;
+// The cycles of a graph with at most one edge from each node. Each begins with its lowest index; ordered by that.
+std::vector<std::vector<std::uint32_t>> find_cycles(const std::vector<std::uint32_t>& waits_for) {
+  std::vector<std::vector<std::uint32_t>> cycles;
   std::vector<std::uint32_t> seen_from(waits_for.size(), nobody);
   for (std::uint32_t first = 0; first < waits_for.size(); ++first) {
     std::uint32_t at = first;
@@ -61,29 +61,31 @@ std::vector<std::vector<std::uint32_t>> circles_of(const std::vector<std::uint32
       at = waits_for[at];
     }
     if (at == nobody || seen_from[at] != first) continue;
-    // `at` lies on a circle that is new
-    std::vector<std::uint32_t> circle = {at};
-    for (std::uint32_t next = waits_for[at]; next != at; next = waits_for[next]) circle.push_back(next);
-    std::rotate(circle.begin(), std::min_element(circle.begin(), circle.end()), circle.end());
-    circles.push_back(circle);
+    // `at` lies on a new cycle
+    std::vector<std::uint32_t> cycle = {at};
+    for (std::uint32_t next = waits_for[at]; next != at; next = waits_for[next]) cycle.push_back(next);
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    cycles.push_back(cycle);
   }
-  return circles;
+  return cycles;
 }
 
 }  // namespace
 
 Descriptor Deadlock::describe() {
   return describe_metric("dmrp.metric.deadlock", "Deadlock")
-      .summary("robots that wait for each other in a lasting circle")
-      .source("the benchmark's own; a cycle of who waits for whom as in Coffman et al., System Deadlocks, 1971")
-      .value("deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "number of circles of robots, each waiting for the next, that last lasting_s or longer; a robot waits if "
-             "it is active, gained less than progress_m in window_s, and another robot stands within margin_m of the "
-             "strip that its body sweeps along look_ahead_m of its path: it waits for the first such; robot: circles "
-             "that it is part of; undefined if planning failed")
-      .value("deadlock_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "length of the union of those circles' times, from the moment that all wait; robot: of its own; undefined "
-             "if planning failed");
+      .summary("robots that wait for each other in a lasting cycle")
+      .source("own definition; cycles of the wait-for graph as in Coffman et al., System Deadlocks, 1971")
+      .value(
+          "deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "number of cycles of robots, each waiting for the next, that last at least lasting_s; a robot waits if "
+          "it is active, progressed by less than progress_m in window_s, and another robot is within margin_m of the "
+          "strip that its body sweeps along look_ahead_m of its path: it waits for the first one; robot: cycles "
+          "with this robot; undefined if planning failed")
+      .value(
+          "deadlock_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
+          "length of the union of these cycles' times, from the moment when all wait; robot: of its cycles; undefined "
+          "if planning failed");
 }
 
 void Deadlock::begin(const dmrp_plan*) {
@@ -99,18 +101,18 @@ void Deadlock::observe(const Sample& sample) {
   active_.observe(sample);
   for (std::size_t robot = 0; robot < progress_.size(); ++robot) progress_[robot].observe(sample, sample.robots[robot]);
 
-  std::map<Circle, std::int64_t> now;
-  for (const Circle& circle : circles_of(who_waits_for_whom(sample))) {
-    const auto before = open_.find(circle);
-    now[circle] = before != open_.end() ? before->second : sample.t_ns - sample.dt_ns;
+  std::map<Cycle, std::int64_t> now;
+  for (const Cycle& cycle : find_cycles(wait_graph(sample))) {
+    const auto before = open_.find(cycle);
+    now[cycle] = before != open_.end() ? before->second : sample.t_ns - sample.dt_ns;
   }
-  for (const auto& [circle, from_ns] : open_)
-    if (now.count(circle) == 0) close(circle, from_ns, last_ns_);
+  for (const auto& [cycle, from_ns] : open_)
+    if (now.count(cycle) == 0) close(cycle, from_ns, last_ns_);
   open_.swap(now);
   last_ns_ = sample.t_ns;
 }
 
-std::vector<std::uint32_t> Deadlock::who_waits_for_whom(const Sample& sample) const {
+std::vector<std::uint32_t> Deadlock::wait_graph(const Sample& sample) const {
   std::vector<std::uint32_t> waits_for(progress_.size(), nobody);
   for (std::uint32_t robot = 0; robot < progress_.size(); ++robot)
     if (sample.plan && active_.in_step(robot) && progress_[robot].stalls(progress_m))
@@ -136,29 +138,28 @@ std::uint32_t Deadlock::first_in_way(const Sample& sample, std::uint32_t robot) 
   return first;
 }
 
-void Deadlock::close(const Circle& circle, std::int64_t from_ns, std::int64_t to_ns) {
-  if (to_ns - from_ns >= std::llround(lasting_s * 1e9)) deadlocks_.push_back({from_ns, to_ns, circle});
+void Deadlock::close(const Cycle& cycle, std::int64_t from_ns, std::int64_t to_ns) {
+  if (to_ns - from_ns >= std::llround(lasting_s * 1e9)) deadlocks_.push_back({from_ns, to_ns, cycle});
 }
 
 void Deadlock::finish(const TrialEnd&, MetricSink& sink) {
-  for (const auto& [circle, from_ns] : open_) close(circle, from_ns, last_ns_);
-  std::sort(deadlocks_.begin(), deadlocks_.end(), [](const Lasting& a, const Lasting& b) {
-    return std::tie(a.from_ns, a.circle) < std::tie(b.from_ns, b.circle);
-  });
+  for (const auto& [cycle, from_ns] : open_) close(cycle, from_ns, last_ns_);
+  std::sort(deadlocks_.begin(), deadlocks_.end(),
+            [](const Event& a, const Event& b) { return std::tie(a.from_ns, a.cycle) < std::tie(b.from_ns, b.cycle); });
 
   UnionLength all;
   std::vector<UnionLength> own(progress_.size());
   std::vector<double> counts(progress_.size(), 0.0), times_s;
-  for (const Lasting& deadlock : deadlocks_) {
+  for (const Event& deadlock : deadlocks_) {
     all.add(deadlock.from_ns, deadlock.to_ns);
     std::string text = "robots ";
-    for (const std::uint32_t robot : deadlock.circle) {
+    for (const std::uint32_t robot : deadlock.cycle) {
       own[robot].add(deadlock.from_ns, deadlock.to_ns);
       ++counts[robot];
       text += std::to_string(robot) + " -> ";
     }
-    text += std::to_string(deadlock.circle.front()) + " wait for each other";
-    sink.event("deadlocks", deadlock.from_ns, deadlock.to_ns, deadlock.circle, text);
+    text += std::to_string(deadlock.cycle.front()) + " wait for each other";
+    sink.event("deadlocks", deadlock.from_ns, deadlock.to_ns, deadlock.cycle, text);
   }
   const bool measured = last_ns_ >= 0 && !progress_.empty();
   for (std::size_t robot = 0; robot < own.size(); ++robot) {

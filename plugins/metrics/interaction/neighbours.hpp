@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// neighbours.hpp: how many other robots a robot has around it on its way.
+// neighbours.hpp: the number of other robots around a robot.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -11,8 +11,10 @@ namespace dmrp::metrics {
 class Neighbours final : public Metric {
  public:
   static Descriptor describe();
-  Param<double> radius_m =
-      param("radius_m", 2.0).unit("m").range(0.0, 1000.0).doc("R: robots at most this far away, centre to centre");
+  Param<double> radius_m = param("radius_m", 2.0)
+                               .unit("m")
+                               .range(0.0, 1000.0)
+                               .doc("R: robots at most this far away count, centre to centre");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;

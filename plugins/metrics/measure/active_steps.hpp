@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// active_steps.hpp: in which steps a robot was active: on its way, neither arrived nor given up.
+// active_steps.hpp: the steps in which a robot was active: on its way, neither arrived nor given up.
 //
-// Everywhere in these metrics a sample stands for the step that ended with it: the interval (t - dt, t]. So the first
-// sample stands for no time at all, and the last one counts in full.
+// In all metrics, a sample represents the step that ended with it: the interval (t - dt, t]. So the first sample
+// represents no time, and the last one counts in full.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -23,7 +23,7 @@ class ActiveSteps {
       now_[robot] = sample.robots[robot].state == DMRP_ROBOT_ACTIVE;
   }
 
-  // In the step that ended with the sample: the step of the arrival is the last active one; the first sample ends none.
+  // In the step that ended with the sample. The step of the arrival is the last active one; the first sample ends none.
   bool in_step(std::size_t robot) const { return before_[robot]; }
 
   // At the instant of the sample.

@@ -14,7 +14,7 @@ struct Disc {
   double radius_m;
 };
 
-// A footprint that is a polygon counts as the circle that holds it.
+// A polygonal footprint counts as its circumscribed circle.
 inline Disc disc_of(const Robot& robot, const RobotSample& now) {
   return {toolkit::position(now.pose), robot.footprint->radius_m};
 }
@@ -28,7 +28,7 @@ inline double surface_distance(const Disc& a, const Disc& b) {
   return toolkit::distance(a.center, b.center) - a.radius_m - b.radius_m;
 }
 
-// The surface that is nearest to a disc, of discs given one by one; roots are taken of those alone that come nearer.
+// The least surface distance from a disc to discs added one by one. Computes a square root only for nearer ones.
 class NearestDisc {
  public:
   explicit NearestDisc(const Disc& own) : own_(own) {}
@@ -38,7 +38,7 @@ class NearestDisc {
     if (reach_m > 0.0 && squared_distance < reach_m * reach_m) distance_m_ = surface_distance(own_, other);
   }
 
-  // NaN where there was none.
+  // NaN if no disc was added.
   double distance_m() const { return std::isinf(distance_m_) ? undefined : distance_m_; }
 
  private:
@@ -46,7 +46,7 @@ class NearestDisc {
   double distance_m_ = std::numeric_limits<double>::infinity();
 };
 
-// As measured, in the world frame, m/s: a robot's own is in its own.
+// The measured velocity in the world frame, m/s. (Samples hold it in the robot's frame.)
 inline Vec2 world_velocity(const RobotSample& robot) {
   return toolkit::rotate({robot.velocity.v_x, robot.velocity.v_y}, robot.pose.theta);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// contact_fault.hpp: who takes part in a contact and whose fault it is.
+// contact_fault.hpp: the parties of a contact and the fault of each.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -14,7 +14,7 @@ inline bool begins(const Contact& contact) {
   return (contact.flags & DMRP_CONTACT_BEGINS) != 0;
 }
 
-// A contact that nobody could have avoided is no robot's fault, however the robot moved.
+// An unavoidable contact is not the robot's fault, however it moved.
 inline bool unavoidable(const Contact& contact) {
   return (contact.flags & DMRP_CONTACT_UNAVOIDABLE) != 0;
 }
@@ -23,7 +23,7 @@ inline bool fault_of_a(const Contact& contact) {
   return (contact.flags & DMRP_CONTACT_FAULT_A) != 0 && !unavoidable(contact);
 }
 
-// `b` as a robot; a person's fault is not asked for here.
+// For a robot `b` only; false for a person.
 inline bool fault_of_b(const Contact& contact) {
   return between_robots(contact) && (contact.flags & DMRP_CONTACT_FAULT_B) != 0 && !unavoidable(contact);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// describe_metric.hpp: what the descriptors of all built-in metrics have in common.
+// describe_metric.hpp: the common part of the descriptors of all built-in metrics.
 #pragma once
 
 #include <dmrp/plugin.hpp>

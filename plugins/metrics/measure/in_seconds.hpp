@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// in_seconds.hpp: times as results give them.
+// in_seconds.hpp: conversion of times for results.
 #pragma once
 
 #include <cstdint>
 
 namespace dmrp::metrics {
 
-// One rounding, so that 0.3 s is the double nearest to 0.3.
+// Rounds once, so that 0.3 s is the double nearest to 0.3.
 inline double in_seconds(std::int64_t ns) {
   return static_cast<double>(ns) / 1e9;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mean_count.hpp: the mean over a robot's active time of what is counted about it: who is near. Sums of whole numbers,
-// so exact.
+// mean_count.hpp: the time average of a count, such as a robot's neighbours, over its active time. Sums integers, so it
+// is exact.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class MeanCount {
     times_.assign(robot_count, {});
   }
 
-  // count(position): an integer, asked for every robot that was active in the step.
+  // Calls count(position), which returns an integer, for every robot that was active in the step.
   template <class Count>
   void observe(const Sample& sample, Count&& count) {
     active_.observe(sample);
@@ -32,7 +32,7 @@ class MeanCount {
     }
   }
 
-  // By robot; undefined for one that was never active.
+  // By robot; undefined for a robot that was never active.
   std::vector<double> means() const {
     std::vector<double> means;
     for (const Times& times : times_)
@@ -44,7 +44,7 @@ class MeanCount {
  private:
   struct Times {
     std::int64_t active_ns = 0;
-    std::int64_t counted_ns = 0;  // the same with everything counted
+    std::int64_t counted_ns = 0;  // the integral of the count over active time
   };
 
   ActiveSteps active_;

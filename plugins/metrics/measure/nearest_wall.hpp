@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// nearest_wall.hpp: the static surface that is nearest to something that moves about.
+// nearest_wall.hpp: the static surface nearest to a moving point.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace dmrp::metrics {
 
-// One a moving body. Exact, yet asks few shapes: none but those that were at most 2 * reach further away than the
-// nearest, when the body was last looked at in full, can be nearest before it has moved by more than the reach.
+// Use one object for each moving body. The result is exact, although most calls examine few shapes: until the body has
+// moved by more than `reach` since the last full search, only shapes that were then at most 2 * reach farther away than
+// the nearest can be nearest.
 class NearestWall {
  public:
   struct Surface {
@@ -23,11 +24,11 @@ class NearestWall {
   void begin(const World& world) {
     world_ = world;
     border_ = {world->lower, world->upper};
-    looked_ = false;
+    searched_ = false;
   }
 
   Surface find(Vec2 point) {
-    if (!looked_ || toolkit::squared_distance(point, looked_from_) > reach_m * reach_m) look_around(point);
+    if (!searched_ || toolkit::squared_distance(point, searched_from_) > reach_m * reach_m) search_all(point);
     Surface nearest = border_surface(point);
     for (const std::size_t index : candidates_) {
       const Surface surface = shape_surface(world_.shapes()[index], point);
@@ -39,15 +40,15 @@ class NearestWall {
  private:
   static constexpr double reach_m = 0.5;
 
-  // The border is always asked.
-  void look_around(Vec2 point) {
-    looked_ = true;
-    looked_from_ = point;
+  // The border is always examined, so it is not a candidate.
+  void search_all(Vec2 point) {
+    searched_ = true;
+    searched_from_ = point;
     candidates_.clear();
     distances_m_.clear();
     double nearest_m = border_surface(point).distance_m;
     for (const Shape& shape : world_.shapes()) {
-      // no shape is nearer than its box, whose distance is 0 inside
+      // no shape is nearer than its bounding box, whose distance is 0 inside
       const double to_box_m = toolkit::distance(toolkit::bounds(shape), point);
       const double to_shape_m =
           to_box_m > nearest_m + 2.0 * reach_m ? to_box_m : shape_surface(shape, point).distance_m;
@@ -81,8 +82,8 @@ class NearestWall {
 
   World world_;
   toolkit::Rectangle border_;
-  bool looked_ = false;
-  Vec2 looked_from_ = {0.0, 0.0};
+  bool searched_ = false;
+  Vec2 searched_from_ = {0.0, 0.0};
   std::vector<std::size_t> candidates_;  // indices of shapes
   std::vector<double> distances_m_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// per_robot.hpp: a value a robot, and what the system's is made of: their mean, sum, least or greatest.
+// per_robot.hpp: values by robot, and the system's value: their mean, sum, minimum or maximum.
 //
-// All leave out what is undefined (NaN) and are undefined where nothing is left.
+// All functions skip undefined values (NaN) and return NaN if no value is defined.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ inline double sum_of_defined(const std::vector<double>& values) {
   return any ? sum.value() : undefined;
 }
 
-// fmin and fmax take the number where one of two is NaN.
+// fmin and fmax return the number if one of two arguments is NaN.
 inline double least_of_defined(const std::vector<double>& values) {
   double least = undefined;
   for (const double value : values) least = std::fmin(least, value);
@@ -36,7 +36,7 @@ inline double greatest_of_defined(const std::vector<double>& values) {
   return greatest;
 }
 
-// `of_robots`: one a robot, by index. `of_system` makes the system's value of them.
+// Reports `of_robots`, the values by index of the robot, and of_system(of_robots) as the system's value.
 inline void give(MetricSink& sink, const char* name, const std::vector<double>& of_robots,
                  double (*of_system)(const std::vector<double>&)) {
   for (std::size_t robot = 0; robot < of_robots.size(); ++robot) sink.robot(name, robot, of_robots[robot]);
@@ -47,7 +47,7 @@ inline void give_mean(MetricSink& sink, const char* name, const std::vector<doub
   give(sink, name, of_robots, &mean_of_defined);
 }
 
-// The same of any elements: `value_of(element)` is a robot's value.
+// value_of(element) for each element.
 template <class Element, class ValueOf>
 std::vector<double> values_of(const std::vector<Element>& elements, ValueOf&& value_of) {
   std::vector<double> values;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// recent_progress.hpp: what a robot has gained along its paths within a sliding window of time.
+// recent_progress.hpp: the progress of a robot along its paths within a sliding time window.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace dmrp::metrics {
 
-// One a robot. Finding itself on a new path is no gain.
+// Use one object for each robot. A switch to a new path is not progress.
 class RecentProgress {
  public:
   void begin(std::int64_t window_ns) {
@@ -23,17 +23,18 @@ class RecentProgress {
     revision_ = revision;
     progress_m_ = robot.progress_m;
     history_.push_back({sample.t_ns, gained_m_});
-    // the oldest moment kept is the last that is a whole window old
+    // keep one moment that is at least a whole window old
     while (history_.size() > 1 && history_[1].t_ns <= sample.t_ns - window_ns_) history_.pop_front();
   }
 
-  // Over the window that ends with the last sample; not before one was watched in full.
+  // Whether the progress in the window that ends with the last sample is below `progress_m`. False until a whole window
+  // has been observed.
   bool stalls(double progress_m) const {
     return !history_.empty() && history_.back().t_ns - history_.front().t_ns >= window_ns_ &&
            gained_m_ - history_.front().gained_m < progress_m;
   }
 
-  // Where the window begins.
+  // The beginning of the window.
   std::int64_t since_ns() const { return history_.front().t_ns; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// speed_of.hpp: how fast a robot really moves.
+// speed_of.hpp: the measured speed of a robot.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace dmrp::metrics {
 
-// |v| as measured, m/s; what was commanded is another thing. (sqrt, not hypot: it is the same in every libm.)
+// |v| as measured, not as commanded, m/s. (sqrt is correctly rounded in every libm, hypot is not.)
 inline double speed_of(const RobotSample& robot) {
   return std::sqrt(robot.velocity.v_x * robot.velocity.v_x + robot.velocity.v_y * robot.velocity.v_y);
 }

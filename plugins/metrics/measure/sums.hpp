@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sums.hpp: sums and moments that stay exact over many small terms. The order of terms is the order of calls.
+// sums.hpp: sums and moments that stay accurate over many small terms. They depend on the order of the calls.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ class CompensatedSum {
   double lost_ = 0.0;
 };
 
-// Mean and standard deviation over time of something that is `value` for `duration_ns`. After West (1979):
+// Time-weighted mean and standard deviation of a quantity that has `value` for `duration_ns`. West's algorithm (1979):
 // one pass, without the cancellation of a sum of squares.
 class TimeMoments {
  public:
@@ -37,7 +37,7 @@ class TimeMoments {
     squares_ += weight * before * (value - mean_);
   }
 
-  // NaN where no time was added.
+  // NaN if no time was added.
   double mean() const { return total_ns_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
   double standard_deviation() const {
     if (total_ns_ == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -50,7 +50,7 @@ class TimeMoments {
   double squares_ = 0.0;
 };
 
-// The mean of those values that are not NaN; NaN if there are none.
+// The mean of the values that are not NaN; NaN if there are none.
 inline double mean_of_defined(const std::vector<double>& values) {
   CompensatedSum sum;
   std::size_t count = 0;

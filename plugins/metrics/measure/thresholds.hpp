@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// thresholds.hpp: how a value depends on a threshold, as a curve.
+// thresholds.hpp: a value as a curve over its threshold.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dmrp::metrics {
 
-// `value_at(threshold)` over the threshold, rising, each once; undefined where there are no thresholds.
+// Reports value_at(threshold) for each distinct threshold in ascending order, or one undefined value if there are none.
 template <class ValueAt>
 void give_curve(MetricSink& sink, const char* name, std::vector<double> thresholds, ValueAt&& value_at) {
   std::sort(thresholds.begin(), thresholds.end());

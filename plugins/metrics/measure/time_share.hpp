@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// time_share.hpp: in how much of a time something held. Integers, so exact but for the last division.
+// time_share.hpp: the share of time in which a condition held. Sums integers, so only the last division rounds.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class TimeShare {
     if (held) part_ns_ += duration_ns;
   }
 
-  // NaN where no time was added.
+  // NaN if no time was added.
   double percent() const {
     return whole_ns_ > 0 ? 100.0 * static_cast<double>(part_ns_) / static_cast<double>(whole_ns_) : undefined;
   }

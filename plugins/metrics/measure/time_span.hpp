@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// time_span.hpp: how long events last together.
+// time_span.hpp: the length of a union of time spans.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace dmrp::metrics {
 
-// The length of the union of spans that come in order of their beginnings.
+// Spans must be added in the order of their beginnings.
 class UnionLength {
  public:
   void add(std::int64_t from_ns, std::int64_t to_ns) {

@@ -13,13 +13,13 @@ Descriptor Arrivals::describe() {
   const auto lower = Direction::lower_is_better;
   const auto higher = Direction::higher_is_better;
   return describe_metric("dmrp.metric.arrivals", "Arrivals")
-      .summary("who came to its last goal, when, and goals reached per time")
+      .summary("arrivals at the last goals, their times, and goals reached per time")
       .source(
           "ISR, CSR, makespan, throughput: Skrynnik et al., POGEMA, ICLR 2025; flowtime: Stern et al., Multi-Agent "
           "Pathfinding, SoCS 2019")
       .value("isr", "1", higher, Subjects::system_and_robots,
-             "individual success rate: 1 if the robot was at its last goal in the end, else 0; system: mean over "
-             "robots. Unlike success, a robot that oscillated and arrived after all counts")
+             "individual success rate: 1 if the robot was at its last goal at the end, else 0; system: mean over "
+             "robots. Unlike in success, a robot that oscillated but arrived counts")
       .value("csr", "1", higher, Subjects::system, "cooperative success rate: 1 if isr is 1 for every robot, else 0")
       .value("flowtime", "s", lower, Subjects::system,
              "sum over robots of the time of final arrival; undefined unless all arrive")
@@ -27,7 +27,7 @@ Descriptor Arrivals::describe() {
              "maximum over robots of the time of final arrival, as completion_time; undefined unless all arrive")
       .value(
           "throughput", "1/s", higher, Subjects::system_and_robots,
-          "goals that the robot reached (each of a tour counts) / mission time, 0 if planning failed; system: sum over "
+          "goals that the robot reached (every goal of a tour) / mission time; 0 if planning failed; system: sum over "
           "robots");
 }
 
@@ -47,7 +47,7 @@ void Arrivals::finish(const TrialEnd& end, MetricSink& sink) {
     const bool at_goal = arrival_ns >= 0;
     const std::uint32_t goals = at_goal ? world().robots()[robot].goal_count : goal_index_[robot];
     arrived.push_back(at_goal ? 1.0 : 0.0);
-    throughput.push_back(goals > 0 ? goals / in_seconds(end.t_ns) : 0.0);  // no time, where planning failed
+    throughput.push_back(goals > 0 ? goals / in_seconds(end.t_ns) : 0.0);  // the mission time is 0 if planning failed
     sum_ns += arrival_ns;
     last_ns = std::max(last_ns, arrival_ns);
   }

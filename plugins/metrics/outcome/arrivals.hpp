@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// arrivals.hpp: the outcome in the terms of multi-agent path finding: who came to its goal, when, how many goals a time.
+// arrivals.hpp: the outcome in terms of multi-agent path finding: success rates, flowtime, makespan, throughput.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Arrivals final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  std::vector<std::uint32_t> goal_index_;  // a robot: its current goal at the last sample
+  std::vector<std::uint32_t> goal_index_;  // by robot: its current goal at the last sample
 };
 
 }  // namespace dmrp::metrics

@@ -10,13 +10,13 @@ namespace dmrp::metrics {
 
 Descriptor CompletionTime::describe() {
   return describe_metric("dmrp.metric.completion_time", "Completion time")
-      .summary("simulated time until the robots had arrived for good, and until the trial ended")
+      .summary("simulated time until the robots arrived, and until the trial ended")
       .source("Hu et al., DMRP-Bench, ICRA 2026: completion time")
       .value("completion_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "final arrival of the robot, undefined if it did not arrive; system: the last arrival, undefined unless "
-             "all arrive")
+             "time of the robot's final arrival, undefined if it did not arrive; system: the last arrival, undefined "
+             "unless all arrive")
       .value("mission_time", "s", Direction::lower_is_better, Subjects::system,
-             "end of the trial, however it ended: always finite");
+             "end of the trial for any reason: always finite");
 }
 
 void CompletionTime::finish(const TrialEnd& end, MetricSink& sink) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// completion_time.hpp: when the robots were done, and how long the trial lasted.
+// completion_time.hpp: the times of arrival, and the duration of the trial.
 #pragma once
 
 #include <dmrp/plugin.hpp>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// path_length.hpp: how far the robots drove, and how far and with how many turns they were told to.
+// path_length.hpp: driven length, planned length and planned turns.
 #pragma once
 
 #include <dmrp/plugin.hpp>
-#include <vector>
 
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/driven_length.hpp"
 
 namespace dmrp::metrics {
 
@@ -18,8 +17,7 @@ class PathLength final : public Metric {
 
  private:
   const dmrp_plan* first_plan_ = nullptr;
-  std::vector<CompensatedSum> driven_m_;
-  std::vector<Vec2> last_position_;  // empty before the first sample
+  DrivenLength driven_;
 };
 
 }  // namespace dmrp::metrics

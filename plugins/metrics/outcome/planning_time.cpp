@@ -9,9 +9,10 @@ Descriptor PlanningTime::describe() {
   return describe_metric("dmrp.metric.planning_time", "Planning time")
       .summary("wall time of the call that made the first plan")
       .source("Hu et al., DMRP-Bench, ICRA 2026: planning time")
-      .value("planning_time", "ms", Direction::lower_is_better, Subjects::system,
-             "wall time of the first call of plan(), as in the paper's Table II: replans start from easier and harder "
-             "places and are left out; undefined if planning failed")
+      .value(
+          "planning_time", "ms", Direction::lower_is_better, Subjects::system,
+          "wall time of the first call of plan(), as in the paper's Table II, without replans, which solve easier or "
+          "harder problems; undefined if planning failed")
       .wall_clock();
 }
 

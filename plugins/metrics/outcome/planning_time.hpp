@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// planning_time.hpp: how long the first plan took to make.
+// planning_time.hpp: the wall time of the first planner call.
 #pragma once
 
 #include <dmrp/plugin.hpp>

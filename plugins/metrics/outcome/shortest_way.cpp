@@ -27,7 +27,7 @@ double ShortestWay::length(Vec2 from, Vec2 to, double radius_m) {
   first_ = grid_.index_of(from);
   last_ = grid_.index_of(to);
   if (first_ == toolkit::no_cell || last_ == toolkit::no_cell) return undefined;
-  if (sees(from, to)) return toolkit::distance(from, to);
+  if (is_visible(from, to)) return toolkit::distance(from, to);
 
   lengths_m_.assign(grid_.size(), std::numeric_limits<double>::infinity());
   parents_.assign(grid_.size(), toolkit::no_cell);
@@ -53,14 +53,14 @@ void ShortestWay::expand(std::uint32_t cell) {
   for (int direction = 0; direction < toolkit::direction_count; ++direction) {
     const std::uint32_t next = grid_.neighbour(cell, direction);
     if (next == toolkit::no_cell || settled_[next] || !open(next)) continue;
-    // past the cell to its parent where that is in sight
+    // directly from the parent if it is in sight, otherwise from the cell
     for (const std::uint32_t from : {parent, cell}) {
-      if (!sees(place_of(from), place_of(next))) continue;
-      const double length_m = lengths_m_[from] + toolkit::distance(place_of(from), place_of(next));
+      if (!is_visible(position_of(from), position_of(next))) continue;
+      const double length_m = lengths_m_[from] + toolkit::distance(position_of(from), position_of(next));
       if (length_m < lengths_m_[next]) {
         lengths_m_[next] = length_m;
         parents_[next] = from;
-        queue_.emplace_back(length_m + toolkit::distance(place_of(next), to_), next);
+        queue_.emplace_back(length_m + toolkit::distance(position_of(next), to_), next);
         std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
       }
       break;
@@ -72,12 +72,12 @@ bool ShortestWay::open(std::uint32_t cell) const {
   return static_cast<double>(grid_.clearance(cell)) >= radius_m_ || cell == first_ || cell == last_;
 }
 
-bool ShortestWay::sees(Vec2 from, Vec2 to) const {
+bool ShortestWay::is_visible(Vec2 from, Vec2 to) const {
   return toolkit::for_each_cell_on_line(
       grid_, from, to, [&](toolkit::Cell cell) { return grid_.contains(cell) && open(grid_.index(cell)); });
 }
 
-Vec2 ShortestWay::place_of(std::uint32_t cell) const {
+Vec2 ShortestWay::position_of(std::uint32_t cell) const {
   if (cell == first_) return from_;
   if (cell == last_) return to_;
   return grid_.center(cell);

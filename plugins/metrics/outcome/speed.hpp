@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// speed.hpp: how fast and how evenly the robots drove.
+// speed.hpp: mean and standard deviation of the robots' speeds.
 #pragma once
 
 #include <dmrp/plugin.hpp>

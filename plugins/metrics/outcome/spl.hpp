@@ -3,9 +3,8 @@
 #pragma once
 
 #include <dmrp/plugin.hpp>
-#include <vector>
 
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/driven_length.hpp"
 
 namespace dmrp::metrics {
 
@@ -17,8 +16,7 @@ class Spl final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  std::vector<CompensatedSum> driven_m_;
-  std::vector<Vec2> last_position_;  // empty before the first sample
+  DrivenLength driven_;
 };
 
 }  // namespace dmrp::metrics

@@ -29,7 +29,7 @@ const char* reason(std::uint32_t failure) {
 
 Descriptor Success::describe() {
   return describe_metric("dmrp.metric.success", "Success")
-      .summary("which robots reached their last goal in time, and which did so safely")
+      .summary("robots that reached their last goal in time, and those that did so safely")
       .source("Hu et al., DMRP-Bench, ICRA 2026: success rate")
       .value(
           "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
@@ -37,7 +37,7 @@ Descriptor Success::describe() {
       .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
              "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without a contact of its own fault, else 0; system: mean over robots");
+             "1 if the robot succeeded without a contact at its fault, else 0; system: mean over robots");
 }
 
 void Success::begin(const dmrp_plan*) {
@@ -55,7 +55,7 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
   std::vector<double> success, safe_success;
   bool all = true;
   for (std::size_t robot = 0; robot < at_fault_.size(); ++robot) {
-    // A robot that oscillated counts as failed, even if it arrived in the end.
+    // a robot that oscillated counts as failed even if it arrived later
     const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
     all = all && succeeded;
     success.push_back(succeeded ? 1.0 : 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// success.hpp: who arrived, and who did so without a contact of its own fault.
+// success.hpp: robots that arrived, and robots that did so without a contact at their fault.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -15,7 +15,7 @@ class Success final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  std::vector<char> at_fault_;  // a robot: whether it had a contact of its own fault
+  std::vector<char> at_fault_;  // by robot: whether it had a contact at its fault
 };
 
 }  // namespace dmrp::metrics

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
+#include <map>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/speed_of.hpp"
@@ -15,7 +16,7 @@
 namespace dmrp::metrics {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 double percent_of(std::int64_t part_ns, std::int64_t whole_ns) {
   return whole_ns > 0 ? 100.0 * static_cast<double>(part_ns) / static_cast<double>(whole_ns) : undefined;
@@ -29,17 +30,18 @@ Descriptor Ibtr::describe() {
       .source("Hu et al., DMRP-Bench, ICRA 2026: IBTR")
       .value("ibtr", "%", Direction::lower_is_better, Subjects::system_and_robots,
              "time in which two active robots are within distance_m and both slower than speed_fraction of their own "
-             "mean speed while active, over mission time; events of several pairs count as their union; robot: its own "
+             "mean speed while active, over mission time; events of several pairs count as their union; robot: its "
              "events; undefined if planning failed")
       .value("ibtr_pair_sum", "%", Direction::lower_is_better, Subjects::system,
-             "the same, with the events of all pairs added up: may exceed 100; undefined if planning failed")
+             "the same with the sum of the events of all pairs; can exceed 100; undefined if planning failed")
       .value("ibtr_by_distance", "%", Direction::lower_is_better, Subjects::system,
-             "ibtr with each of distances_m in place of distance_m, over that distance (m); undefined if planning "
+             "ibtr with each of distances_m instead of distance_m, over this distance (m); undefined if planning "
              "failed")
       .curve()
-      .value("ibtr_by_speed_fraction", "%", Direction::lower_is_better, Subjects::system,
-             "ibtr with each of speed_fractions in place of speed_fraction, over that share (1); undefined if planning "
-             "failed")
+      .value(
+          "ibtr_by_speed_fraction", "%", Direction::lower_is_better, Subjects::system,
+          "ibtr with each of speed_fractions instead of speed_fraction, over this fraction (1); undefined if planning "
+          "failed")
       .curve();
 }
 
@@ -47,52 +49,32 @@ void Ibtr::begin(const dmrp_plan*) {
   robot_count_ = world().robots().size();
   active_.begin(robot_count_);
   pace_.assign(robot_count_, {});
-  times_ns_.clear();
-  speeds_.clear();
-  open_since_.assign(robot_count_ * robot_count_, none);
-  encounters_.clear();
   widest_m_ = distance_m;
   for (const double each_m : *distances_m) widest_m_ = std::max(widest_m_, each_m);
-  meetings_.clear();
+  last_ns_ = -1;
+  steps_.clear();
+  encounters_.clear();
 }
 
 void Ibtr::observe(const Sample& sample) {
   active_.observe(sample);
-  times_ns_.push_back(sample.t_ns);
-  for (std::size_t robot = 0; robot < robot_count_; ++robot) {
-    speeds_.push_back(speed_of(sample.robots[robot]));
-    if (active_.in_step(robot)) pace_[robot].add(speeds_.back(), sample.dt_ns);
-  }
+  for (std::size_t robot = 0; robot < robot_count_; ++robot)
+    if (active_.in_step(robot)) pace_[robot].add(speed_of(sample.robots[robot]), sample.dt_ns);
 
-  const double squared_reach = distance_m * distance_m;
+  const std::size_t encounters_before = encounters_.size();
   for (std::uint32_t a = 0; a < robot_count_; ++a) {
+    if (!active_.in_step(a)) continue;
     for (std::uint32_t b = a + 1; b < robot_count_; ++b) {
-      const bool both = active_.in_step(a) && active_.in_step(b);
+      if (!active_.in_step(b)) continue;
       const double squared_distance =
           toolkit::squared_distance(toolkit::position(sample.robots[a].pose), toolkit::position(sample.robots[b].pose));
-      follow_encounter(a, b, both && squared_distance <= squared_reach);
-      if (both && squared_distance <= widest_m_ * widest_m_)
-        meetings_.push_back({times_ns_.size() - 1, a, b, squared_distance});
+      if (squared_distance > widest_m_ * widest_m_) continue;
+      encounters_.push_back({static_cast<std::uint32_t>(steps_.size()), a, b, squared_distance,
+                             speed_of(sample.robots[a]), speed_of(sample.robots[b])});
     }
   }
-}
-
-// Opens or closes the pair's encounter at the newest sample.
-void Ibtr::follow_encounter(std::uint32_t a, std::uint32_t b, bool near) {
-  std::size_t& since = open_since_[a * robot_count_ + b];
-  const std::size_t now = times_ns_.size() - 1;
-  if (near && since == none) since = now;
-  if (!near && since != none) {
-    encounters_.push_back({a, b, since, now - 1});
-    since = none;
-  }
-}
-
-// A robot that never moved has no pace to fall below: it is in the way, but does not crawl.
-bool Ibtr::both_crawl(std::uint32_t a, std::uint32_t b, std::size_t sample,
-                      const std::vector<double>& thresholds) const {
-  const double* speeds = &speeds_[sample * robot_count_];
-  return speeds[a] < thresholds[a] && speeds[b] < thresholds[b];
+  if (encounters_.size() > encounters_before) steps_.push_back({last_ns_, sample.t_ns});
+  last_ns_ = sample.t_ns;
 }
 
 std::vector<double> Ibtr::speed_thresholds(double fraction) const {
@@ -101,46 +83,45 @@ std::vector<double> Ibtr::speed_thresholds(double fraction) const {
   return thresholds;
 }
 
-// The union of events as the sum of the steps in which some pair has one.
+// A robot that never moved has a threshold of 0, so it never crawls, although it is in the way.
+bool Ibtr::is_blocking(const Encounter& encounter, double reach_m, const std::vector<double>& thresholds) {
+  return encounter.squared_distance <= reach_m * reach_m && encounter.speed_a < thresholds[encounter.a] &&
+         encounter.speed_b < thresholds[encounter.b];
+}
+
+// The union of the pairs' congestions: the sum of the steps in which at least one pair is blocking.
 double Ibtr::blocked_percent(double reach_m, double fraction, std::int64_t mission_ns) const {
   const std::vector<double> thresholds = speed_thresholds(fraction);
   std::int64_t blocked_ns = 0;
-  std::size_t counted = 0;  // the last sample that was
-  for (const Meeting& meeting : meetings_) {
-    if (meeting.sample == counted || meeting.squared_distance > reach_m * reach_m) continue;
-    if (!both_crawl(meeting.a, meeting.b, meeting.sample, thresholds)) continue;
-    counted = meeting.sample;
-    blocked_ns += times_ns_[counted] - times_ns_[counted - 1];
+  std::uint32_t last_counted = none;
+  for (const Encounter& encounter : encounters_) {
+    if (encounter.step == last_counted || !is_blocking(encounter, reach_m, thresholds)) continue;
+    last_counted = encounter.step;
+    blocked_ns += steps_[encounter.step].to_ns - steps_[encounter.step].from_ns;
   }
   return percent_of(blocked_ns, mission_ns);
 }
 
-// Cuts the encounters to the times in which both robots crawl. In order of beginning, then of the robots.
+// Joins each pair's adjacent steps. In order of beginning, then of the robots.
 std::vector<Ibtr::Congestion> Ibtr::congestions() const {
   const std::vector<double> thresholds = speed_thresholds(speed_fraction);
   std::vector<Congestion> found;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> latest;  // by pair, index of found
   for (const Encounter& encounter : encounters_) {
-    bool open = false;
-    for (std::size_t sample = encounter.first; sample <= encounter.last; ++sample) {
-      const bool crawl = both_crawl(encounter.a, encounter.b, sample, thresholds);
-      if (crawl && !open) found.push_back({times_ns_[sample - 1], 0, encounter.a, encounter.b});
-      if (crawl) found.back().to_ns = times_ns_[sample];
-      open = crawl;
+    if (!is_blocking(encounter, distance_m, thresholds)) continue;
+    const Step& step = steps_[encounter.step];
+    const auto [place, is_new] = latest.try_emplace({encounter.a, encounter.b}, found.size());
+    if (!is_new && found[place->second].to_ns == step.from_ns) {
+      found[place->second].to_ns = step.to_ns;
+    } else {
+      place->second = found.size();
+      found.push_back({step.from_ns, step.to_ns, encounter.a, encounter.b});
     }
   }
-  std::sort(found.begin(), found.end(), [](const Congestion& x, const Congestion& y) {
-    return std::tie(x.from_ns, x.a, x.b) < std::tie(y.from_ns, y.a, y.b);
-  });
   return found;
 }
 
 void Ibtr::finish(const TrialEnd& end, MetricSink& sink) {
-  // what is still open ends with the trial
-  for (std::uint32_t a = 0; a < robot_count_; ++a)
-    for (std::uint32_t b = a + 1; b < robot_count_; ++b)
-      if (const std::size_t since = open_since_[a * robot_count_ + b]; since != none)
-        encounters_.push_back({a, b, since, times_ns_.size() - 1});
-
   UnionLength blocked;
   std::vector<UnionLength> blocked_of(robot_count_);
   std::int64_t pair_sum_ns = 0;
@@ -153,7 +134,7 @@ void Ibtr::finish(const TrialEnd& end, MetricSink& sink) {
                "robots " + std::to_string(congestion.a) + " and " + std::to_string(congestion.b) + " block each other");
   }
 
-  const std::int64_t mission_ns = times_ns_.empty() ? 0 : end.t_ns;
+  const std::int64_t mission_ns = last_ns_ < 0 ? 0 : end.t_ns;
   for (std::size_t robot = 0; robot < robot_count_; ++robot)
     sink.robot("ibtr", robot, percent_of(blocked_of[robot].value_ns(), mission_ns));
   const bool measured = robot_count_ > 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// ibtr.hpp: the share of the mission in which robots that are near each other both crawl.
+// ibtr.hpp: inter-robot blocking time ratio: the share of the mission in which two robots near each other both crawl.
 #pragma once
 
+#include <cstdint>
 #include <dmrp/plugin.hpp>
 #include <vector>
 
@@ -34,40 +35,37 @@ class Ibtr final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // Two robots, active and near each other in all steps that end with the samples first to last.
-  struct Encounter {
-    std::uint32_t a, b;
-    std::size_t first, last;
+  // A step in which active robots were near each other, by the widest of the distances.
+  struct Step {
+    std::int64_t from_ns, to_ns;
   };
-  // Two robots that in addition both crawled from one time to another.
+  // A pair of these robots in such a step.
+  struct Encounter {
+    std::uint32_t step;  // index of steps_
+    std::uint32_t a, b;
+    double squared_distance;
+    double speed_a, speed_b;  // m/s, measured
+  };
+  // A time in which a pair was near each other, by distance_m, and both crawled.
   struct Congestion {
     std::int64_t from_ns, to_ns;
     std::uint32_t a, b;
   };
 
-  // Two robots, active and near each other by some of the distances, in the step that ends with a sample.
-  struct Meeting {
-    std::size_t sample;
-    std::uint32_t a, b;
-    double squared_distance;
-  };
-
   std::vector<double> speed_thresholds(double fraction) const;
+  static bool is_blocking(const Encounter& encounter, double reach_m, const std::vector<double>& thresholds);
   double blocked_percent(double reach_m, double fraction, std::int64_t mission_ns) const;
-  void follow_encounter(std::uint32_t a, std::uint32_t b, bool near);
-  bool both_crawl(std::uint32_t a, std::uint32_t b, std::size_t sample, const std::vector<double>& thresholds) const;
   std::vector<Congestion> congestions() const;
 
-  // The thresholds are known at the end only, so speeds are kept until then.
+  // The thresholds are known only at the end. Until then the metric keeps the speeds of robots that are near each
+  // other.
   std::size_t robot_count_ = 0;
   ActiveSteps active_;
   std::vector<TimeMoments> pace_;
-  std::vector<std::int64_t> times_ns_;   // a sample
-  std::vector<double> speeds_;           // robot_count_ a sample
-  std::vector<std::size_t> open_since_;  // a pair (a * robot_count_ + b): first sample of its encounter, or none
-  std::vector<Encounter> encounters_;
-  double widest_m_ = 0.0;  // of all distances
-  std::vector<Meeting> meetings_;
+  double widest_m_ = 0.0;      // of all distances
+  std::int64_t last_ns_ = -1;  // of the last sample; -1: there was none
+  std::vector<Step> steps_;
+  std::vector<Encounter> encounters_;  // by step, then by robots
 };
 
 }  // namespace dmrp::metrics

@@ -26,14 +26,15 @@ Descriptor Ldf::describe() {
   return describe_metric("dmrp.metric.ldf", "Local density fluctuation")
       .summary("variance over time of the number of robots around a robot")
       .source("Hu et al., DMRP-Bench, ICRA 2026: LDF")
-      .value("ldf", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "variance (1/n) of the number of robots within distance_m, parked ones too, counted each period_s from 0 "
-             "to the trial's end; system: maximum over robots; undefined if planning failed")
+      .value(
+          "ldf", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "variance (normalised by n) of the number of robots within distance_m, including parked ones, counted every "
+          "period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
       .value("ldf_active", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "the same among active robots only, counted while the robot itself is active; undefined if planning "
+             "the same for active robots only, counted while the robot itself is active; undefined if planning "
              "failed")
       .value("ldf_by_distance", "1", Direction::lower_is_better, Subjects::system,
-             "ldf with each of distances_m in place of distance_m, over that distance (m); undefined if planning "
+             "ldf with each of distances_m instead of distance_m, over this distance (m); undefined if planning "
              "failed")
       .curve();
 }
@@ -50,7 +51,7 @@ void Ldf::begin(const dmrp_plan*) {
 
 void Ldf::observe(const Sample& sample) {
   active_.observe(sample);
-  // an instant between two samples is counted with the step that it falls into
+  // an instant between two samples belongs to the step that contains it
   std::int64_t times = 0;
   for (; next_ns_ <= sample.t_ns; next_ns_ += period_ns_) ++times;
   if (times > 0) count_neighbours(sample, times);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ldf.hpp: local density fluctuation: how much the number of robots around a robot varies.
+// ldf.hpp: local density fluctuation: the variance of the number of robots around a robot.
 #pragma once
 
 #include <cstdint>
@@ -26,23 +26,23 @@ class Ldf final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // Counts of neighbours; their variance comes from integers, so it is exact but for the last division.
+  // Counts of neighbours. Their variance is computed with integers, so only the last division rounds.
   struct Counts {
     std::int64_t instants = 0, sum = 0, squares = 0;
     void add(std::int64_t neighbours, std::int64_t times);
-    double variance() const;  // with 1/n; NaN without an instant
+    double variance() const;  // normalised by n; NaN without an instant
   };
 
   void count_neighbours(const Sample& sample, std::int64_t times);
   void count_by_distance(std::size_t robot, std::int64_t times);
 
   std::int64_t period_ns_ = 0;
-  std::int64_t next_ns_ = 0;  // the next instant to count at
+  std::int64_t next_ns_ = 0;  // the next instant of counting
   ActiveSteps active_;
-  std::vector<double> squared_distances_;  // from one robot to the others, at an instant
-  std::vector<Counts> all_;                // a robot: among all robots, over the whole trial
-  std::vector<Counts> active_only_;        // among active robots, while active itself
-  std::vector<Counts> by_distance_;        // as all_, a robot for each of distances_m
+  std::vector<double> squared_distances_;  // from one robot to the others, at one instant
+  std::vector<Counts> all_;                // by robot: all robots, over the whole trial
+  std::vector<Counts> active_only_;        // by robot: active robots, while active itself
+  std::vector<Counts> by_distance_;        // as all_, for each of distances_m
 };
 
 }  // namespace dmrp::metrics

@@ -11,7 +11,7 @@
 namespace dmrp::metrics {
 namespace {
 
-// From a point to the closest point of a path that is not empty; waits are segments of length zero.
+// From a point to the closest point of a non-empty path; waits are segments of length zero.
 double distance_to(const Path& path, Vec2 point) {
   double nearest = toolkit::squared_distance(toolkit::position(path[0]), point);
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -27,17 +27,18 @@ Descriptor Pfd::describe() {
   return describe_metric("dmrp.metric.pfd", "Path following deviation")
       .summary("mean distance of the robots from their planned paths")
       .source("Hu et al., DMRP-Bench, ICRA 2026: PFD")
-      .value(
-          "pfd", "m", Direction::lower_is_better, Subjects::system_and_robots,
-          "mean over the control steps of its active time of the distance from the robot to the closest point of its "
-          "path in force; system: mean over robots; undefined if planning failed")
+      .value("pfd", "m", Direction::lower_is_better, Subjects::system_and_robots,
+             "mean over the control steps of active time of the distance from the robot to the closest point of its "
+             "current path; system: mean over robots; undefined if planning failed")
       .value("pfd_max", "m", Direction::lower_is_better, Subjects::system_and_robots,
              "maximum of the same distances; system: maximum over robots; undefined if planning failed")
       .value("pfd_sd", "m", Direction::lower_is_better, Subjects::system_and_robots,
-             "standard deviation (1/n) of the same distances; system: mean over robots; undefined if planning failed")
-      .value("pfd_initial", "m", Direction::lower_is_better, Subjects::system_and_robots,
-             "pfd against the first plan: replans from the current pose do not pull it to zero; undefined if "
-             "planning failed");
+             "standard deviation (normalised by n) of the same distances; system: mean over robots; undefined if "
+             "planning failed")
+      .value(
+          "pfd_initial", "m", Direction::lower_is_better, Subjects::system_and_robots,
+          "pfd relative to the first plan, so that replans from the current pose do not reset it to zero; undefined if "
+          "planning failed");
 }
 
 void Pfd::Deviation::add(double distance_m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// pfd.hpp: path following deviation: how far robots are off their plans.
+// pfd.hpp: path following deviation: the distance of robots from their planned paths.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -18,16 +18,16 @@ class Pfd final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // One robot's distances. All are NaN without one.
+  // One robot's distances. All statistics are NaN without a distance.
   struct Deviation {
     CompensatedSum sum_m;
     std::size_t count = 0;
     double greatest_m = undefined;
-    double running_mean_m = 0.0;  // after Welford (1962)
-    double squares = 0.0;         // of the differences from it
+    double running_mean_m = 0.0;  // Welford (1962)
+    double squares = 0.0;         // sum of squared differences from the mean
     void add(double distance_m);
     double mean_m() const;
-    double standard_deviation_m() const;  // with 1/n
+    double standard_deviation_m() const;  // normalised by n
   };
 
   const dmrp_plan* first_plan_ = nullptr;

@@ -13,16 +13,16 @@
 namespace dmrp::metrics {
 namespace {
 
-using Steps = std::vector<Vec2>;  // where a robot is planned to be at step 0, 1, ... until it stays at its goal
+using Steps = std::vector<Vec2>;  // planned positions at step 0, 1, ... until the robot rests at its goal
 
-// The waypoint at which the robot has come to its last goal for good: padding behind it is no way.
+// The waypoint of the final arrival at the last goal; waypoints after it are padding.
 std::size_t final_arrival(const Path& path) {
   std::size_t last = path.size() - 1;
   while (last > 0 && toolkit::position(path[last - 1]) == toolkit::position(path[last])) --last;
   return last;
 }
 
-// The path at start_ns, start_ns + step_ns, ...: exactly its waypoints where those come one a step.
+// The path at start_ns, start_ns + step_ns, ...: exactly its waypoints if they are one step apart.
 Steps resample(const Path& path, std::int64_t start_ns, std::int64_t step_ns) {
   const std::size_t last = final_arrival(path);
   Steps steps;
@@ -40,7 +40,7 @@ Steps resample(const Path& path, std::int64_t start_ns, std::int64_t step_ns) {
   }
 }
 
-// Whether `other` is planned to be near at some step from i - window to i + window. It rests at its goal.
+// Whether the plan has `other` near at a step from i - window to i + window. Robots rest at their goals.
 bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distance_m, std::size_t window) {
   const std::size_t from = i > window ? i - window : 0;
   for (std::size_t j = from; j <= i + window; ++j) {
@@ -51,7 +51,7 @@ bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distan
   return false;
 }
 
-// A robot: the share of its waypoints that some other's path overlaps.
+// By robot: the share of its waypoints that another robot's path overlaps.
 std::vector<double> overlapping_shares(const std::vector<Steps>& all, double distance_m, std::size_t window) {
   std::vector<double> shares;
   for (std::size_t robot = 0; robot < all.size(); ++robot) {
@@ -81,18 +81,19 @@ std::vector<Steps> resample_all(const Plan& plan) {
 
 Descriptor Sto::describe() {
   return describe_metric("dmrp.metric.sto", "Spatio-temporal overlap")
-      .summary("share of planned waypoints with another robot planned to be near at about that step")
+      .summary("share of planned waypoints near another robot's waypoint of about the same step")
       .source("Hu et al., DMRP-Bench, ICRA 2026: STO")
-      .value("sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
-             "distance_m of some other's waypoint within window steps; system: mean over robots; undefined if planning "
-             "failed")
+      .value(
+          "sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
+          "distance_m of another robot's waypoint within window steps; system: mean over robots; undefined if planning "
+          "failed")
       .value("sto_by_distance", "1", Direction::lower_is_better, Subjects::system,
-             "the system's sto with each of distances_m in place of distance_m, over that distance (m); undefined if "
+             "the system's sto with each of distances_m instead of distance_m, over this distance (m); undefined if "
              "planning failed")
       .curve()
       .value("sto_cell_size", "m", Direction::none, Subjects::system,
-             "c, the cells that the plan was made on, without which sto says little; undefined if planning failed");
+             "c, the size of the planning grid's cells, which sto depends on; undefined if planning failed");
 }
 
 void Sto::finish(const TrialEnd&, MetricSink& sink) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sto.hpp: spatio-temporal overlap: how much of a plan lies close to where others are planned to be at about that time.
+// sto.hpp: spatio-temporal overlap: the share of planned waypoints near another robot's at about the same time.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -12,8 +12,10 @@ class Sto final : public Metric {
   static Descriptor describe();
   Param<double> distance_m =
       param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("D: waypoints at most this far apart overlap");
-  Param<std::int64_t> window =
-      param("window", 2).unit("1").range(0, 1000).doc("k: compared with the others' waypoints i - k to i + k");
+  Param<std::int64_t> window = param("window", 2)
+                                   .unit("1")
+                                   .range(0, 1000)
+                                   .doc("k: waypoint i is compared with the others' waypoints i - k to i + k");
 
   Param<std::vector<double>> distances_m =
       param("distances_m", std::vector<double>{0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0})

@@ -14,7 +14,7 @@ Descriptor Clearance::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.clearance", "Clearance")
-      .summary("distance from surface to surface to walls, robots and people, and time closer than a safe distance")
+      .summary("surface distances to walls, robots and people, and the time below a safe distance")
       .source("Wen et al., MRPB 1.0, ICRA 2021: distance to obstacles, time in the dangerous area")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value("clearance_static_min", "m", higher, robots,
@@ -23,7 +23,7 @@ Descriptor Clearance::describe() {
       .value("clearance_static_mean", "m", higher, robots,
              "mean over active time of the same distance; system: mean over robots; undefined if planning failed")
       .value("clearance_robot_min", "m", higher, robots,
-             "minimum over active time of |p - p'| - r - r' to the nearest other robot, parked ones too; system: "
+             "minimum over active time of |p - p'| - r - r' to the nearest other robot, including parked ones; system: "
              "minimum over robots; undefined without another robot")
       .value("clearance_robot_mean", "m", higher, robots,
              "mean over active time of the same distance; system: mean over robots; undefined without another robot")
@@ -44,61 +44,63 @@ Descriptor Clearance::describe() {
              "mean over robots; undefined without people");
 }
 
-void Clearance::Room::add(double distance_m, std::int64_t duration_ns) {
+void Clearance::Distances::add(double distance_m, std::int64_t duration_ns) {
   least_m = std::fmin(least_m, distance_m);
   mean_m.add(distance_m, duration_ns);
 }
 
 void Clearance::begin(const dmrp_plan*) {
   active_.begin(world().robots().size());
-  rooms_.assign(world().robots().size(), {});
-  for (Rooms& rooms : rooms_) rooms.wall.begin(world());
+  distances_.assign(world().robots().size(), {});
+  for (RobotDistances& distances : distances_) distances.wall.begin(world());
 }
 
 void Clearance::observe(const Sample& sample) {
   active_.observe(sample);
-  for (std::size_t robot = 0; robot < rooms_.size(); ++robot)
+  for (std::size_t robot = 0; robot < distances_.size(); ++robot)
     if (active_.in_step(robot)) measure(sample, robot);
 }
 
 void Clearance::measure(const Sample& sample, std::size_t robot) {
-  Rooms& rooms = rooms_[robot];
+  RobotDistances& distances = distances_[robot];
   const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
-  const double to_static_m = rooms.wall.find(own.center).distance_m - own.radius_m;
-  rooms.to_static.add(to_static_m, sample.dt_ns);
+  const double to_static_m = distances.wall.find(own.center).distance_m - own.radius_m;
+  distances.to_static.add(to_static_m, sample.dt_ns);
   bool danger = to_static_m < safe_distance_m;
 
   NearestDisc nearest_robot(own);
-  for (std::size_t other = 0; other < rooms_.size(); ++other)
+  for (std::size_t other = 0; other < distances_.size(); ++other)
     if (other != robot) nearest_robot.add(disc_of(world().robots()[other], sample.robots[other]));
   NearestDisc nearest_person(own);
   for (const Person& person : sample.people) nearest_person.add(disc_of(person));
 
-  const auto note = [&](double distance_m, Room& room, TimeShare& share) {
+  const auto add = [&](double distance_m, Distances& to, TimeShare& share) {
     if (std::isnan(distance_m)) return;
-    room.add(distance_m, sample.dt_ns);
+    to.add(distance_m, sample.dt_ns);
     share.add(distance_m < safe_distance_m, sample.dt_ns);
     danger = danger || distance_m < safe_distance_m;
   };
-  note(nearest_robot.distance_m(), rooms.to_robots, rooms.danger_robots);
-  note(nearest_person.distance_m(), rooms.to_people, rooms.danger_people);
-  rooms.danger.add(danger, sample.dt_ns);
+  add(nearest_robot.distance_m(), distances.to_robots, distances.danger_robots);
+  add(nearest_person.distance_m(), distances.to_people, distances.danger_people);
+  distances.danger.add(danger, sample.dt_ns);
 }
 
 void Clearance::finish(const TrialEnd&, MetricSink& sink) {
-  const auto give_room = [&](const char* least, const char* mean, Room Rooms::*room) {
-    give(sink, least, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*room).least_m; }), &least_of_defined);
-    give_mean(sink, mean, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*room).mean_m.mean(); }));
+  const auto give_distances = [&](const char* least, const char* mean, Distances RobotDistances::*to) {
+    give(sink, least, values_of(distances_, [&](const RobotDistances& robot) { return (robot.*to).least_m; }),
+         &least_of_defined);
+    give_mean(sink, mean,
+              values_of(distances_, [&](const RobotDistances& robot) { return (robot.*to).mean_m.mean(); }));
   };
-  give_room("clearance_static_min", "clearance_static_mean", &Rooms::to_static);
-  give_room("clearance_robot_min", "clearance_robot_mean", &Rooms::to_robots);
-  give_room("clearance_person_min", "clearance_person_mean", &Rooms::to_people);
-  const auto give_share = [&](const char* name, TimeShare Rooms::*share) {
-    give_mean(sink, name, values_of(rooms_, [&](const Rooms& rooms) { return (rooms.*share).percent(); }));
+  give_distances("clearance_static_min", "clearance_static_mean", &RobotDistances::to_static);
+  give_distances("clearance_robot_min", "clearance_robot_mean", &RobotDistances::to_robots);
+  give_distances("clearance_person_min", "clearance_person_mean", &RobotDistances::to_people);
+  const auto give_share = [&](const char* name, TimeShare RobotDistances::*share) {
+    give_mean(sink, name, values_of(distances_, [&](const RobotDistances& robot) { return (robot.*share).percent(); }));
   };
-  give_share("danger_time", &Rooms::danger);
-  give_share("danger_time_robot", &Rooms::danger_robots);
-  give_share("danger_time_person", &Rooms::danger_people);
+  give_share("danger_time", &RobotDistances::danger);
+  give_share("danger_time_robot", &RobotDistances::danger_robots);
+  give_share("danger_time_person", &RobotDistances::danger_people);
 }
 
 }  // namespace dmrp::metrics

@@ -7,17 +7,17 @@
 namespace dmrp::metrics {
 namespace {
 
-// What the events of one robot, or of all, add up to.
+// The counts of events of one robot or of the system.
 struct Tally {
   int all = 0, at_fault = 0, with_static = 0, with_robots = 0, with_people = 0, unavoidable = 0;
 
-  void count(std::uint32_t kind, bool fault, bool nobody_could_avoid_it) {
+  void count(std::uint32_t kind, bool fault, bool is_unavoidable) {
     ++all;
     at_fault += fault;
     with_static += kind == DMRP_CONTACT_STATIC;
     with_robots += kind == DMRP_CONTACT_ROBOT;
     with_people += kind == DMRP_CONTACT_PERSON;
-    unavoidable += nobody_could_avoid_it;
+    unavoidable += is_unavoidable;
   }
 };
 
@@ -40,16 +40,17 @@ Descriptor Collisions::describe() {
       .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
       .source("rising-edge events attributed as in HuNavSim; fault by the benchmark's rule")
       .value("collisions", "1", lower, robots,
-             "contact events the robot took part in, whoever's fault; system: all events, one between two robots once; "
-             "undefined if planning failed, as all that follow")
+             "contact events of the robot, regardless of fault; system: all events, an event between two robots once; "
+             "undefined if planning failed, like all that follow")
       .value("collisions_at_fault", "1", lower, robots,
-             "contact events of the robot's own fault; system: events that are the fault of a robot")
+             "contact events at the robot's fault; system: events at the fault of at least one robot")
       .value("collisions_static", "1", lower, robots, "contact events with walls, furniture or the world's border")
       .value("collisions_robot", "1", lower, robots,
              "contact events between robots; counted for both, once for the system")
-      .value("collisions_person", "1", lower, robots, "contact events with people, whoever's fault")
+      .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault")
       .value("collisions_unavoidable", "1", lower, robots,
-             "contact events with people who were on no collision course one braking time before: nobody's fault")
+             "contact events with people that were not on a collision course one braking time earlier: nobody is at "
+             "fault")
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 
@@ -59,7 +60,7 @@ void Collisions::begin(const dmrp_plan* plan) {
   latest_.clear();
 }
 
-// People are told apart by id: their places in the array change hands.
+// Identifies people by id, because their indices in the array change.
 Collisions::Pair Collisions::pair_of(const Contact& contact, const Sample& sample) {
   const bool person = contact.kind == DMRP_CONTACT_PERSON && contact.b < sample.people.size();
   return {contact.kind, contact.a, person ? sample.people[contact.b].id : contact.b};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// collisions.hpp: contacts of robots as events: how many, with what, and whose fault.
+// collisions.hpp: contact events of robots, by partner and by fault.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ class Collisions final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // One contact from its beginning to the last sample of it.
+  // One contact, from its first to its last sample.
   struct Event {
     std::uint32_t kind;  // DMRP_CONTACT_*
     std::uint32_t a;     // the robot, or the first of two
-    std::uint64_t b;     // what it touched: index of a shape or robot, id of a person
+    std::uint64_t b;     // the partner: index of a shape or robot, id of a person
     bool fault_of_a, fault_of_b, unavoidable;
     std::int64_t from_ns, to_ns;
   };
@@ -32,9 +32,9 @@ class Collisions final : public Metric {
   static Pair pair_of(const Contact& contact, const Sample& sample);
   std::string text_of(const Event& event) const;
 
-  bool planned_ = false;                // nothing moves without a plan
-  std::vector<Event> events_;           // in order of their beginning
-  std::map<Pair, std::size_t> latest_;  // index of the pair's last event
+  bool planned_ = false;                // without a plan, nothing moves
+  std::vector<Event> events_;           // by beginning
+  std::map<Pair, std::size_t> latest_;  // index of the pair's latest event
 };
 
 }  // namespace dmrp::metrics

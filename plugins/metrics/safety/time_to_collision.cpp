@@ -8,7 +8,7 @@
 
 namespace dmrp::metrics {
 
-// The smallest tau > 0 with |dp + dv tau| = r1 + r2; 0 where they overlap already, NaN where they never meet.
+// The smallest tau > 0 with |dp + dv tau| = r1 + r2; 0 if they overlap already, NaN if they never meet.
 double TimeToCollision::of_pair(const Moving& a, const Moving& b) {
   const Vec2 apart = b.disc.center - a.disc.center;
   const Vec2 drift = b.velocity - a.velocity;
@@ -24,7 +24,7 @@ double TimeToCollision::of_pair(const Moving& a, const Moving& b) {
 
 Descriptor TimeToCollision::describe() {
   return describe_metric("dmrp.metric.time_to_collision", "Time to collision")
-      .summary("time until a robot would touch another robot or a person, all velocities kept")
+      .summary("time until a robot would touch another robot or a person at constant velocities")
       .source(
           "Hayward, Near-miss determination through use of a scale of danger, 1972; as in SocNavBench, Biswas et al. "
           "2022, with the radii of both")
@@ -33,7 +33,7 @@ Descriptor TimeToCollision::describe() {
              "minimum over active time and over robots and people of the smallest tau > 0 with |dp + dv tau| = r + r'; "
              "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course")
       .value("ttc_low_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
-             "share of active time in which the time to collision with somebody is below threshold_s; system: mean "
+             "share of active time in which a time to collision is below threshold_s; system: mean "
              "over robots; undefined without another robot or person");
 }
 

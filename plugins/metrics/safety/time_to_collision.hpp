@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// time_to_collision.hpp: how soon robots would hit somebody if all went straight on.
+// time_to_collision.hpp: the time until a robot would hit somebody if all kept their velocities.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -34,7 +34,7 @@ class TimeToCollision final : public Metric {
   static double of_pair(const Moving& a, const Moving& b);
 
   ActiveSteps active_;
-  std::vector<Times> times_;    // a robot
+  std::vector<Times> times_;    // by robot
   std::vector<Moving> robots_;  // at the sample
 };
 

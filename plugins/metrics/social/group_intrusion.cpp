@@ -12,7 +12,7 @@
 namespace dmrp::metrics {
 namespace {
 
-// Andrew's monotone chain: counter-clockwise, no vertex on a side. One or two points where all lie in a line.
+// Andrew's monotone chain: counter-clockwise, without vertices on a side. One or two points if all are collinear.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -25,7 +25,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
         hull.pop_back();
       hull.push_back(*point);
     }
-    hull.pop_back();  // the other chain begins with it
+    hull.pop_back();  // the first point of the other chain
   };
   chain(points.begin(), points.end());
   chain(points.rbegin(), points.rend());
@@ -42,19 +42,21 @@ double distance_to_hull(const std::vector<Vec2>& hull, Vec2 point) {
 
 Descriptor GroupIntrusion::describe() {
   return describe_metric("dmrp.metric.group_intrusion", "Group intrusion")
-      .summary("robots that cross between people who belong together")
+      .summary("robots that cross between the members of a group")
       .source(
           "group intrusions as in HuNavSim, Perez-Higueras et al., RA-L 2023; a group's space as the hull of its "
           "members after Kendon, Conducting Interaction, 1990")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value(
           "group_intrusion_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
-          "share of active time with groups present in which the robot's disc cuts the convex hull of the centres of "
-          "a group of two or more (of two: the segment between them); system: mean over robots; undefined without "
+          "share of active time with groups present in which the robot's disc intersects the convex hull of the "
+          "centres "
+          "of a group of two or more (of two: the segment between them); system: mean over robots; undefined without "
           "groups")
-      .value("group_intrusions", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "number of times that the robot's disc came to cut a group's hull; system: sum over robots; undefined "
-             "without groups");
+      .value(
+          "group_intrusions", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "number of times that the robot's disc began to intersect a group's hull; system: sum over robots; undefined "
+          "without groups");
 }
 
 void GroupIntrusion::begin(const dmrp_plan*) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// group_intrusion.hpp: how long and how often robots cross between people who walk or stand together.
+// group_intrusion.hpp: duration and number of intrusions of robots into groups of people.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class GroupIntrusion final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  // The people of one group with two members or more: their convex hull, a segment where they stand in a line.
+  // A group of at least two people: the convex hull of their centres, a segment if they are collinear.
   struct Group {
     std::uint32_t id;
     std::vector<Vec2> hull;
@@ -27,14 +27,14 @@ class GroupIntrusion final : public Metric {
   struct Intrusions {
     TimeShare share;
     int count = 0;
-    std::vector<std::uint32_t> inside;  // groups that it was in at the last sample
+    std::vector<std::uint32_t> inside;  // ids of the groups that it intruded at the last sample
   };
 
   void find_groups(const Sample& sample);
 
   ActiveSteps active_;
-  std::vector<Group> groups_;           // at the sample, by rising id
-  std::vector<Intrusions> intrusions_;  // a robot
+  std::vector<Group> groups_;           // at the current sample, by id
+  std::vector<Intrusions> intrusions_;  // by robot
 };
 
 }  // namespace dmrp::metrics

@@ -20,20 +20,20 @@ double distance_to_target(const Person& person) {
 
 Descriptor PedestrianProgress::describe() {
   return describe_metric("dmrp.metric.pedestrian_progress", "Pedestrian progress")
-      .summary("distance that people have gained toward their targets, over time, and how fast they walk")
-      .source("the benchmark's own, for comparing a crowd with and without robots")
+      .summary("progress of people toward their targets over time, and their speeds")
+      .source("own definition, for comparing a crowd with and without robots")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value("pedestrian_progress", "m", Direction::higher_is_better, Subjects::system,
-             "over time t = 0, 1, 2, ... s: (1/n) sum over all people of the distance gained until t, n the number of "
-             "people in the world at once; a finished leg counts the straight distance from where it began to its "
-             "target area, the present one that distance minus what is left; whoever comes new begins a leg, whoever "
-             "leaves has finished one; undefined without people")
+      .value(
+          "pedestrian_progress", "m", Direction::higher_is_better, Subjects::system,
+          "over time t = 0, 1, 2, ... s: (1/n) sum over all people of the progress until t, n the number of people in "
+          "the world at the same time; a finished leg counts with the straight distance from its beginning to its "
+          "target area, the current one with this distance minus the remaining one; new people begin a leg, people "
+          "who leave have finished theirs; undefined without people")
       .curve()
       .value("pedestrian_speed", "m/s", Direction::higher_is_better, Subjects::system,
-             "mean over time and people present of |v|; undefined without people")
+             "mean of |v| over time and present people; undefined without people")
       .value("pedestrian_desired_speed", "m/s", Direction::none, Subjects::system,
-             "mean over time and people present of the speed that each would like to walk at; undefined without "
-             "people");
+             "mean of the desired speed over time and present people; undefined without people");
 }
 
 void PedestrianProgress::begin(const dmrp_plan*) {
@@ -46,13 +46,13 @@ void PedestrianProgress::begin(const dmrp_plan*) {
 }
 
 void PedestrianProgress::observe(const Sample& sample) {
-  follow_all(sample);
+  update_legs(sample);
   most_people_ = std::max(most_people_, sample.people.size());
   for (const Person& person : sample.people) {
     speed_.add(toolkit::norm(person.velocity), sample.dt_ns);
     desired_speed_.add(person.desired_speed, sample.dt_ns);
   }
-  // an instant between two samples is counted with the step that it falls into
+  // an instant between two samples belongs to the step that contains it
   while (static_cast<std::int64_t>(gained_m_.size()) * period_ns <= sample.t_ns) gained_m_.push_back(gained_m());
 }
 
@@ -61,7 +61,7 @@ PedestrianProgress::Leg PedestrianProgress::begin_leg(const Person& person) {
   return {person.id, person.area_lower, person.area_upper, distance_m, distance_m};
 }
 
-void PedestrianProgress::follow(Leg& leg, const Person& person) {
+void PedestrianProgress::update(Leg& leg, const Person& person) {
   if (leg.lower == person.area_lower && leg.upper == person.area_upper) {
     leg.left_m = distance_to_target(person);
   } else {
@@ -70,12 +70,12 @@ void PedestrianProgress::follow(Leg& leg, const Person& person) {
   }
 }
 
-void PedestrianProgress::follow_all(const Sample& sample) {
-  // mostly the same people as before, in the same places
+void PedestrianProgress::update_legs(const Sample& sample) {
+  // usually the same people as before, at the same indices
   const std::size_t same_size = std::min(legs_.size(), sample.people.size());
   std::size_t same = 0;
   while (same < same_size && legs_[same].person_id == sample.people[same].id) {
-    follow(legs_[same], sample.people[same]);
+    update(legs_[same], sample.people[same]);
     ++same;
   }
   if (same == legs_.size() && same == sample.people.size()) return;
@@ -89,7 +89,7 @@ void PedestrianProgress::follow_all(const Sample& sample) {
     legs_.push_back(known != others.end() ? known->second : begin_leg(person));
     if (known == others.end()) continue;
     others.erase(known);
-    follow(legs_.back(), person);
+    update(legs_.back(), person);
   }
   for (const auto& [id, leg] : others) finished_m_.add(leg.whole_m);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// pedestrian_progress.hpp: how much way the crowd has made toward where it wants to go, as a curve over time.
+// pedestrian_progress.hpp: the progress of a crowd toward its targets, as a curve over time.
 //
-// Made for pairs: the same crowd with and without robots, compared at equal times. Every person walks legs, each from
-// where it began to the rectangle that is its target. A leg that is over counts with its straight distance in full,
-// whatever the way walked; the present one with what is left subtracted. So the sum never jumps at a change of target,
-// and a detour forced on somebody shows as distance not gained, not as way walked.
+// Made for pairs of trials: the same crowd with and without robots, compared at equal times. Every person walks legs,
+// each from its first position to a target rectangle. A finished leg counts with its full straight distance, whatever
+// the walked way; the current one counts with this distance minus the remaining one. So the sum does not jump when a
+// target changes, and a detour appears as missing progress, not as walked distance.
 #pragma once
 
 #include <cstdint>
@@ -26,19 +26,19 @@ class PedestrianProgress final : public Metric {
   struct Leg {
     std::uint64_t person_id;
     Vec2 lower, upper;  // the target
-    double whole_m;     // from where it began to the target
+    double whole_m;     // from the first position to the target
     double left_m;
   };
 
   static Leg begin_leg(const Person& person);
-  void follow(Leg& leg, const Person& person);
-  void follow_all(const Sample& sample);
+  void update(Leg& leg, const Person& person);
+  void update_legs(const Sample& sample);
   double gained_m() const;
 
-  std::vector<Leg> legs_;         // of the people of the last sample, in their order
-  CompensatedSum finished_m_;     // of all legs that are over
-  std::size_t most_people_ = 0;   // at once
-  std::vector<double> gained_m_;  // the crowd's, at 0, 1, 2, ... s
+  std::vector<Leg> legs_;         // of the people at the last sample, in their order
+  CompensatedSum finished_m_;     // sum over all finished legs
+  std::size_t most_people_ = 0;   // at the same time
+  std::vector<double> gained_m_;  // of the crowd, at 0, 1, 2, ... s
   TimeMoments speed_, desired_speed_;
 };
 

@@ -10,13 +10,12 @@ namespace dmrp::metrics {
 
 Descriptor PeopleNearby::describe() {
   return describe_metric("dmrp.metric.people_nearby", "People nearby")
-      .summary("how dense the crowd was that the robots met")
-      .source("the benchmark's own, so that density is known beside every other value")
+      .summary("density of the crowd around the robots")
+      .source("own definition, so that results show the density beside every other value")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value(
-          "people_nearby", "1", Direction::none, Subjects::system_and_robots,
-          "mean over its active time of the number of people within radius_m of the robot; system: mean over robots; "
-          "undefined if planning failed");
+      .value("people_nearby", "1", Direction::none, Subjects::system_and_robots,
+             "mean over active time of the number of people within radius_m of the robot; system: mean over robots; "
+             "undefined if planning failed");
 }
 
 void PeopleNearby::begin(const dmrp_plan*) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// people_nearby.hpp: how many people a robot has around it on its way: how dense the crowd was that it met.
+// people_nearby.hpp: the number of people around a robot.
 #pragma once
 
 #include <dmrp/plugin.hpp>

@@ -21,7 +21,7 @@ Descriptor Proxemics::describe() {
   return describe_metric("dmrp.metric.proxemics", "Proxemics")
       .summary("shares of time in people's intimate, personal and social space")
       .source(
-          "zones: Hall, The Hidden Dimension, 1966; from surface to surface as in HuNavSim, Perez-Higueras et al., "
+          "zones: Hall, The Hidden Dimension, 1966; surface distances as in HuNavSim, Perez-Higueras et al., "
           "RA-L 2023")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value("proxemics_intimate", "%", lower, robots,

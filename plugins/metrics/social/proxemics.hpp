@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// proxemics.hpp: how long robots are in people's intimate, personal and social space.
+// proxemics.hpp: shares of time in people's intimate, personal and social space.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -23,7 +23,7 @@ class Proxemics final : public Metric {
   };
 
   ActiveSteps active_;
-  std::vector<Shares> shares_;  // a robot
+  std::vector<Shares> shares_;  // by robot
 };
 
 }  // namespace dmrp::metrics

@@ -12,7 +12,7 @@ namespace dmrp::metrics {
 namespace {
 
 // Moussaid et al. 2009, Experimental study of the behavioural mechanisms underlying self-organization in human crowds;
-// the weights of forces as in HuNavSim's lightsfm.
+// weights as in HuNavSim's lightsfm.
 constexpr double lambda = 2.0;
 constexpr double gamma = 0.35;
 constexpr double n = 2.0;
@@ -21,11 +21,11 @@ constexpr double social_weight = 2.1;
 constexpr double obstacle_weight = 10.0;
 constexpr double obstacle_range_m = 0.2;
 
-// A force whose first factor is exp(-20) or less, 5 nm/s^2, is none.
+// Forces with a first factor of exp(-20) or less, 5 nm/s^2, count as 0.
 constexpr double farthest_in_ranges = 20.0;
 
-// Of `other` on `self`, m/s^2. The one of `self` on `other` is its opposite, to the bit: all vectors change their sign,
-// and the angle keeps it.
+// The force of the other body on the first, m/s^2. The reverse force is its exact negative: all vectors change their
+// sign, and the angle keeps it.
 Vec2 social_force(Vec2 position, Vec2 velocity, Vec2 other_position, Vec2 other_velocity) {
   const Vec2 apart = other_position - position;
   const double distance_m = toolkit::norm(apart);
@@ -50,22 +50,24 @@ Descriptor SocialWork::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.social_work", "Social work")
-      .summary("social forces between robots and people, and of walls on robots, added up over time")
+      .summary("social forces between robots and people, and of walls on robots, integrated over time")
       .source(
           "HuNavSim, Perez-Higueras et al., RA-L 2023: social work; forces: Moussaid et al., Proc. R. Soc. B 276, 2009")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value(
           "social_work", "m/s", lower, robots,
-          "integral over active time, forces taken at control steps and on arrival, of |sum of people's social forces "
-          "on the robot| + |force of the nearest static "
-          "surface on it| + sum over people of |its social force on them|; with e toward the other, D = 2 (v - v') + "
-          "e, B = 0.35 |D|, theta from D to e: social force 2.1 exp(-d / B) (exp(-(3 B theta)^2) back along D + "
-          "exp(-(2 B theta)^2) aside of it), per mass, d between centres; static 10 exp(-d / 0.2 m), d from surface "
-          "to surface; system: sum over robots; undefined without people")
+          "integral over active time, with forces sampled at control steps and on arrival, of |sum of people's social "
+          "forces on the robot| + |force of the nearest static surface on it| + sum over people of |its social force "
+          "on "
+          "them|; with e toward the other, D = 2 (v - v') + e, B = 0.35 |D|, theta from D to e: social force 2.1 "
+          "exp(-d / B) (exp(-(3 B theta)^2) against D + exp(-(2 B theta)^2) perpendicular to it), per mass, d between "
+          "centres; static force 10 exp(-d / 0.2 m), d between surfaces; system: sum over robots; undefined without "
+          "people")
       .value("social_work_robot", "m/s", lower, robots,
-             "the first two of these: what presses on the robot; system: sum over robots; undefined without people")
-      .value("social_work_people", "m/s", lower, robots,
-             "the last of these: what the robot does to people; system: sum over robots; undefined without people");
+             "the first two of these terms: forces on the robot; system: sum over robots; undefined without people")
+      .value(
+          "social_work_people", "m/s", lower, robots,
+          "the last of these terms: forces of the robot on people; system: sum over robots; undefined without people");
 }
 
 void SocialWork::begin(const dmrp_plan*) {

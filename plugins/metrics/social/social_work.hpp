@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// social_work.hpp: how hard robots and people press on each other, in terms of the social force model.
+// social_work.hpp: the social forces between robots and people, integrated over time.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ class SocialWork final : public Metric {
 
  private:
   struct Work {
-    std::int64_t active_ns = 0;   // what the sums stand for
-    std::int64_t pending_ns = 0;  // since
+    std::int64_t active_ns = 0;   // the time that the sums cover
+    std::int64_t pending_ns = 0;  // the time after that
     NearestWall wall;
     CompensatedSum on_robot;  // m/s: the integral of forces per mass
     CompensatedSum on_people;
   };
 
   ActiveSteps active_;
-  bool people_ = false;      // whether there ever were any
-  std::vector<Work> works_;  // a robot
+  bool people_ = false;      // whether any sample had people
+  std::vector<Work> works_;  // by robot
 };
 
 }  // namespace dmrp::metrics

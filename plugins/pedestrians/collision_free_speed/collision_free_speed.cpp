@@ -13,21 +13,21 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Influences on the direction smaller than this are left out; the wish has 1.
+// Repulsions below this are ignored; the desired direction has 1.
 constexpr double negligible_influence = 1e-4;
 
-// Bodies and steps up to this broad and long are minded in time, m.
-constexpr double broadest_radius_m = 0.5;
+// The largest radius and the longest way within a step for which the searches reach far enough, m.
+constexpr double largest_radius_m = 0.5;
 constexpr double longest_step_m = 0.1;
 
-// Who is held up goes on at up to this speed where only people who have farther to go are in the way, m/s: the world
-// lets people push each other, which opens an arch round a door.
+// A blocked person walks on at up to this speed where only people with lower priority are in the way, m/s. The world
+// lets people push each other, which opens an arch around a door.
 constexpr double shuffling_speed = 0.3;
 
 // The cells of the grid, m.
 constexpr double neighbor_cell_m = 1.0;
 
-// The gap at which an influence has become negligible.
+// The gap at which the repulsion becomes negligible.
 double fading_gap(double strength, double range_m) {
   return range_m * std::log(std::max(strength / negligible_influence, 1.0));
 }
@@ -38,7 +38,7 @@ Descriptor CollisionFreeSpeed::describe() {
   return Descriptor("dmrp.pedestrian.collision_free_speed", "Collision-free speed", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
-      .summary("people turn away from those near them and go as fast as the gap before them permits")
+      .summary("people turn away from their neighbours and walk as fast as the gap ahead permits")
       .source(
           "Tordeux, Chraibi, Seyfried: Collision-free speed model for pedestrian dynamics, Traffic and Granular Flow "
           "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29");
@@ -46,49 +46,49 @@ Descriptor CollisionFreeSpeed::describe() {
 
 Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
-  leanings_.start(seed);
+  side_preference_.start(seed);
   walkers_.start();
   ways_.start(world.walking_grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
-  const double wall_reach_m = broadest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
+  const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
   walkers_.gather(crowd, robot_awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
-    return leanings_.lean(slot, person, ways_.direction(slot, person));
+    return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 
   const double step_s = seconds(crowd.dt_ns);
   for (const Walker& walker : walkers_.by_place()) {
-    look_around(walker, crowd.people);
+    find_neighbors(walker, crowd.people);
     const Vec2 along = direction(walker);
-    velocities[walker.slot] = kept_off_walls(speed_along(along, walker, step_s) * along, walker.person, step_s);
+    velocities[walker.slot] = without_wall_contact(speed_along(along, walker, step_s) * along, walker.person, step_s);
   }
   return Status::ok;
 }
 
-// All who are turned away from or who may be in the way, and the walls.
-void CollisionFreeSpeed::look_around(const Walker& walker, const Span<Person>& people) {
+// All bodies whose repulsion counts or that can be in the way, and the walls.
+void CollisionFreeSpeed::find_neighbors(const Walker& walker, const Span<Person>& people) {
   const Person& person = walker.person;
   near_.clear();
-  const double furthest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
-  const double reach_m = person.radius_m + broadest_radius_m + furthest_gap_m;
+  const double largest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
+  const double reach_m = person.radius_m + largest_radius_m + largest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
     if (other->slot == walker.slot || !(squared_distance > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight, walkers_.right_of_way().holds_over(walker.slot, *other, people)});
+                     other->weight, walkers_.right_of_way().ignores(walker.slot, *other, people)});
   }
   walls_.nearest_points(person.position, wall_points_);
 }
 
-// Where to go, turned away from bodies and walls; a unit vector, or zero.
+// The desired direction, turned away from bodies and walls: a unit vector, or zero.
 Vec2 CollisionFreeSpeed::direction(const Walker& walker) {
   Vec2 sum = walker.way;
   for (const Near& other : near_) {
-    if (other.gives_way || other.gap_m > neighbor_reach_m_) continue;
+    if (other.is_ignored || other.gap_m > neighbor_reach_m_) continue;
     const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
     sum -= other.apart * (influence / (other.gap_m + other.reach_m));
   }
@@ -100,27 +100,27 @@ Vec2 CollisionFreeSpeed::direction(const Walker& walker) {
 
 double CollisionFreeSpeed::speed_along(Vec2 direction, const Walker& walker, double step_s) const {
   const Person& person = walker.person;
-  const bool goes_on = toolkit::dot(direction, walker.way) > 0.0;
+  const bool is_forward = toolkit::dot(direction, walker.way) > 0.0;
   const double to_target_m = toolkit::distance(person.position, person.target);
-  double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
+  double speed = std::min(person.desired_speed, to_target_m / step_s);  // does not pass the target
   for (const Near& other : near_) {
     if (!is_in_the_way(direction, other.apart, other.reach_m)) continue;
     const double permitted = permitted_speed(speed, other.gap_m, std::max(other.weight * time_gap, step_s));
-    speed = other.gives_way && goes_on ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
+    speed = other.is_ignored && is_forward ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
   }
   return speed;
 }
 
-// Without the part that would lead into a wall within the step: the repulsion alone fades over a shorter way than a
-// step is long.
-Vec2 CollisionFreeSpeed::kept_off_walls(Vec2 velocity, const Person& person, double step_s) const {
+// Removes the part of the velocity that would lead into a wall within the step. The repulsion alone cannot prevent
+// this, because its range is shorter than the way of a step.
+Vec2 CollisionFreeSpeed::without_wall_contact(Vec2 velocity, const Person& person, double step_s) const {
   const auto excess = [&](const WallPoint& wall, Vec2 v) {
     const double gap_m = std::max(wall.distance_m - person.radius_m, 0.0);
     return -toolkit::dot(v, wall.away) - gap_m / step_s;
   };
   Vec2 kept = velocity;
   for (const WallPoint& wall : wall_points_) kept += wall.away * std::max(excess(wall, kept), 0.0);
-  // in a corner, what one wall turns away may lead into another
+  // in a corner, the correction for one wall may lead into another
   constexpr double rounding_m_s = 1e-9;
   for (const WallPoint& wall : wall_points_)
     if (excess(wall, kept) > rounding_m_s) return {0.0, 0.0};

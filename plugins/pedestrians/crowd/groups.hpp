@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who walks together.
+// The members of each walking group.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,11 @@ class Groups {
  public:
   void start() { group_of_slot_.clear(); }
 
-  // Call once a step: sorts people into their groups anew where any group has changed.
+  // Call once a step. Sorts people into their groups again when any group has changed.
   void update(const Span<Person>& people);
 
-  // The slots of all who walk with the person in this slot, ascending, their own too; empty for who walks alone.
+  // The slots of all members of this person's group, the person included, in ascending order. Empty for people who
+  // walk alone.
   Span<std::uint32_t> members(std::uint32_t slot) const;
 
  private:

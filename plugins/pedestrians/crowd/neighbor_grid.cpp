@@ -5,7 +5,7 @@
 
 namespace dmrp::pedestrians {
 
-void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m) {
+void NeighborGrid::start(Vec2 lower, Vec2 upper, double cell_m) {
   lower_ = lower;
   cells_per_m_ = 1.0 / cell_m;
   const auto count = [&](double extent_m) {
@@ -20,7 +20,7 @@ void NeighborGrid::start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m) {
 }
 
 void NeighborGrid::build(const std::vector<Body>& bodies) {
-  // count the bodies of every cell, one place further on
+  // count the bodies of every cell, one entry further on
   std::fill(begins_.begin(), begins_.end(), 0u);
   cell_of_body_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -30,7 +30,7 @@ void NeighborGrid::build(const std::vector<Body>& bodies) {
   }
   for (std::size_t c = 1; c < begins_.size(); ++c) begins_[c] += begins_[c - 1];
 
-  // put every body where its cell begins, moving that on; afterwards each begin stands at the cell's end
+  // insert every body at its cell's begin and advance that; afterwards each begin is the end of its cell
   sorted_.resize(bodies.size());
   positions_.resize(bodies.size());
   found_.resize(bodies.size() + 1);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Who is near whom: bodies sorted into the cells of a uniform grid, anew at every step.
+// Neighbour search: a uniform grid of cells, filled again at every step.
 #pragma once
-
-#include <dmrp/values.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <dmrp/cpp/plugin_base.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
 namespace dmrp::pedestrians {
 
-// Somebody who is given way to: a person or a robot.
+// A person or a robot, as its neighbours see it.
 struct Body {
-  dmrp_vec2 position;
-  dmrp_vec2 velocity;
+  Vec2 position;
+  Vec2 velocity;
   double radius_m;
-  double weight;       // how much others mind this body: 1 for a person, the awareness of robots for a robot
+  double weight;       // of its influence on others: 1 for a person, `robot_awareness` for a robot
   std::uint32_t slot;  // of a person; no_slot for a robot
 };
 
@@ -35,39 +35,37 @@ struct NearBodies {
   const NearBody* end() const { return last; }
 };
 
-// The grid is laid over the world, not over the crowd, and bodies of a cell keep their order, so that what one person
-// sees does not depend on people far away. Bodies outside the world count to the cells at its border.
+// The grid covers the world, not the crowd, and the bodies of a cell keep their order. So the neighbours of a person do
+// not depend on people far away. Bodies outside the world belong to the cells at its border.
 class NeighborGrid {
  public:
-  // Cells of this size; the result is the same for any, the best is a fraction of what is looked through.
-  void start(dmrp_vec2 lower, dmrp_vec2 upper, double cell_m);
+  // The result is the same for any size of cells; the fastest is a fraction of the search radius.
+  void start(Vec2 lower, Vec2 upper, double cell_m);
 
-  // Sorts the bodies in by counting. Allocates only where there are more bodies than ever before.
+  // Fills the cells by counting sort. Allocates only if there are more bodies than in all builds before.
   void build(const std::vector<Body>& bodies);
 
-  // All bodies within `reach_m` of the point, in an order that only the bodies near it decide; a body at the point
-  // itself is one of them. Valid until the next call of near() or build().
-  NearBodies near(dmrp_vec2 point, double reach_m) {
+  // All bodies within `reach_m` of the point, one at the point itself included. Their order depends on bodies near the
+  // point only. Valid until the next call of near() or build().
+  NearBodies near(Vec2 point, double reach_m) {
     const std::int32_t first_column = column_of(point.x - reach_m);
     const std::int32_t last_column = column_of(point.x + reach_m);
     const std::int32_t last_row = row_of(point.y + reach_m);
     const double squared_reach = reach_m * reach_m;
     NearBody* free = found_.data();
     for (std::int32_t row = row_of(point.y - reach_m); row <= last_row; ++row) {
-      // the cells of a row follow each other, so its bodies are one run
+      // the cells of a row are adjacent, so their bodies form one run
       const std::uint32_t end = begins_[cell(last_column, row) + 1];
       for (std::uint32_t i = begins_[cell(first_column, row)]; i < end; ++i) {
-        const double dx = positions_[i].x - point.x;
-        const double dy = positions_[i].y - point.y;
-        // always written, but the next one takes its place where it is too far: no jump to predict
-        *free = {dx * dx + dy * dy, &sorted_[i]};
+        // without a branch: every body is written, and the next one overwrites it if it is too far
+        *free = {toolkit::squared_distance(point, positions_[i]), &sorted_[i]};
         free += free->squared_distance <= squared_reach ? 1 : 0;
       }
     }
     return {found_.data(), free};
   }
 
-  // The bodies by cell, row by row: who works through people in this order finds their neighbours in the cache.
+  // The bodies by cell, row by row. In this order, the neighbours of successive people are in the cache.
   const std::vector<Body>& by_place() const { return sorted_; }
 
  private:
@@ -80,15 +78,15 @@ class NeighborGrid {
     return cells > 0.0 ? static_cast<std::int32_t>(std::min(cells, count - 1.0)) : 0;
   }
 
-  dmrp_vec2 lower_ = {0.0, 0.0};
+  Vec2 lower_ = {0.0, 0.0};
   double cells_per_m_ = 1.0;
   std::int32_t columns_ = 1;
   std::int32_t rows_ = 1;
   std::vector<std::uint32_t> begins_;  // of every cell in sorted_, and the end
   std::vector<std::uint32_t> cell_of_body_;
   std::vector<Body> sorted_;
-  std::vector<dmrp_vec2> positions_;  // of sorted_
-  std::vector<NearBody> found_;       // room for all, and one more
+  std::vector<Vec2> positions_;  // of sorted_
+  std::vector<NearBody> found_;  // has one entry more than there are bodies
 };
 
 }  // namespace dmrp::pedestrians

@@ -7,10 +7,8 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Who gets on more slowly than this share of their wish, in a mean that forgets with this time constant, is held up: who stops
-// dead is so after 17 s. Stop-and-go waves of a dense crowd are faster.
-constexpr double held_up_speed_share = 0.03;
-constexpr double held_up_s = 5.0;
+constexpr double blocked_speed_share = 0.03;  // of the desired speed
+constexpr double time_constant_s = 5.0;
 
 }  // namespace
 
@@ -20,8 +18,8 @@ void RightOfWay::begin_step() {
   next_before_ = 0;
 }
 
-void RightOfWay::note(const Person& person, dmrp_vec2 way, double step_s) {
-  // people move up into the slots of those who leave, but keep their order
+void RightOfWay::update(const Person& person, Vec2 way, double step_s) {
+  // when people leave, the others move to lower slots but keep their order
   const auto known = std::find_if(before_.begin() + static_cast<std::ptrdiff_t>(next_before_), before_.end(),
                                   [&](const Progress& before) { return before.person_id == person.id; });
   Progress progress = {person.id, person.desired_speed, false, {}};
@@ -29,14 +27,15 @@ void RightOfWay::note(const Person& person, dmrp_vec2 way, double step_s) {
     progress = *known;
     next_before_ = static_cast<std::size_t>(known - before_.begin()) + 1;
   }
-  progress.speed += (toolkit::dot(person.velocity, way) - progress.speed) * std::min(step_s / held_up_s, 1.0);
-  progress.is_held_up = progress.speed < held_up_speed_share * person.desired_speed;
+  progress.mean_speed +=
+      (toolkit::dot(person.velocity, way) - progress.mean_speed) * std::min(step_s / time_constant_s, 1.0);
+  progress.is_blocked = progress.mean_speed < blocked_speed_share * person.desired_speed;
   progress.way = way;
   progress_.push_back(progress);
 }
 
-// Of two people one always goes before the other.
-bool RightOfWay::goes_before(const Person& one, const Person& other) {
+// The shorter way to the target decides, then the lower id. So of two people exactly one has priority.
+bool RightOfWay::has_priority(const Person& one, const Person& other) {
   const double one_m = toolkit::distance(one.position, one.target);
   const double other_m = toolkit::distance(other.position, other.target);
   return one_m < other_m || (one_m == other_m && one.id < other.id);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Who waits for whom where people are in each other's way and nobody gets on.
+// Priority between people who block each other.
 //
-// Models in which all turn aside alike have no answer to that: at a door two people turn each other back for ever
-// (prolonged clogs: Xu, Chraibi, Seyfried, Prolonged clogs in bottleneck simulations for pedestrian dynamics, Physica A
-// 573 (2021)). So who is held up no longer minds those before them who have farther to go, and somebody always goes first.
+// Models in which all people evade each other alike cannot resolve this: at a door, two people can turn each other back
+// for ever (prolonged clogs: Xu, Chraibi, Seyfried, Prolonged clogs in bottleneck simulations for pedestrian dynamics,
+// Physica A 573 (2021)). Here a blocked person ignores the people ahead who have farther to go, so somebody always
+// moves first.
+//
+// A person is *blocked* when the exponentially weighted mean of their progress (time constant 5 s) falls below 3 % of
+// the desired speed. A person who stops completely counts as blocked after 17 s; the stop-and-go waves of a dense crowd
+// are shorter.
 #pragma once
 
 #include <cstddef>
@@ -20,32 +25,32 @@ class RightOfWay {
  public:
   void start() { progress_.clear(); }
 
-  // At every step: first this, then everybody by slot, with the way on which they want to set out.
+  // Call begin_step() at every step, then update() for all people by slot, with their desired directions.
   void begin_step();
-  void note(const Person& person, dmrp_vec2 way, double step_s);
+  void update(const Person& person, Vec2 way, double step_s);
 
-  // Whether the person in this slot is held up, getting on by next to nothing for seconds, and the body is that of
-  // somebody before them who has farther to go.
-  bool holds_over(std::uint32_t slot, const Body& body, const Span<Person>& people) const {
+  // Whether the person in this slot is blocked and may ignore the body: a person ahead who has farther to go. Never a
+  // robot.
+  bool ignores(std::uint32_t slot, const Body& body, const Span<Person>& people) const {
     const Progress& progress = progress_[slot];
-    return progress.is_held_up && body.slot != no_slot &&
+    return progress.is_blocked && body.slot != no_slot &&
            toolkit::dot(progress.way, body.position - people[slot].position) > 0.0 &&
-           goes_before(people[slot], people[body.slot]);
+           has_priority(people[slot], people[body.slot]);
   }
 
  private:
   struct Progress {
     std::uint64_t person_id = 0;
-    double speed = 0.0;  // along their ways, mean, the older the less; m/s
-    bool is_held_up = false;
-    dmrp_vec2 way = {0.0, 0.0};
+    double mean_speed = 0.0;  // along the desired direction, exponentially weighted, m/s
+    bool is_blocked = false;
+    Vec2 way = {0.0, 0.0};
   };
 
-  static bool goes_before(const Person& one, const Person& other);
+  static bool has_priority(const Person& one, const Person& other);
 
   std::vector<Progress> progress_;  // by slot
-  std::vector<Progress> before_;    // likewise, of the last step
-  std::size_t next_before_ = 0;     // of those in before_, who may come next
+  std::vector<Progress> before_;    // by slot, of the last step
+  std::size_t next_before_ = 0;     // in before_: where the search for the next person begins
 };
 
 }  // namespace dmrp::pedestrians

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everybody of a step in the order of their places.
+// The people of one step, sorted by their places in the neighbour grid.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,22 @@
 
 namespace dmrp::pedestrians {
 
-// Somebody whose next velocity is sought.
+// A person whose next velocity a model computes.
 struct Walker {
   Person person;
-  dmrp_vec2 way;       // where they want to set out, a unit vector; zero on the target
+  Vec2 way;            // desired direction, a unit vector; zero on the target
   std::uint32_t slot;  // in the crowd
 };
 
-// People come by slot, which says nothing about where they are. What belongs to their slots is read in that order once,
-// and the rest of the step goes from neighbour to neighbour: neither runs through a large crowd's memory at random.
+// The host numbers people by slot, which is unrelated to their positions. gather() reads everything that is stored by
+// slot once, in this order; the model then visits people cell by cell. So neither accesses the memory of a large crowd
+// at random.
 class Walkers {
  public:
   void start() { right_of_way_.start(); }
 
-  // Sorts all people, and robots where they are minded, into `neighbors`. way_of(slot, person) is asked once each, slot
-  // by slot. Allocates only where there are more than ever before.
+  // Fills `neighbors` with all people and, unless `robot_awareness` is 0, with the robots. Calls way_of(slot, person)
+  // once for each person, in the order of slots. Allocates only if there are more people than in all steps before.
   template <class WayOf>
   void gather(const Crowd& crowd, double robot_awareness, NeighborGrid& neighbors, const WayOf& way_of) {
     bodies_.clear();
@@ -37,7 +38,7 @@ class Walkers {
       const Person& person = crowd.people[slot];
       bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
       ways_.push_back(way_of(slot, person));
-      right_of_way_.note(person, ways_.back(), step_s);
+      right_of_way_.update(person, ways_.back(), step_s);
     }
     if (robot_awareness > 0.0)
       for (const Agent& robot : crowd.robots)
@@ -49,14 +50,14 @@ class Walkers {
       if (body.slot != no_slot) by_place_.push_back({crowd.people[body.slot], ways_[body.slot], body.slot});
   }
 
-  // As neighbors.by_place() has them.
+  // In the order of neighbors.by_place().
   const std::vector<Walker>& by_place() const { return by_place_; }
 
   const RightOfWay& right_of_way() const { return right_of_way_; }
 
  private:
   std::vector<Body> bodies_;
-  std::vector<dmrp_vec2> ways_;  // by slot
+  std::vector<Vec2> ways_;  // by slot
   RightOfWay right_of_way_;
   std::vector<Walker> by_place_;
 };

@@ -23,25 +23,25 @@ std::int32_t clamped(double cells, std::int32_t count) {
 
 }  // namespace
 
-void WallGrid::start(Span<dmrp_segment> segments, dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
+void WallGrid::start(Span<Segment> segments, Vec2 lower, Vec2 upper, double reach_m) {
   segments_.assign(segments.begin(), segments.end());
   lower_ = lower;
   reach_m_ = reach_m;
   columns_ = cells_along(upper.x - lower.x);
   rows_ = cells_along(upper.y - lower.y);
 
-  // a segment belongs to every cell whose centre is nearer than reach and half the cell's diagonal
+  // a segment belongs to every cell whose centre is nearer to it than the reach and half of the cell's diagonal
   std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   const double bound_m = reach_m + half_diagonal_m;
   for (std::uint32_t s = 0; s < segments_.size(); ++s) {
-    const dmrp_segment& wall = segments_[s];
+    const Segment& wall = segments_[s];
     const auto first_column = clamped((std::min(wall.from.x, wall.to.x) - bound_m - lower.x) / cell_m, columns_);
     const auto last_column = clamped((std::max(wall.from.x, wall.to.x) + bound_m - lower.x) / cell_m, columns_);
     const auto first_row = clamped((std::min(wall.from.y, wall.to.y) - bound_m - lower.y) / cell_m, rows_);
     const auto last_row = clamped((std::max(wall.from.y, wall.to.y) + bound_m - lower.y) / cell_m, rows_);
     for (std::int32_t row = first_row; row <= last_row; ++row) {
       for (std::int32_t column = first_column; column <= last_column; ++column) {
-        const dmrp_vec2 center = {lower.x + (column + 0.5) * cell_m, lower.y + (row + 0.5) * cell_m};
+        const Vec2 center = {lower.x + (column + 0.5) * cell_m, lower.y + (row + 0.5) * cell_m};
         if (toolkit::distance(wall, center) <= bound_m) cells[cell_of(center)].push_back(s);
       }
     }
@@ -55,21 +55,21 @@ void WallGrid::start(Span<dmrp_segment> segments, dmrp_vec2 lower, dmrp_vec2 upp
   }
 }
 
-void WallGrid::nearest_points(dmrp_vec2 position, std::vector<WallPoint>& found) const {
+void WallGrid::nearest_points(Vec2 position, std::vector<WallPoint>& found) const {
   found.clear();
   for (const std::uint32_t s : near(position)) {
-    const dmrp_vec2 apart = position - toolkit::closest_point(segments_[s], position);
+    const Vec2 apart = position - toolkit::closest_point(segments_[s], position);
     const double distance_m = toolkit::norm(apart);
     if (distance_m > 0.0 && distance_m <= reach_m_) found.push_back({apart / distance_m, distance_m});
   }
 }
 
-Span<std::uint32_t> WallGrid::near(dmrp_vec2 position) const {
+Span<std::uint32_t> WallGrid::near(Vec2 position) const {
   const std::size_t cell = cell_of(position);
   return {members_.data() + begins_[cell], begins_[cell + 1] - begins_[cell]};
 }
 
-std::size_t WallGrid::cell_of(dmrp_vec2 position) const {
+std::size_t WallGrid::cell_of(Vec2 position) const {
   const auto column = static_cast<std::size_t>(clamped((position.x - lower_.x) / cell_m, columns_));
   const auto row = static_cast<std::size_t>(clamped((position.y - lower_.y) / cell_m, rows_));
   return row * static_cast<std::size_t>(columns_) + column;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What several walls do to somebody together.
+// The sum of the pushes of several walls on one person.
 #pragma once
 
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace dmrp::pedestrians {
 
-// Each wall pushes as hard as push(distance_m) says. Where several lie in much the same direction (pieces of one wall,
-// the two sides of a corner) they share one push between them, the nearer ones most of it, over `range_m`: so it makes
-// no difference of how many pieces a wall is made.
+// Each wall pushes with the strength push(distance_m). Walls in similar directions (pieces of one wall, the two sides
+// of a corner) share one push, of which nearer walls get more, with the decay length `range_m`. So the sum does not
+// depend on the number of pieces of which a wall consists.
 template <class Push>
-dmrp_vec2 push_of_walls(const std::vector<WallPoint>& walls, double range_m, Push&& push) {
-  dmrp_vec2 sum = {0.0, 0.0};
+Vec2 push_of_walls(const std::vector<WallPoint>& walls, double range_m, Push&& push) {
+  Vec2 sum = {0.0, 0.0};
   for (const WallPoint& wall : walls) {
     const double strength = push(wall.distance_m);
     if (!(strength > 0.0)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which way people turn to reach their targets: straight where the way is clear, else round furniture, through doors.
+// Directions to targets: straight where the target is in sight, otherwise around furniture and through doors.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 
 namespace dmrp::pedestrians {
 
-// Shares one navigation field among all who walk to the same place; it is computed when somebody first needs it. Fields
-// depend on the grid and the place alone, so they are kept over trials on the same grid.
+// All people with the same target area share one navigation field, computed when the first of them needs it. Fields
+// depend only on the grid and the area, so they stay valid over trials on the same grid.
 class WayFinder {
  public:
   WayFinder() = default;
   WayFinder(const WayFinder&) = delete;
   WayFinder& operator=(const WayFinder&) = delete;
 
-  void start(const dmrp_grid& walking_grid);
+  void start(const Grid& walking_grid);
 
-  // The unit vector in which the person in this slot should set out; zero on the target. Where no way leads to the
-  // target: straight at it.
-  dmrp_vec2 direction(std::size_t slot, const Person& person);
+  // The desired direction of the person in this slot, a unit vector; zero on the target. Leads straight to the target
+  // where no way exists.
+  Vec2 direction(std::size_t slot, const Person& person);
 
  private:
   struct Place {
@@ -35,29 +35,29 @@ class WayFinder {
     toolkit::NavigationField field;
   };
 
-  // What was found out about a person's way; true until they walk into another cell or get another target.
+  // A person's way. Valid until the person enters another cell or gets another target.
   struct Way {
     std::uint64_t person_id = 0;
     std::uint32_t cell = toolkit::no_cell;
-    bool has_patch = false;                           // of the field, in patches_
+    bool has_patch = false;                           // patches_ holds the part of the field for this cell
     const toolkit::NavigationField* field = nullptr;  // null: straight
-    LineOfSight line;                                 // to the target
+    SightLine sight_line;                             // to the target
   };
 
-  dmrp_vec2 along_field(const toolkit::NavigationField& field, dmrp_vec2 position, std::uint32_t cell) const;
-  bool is_known(const dmrp_grid& grid) const;
-  void copy(const dmrp_grid& grid);
+  Vec2 along_field(const toolkit::NavigationField& field, Vec2 position, std::uint32_t cell) const;
+  bool is_known(const Grid& grid) const;
+  void copy(const Grid& grid);
   void find_way(std::size_t slot, const Person& person, std::uint32_t cell);
   const toolkit::NavigationField& field_to_target_of(const Person& person);
 
   toolkit::GridView grid_;  // of the arrays below
-  Sight sight_;
+  LineOfSight line_of_sight_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> edges_;
   std::vector<float> clearance_;
-  std::deque<Place> places_;                              // never move
+  std::deque<Place> places_;                              // addresses are stable
   std::vector<Way> ways_;                                 // by slot
-  std::vector<toolkit::NavigationField::Patch> patches_;  // likewise; apart, as most walk straight
+  std::vector<toolkit::NavigationField::Patch> patches_;  // by slot; kept apart because most people walk straight
 };
 
 }  // namespace dmrp::pedestrians

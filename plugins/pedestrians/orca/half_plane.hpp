@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Velocities that somebody permits themselves on account of one other body or wall.
+// The velocities that one neighbour or wall permits.
 #pragma once
 
-#include <dmrp/values.h>
-
+#include <dmrp/cpp/plugin_base.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::pedestrians {
 
-// All velocities on or to the left of a line.
+// All velocities on a line or to its left.
 struct HalfPlane {
-  dmrp_vec2 point;      // on the line, m/s
-  dmrp_vec2 direction;  // unit vector along it
+  Vec2 point;      // on the line, m/s
+  Vec2 direction;  // unit vector along it
 };
 
-// The half-plane whose border goes through `point` and that lies where the unit vector `normal` points.
-inline HalfPlane half_plane(dmrp_vec2 point, dmrp_vec2 normal) {
+// The half-plane with `point` on its border and the inward unit vector `normal`.
+inline HalfPlane half_plane(Vec2 point, Vec2 normal) {
   return {point, -toolkit::perpendicular(normal)};
 }
 
-// How far outside the half-plane the velocity lies, m/s; negative inside.
-inline double violation(const HalfPlane& plane, dmrp_vec2 velocity) {
+// The distance of the velocity from the half-plane, m/s; negative inside.
+inline double violation(const HalfPlane& plane, Vec2 velocity) {
   return toolkit::cross(plane.direction, plane.point - velocity);
 }
 

@@ -8,31 +8,31 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Velocities and sines smaller than this are rounding.
+// Velocities and sines below this are rounding errors.
 constexpr double tolerance = 1e-9;
 
-// What is sought: the velocity nearest to a point, or the one furthest along a direction.
+// The two objectives: the velocity nearest to a point, and the one farthest along a direction.
 struct NearestTo {
-  dmrp_vec2 wish;
+  Vec2 wish;
 
-  // Where on the line, as a multiple of its direction, between `low` and `high`.
+  // The optimum on the line, as a multiple of its direction between `low` and `high`.
   double best_along(const HalfPlane& line, double low, double high) const {
     return std::clamp(toolkit::dot(line.direction, wish - line.point), low, high);
   }
 };
 
-struct FurthestAlong {
-  dmrp_vec2 way;
+struct FarthestAlong {
+  Vec2 way;
 
   double best_along(const HalfPlane& line, double low, double high) const {
     return toolkit::dot(line.direction, way) > 0.0 ? high : low;
   }
 };
 
-// The best velocity on the border of planes[index] within the disc and all planes before it. False: there is none.
+// The best velocity on the border of planes[index] within the disc and all planes before it. False if there is none.
 template <class Objective>
 bool best_on_border(const std::vector<HalfPlane>& planes, std::size_t index, double max_speed,
-                    const Objective& objective, dmrp_vec2& best) {
+                    const Objective& objective, Vec2& best) {
   const HalfPlane& line = planes[index];
   const double middle = -toolkit::dot(line.point, line.direction);
   const double squared_half = max_speed * max_speed + middle * middle - toolkit::squared_norm(line.point);
@@ -48,7 +48,7 @@ bool best_on_border(const std::vector<HalfPlane>& planes, std::size_t index, dou
       if (outside > tolerance) return false;
       continue;
     }
-    // the point at t is outside by (outside + t sine)
+    // the violation of planes[i] at parameter t is outside + t * sine
     const double bound = -outside / sine;
     if (sine > 0.0) {
       high = std::min(high, bound);
@@ -57,17 +57,17 @@ bool best_on_border(const std::vector<HalfPlane>& planes, std::size_t index, dou
     }
     if (low > high + tolerance) return false;
   }
-  // borders that meet in a point may miss each other by a rounding error
+  // borders that meet in one point may miss it by a rounding error
   if (low > high) low = high = 0.5 * (low + high);
   best = line.point + objective.best_along(line, low, high) * line.direction;
   return true;
 }
 
-// Improves on `best`, the best velocity in the disc, plane by plane. Returns how many planes have room in common:
-// `best` is the best in all those.
+// Adds the planes one by one; `best` is the best velocity in the disc at first. Returns the number of planes that have
+// a common velocity; `best` is the best one in all of these.
 template <class Objective>
 std::size_t best_in_all(const std::vector<HalfPlane>& planes, double max_speed, const Objective& objective,
-                        dmrp_vec2& best) {
+                        Vec2& best) {
   for (std::size_t i = 0; i < planes.size(); ++i)
     if (violation(planes[i], best) > 0.0 && !best_on_border(planes, i, max_speed, objective, best)) return i;
   return planes.size();
@@ -75,22 +75,22 @@ std::size_t best_in_all(const std::vector<HalfPlane>& planes, double max_speed, 
 
 }  // namespace
 
-dmrp_vec2 VelocityProgram::solve(const std::vector<HalfPlane>& planes, std::size_t hard_count, double max_speed,
-                                 dmrp_vec2 preferred) {
+Vec2 VelocityProgram::solve(const std::vector<HalfPlane>& planes, std::size_t hard_count, double max_speed,
+                            Vec2 preferred) {
   const double speed = toolkit::norm(preferred);
-  dmrp_vec2 best = speed > max_speed ? preferred * (max_speed / speed) : preferred;
+  Vec2 best = speed > max_speed ? preferred * (max_speed / speed) : preferred;
   const std::size_t met = best_in_all(planes, max_speed, NearestTo{preferred}, best);
   if (met == planes.size()) return best;
   if (met >= hard_count) return least_violation(planes, hard_count, met, max_speed, best);
-  return least_violation(planes, hard_count, hard_count, max_speed, {0.0, 0.0});  // rounding alone leads here
+  return least_violation(planes, hard_count, hard_count, max_speed, {0.0, 0.0});  // only by rounding errors
 }
 
-// The third dimension is the violation that all soft planes are allowed. Plane by plane, the best velocity has one
-// violation in common with the newest plane and lies, for each plane before it, on that side of the two borders'
-// bisector where the older plane is violated less.
-dmrp_vec2 VelocityProgram::least_violation(const std::vector<HalfPlane>& planes, std::size_t hard_count,
-                                           std::size_t first_violated, double max_speed, dmrp_vec2 start) {
-  dmrp_vec2 best = start;
+// The third dimension of the linear programme is the violation allowed for all soft planes. When a plane is added, the
+// optimum has the same violation of it; for each earlier plane, it lies on the side of the two borders' bisector where
+// the earlier plane is violated less.
+Vec2 VelocityProgram::least_violation(const std::vector<HalfPlane>& planes, std::size_t hard_count,
+                                      std::size_t first_violated, double max_speed, Vec2 start) {
+  Vec2 best = start;
   double allowed = 0.0;
   for (std::size_t i = first_violated; i < planes.size(); ++i) {
     const HalfPlane& newest = planes[i];
@@ -100,19 +100,19 @@ dmrp_vec2 VelocityProgram::least_violation(const std::vector<HalfPlane>& planes,
     for (std::size_t j = hard_count; j < i; ++j) {
       const HalfPlane& older = planes[j];
       const double sine = toolkit::cross(newest.direction, older.direction);
-      dmrp_vec2 point = 0.5 * (newest.point + older.point);
+      Vec2 point = 0.5 * (newest.point + older.point);
       if (std::abs(sine) > tolerance) {
         point = newest.point - newest.direction * (violation(older, newest.point) / sine);
       } else if (toolkit::dot(newest.direction, older.direction) > 0.0) {
-        continue;  // the same way: the newest is the stricter one, as it is violated more
+        continue;  // parallel: the newest is the stricter one, because its violation is greater
       }
       bisected_.push_back({point, toolkit::normalized(older.direction - newest.direction)});
     }
 
-    const dmrp_vec2 inward = toolkit::perpendicular(newest.direction);
-    dmrp_vec2 candidate = inward * max_speed;
-    // that some plane has no room is rounding: the velocity found so far is in all of them
-    if (best_in_all(bisected_, max_speed, FurthestAlong{inward}, candidate) == bisected_.size()) best = candidate;
+    const Vec2 inward = toolkit::perpendicular(newest.direction);
+    Vec2 candidate = inward * max_speed;
+    // planes without a common velocity are a rounding error: the velocity found so far is in all of them
+    if (best_in_all(bisected_, max_speed, FarthestAlong{inward}, candidate) == bisected_.size()) best = candidate;
     allowed = violation(newest, best);
   }
   return best;

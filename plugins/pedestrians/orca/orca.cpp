@@ -12,17 +12,17 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Nobody walks faster than this times the desired speed.
+// The highest speed, relative to the desired speed.
 constexpr double speed_cap_factor = 1.3;
 
-// Walls are minded in time by who walks up to this fast and is this broad.
-constexpr double fastest_m_s = 5.0;
-constexpr double broadest_radius_m = 0.5;
+// The largest speed and radius for which the search for walls reaches far enough.
+constexpr double largest_speed_m_s = 5.0;
+constexpr double largest_radius_m = 0.5;
 
-// Of the grid's cells; the share of the reach that makes the search shortest.
+// The size of the grid's cells relative to the search radius that makes the search fastest.
 constexpr double cell_per_reach = 0.4;
 
-// Two who avoid each other take half each.
+// Two people each make half of the change.
 constexpr double even_share = 0.5;
 
 }  // namespace
@@ -31,25 +31,26 @@ Descriptor Orca::describe() {
   return Descriptor("dmrp.pedestrian.orca", "ORCA", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
-      .summary("people take the velocity nearest to their wish that is free of collisions if all do their share")
+      .summary(
+          "people choose the collision-free velocity nearest to their preferred one, provided that all do their share")
       .source(
           "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), "
           "doi:10.1007/978-3-642-19457-3_1");
 }
 
 Status Orca::start(const World& world, std::uint64_t seed) {
-  leanings_.start(seed);
+  side_preference_.start(seed);
   walkers_.start();
   ways_.start(world.walking_grid());
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
-  walls_.start(world.segments(), world->lower, world->upper, fastest_m_s * time_horizon_obst + broadest_radius_m);
+  walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
 
 Status Orca::step(const Crowd& crowd, Vec2* velocities) {
   walkers_.gather(crowd, robot_awareness, grid_, [&](std::uint32_t slot, const Person& person) {
-    return leanings_.lean(slot, person, ways_.direction(slot, person));
+    return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 
   const double step_s = seconds(crowd.dt_ns);
@@ -62,9 +63,9 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
     const std::size_t neighbor_count = find_neighbors(slot, person.position, crowd.people);
     for (std::size_t i = 0; i < neighbor_count; ++i) {
       const Body& other = *neighbors_[i].body;
-      if (walkers_.right_of_way().holds_over(slot, other, crowd.people)) continue;
-      const HalfPlane plane = permitted_beside(other, person, step_s);
-      // most planes hold every velocity within the cap
+      if (walkers_.right_of_way().ignores(slot, other, crowd.people)) continue;
+      const HalfPlane plane = permitted_by(other, person, step_s);
+      // most planes contain every velocity up to the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
     velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(way, person, step_s));
@@ -72,11 +73,11 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
   return Status::ok;
 }
 
-HalfPlane Orca::permitted_beside(const Body& other, const Person& person, double step_s) const {
-  const Encounter met = {other.position - person.position, person.velocity - other.velocity,
-                         person.radius_m + other.radius_m};
+HalfPlane Orca::permitted_by(const Body& other, const Person& person, double step_s) const {
+  const Encounter encounter = {other.position - person.position, person.velocity - other.velocity,
+                               person.radius_m + other.radius_m};
   const double horizon_s = std::max(other.weight * time_horizon, step_s);
-  return give_way(escape(met, horizon_s, step_s), person.velocity, even_share * other.weight);
+  return give_way(escape(encounter, horizon_s, step_s), person.velocity, even_share * other.weight);
 }
 
 std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people) {
@@ -106,7 +107,7 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<P
 
 Vec2 Orca::preferred_velocity(Vec2 way, const Person& person, double step_s) {
   const double to_target_m = toolkit::distance(person.position, person.target);
-  const double speed = std::min(person.desired_speed, to_target_m / step_s);  // not past the target
+  const double speed = std::min(person.desired_speed, to_target_m / step_s);  // does not pass the target
   return speed * way;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The half-plane of velocities that somebody permits themselves on account of another body that moves.
+// The half-plane of velocities that a moving neighbour permits.
 //
 // Van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), section 4.
 #pragma once
@@ -10,49 +10,49 @@
 
 namespace dmrp::pedestrians {
 
-// Another body, seen by somebody.
+// A neighbour, relative to the person.
 struct Encounter {
-  dmrp_vec2 apart;     // from self to the other, m; not zero
-  dmrp_vec2 approach;  // own velocity minus the other's, m/s
-  double reach_m;      // sum of the radii
+  Vec2 apart;      // from the person to the neighbour, m; not zero
+  Vec2 approach;   // the person's velocity minus the neighbour's, m/s
+  double reach_m;  // sum of the radii
 };
 
-// The change of `approach` that brings it to the border of the velocity obstacle, and the border's normal there.
+// The smallest change of `approach` that moves it to the border of the velocity obstacle (u in the paper), and the
+// border's normal there.
 struct Escape {
-  dmrp_vec2 change;
-  dmrp_vec2 normal;  // unit vector, out of the velocity obstacle
+  Vec2 change;
+  Vec2 normal;  // unit vector, out of the velocity obstacle
 };
 
-// The velocity obstacle holds every approach that brings the two together within `horizon_s`: the cone over the disc of
-// radius reach_m at `apart`, cut off by that disc scaled by 1 / horizon_s. Who overlaps already gets out of it in the
-// time `step_s`.
+// The velocity obstacle contains every approach that leads to a contact within `horizon_s`: the cone over the disc of
+// radius reach_m at `apart`, truncated by this disc scaled by 1 / horizon_s. Bodies that overlap already separate
+// within `step_s`.
 inline Escape escape(const Encounter& met, double horizon_s, double step_s) {
   const double squared_distance = toolkit::squared_norm(met.apart);
   const double squared_reach = met.reach_m * met.reach_m;
   const bool overlap = squared_distance < squared_reach;
   const double within_s = overlap ? step_s : horizon_s;
 
-  // from the centre of the cut-off disc; it is nearest to that disc where it lies between the cone's tangent points
-  const dmrp_vec2 from_center = met.approach - met.apart / within_s;
+  // relative to the centre of the truncating disc; the disc is nearest where this lies between the tangent points
+  const Vec2 from_center = met.approach - met.apart / within_s;
   const double squared_length = toolkit::squared_norm(from_center);
   const double along = toolkit::dot(from_center, met.apart);
   if (overlap || (along < 0.0 && along * along > squared_reach * squared_length)) {
     const double length = std::sqrt(squared_length);
-    const dmrp_vec2 normal = length > 0.0 ? from_center / length : toolkit::normalized(-met.apart);
+    const Vec2 normal = length > 0.0 ? from_center / length : toolkit::normalized(-met.apart);
     return {normal * (met.reach_m / within_s - length), normal};
   }
 
-  // the leg on whose side the approach is
+  // otherwise the leg on the side of the approach is nearest
   const double leg_m = std::sqrt(squared_distance - squared_reach);
   const double side = toolkit::cross(met.apart, from_center) > 0.0 ? 1.0 : -1.0;
-  const dmrp_vec2 leg =
-      (met.apart * leg_m + toolkit::perpendicular(met.apart) * (side * met.reach_m)) / squared_distance;
-  const dmrp_vec2 normal = toolkit::perpendicular(leg) * side;
+  const Vec2 leg = (met.apart * leg_m + toolkit::perpendicular(met.apart) * (side * met.reach_m)) / squared_distance;
+  const Vec2 normal = toolkit::perpendicular(leg) * side;
   return {normal * -toolkit::dot(met.approach, normal), normal};
 }
 
-// Somebody who walks at `velocity` takes this share of the change upon themselves and counts on the other for the rest.
-inline HalfPlane give_way(const Escape& away, dmrp_vec2 velocity, double share) {
+// A person at `velocity` makes this share of the change and expects the neighbour to make the rest.
+inline HalfPlane give_way(const Escape& away, Vec2 velocity, double share) {
   return half_plane(velocity + share * away.change, away.normal);
 }
 

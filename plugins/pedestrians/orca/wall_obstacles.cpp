@@ -10,8 +10,8 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// The side of the cone over a disc: +1 its left side, -1 its right one.
-dmrp_vec2 tangent(dmrp_vec2 center, double radius_m, double side) {
+// The leg of the cone over a disc: `side` is +1 for the left one, -1 for the right one.
+Vec2 tangent(Vec2 center, double radius_m, double side) {
   const double squared_distance = toolkit::squared_norm(center);
   const double leg_m = std::sqrt(squared_distance - radius_m * radius_m);
   return (center * leg_m + toolkit::perpendicular(center) * (side * radius_m)) / squared_distance;
@@ -19,23 +19,23 @@ dmrp_vec2 tangent(dmrp_vec2 center, double radius_m, double side) {
 
 }  // namespace
 
-void WallObstacles::start(Span<dmrp_segment> segments, dmrp_vec2 lower, dmrp_vec2 upper, double reach_m) {
+void WallObstacles::start(Span<Segment> segments, Vec2 lower, Vec2 upper, double reach_m) {
   grid_.start(segments, lower, upper, reach_m);
   walls_.clear();
-  for (const dmrp_segment& segment : segments)
+  for (const Segment& segment : segments)
     walls_.push_back({segment.from, segment.to, toolkit::normalized(segment.to - segment.from), {}, {}, true, true});
   near_.reserve(segments.size());
 
   for (std::size_t begin = 0, end = 0; begin < segments.size(); begin = end) {
-    dmrp_vec2 lowest = segments[begin].from;
-    dmrp_vec2 highest = lowest;
+    Vec2 lowest = segments[begin].from;
+    Vec2 highest = lowest;
     do {
-      const dmrp_vec2 corner = segments[end].to;
+      const Vec2 corner = segments[end].to;
       lowest = {std::min(lowest.x, corner.x), std::min(lowest.y, corner.y)};
       highest = {std::max(highest.x, corner.x), std::max(highest.y, corner.y)};
     } while (segments[end++].to != segments[begin].from && end < segments.size());
 
-    // the border alone is free inside: turned round, its free side is to the right too
+    // only the border is free inside; reversed, its free side is to the right too
     if (lowest == lower && highest == upper) {
       for (std::size_t i = begin; i < end; ++i) {
         std::swap(walls_[i].from, walls_[i].to);
@@ -59,16 +59,16 @@ void WallObstacles::link_outline(std::size_t begin, std::size_t end) {
   }
 }
 
-void WallObstacles::append_half_planes(dmrp_vec2 position, dmrp_vec2 velocity, double radius_m, double max_speed,
+void WallObstacles::append_half_planes(Vec2 position, Vec2 velocity, double radius_m, double max_speed,
                                        double horizon_s, std::vector<HalfPlane>& planes) {
   find_near(position, radius_m + max_speed * horizon_s);
   for (const Near& near : near_) {
     const Wall& wall = walls_[near.wall];
     HalfPlane plane;
     bool is_owned = false;
-    dmrp_vec2 nearest;
+    Vec2 nearest;
     if (is_touching(wall, position, radius_m, nearest, is_owned)) {
-      // no nearer, but along it or away
+      // motion along the wall or away from it is permitted
       if (is_owned) planes.push_back(half_plane({0.0, 0.0}, toolkit::normalized(-nearest)));
       continue;
     }
@@ -78,41 +78,40 @@ void WallObstacles::append_half_planes(dmrp_vec2 position, dmrp_vec2 velocity, d
   }
 }
 
-// Walls that turn their free side to the position, nearest first.
-void WallObstacles::find_near(dmrp_vec2 position, double range_m) {
+// Walls whose free side faces the position, nearest first.
+void WallObstacles::find_near(Vec2 position, double range_m) {
   near_.clear();
   for (const std::uint32_t w : grid_.near(position)) {
     const Wall& wall = walls_[w];
     if (!(toolkit::cross(wall.direction, position - wall.from) < 0.0)) continue;
-    const double squared_distance = toolkit::squared_distance(dmrp_segment{wall.from, wall.to}, position);
+    const double squared_distance = toolkit::squared_distance(Segment{wall.from, wall.to}, position);
     if (squared_distance >= range_m * range_m) continue;
-    // the grid gives walls in their order, which is kept where distances are equal
+    // the grid lists walls by index; equal distances keep this order
     near_.push_back({squared_distance, w});
     for (std::size_t i = near_.size() - 1; i > 0 && near_[i].squared_distance < near_[i - 1].squared_distance; --i)
       std::swap(near_[i], near_[i - 1]);
   }
 }
 
-// `nearest`: the wall's nearest point, from the position. In a corner that one would walk into, the two walls say all
-// that is to be said: its vertex is not their own.
-bool WallObstacles::is_touching(const Wall& wall, dmrp_vec2 position, double radius_m, dmrp_vec2& nearest,
-                                bool& is_owned) {
+// `nearest`: the wall's nearest point, relative to the position. `is_owned`: this point is not the vertex of a concave
+// corner; there, the two walls themselves are constraint enough.
+bool WallObstacles::is_touching(const Wall& wall, Vec2 position, double radius_m, Vec2& nearest, bool& is_owned) {
   const double fraction = toolkit::closest_fraction({wall.from, wall.to}, position);
   nearest = toolkit::lerp(wall.from, wall.to, fraction) - position;
   is_owned = fraction <= 0.0 ? wall.left_sticks_out : fraction >= 1.0 ? wall.right_sticks_out : true;
   return toolkit::squared_norm(nearest) <= radius_m * radius_m;
 }
 
-// False where only an end is seen that belongs to the wall beside it.
-bool WallObstacles::view_of(const Wall& wall, dmrp_vec2 position, double radius_m, View& view) {
+// False where only an end counts that belongs to the adjacent wall.
+bool WallObstacles::view_of(const Wall& wall, Vec2 position, double radius_m, View& view) {
   view.left = wall.from - position;
   view.right = wall.to - position;
-  dmrp_vec2 beside_left = wall.left_direction;
-  dmrp_vec2 beside_right = wall.right_direction;
+  Vec2 beside_left = wall.left_direction;
+  Vec2 beside_right = wall.right_direction;
   bool left_sticks_out = wall.left_sticks_out;
   bool right_sticks_out = wall.right_sticks_out;
 
-  // within a radius of the wall's line and past an end, that end's disc hides all the rest
+  // within a radius of the wall's line and beyond one end, only the disc of this end counts
   const bool near_line = -toolkit::cross(view.left, wall.direction) <= radius_m;
   const bool past_left = toolkit::dot(view.left, wall.direction) > 0.0;
   const bool past_right = toolkit::dot(view.right, wall.direction) < 0.0;
@@ -131,7 +130,7 @@ bool WallObstacles::view_of(const Wall& wall, dmrp_vec2 position, double radius_
 
   view.left_leg = left_sticks_out ? tangent(view.left, radius_m, 1.0) : -wall.direction;
   view.right_leg = right_sticks_out ? tangent(view.right, radius_m, -1.0) : wall.direction;
-  // where the wall beside reaches past a leg, the obstacle goes on along it
+  // where the adjacent wall extends beyond a leg, the obstacle continues along that wall
   view.left_leg_is_covered = left_sticks_out && toolkit::cross(view.left_leg, -beside_left) >= 0.0;
   view.right_leg_is_covered = right_sticks_out && toolkit::cross(view.right_leg, beside_right) <= 0.0;
   if (view.left_leg_is_covered) view.left_leg = -beside_left;
@@ -139,21 +138,21 @@ bool WallObstacles::view_of(const Wall& wall, dmrp_vec2 position, double radius_
   return true;
 }
 
-// The half-plane at that point of the velocity obstacle's border that is nearest to the velocity; false where this
-// point belongs to the wall beside.
-bool WallObstacles::border_nearest(const Wall& wall, const View& view, dmrp_vec2 velocity, double radius_m,
-                                   double horizon_s, HalfPlane& plane) {
+// The half-plane at the point of the velocity obstacle's border that is nearest to the velocity. False where this point
+// belongs to the adjacent wall.
+bool WallObstacles::border_nearest(const Wall& wall, const View& view, Vec2 velocity, double radius_m, double horizon_s,
+                                   HalfPlane& plane) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double radius = radius_m / horizon_s;
-  const dmrp_vec2 from_left = velocity - view.left / horizon_s;  // from the centres of the cut-off discs
-  const dmrp_vec2 from_right = velocity - view.right / horizon_s;
+  const Vec2 from_left = velocity - view.left / horizon_s;  // from the centres of the truncating discs
+  const Vec2 from_right = velocity - view.right / horizon_s;
   const double along_left_leg = toolkit::dot(from_left, view.left_leg);
   const double along_right_leg = toolkit::dot(from_right, view.right_leg);
   const bool before_left = toolkit::dot(from_left, wall.direction) < 0.0;
   const bool behind_right = toolkit::dot(from_right, wall.direction) > 0.0;
 
-  const auto on_disc = [&](dmrp_vec2 from_center) {
-    const dmrp_vec2 normal = toolkit::normalized(from_center);
+  const auto on_disc = [&](Vec2 from_center) {
+    const Vec2 normal = toolkit::normalized(from_center);
     plane = half_plane(velocity - from_center + radius * normal, normal);
     return true;
   };
@@ -164,14 +163,12 @@ bool WallObstacles::border_nearest(const Wall& wall, const View& view, dmrp_vec2
     if (behind_right && along_right_leg < 0.0) return on_disc(from_right);
   }
 
-  const auto off_line = [&](dmrp_vec2 from_center, dmrp_vec2 line) {
-    return std::abs(toolkit::cross(line, from_center));
-  };
+  const auto off_line = [&](Vec2 from_center, Vec2 line) { return std::abs(toolkit::cross(line, from_center)); };
   const double off_cut = view.end_on || before_left || behind_right ? infinity : off_line(from_left, wall.direction);
   const double off_left_leg = along_left_leg < 0.0 ? infinity : off_line(from_left, view.left_leg);
   const double off_right_leg = along_right_leg < 0.0 ? infinity : off_line(from_right, view.right_leg);
 
-  const auto on_line = [&](dmrp_vec2 from_center, dmrp_vec2 normal) {
+  const auto on_line = [&](Vec2 from_center, Vec2 normal) {
     plane = half_plane(velocity - from_center + radius * normal, normal);
     return true;
   };

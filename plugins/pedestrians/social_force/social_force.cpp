@@ -13,25 +13,25 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-// Others further away than this are not minded, m.
+// People ignore neighbours farther away than this, m.
 constexpr double neighbor_reach_m = 5.0;
 
 // The cells of the grid, m.
 constexpr double neighbor_cell_m = 2.0;
 
-// Walls are minded where the nearest point is this near to a person's centre, m.
+// People ignore walls farther from their centre than this, m.
 constexpr double wall_reach_m = 1.5;
 
-// Distances between people in the model are those of bodies of this radius, m; others count by the gap between them.
+// The model defines distances for bodies of this radius, m. For other radii, the gap between the bodies counts.
 constexpr double reference_radius_m = 0.3;
 
-// Between bodies of one group, m.
-constexpr double elbow_room_m = 0.2;
+// Members of a group keep this gap between their bodies, m.
+constexpr double group_gap_m = 0.2;
 
-// Over this distance closing up with one's group sets in, m.
+// The cohesion force rises from zero to its full value over this distance, m.
 constexpr double cohesion_ramp_m = 0.5;
 
-// Nobody walks faster than this times the desired speed.
+// The highest speed, relative to the desired speed.
 constexpr double speed_cap_factor = 1.3;
 
 }  // namespace
@@ -82,21 +82,20 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
 Vec2 SocialForce::acceleration(const Walker& walker, const Span<Person>& people) {
   const auto& [person, way, slot] = walker;
   double speed = person.desired_speed;
-  const Vec2 others = from_others(walker, people, speed);
+  const Vec2 neighbors = force_of_neighbors(walker, people, speed);
   const Vec2 desired = speed * way;
   const Vec2 drive = (desired - person.velocity) * (desired_weight / relaxation_time);
-  return drive + others + from_group(walker, people, desired) + from_walls(person);
+  return drive + neighbors + force_of_group(walker, people, desired) + force_of_walls(person);
 }
 
-// How hard somebody keeps off a wall or a body this far from their own. Levels off in an overlap, which the world
-// allows at most a little of.
-double SocialForce::keeping_off(double gap_m) const {
+// The repulsion from a wall or a body at this gap. It is bounded in an overlap, which the world keeps small.
+double SocialForce::repulsion(double gap_m) const {
   const double gaps = gap_m / obstacle_sigma;
   return gaps > negligible_exponent ? 0.0 : obstacle_weight * std::exp(-std::max(gaps, -1.0));
 }
 
-// Lowers `speed` to what those ahead permit.
-Vec2 SocialForce::from_others(const Walker& walker, const Span<Person>& people, double& speed) {
+// Also reduces `speed` to the value that the bodies ahead permit.
+Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& people, double& speed) {
   const auto& [person, way, slot] = walker;
   Vec2 sum = {0.0, 0.0};
   for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
@@ -107,10 +106,10 @@ Vec2 SocialForce::from_others(const Walker& walker, const Span<Person>& people, 
     const Vec2 toward = apart / distance_m;
     const double reach_m = person.radius_m + other.radius_m;
     const double gap_m = distance_m - reach_m;
-    const double as_people_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
-    const Vec2 minding = interaction(shape_, toward, as_people_m, person.velocity - other.velocity);
-    if (!walkers_.right_of_way().holds_over(slot, other, people))
-      sum += other.weight * (social_weight * minding - keeping_off(gap_m) * toward);
+    const double model_distance_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
+    const Vec2 force = interaction(shape_, toward, model_distance_m, person.velocity - other.velocity);
+    if (!walkers_.right_of_way().ignores(slot, other, people))
+      sum += other.weight * (social_weight * force - repulsion(gap_m) * toward);
 
     const double following_s = other.weight * time_gap;
     if (gap_m < speed * following_s)
@@ -119,34 +118,34 @@ Vec2 SocialForce::from_others(const Walker& walker, const Span<Person>& people, 
   return sum;
 }
 
-// Who walks in a group slows down for those out of sight behind, closes up where the group has drawn apart, and leaves
-// the others elbow-room.
-Vec2 SocialForce::from_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const {
+// Members of a group slow down for members out of sight behind, approach a group that has spread out, and keep a gap to
+// each other.
+Vec2 SocialForce::force_of_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const {
   const auto& [person, way, slot] = walker;
   if (person.group == 0) return {0.0, 0.0};
   const Span<std::uint32_t> members = groups_.members(slot);
   if (members.size() < 2) return {0.0, 0.0};
   Vec2 center = {0.0, 0.0};
-  Vec2 elbow_room = {0.0, 0.0};
+  Vec2 repulsion_sum = {0.0, 0.0};
   for (const std::uint32_t member : members) {
     const Person& other = people[member];
     center += other.position / static_cast<double>(members.size());
     if (member == slot) continue;
     const double gap_m = toolkit::distance(other.position, person.position) - person.radius_m - other.radius_m;
-    if (gap_m < elbow_room_m) elbow_room += toolkit::normalized(person.position - other.position);
+    if (gap_m < group_gap_m) repulsion_sum += toolkit::normalized(person.position - other.position);
   }
   const Vec2 to_center = center - person.position;
   const double apart_m = toolkit::norm(to_center);
   const double allowed_m = 0.5 * static_cast<double>(members.size() - 1);
-  const double closing_up = std::clamp((apart_m - allowed_m) / cohesion_ramp_m, 0.0, 1.0);
+  const double cohesion = std::clamp((apart_m - allowed_m) / cohesion_ramp_m, 0.0, 1.0);
   return gaze_weight * gaze(desired, person.velocity, to_center) +
-         cohesion_weight * closing_up * toolkit::normalized(to_center) + repulsion_weight * elbow_room;
+         cohesion_weight * cohesion * toolkit::normalized(to_center) + repulsion_weight * repulsion_sum;
 }
 
-Vec2 SocialForce::from_walls(const Person& person) {
+Vec2 SocialForce::force_of_walls(const Person& person) {
   walls_.nearest_points(person.position, wall_points_);
   return push_of_walls(wall_points_, obstacle_sigma,
-                       [&](double distance_m) { return keeping_off(distance_m - person.radius_m); });
+                       [&](double distance_m) { return repulsion(distance_m - person.radius_m); });
 }
 
 }  // namespace dmrp::pedestrians

@@ -6,31 +6,33 @@
 
 namespace dmrp::planners {
 
-// Sharon et al. 2015, with what makes it CBSH2-RTC (Li et al. 2021): prioritized conflicts and bypass (Boyarski et al.
-// 2015), the weighted dependency graph heuristic (Li et al. 2019), rectangle, corridor and target reasoning (Li et al.
-// 2019, 2020). Each is a parameter. Disjoint splitting (Li et al. 2019) is a choice.
+// Sharon et al. 2015, with the improvements of CBSH2-RTC (Li et al. 2021): prioritized conflicts and bypass (Boyarski
+// et al. 2015), the weighted dependency graph heuristic (Li et al. 2019), and rectangle, corridor and target reasoning
+// (Li et al. 2019, 2020). Each has a parameter that disables it. Disjoint splitting (Li et al. 2019) is optional.
 //
-// The sum of costs is optimal: a robot's steps until it stays at its last goal for good; vertex and swap conflicts
-// count, and robots rest at their goals and where they are not active. Of paths of equal cost and conflicts those with
-// fewer turns are preferred. The reported `lower_bound` equals the cost.
+// The sum of costs is optimal. The cost of a robot is its number of steps until it rests at its last goal. Plans have
+// no vertex or swap conflicts; robots rest at their goals, and inactive robots where they are. Of paths with equal cost
+// and conflicts the search prefers those with fewer turns. The reported `lower_bound` equals the cost.
 class Cbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();
 
   Param<bool> prioritize_conflicts =
       param("prioritize_conflicts", true).doc("split first on conflicts that raise the cost of both children");
-  Param<bool> bypass = param("bypass", true).doc("adopt a path that has fewer conflicts at the same cost, unsplit");
+  Param<bool> bypass =
+      param("bypass", true).doc("adopt a path with fewer conflicts at the same cost instead of a split");
   Param<bool> weighted_dependency_graph =
-      param("weighted_dependency_graph", true).doc("bound the cost of a node by that of its pairs of robots");
+      param("weighted_dependency_graph", true)
+          .doc("raise the lower bound of a node by the dependencies between pairs of robots");
   Param<bool> rectangle_reasoning =
-      param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
-  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+      param("rectangle_reasoning", true).doc("resolve crossings on open ground by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("resolve meetings in a corridor by one split");
   Param<bool> target_reasoning =
-      param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
+      param("target_reasoning", true).doc("resolve conflicts at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
-      param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+      param("disjoint_splitting", false).doc("one child requires a robot to pass a place, the other forbids it");
   Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

@@ -8,9 +8,9 @@
 
 namespace dmrp::planners {
 
-// Returns NO_SOLUTION for problems that provably have no plan: a start or goal is cut off; two robots end on one cell, or
-// would have to pass each other in a corridor without a branch; or all joint positions of few robots in a small part of
-// the map were tried. On other problems without a plan the search does not end by itself: it returns TIMEOUT after
+// Returns NO_SOLUTION for problems that provably have no plan: a start or goal is cut off; two robots end on one cell,
+// or would have to pass each other in a corridor without a branch; or all joint positions of few robots in a small part
+// of the map were tried. On other problems without a plan the search does not end by itself: it returns TIMEOUT after
 // `node_limit` nodes or when the host asks it to stop.
 class ConflictSearchPlanner : public GlobalPlanner {
  public:

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// ecbs.hpp: enhanced conflict-based search: paths without conflicts, of a sum of costs within a bound of the least.
+// ecbs.hpp: enhanced conflict-based search: paths without conflicts whose sum of costs is within a factor of the least.
 #pragma once
 
 #include "planners/conflict_search/planner.hpp"
 
 namespace dmrp::planners {
 
-// ECBS(w) of Barer et al. 2014: focal search on the low level (a path within w of the least, with fewest conflicts)
-// and on the high level (the node within w of the lower bound with fewest pairs in conflict).
+// ECBS(w) of Barer et al. 2014: focal search on the low level (a path with few conflicts and a cost within a factor w
+// of the least) and on the high level (the node with fewest conflicting pairs within a factor w of the lower bound).
 //
-// cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
+// Reports `cost` and `lower_bound`: cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`.
 class Ecbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();
 
   Param<double> suboptimality =
-      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most so many times the least");
+      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most this factor times the least");
   Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

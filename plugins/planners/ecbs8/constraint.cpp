@@ -17,7 +17,7 @@ void ConstraintTable::fill(const std::vector<Constraint>& constraints) {
   static_from_ = 0;
   end_from_ = 0;
   for (const Constraint& constraint : constraints) {
-    // A touch forbids passing for one step more.
+    // A touch also forbids passing in the step after it.
     static_from_ = std::max(static_from_, constraint.until >= forever ? constraint.from : constraint.until + 2);
     if (constraint.use == Constraint::Use::end) {
       end_from_ = std::max(end_from_, constraint.until + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// constraint.hpp: what the high level forbids a robot, and a table of it for the searches of one robot.
+// constraint.hpp: the constraints that the high level puts on robots, and a lookup table of one robot's constraints.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,12 @@
 
 namespace dmrp::planners::ecbs8 {
 
-// Uses of the grid, from time `from` until time `until`; a move counts by the time at which it arrives.
+// A use of the grid that is forbidden from time `from` to time `until`, both included. The time of a move is its
+// arrival.
 struct Constraint {
   enum class Use : std::uint8_t {
     at,      // being at `location`
-    touch,   // being there, and diagonals that pass beside it just before or just after
+    touch,   // being there, and diagonals that pass beside it and begin or end then
     edge,    // straight moves between `location` and `other`, in both directions
     corner,  // the four diagonals across the corner that is common to `location`, its lower left cell, and three others
     end,     // coming to rest at the last goal
@@ -25,20 +26,20 @@ struct Constraint {
   std::int32_t until = 0;
 };
 
-// The constraints of one robot, found by location. Filled anew for each search in time proportional to their number.
+// The constraints of one robot by location. fill() takes time proportional to their number.
 class ConstraintTable {
  public:
   explicit ConstraintTable(const Graph& graph);
 
   void fill(const std::vector<Constraint>& constraints);
 
-  // Whether the robot may go so that it arrives at time t; `d` is no_direction for a wait.
+  // Whether a move may arrive at time t; `d` is no_direction for a wait.
   bool allows(Location from, Location to, Direction d, std::int32_t t) const;
 
-  // Arrivals from this time on are forbidden for good or not at all.
+  // From this time on the constraints do not change.
   std::int32_t static_from() const { return static_from_; }
 
-  // What may not be touched any more from some time on.
+  // The `touch` constraints without an end.
   const std::vector<Constraint>& closed_for_good() const { return closed_for_good_; }
 
   // The earliest time from which the robot may rest at its last goal for good.
@@ -58,7 +59,7 @@ class ConstraintTable {
   bool any_entry(Location location, Test test) const;
 
   const Graph& graph_;
-  std::vector<std::uint32_t> epoch_of_;  // by location: first_ is of this filling if it equals epoch_
+  std::vector<std::uint32_t> epoch_of_;  // by location: first_ is valid if this equals epoch_
   std::vector<std::int32_t> first_;
   std::vector<Entry> entries_;
   std::vector<Constraint> closed_for_good_;

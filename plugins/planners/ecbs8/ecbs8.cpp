@@ -22,7 +22,7 @@ Descriptor Ecbs8::describe() {
 
 namespace {
 
-// Of all paths together, waits included.
+// The sum over all paths, waits included.
 double length_of(const ecbs8::Graph& graph, const std::vector<PathView>& paths) {
   std::int64_t straight = 0;
   std::int64_t diagonal = 0;
@@ -63,7 +63,7 @@ Status Ecbs8::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   if (result != Search::Result::solved) sink.statistic("lower_bound", as_number(statistics.lower_bound));
   switch (result) {
     case Search::Result::solved:
-      // The search's unit is off by 10^-11: what is told is exact, and the bound not above the cost.
+      // The search's integer unit is off by 10^-11. The reported cost is exact, and the bound does not exceed it.
       sink.statistic("cost", length_of(problem.graph, search.solution()));
       sink.statistic("lower_bound",
                      std::min(as_number(statistics.lower_bound), length_of(problem.graph, search.solution())));

@@ -7,8 +7,8 @@ namespace dmrp::planners::ecbs8 {
 
 namespace {
 
-// What a conflict less may cost. To avoid conflicts at all cost makes dear paths, which the limit of all plans then
-// has to bear, and long searches; to avoid too few leaves them to the high level.
+// The penalty of a conflict, as a cost. A high penalty makes paths expensive, which uses up the limit of the whole
+// plan, and searches long; a low one leaves more conflicts to the high level.
 constexpr Cost conflict_cost = 4 * straight_cost;
 
 }  // namespace
@@ -88,9 +88,10 @@ void FocalSearch::begin_detours(const Task& task, StopSignal& stop) {
   detours_.emplace(*graph_without_closed_, task.agent, stop);
 }
 
-// A robot that is too late for every place that will be closed must do without them.
+// A robot that is too late for every place that closes must take a path without them.
 //
-// To touch a place it must be there or beside it in time; and no step brings it nearer by more than a diagonal.
+// To touch a place the robot must be there or beside it in time, and each step reduces the distance by at most a
+// diagonal.
 Cost FocalSearch::distance_to_go(const Task& task, const State& state) const {
   const Cost distance = task.distances.distance(state.leg, state.location);
   if (!detours_) return distance;
@@ -114,7 +115,7 @@ void FocalSearch::raise_bound(const Task& task, Cost lower_bound) {
   }
 }
 
-// -1 if the top is no longer open.
+// Removes the top of FOCAL; -1 if it is no longer open.
 std::int32_t FocalSearch::pop_focal() {
   const std::int32_t best = focal_.front().state();
   std::pop_heap(focal_.begin(), focal_.end(), IsWorse{});
@@ -149,7 +150,7 @@ void FocalSearch::expand(const Task& task, std::int32_t parent) {
   }
 }
 
-// A path ends where a robot arrives: a wait before a rest would be part of the rest.
+// A path ends with an arrival: a wait before the rest would be part of the rest.
 void FocalSearch::generate(const Task& task, const State& state, bool is_arrival) {
   if (is_arrival && state.leg == task.agent.last_leg() && state.location == task.agent.last_goal() &&
       state.t >= task.rest_from) {
@@ -191,8 +192,8 @@ std::uint64_t FocalSearch::tie_of(std::int32_t turns, std::int32_t t, std::int32
          static_cast<std::uint64_t>(most - std::min(t, most)) << 32 | (UINT32_MAX - static_cast<std::uint32_t>(state));
 }
 
-// To end without further conflicts the robot must not come to rest before all others have passed its goal; if it cannot
-// afford to wait for so long, it will meet those who come after its latest end.
+// To end without further conflicts the robot must not come to rest before all others have passed its goal. If the bound
+// does not allow to wait that long, it conflicts with those that come after its latest end.
 Cost FocalSearch::f_with_conflicts(const State& state, Cost f) const {
   if (state.rests) return f + conflict_cost * state.conflicts;
   const Cost quiet_f = std::max(f, state.g + straight_cost * (quiet_from_ - state.t));
@@ -201,15 +202,15 @@ Cost FocalSearch::f_with_conflicts(const State& state, Cost f) const {
   return f + conflict_cost * (state.conflicts + conflicts_after(state.t + static_cast<std::int32_t>(steps_left)));
 }
 
-// Whether `known` makes the new state of its place and time useless. What was expanded is not expanded again for the
-// sake of turns.
+// Whether `known` dominates a new state of the same place and time. A state that was expanded is not replaced to save
+// turns.
 bool FocalSearch::is_as_good(const Task& task, const State& known, const State& state, std::int32_t turns_in_all) {
   if (known.status == Status::useless || known.g > state.g || known.conflicts > state.conflicts) return false;
   return known.g < state.g || known.conflicts < state.conflicts || known.status == Status::expanded ||
          known.turns + task.distances.turns(known.leg, known.location, known.heading) <= turns_in_all;
 }
 
-// Stores the state unless another of its place and time is as good; closes those that it makes useless.
+// Stores the state unless another one of its place and time is as good. Closes those that it dominates.
 bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns_in_all) {
   if (2 * slots_used_ >= slots_.size()) grow_slots();
   const std::uint64_t identity = identity_of(task, state.leg, state.location, state.t);
@@ -233,8 +234,8 @@ bool FocalSearch::enter(const Task& task, const State& state, std::int32_t turns
   return true;
 }
 
-// Whether a step need not be looked at: some state of its place and time is better, even if the step meets nobody. Ends
-// of paths are looked at always, for a path must not end with a wait.
+// Whether a step can be skipped: a state of its place and time is better even if the step has no conflict. Never skips
+// ends of paths, because a path must not end with a wait.
 bool FocalSearch::is_beaten(const Task& task, std::int32_t leg, Location location, std::int32_t t, Cost g,
                             std::int32_t conflicts) {
   if (slots_.empty() || (leg == task.agent.last_leg() && location == task.agent.last_goal())) return false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost, with few conflicts.
+// focal_search.hpp: the low level: a path of one robot under constraints, of bounded cost and with few conflicts.
 //
-// Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; the least f
-// in it is a lower bound of the cost. FOCAL holds those of OPEN whose f the bound allows; of them the one with the
-// least sum of f and a charge for each conflict is expanded, then the one of fewest turns, then the latest. Of the
-// states at one place and time all are kept that differ in cost and conflicts with neither worse. Times from which
-// nothing changes are one.
+// Focal search over states (location, leg of the tour, time). OPEN holds all states that are not expanded; its least f
+// is a lower bound of the cost. FOCAL holds the states of OPEN whose f is within the bound. Expands the state of FOCAL
+// with the least sum of f and a penalty for each conflict; of equals the one with fewest turns, then the latest. Keeps
+// the states of one place and time that are not dominated in cost and conflicts. Times from which on nothing changes
+// are not distinguished.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ class FocalSearch {
 
   enum class Result { found, none, stopped };
 
-  // A path that costs at most `suboptimality` times the lower bound. The agent itself must not be among the others.
-  // `lower_bound` is one that is known already.
+  // Finds a path that costs at most `suboptimality` times the lower bound. The agent itself must not be among the
+  // others. `lower_bound` is a known lower bound.
   Result search(const Agent& agent, const TourDistances& distances, const ConstraintTable& constraints,
                 const Occupancy& others, Cost lower_bound, Suboptimality suboptimality, StopSignal& stop,
                 BoundedPath& out);
@@ -40,7 +40,7 @@ class FocalSearch {
   std::int64_t expanded() const { return expanded_; }
 
  private:
-  // Useless is what another state of the same place and time replaces.
+  // A state is useless if another one of the same place and time dominates it.
   enum class Status : std::uint8_t { open, expanded, useless };
   struct State {
     Cost g;
@@ -58,7 +58,7 @@ class FocalSearch {
   struct FocalEntry {
     Cost f_with_conflicts;
     std::uint64_t
-        tie;  // from above: the estimate of the whole path's turns, the time left, the state (the newest first)
+        tie;  // from the highest bits: estimated turns of the whole path, remaining time, state (newest first)
 
     std::int32_t state() const { return static_cast<std::int32_t>(UINT32_MAX - static_cast<std::uint32_t>(tie)); }
   };
@@ -79,7 +79,7 @@ class FocalSearch {
     bool operator()(const OpenEntry& a, const OpenEntry& b) const { return a.f > b.f; }
     bool operator()(const WaitingEntry& a, const WaitingEntry& b) const { return a.f > b.f; }
   };
-  // The states of one place and time. Found by open addressing; a new epoch empties all slots.
+  // The states of one place and time, in a hash table with open addressing. A new epoch empties all slots.
   struct Slot {
     std::uint64_t identity;
     std::uint32_t epoch;
@@ -91,7 +91,7 @@ class FocalSearch {
     const ConstraintTable& constraints;
     const Occupancy& others;
     Suboptimality suboptimality;
-    std::int32_t static_from;  // from here on time makes no difference
+    std::int32_t static_from;  // from here on times are not distinguished
     std::int32_t rest_from;    // the path cannot end before
   };
 
@@ -114,7 +114,7 @@ class FocalSearch {
   void grow_slots();
   void trace_back(std::int32_t last, BoundedPath& out) const;
 
-  // A place that is closed for good from some time on.
+  // A place that is closed from some time on.
   struct Closing {
     Cost farthest;  // the greatest distance to go from there or beside it
     std::int32_t from;
@@ -122,14 +122,14 @@ class FocalSearch {
 
   const Graph& graph_;
   std::optional<Graph> graph_without_closed_;
-  std::optional<TourDistances> detours_;  // distances where all places are closed that will be for good
+  std::optional<TourDistances> detours_;  // distances without the places that close
   std::vector<Closing> closings_;
   std::vector<State> states_;
   std::vector<OpenEntry> open_;
   std::vector<FocalEntry> focal_;
-  std::vector<WaitingEntry> waiting_;            // in OPEN, but beyond the bound
-  std::vector<std::int32_t> conflicts_at_rest_;  // by time: of somebody who rests at the last goal from then on
-  std::int32_t quiet_from_ = 0;                  // of those times the first without any
+  std::vector<WaitingEntry> waiting_;            // in OPEN, beyond the bound
+  std::vector<std::int32_t> conflicts_at_rest_;  // by time: conflicts of resting at the last goal from then on
+  std::int32_t quiet_from_ = 0;                  // the first of these times without conflicts
   std::vector<Slot> slots_;
   std::size_t slots_used_ = 0;
   std::uint32_t epoch_ = 0;

@@ -28,7 +28,7 @@ Occupancy::Step Occupancy::step_of(Location from, Location to, Direction d) cons
   return {from, to, true, graph_.beside(from, d)};
 }
 
-// By columns: on narrow grids the difference of two locations does not tell the direction.
+// Compares columns, because on narrow grids the difference of two locations is ambiguous.
 Occupancy::Step Occupancy::step_of(PathView path, std::int32_t t) const {
   const Location from = where(path, t - 1);
   const Location to = where(path, t);
@@ -45,7 +45,7 @@ void Occupancy::set(std::int32_t agent, PathView path) {
   if (!path.empty()) put_in(agent, path);
 }
 
-// By calloc(), which leaves large blocks to the system to clear when they are touched: most cells never are.
+// Uses calloc(), with which the system clears large blocks page by page on first use. Most cells are never used.
 void Occupancy::add_rows(std::int32_t count) {
   const std::size_t cells = static_cast<std::size_t>(count) * location_count_;
   blocks_.emplace_back(static_cast<Cell*>(std::calloc(std::max<std::size_t>(cells, 1), sizeof(Cell))));
@@ -162,7 +162,7 @@ void Occupancy::visit_met(const Step& step, std::int32_t t, Visit visit) const {
 std::int32_t Occupancy::count(Location from, Location to, Direction d, std::int32_t t) const {
   const Step step = step_of(from, to, d);
   if (is_quiet(step, t)) return 0;
-  std::array<std::int32_t, 8> met;  // the first few, each once
+  std::array<std::int32_t, 8> met;  // the first few agents, each once
   std::size_t met_count = 0;
   std::int32_t count = 0;
   visit_met(step, t, [&](std::int32_t other) {
@@ -173,7 +173,7 @@ std::int32_t Occupancy::count(Location from, Location to, Direction d, std::int3
   return count;
 }
 
-// False if there is no conflict after all.
+// False if there is no conflict.
 bool Occupancy::classify(std::int32_t agent, const Step& step, std::int32_t other, std::int32_t t,
                          Conflict& out) const {
   const Step its = step_of(path(other), t);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// occupancy.hpp: who is where and when, for counting and listing conflicts with the paths of other robots.
+// occupancy.hpp: the positions and diagonals of all robots over time, to count and list conflicts with a path.
 //
-// Paths are put in and taken out one by one: moving from one node of a constraint tree to another touches only the
-// robots whose paths differ.
+// Paths are added and removed one by one, so changing from one node of the constraint tree to another costs only the
+// paths that differ.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 
 namespace dmrp::planners::ecbs8 {
 
-// Two robots that may not both do what they do.
+// Two robots whose steps exclude each other.
 struct Conflict {
   enum class Kind : std::uint8_t {
     vertex,  // both are at `location` at time t
-    edge,    // they change places along the straight edge location < other, arriving at time t
-    corner,  // their diagonals, arriving at time t, go across the corner whose lower left cell is `location`
+    edge,    // they swap along the straight edge between `location` < `other`, arriving at time t
+    corner,  // their diagonals, arriving at time t, cross the corner whose lower left cell is `location`
     pass,    // a is at `location` at time t, beside a diagonal of b that begins or ends then
   };
   Kind kind = Kind::vertex;
@@ -30,38 +30,39 @@ struct Conflict {
   Location location = nowhere;
   Location other = nowhere;
   std::int32_t t = 0;
-  bool is_first = false;  // of those that the two have
+  bool is_first = false;  // of the pair's conflicts
 };
 
 class Occupancy {
  public:
   Occupancy(const Graph& graph, std::size_t agent_count);
 
-  // Puts an agent's path in the place of the one before. The path must stay where it is. No two agents may end at one
-  // location. An empty path takes the agent out.
+  // Replaces an agent's path; an empty path removes the agent. The table keeps the view, not a copy. No two agents may
+  // end at the same location.
   void set(std::int32_t agent, PathView path);
   PathView path(std::int32_t agent) const { return paths_[static_cast<std::size_t>(agent)]; }
 
-  // From this time on everybody rests.
+  // From this time on all robots rest.
   std::int32_t rest_from() const { return row_count_ - 1; }
 
-  // Roughly how many of the others somebody would meet who goes (d is no_direction: waits) so that it arrives at t;
+  // The approximate number of robots with which a move (d is no_direction: a wait) that arrives at time t conflicts;
   // zero if and only if there is no conflict.
   std::int32_t count(Location from, Location to, Direction d, std::int32_t t) const;
 
-  // Appends the conflicts of `agent`, which is not in the table, in the order of time: one a robot and step.
+  // Appends the conflicts of `agent`, which is not in the table, by ascending time: at most one for each robot and
+  // step.
   void list(std::int32_t agent, PathView path, std::vector<Conflict>& out);
 
  private:
   using Link = std::uint16_t;  // an agent plus one; zero ends a list
   struct Cell {
-    Link here;     // who is here on its way to its last goal
-    Link passing;  // whose diagonals that arrive now pass beside this cell
+    Link here;     // robots that are here before they rest
+    Link passing;  // robots whose diagonals pass beside this cell and arrive now
   };
   struct FreeCells {
     void operator()(Cell* cells) const { std::free(cells); }
   };
-  // An agent's links at one time: here, and at both cells beside its diagonal.
+  // The successors of an agent in the lists of one time: of its cell, and of both cells beside its diagonal.
   struct Links {
     Link here;
     std::array<Link, 2> passing;
@@ -97,7 +98,7 @@ class Occupancy {
   void visit_here(Location location, std::int32_t t, Visit visit) const;
   template <class Visit>
   void visit_passing(Location location, std::int32_t t, Visit visit) const;
-  // Calls visit(agent) for all, and maybe more than once, who meet the step that arrives at time t.
+  // Calls visit(agent) for each agent that conflicts with the step that arrives at time t, possibly more than once.
   template <class Visit>
   void visit_met(const Step& step, std::int32_t t, Visit visit) const;
   bool classify(std::int32_t agent, const Step& step, std::int32_t other, std::int32_t t, Conflict& out) const;
@@ -111,13 +112,13 @@ class Occupancy {
   const Graph& graph_;
   std::size_t location_count_;
   std::int32_t row_count_ = 0;
-  std::vector<Cell*> rows_;                                 // by time, each by location
-  std::vector<std::unique_ptr<Cell[], FreeCells>> blocks_;  // where the rows are
+  std::vector<Cell*> rows_;                                 // by time; each row by location
+  std::vector<std::unique_ptr<Cell[], FreeCells>> blocks_;  // memory of the rows
   std::vector<std::vector<Links>> links_;                   // by agent and time
-  std::vector<std::int32_t> rest_time_;                     // by location: from when somebody rests there
+  std::vector<std::int32_t> rest_time_;                     // by location: from when on a robot rests there
   std::vector<std::int32_t> rest_agent_;
   std::vector<PathView> paths_;
-  std::vector<std::int32_t> met_at_;  // scratch of list(): by agent, the last step in which it was met
+  std::vector<std::int32_t> met_at_;  // scratch of list(): by agent, the last step with a conflict
 };
 
 }  // namespace dmrp::planners::ecbs8

@@ -11,9 +11,9 @@ namespace dmrp::planners::ecbs8 {
 
 namespace {
 
-// A problem that is still unsolved after so many expansions is worth a proof that it has no plan ...
+// After so many expansions without a solution the search tries to prove that there is none ...
 constexpr std::int64_t expansions_before_proof = 1000;
-// ... if that visits at most so many joint positions.
+// ... by visiting all joint positions, if there are at most so many.
 constexpr std::size_t joint_state_limit = 100'000;
 
 bool involves(const Conflict& conflict, std::int32_t agent) {
@@ -51,8 +51,8 @@ Search::Result Search::run() {
   }
 }
 
-// Each agent's path in turn, with few conflicts with those before it. The agents of short ways come first, as the
-// others have more to spare.
+// Plans the agents one after the other, each with few conflicts with those before it. Agents with short distances come
+// first, because their cost limits leave less slack.
 bool Search::plan_root() {
   constraint_table_.fill({});
   Node root;
@@ -88,7 +88,7 @@ std::vector<std::size_t> Search::by_distance() const {
 
 // The node of FOCAL with fewest conflicts, or no_node if none is left. Raises the lower bound.
 //
-// Every path keeps to the limit of its own lower bound, so the node of the least lower bound is always in FOCAL.
+// Every path is within the limit of its own lower bound, so the node with the least lower bound is always in FOCAL.
 NodeId Search::choose() {
   while (!open_.empty() && is_closed_[static_cast<std::size_t>(open_.front().node)]) {
     std::pop_heap(open_.begin(), open_.end(), IsWorse{});
@@ -110,10 +110,10 @@ NodeId Search::choose() {
   return best;
 }
 
-// Splits the node on a conflict. True if it has none: its paths are the solution.
+// Splits the node on a conflict. True if it has none: then its paths are the solution.
 //
-// Bypass (Boyarski et al. 2015): where fewer robots conflict in a child, and its path keeps to the limits that hold
-// without the constraint, the path takes the place of that in the node, and nothing is split.
+// Bypass (Boyarski et al. 2015): if a child has fewer conflicting pairs, and its path is within the limits that hold
+// without the constraint, the node adopts the path and is not split.
 bool Search::expand(NodeId id) {
   ++statistics_.high_level_expanded;
   for (;;) {
@@ -150,7 +150,7 @@ void Search::enter(NodeId id) {
   tree_.gather_conflicts(id, conflicts_);
 }
 
-// The earliest.
+// The earliest conflict.
 const Conflict& Search::choose_conflict() const {
   const auto order = [this](std::uint32_t index) {
     const Conflict& c = tree_.conflict(index);
@@ -161,11 +161,12 @@ const Conflict& Search::choose_conflict() const {
                         [&](std::uint32_t left, std::uint32_t right) { return order(left) < order(right); }));
 }
 
-// No plan does what both sides forbid, as every use that one side names rules out every use that the other one does.
+// Every use that one side forbids excludes every use that the other side forbids, so every plan satisfies one side.
 //
-// Whoever stands somewhere rules out others there and diagonals beside it that begin or end then; so one agent is
-// forbidden to be there, the other one to touch the place. If the first one rests there for good (target reasoning,
-// Li et al. 2021), either it comes to rest later than that, or the other one does not touch the place from then on.
+// A robot at a location excludes others there, and diagonals beside it that begin or end then. So one side forbids one
+// agent to be there, the other side forbids the other agent to touch the location. If the first agent rests there
+// (target reasoning, Li et al. 2021), either it comes to rest later, or the other one does not touch the location from
+// then on.
 std::array<Search::Side, 2> Search::split(const Conflict& conflict) const {
   using Use = Constraint::Use;
   const Location location = conflict.location;
@@ -186,16 +187,16 @@ std::array<Search::Side, 2> Search::split(const Conflict& conflict) const {
   return {{{there, {Use::at, location, nowhere, t, t}}, {other, {Use::touch, location, nowhere, t, t}}}};
 }
 
-// False if there is no path under the constraint (or the search was stopped).
+// False if there is no path under the constraint, or if the search was stopped.
 bool Search::make_child(NodeId parent, const Side& side, Child& child) {
-  const auto who = static_cast<std::size_t>(side.agent);
-  const AgentPath& before = paths_[who];
+  const auto index = static_cast<std::size_t>(side.agent);
+  const AgentPath& before = paths_[index];
   tree_.gather_constraints(parent, side.agent, constraints_);
   constraints_.push_back(side.constraint);
   constraint_table_.fill(constraints_);
 
   occupied_.set(side.agent, {});
-  const auto result = low_level_.search(problem_.agents[who], distances_[who], constraint_table_, occupied_,
+  const auto result = low_level_.search(problem_.agents[index], distances_[index], constraint_table_, occupied_,
                                         before.lower_bound, suboptimality_, stop_, child.path);
   child.conflicts.clear();
   const bool found = result == FocalSearch::Result::found;
@@ -229,7 +230,7 @@ NodeId Search::add(const Child& child) {
   return tree_.add(child.node, {&path, 1}, child.conflicts);
 }
 
-// A lower bound that the constraint raised holds no longer.
+// Without the constraint, the lower bounds are those of the parent.
 NodeId Search::add_without_constraint(const Child& child, NodeId parent) {
   const std::int32_t agent = child.node.constrained_agent;
   const AgentPath path{agent, child.path.locations, child.path.cost,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// search.hpp: ECBS, the high level: focal search over a tree of constraints.
+// search.hpp: the high level of ECBS: focal search over a tree of constraints.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@ class Search {
  public:
   enum class Result { solved, unsolvable, stopped, node_limit };
 
-  // The problem has no obvious obstruction: all goals can be reached, starts and last goals differ.
+  // The problem must have no obvious obstruction: all goals can be reached; starts differ, and so do last goals.
   Search(const Problem& problem, const std::vector<TourDistances>& distances, double suboptimality,
          std::int64_t node_limit, StopSignal& stop);
 
   Result run();
 
-  // After Result::solved: a path an agent, and what they cost.
+  // After Result::solved: one path for each agent, and their cost.
   std::vector<PathView> solution() const;
   Cost cost() const { return cost_; }
-  // After Result::unsolvable.
+  // After Result::unsolvable: why there is no plan.
   const std::string& obstruction() const { return obstruction_; }
   Statistics statistics() const;
 
@@ -54,12 +54,12 @@ class Search {
   struct IsDearer {
     bool operator()(const FocalEntry& a, const FocalEntry& b) const;
   };
-  // What a conflict is split into: one agent's part of it forbidden.
+  // One side of a split: a constraint on one agent.
   struct Side {
     std::int32_t agent;
     Constraint constraint;
   };
-  // A node that is not in the tree yet: the agent under one more constraint has another path.
+  // A node that is not in the tree yet: one more constraint, and the constrained agent's new path.
   struct Child {
     Node node;
     BoundedPath path;
@@ -88,13 +88,13 @@ class Search {
   ConstraintTree tree_;
   std::vector<OpenEntry> open_;
   std::vector<FocalEntry> focal_;
-  std::vector<FocalEntry> waiting_;      // in OPEN, but beyond the bound
+  std::vector<FocalEntry> waiting_;      // in OPEN, beyond the bound
   std::vector<std::uint8_t> is_closed_;  // by node
   Statistics statistics_;
   Cost cost_ = 0;
   std::string obstruction_;
 
-  // Of the node that was entered last: all paths, conflicts (by their indices in the tree), and who is where.
+  // Of the node that was entered last: all paths, the conflicts' indices in the tree, and the positions over time.
   std::vector<AgentPath> paths_;
   std::vector<std::uint32_t> conflicts_;
   Occupancy occupied_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// step_cost.hpp: what steps cost, as whole numbers, so that sums do not depend on their order and compare exactly.
+// step_cost.hpp: the costs of steps as integers, so that sums are exact and do not depend on their order.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr Cost straight_cost = Cost{1} << 29;
 constexpr Cost diagonal_cost = 759250125;
 constexpr Cost wait_cost = straight_cost;
 
-// No sum of a path's costs comes near, and two of it can be added.
+// Greater than the cost of any path. Two of it can be added without overflow.
 constexpr Cost unreachable = Cost{1} << 60;
 
 constexpr Cost step_cost(Direction d) {
@@ -32,8 +32,8 @@ inline double as_number(Cost cost) {
   return static_cast<double>(cost) / static_cast<double>(straight_cost);
 }
 
-// How many times its lower bound a cost may be, rounded down to a multiple of 2^-24 so that limits are whole numbers:
-// the limits of some bounds then never add up to more than the limit of their sum.
+// The factor by which a cost may exceed its lower bound, rounded down to a multiple of 2^-24. Limits are integers, and
+// a sum of limits never exceeds the limit of the sum.
 class Suboptimality {
  public:
   explicit Suboptimality(double factor) : factor_(static_cast<Cost>(std::floor(factor * (1 << fraction_bits)))) {}

@@ -59,7 +59,7 @@ void TourDistances::offer_to_predecessors(std::int32_t leg, Location location, C
   }
 }
 
-// From the goal of one leg the way goes on to that of the next.
+// The distance from the goal of a leg to the end of the tour, by way of the next leg.
 void TourDistances::begin_at_goal(std::int32_t leg) {
   const Location goal = agent_->goal(leg);
   Cost& least = distance_[index(leg, goal)];
@@ -80,14 +80,14 @@ void TourDistances::begin_at_goal(std::int32_t leg) {
   }
 }
 
-// The best successors have been settled before.
+// Call it in the order of settling: it reads the turns of the best successors.
 void TourDistances::fill_turns(std::int32_t leg, Location location) {
   TurnsByHeading& here = turns_[index(leg, location)];
   if (leg == agent_->last_leg() && location == agent_->last_goal()) return;  // zero
   const std::int32_t next_leg = agent_->leg_after(leg, location);
   constexpr std::uint16_t no_way = INT16_MAX;
   std::uint16_t fewest = no_way;
-  TurnsByHeading straight;  // fewest turns for a robot that goes straight on
+  TurnsByHeading straight;  // fewest turns if the next move is straight ahead
   straight.fill(no_way);
   for (unsigned moves = best_moves_[index(leg, location)]; moves != 0; moves &= moves - 1) {
     const auto d = static_cast<std::size_t>(std::countr_zero(moves));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tour_distances.hpp: for one robot, the true distance to the end of its tour from everywhere, and the fewest turns
-// among the ways of that length. The exact heuristic of every search for a robot alone; at least the octile one.
+// tour_distances.hpp: for one robot, the true distance from every location to the end of its tour, and the fewest turns
+// of a path of that length: the exact heuristic for a robot without others. At least the octile distance.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace dmrp::planners::ecbs8 {
 
 class TourDistances {
  public:
-  // Unfinished, and not to be used, if `stop` says so.
+  // Incomplete if `stop` was raised.
   TourDistances(const Graph& graph, const Agent& agent, StopSignal& stop);
 
   // Cost from `location`, on the way to goal `leg`, until the tour's end; or unreachable.
   Cost distance(std::int32_t leg, Location location) const { return distance_[index(leg, location)]; }
 
-  // Fewest turns on those ways for a robot that came in direction `heading` (or no_direction).
+  // The fewest turns of such a path, for a robot whose last move had direction `heading` (or no_direction).
   std::int32_t turns(std::int32_t leg, Location location, Direction heading) const {
     const auto& turns = turns_[index(leg, location)];
     if (heading != Graph::no_direction) return turns[static_cast<std::size_t>(heading)];
@@ -45,12 +45,12 @@ class TourDistances {
   const Agent* agent_;
   std::vector<Cost> distance_;
   std::vector<TurnsByHeading> turns_;
-  std::vector<std::uint8_t> best_moves_;  // bits of the directions in which the shortest ways go on
+  std::vector<std::uint8_t> best_moves_;  // bits of the directions of the shortest paths
   std::vector<std::uint8_t> is_settled_;
   std::array<std::vector<Location>, 3> buckets_;  // of the distances in [k, k + 1) straight steps, by k mod 3
 };
 
-// One table an agent; nothing if `stop` ended it.
+// One table for each agent; nothing if `stop` was raised.
 std::optional<std::vector<TourDistances>> make_tour_distances(const Problem& problem, StopSignal& stop);
 
 // The first robot (as the host counts) that cannot make its tour even alone, if there is one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// eecbs.hpp: explicit estimation conflict-based search: paths without conflicts, of a sum of costs within a bound of
-// the least, found by estimating what the conflicts that are left will cost.
+// eecbs.hpp: explicit estimation conflict-based search: paths without conflicts whose sum of costs is within a factor
+// of the least. Estimates the cost of the remaining conflicts.
 #pragma once
 
 #include "planners/conflict_search/planner.hpp"
@@ -9,50 +9,52 @@ namespace dmrp::planners {
 
 // EECBS(w) of Li, Ruml, Koenig 2021: focal search on the low level, explicit estimation search on the high level, with
 // prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
-// Each is a parameter. Beyond the paper: robots in conflict are replanned as they are before a node is split
-// (`replan_in_place`), and searches that go on for long are restarted with the robots in another order
-// (`restart_after`; rapid randomized restarts, Cohen et al. 2018), what was proved of the lower bound being kept. From
-// then on the low level weighs conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
+// Each has a parameter. Beyond the paper: before a split, robots with conflicts are replanned without new constraints
+// (`replan_in_place`); long searches restart with the robots in another order and keep the proved lower bound
+// (`restart_after`; rapid randomized restarts, Cohen et al. 2018). After the first restart the low level weighs
+// conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
 //
-// cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`; both are reported.
+// Reports `cost` and `lower_bound`: cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`.
 class Eecbs final : public ConflictSearchPlanner {
  public:
   static Descriptor describe();
 
   Param<double> suboptimality =
-      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most so many times the least");
+      param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most this factor times the least");
   Param<bool> explicit_estimation =
-      param("explicit_estimation", true).doc("choose nodes by their estimated cost; else by their cost, as ECBS does");
+      param("explicit_estimation", true)
+          .doc("select nodes by their estimated cost; otherwise by their cost, as in ECBS");
   Param<bool> prioritize_conflicts =
       param("prioritize_conflicts", true).doc("split first on conflicts that raise the cost of both children");
-  Param<bool> bypass = param("bypass", true).doc("adopt a path that has fewer conflicts within the bound, unsplit");
+  Param<bool> bypass =
+      param("bypass", true).doc("adopt a path with fewer conflicts within the bound instead of a split");
   Param<bool> weighted_dependency_graph =
       param("weighted_dependency_graph", true)
-          .doc("bound the cost of a node by that of its pairs of robots, where it is the bound that is to rise");
+          .doc("raise the lower bound of nodes selected for it by the dependencies between pairs of robots");
   Param<bool> rectangle_reasoning =
-      param("rectangle_reasoning", true).doc("settle crossings on open ground by one split");
-  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("settle meetings in a corridor by one split");
+      param("rectangle_reasoning", true).doc("resolve crossings on open ground by one split");
+  Param<bool> corridor_reasoning = param("corridor_reasoning", true).doc("resolve meetings in a corridor by one split");
   Param<bool> target_reasoning =
-      param("target_reasoning", true).doc("settle meetings at a goal that a robot has reached by one split");
+      param("target_reasoning", true).doc("resolve conflicts at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
-      param("disjoint_splitting", false).doc("one child makes a robot pass, the other forbids it the place");
+      param("disjoint_splitting", false).doc("one child requires a robot to pass a place, the other forbids it");
   Param<bool> replan_in_place =
       param("replan_in_place", true)
-          .doc("before a split, give robots in conflict other paths as long as that leaves fewer conflicts");
+          .doc("before a split, replan robots with conflicts as long as that leaves fewer conflicts");
   Param<std::int64_t> conflict_steps =
       param("conflict_steps", 1)
           .unit("1")
           .range(0, 1000)
-          .doc("after the first restart: steps that a path may be longer for a conflict less; 0: any within the bound");
+          .doc("after the first restart: steps that a path may be longer to avoid a conflict; 0: any within the bound");
   Param<std::int64_t> restart_after =
       param("restart_after", 1200)
           .unit("1")
           .range(0, 1'000'000'000)
           .doc(
-              "nodes after which the search begins anew, the robots in another order; half as many more each time; a "
+              "nodes after which the search restarts with the robots in another order; half as many more each time; a "
               "quarter the first time; 0: never");
   Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; else step by step");
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
                                        .unit("1")
                                        .range(1, 1'000'000'000)

@@ -18,7 +18,7 @@ Descriptor Individual::describe() {
 
 namespace {
 
-// Of the directions that lead on at least cost the one that goes on straight, if there is one.
+// Of the directions with least cost it takes the one straight ahead, if that is among them.
 std::vector<Location> shortest_path(const GridGraph& graph, const Agent& agent, const TourTable& table) {
   std::vector<Location> path = {agent.start};
   Direction heading = 0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// fewest_turns.hpp: a bound on the turns that are left.
+// fewest_turns.hpp: a lower bound of the remaining turns of a path.
 #pragma once
 
 #include "planners/mapf/grid_graph.hpp"
 
 namespace dmrp::planners {
 
-// Fewest turns from one location to another, walls and others aside, for a robot that came in direction `heading` (or
-// none).
+// The fewest turns from one location to another, ignoring walls and other robots, for a robot whose last move had
+// direction `heading` (or no_direction).
 inline std::int32_t fewest_turns(const GridGraph& graph, Location from, Location to, Direction heading) {
   const std::int32_t east = to % graph.width() - from % graph.width();
   const std::int32_t north = to / graph.width() - from / graph.width();

@@ -56,7 +56,7 @@ void BasicGridGraph<connectivity>::block(Location location) {
     close(location, d);
     if (const Location from = predecessor(location, d); from != nowhere) close(from, d);
   }
-  // diagonals from one cell beside this one to the next
+  // the diagonals between two neighbors of this cell
   if constexpr (connectivity == 8)
     for (Direction side = 0; side < direction_count; side += 2) {
       const Move& move = moves[static_cast<std::size_t>(side)];

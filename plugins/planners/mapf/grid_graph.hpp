@@ -27,20 +27,19 @@ class BasicGridGraph {
   static constexpr Direction direction_count = connectivity;
   static constexpr Direction no_direction = direction_count;  // of a robot that has not moved yet
 
-  // Moves are those of the edge mask; a move that leaves the grid or enters a cell that is not free is none, and no
-  // diagonal cuts a corner.
+  // Takes the moves of the edge mask, except those that leave the grid, enter a cell that is not free, or cut a corner.
   explicit BasicGridGraph(const dmrp_grid& grid);
 
-  // Takes a cell out: no move enters, leaves or, as a diagonal, passes it.
+  // Removes a cell: no move enters or leaves it, and no diagonal passes beside it.
   void block(Location location);
 
   Location location_count() const { return static_cast<Location>(open_.size()); }
   bool is_open(Location location) const { return open_[index(location)] != 0; }
 
-  // Where the move leads, or nowhere.
+  // The destination of the move, or nowhere.
   Location neighbor(Location from, Direction d) const { return neighbors_[slot(from, d)]; }
 
-  // Where a move in direction d that ends here comes from, or nowhere. (A mask need not be symmetric.)
+  // The origin of the move in direction d that ends here, or nowhere. (The mask need not be symmetric.)
   Location predecessor(Location to, Direction d) const { return predecessors_[slot(to, d)]; }
 
   static constexpr Direction opposite(Direction d) { return (d + direction_count / 2) % direction_count; }
@@ -52,13 +51,13 @@ class BasicGridGraph {
     return {from + move.columns, from + move.rows * width_};
   }
 
-  // Whether every move can be undone.
+  // Whether the opposite of every move is a move.
   bool is_symmetric() const;
 
   // Columns: the number of locations in a row.
   std::int32_t width() const { return width_; }
 
-  // The open cell that holds a point, or nowhere.
+  // The open cell that contains the point, or nowhere.
   Location locate(dmrp_vec2 point) const;
   dmrp_vec2 center(Location location) const;
 
@@ -106,7 +105,7 @@ extern template class BasicGridGraph<8>;
 
 using GridGraph = BasicGridGraph<4>;
 
-// Of four directions.
+// For four directions.
 constexpr Direction opposite(Direction d) {
   return GridGraph::opposite(d);
 }

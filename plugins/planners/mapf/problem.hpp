@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// problem.hpp: the planning problem on the graph, and the way back from paths to waypoints.
+// problem.hpp: the planning problem on the graph, and the conversion of paths to waypoints.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -13,13 +13,13 @@
 
 namespace dmrp::planners {
 
-// A time after all others, with room for a few steps more.
+// A time after all others. A few steps can be added without overflow.
 constexpr std::int32_t forever = std::numeric_limits<std::int32_t>::max() / 2;
 
 // An active robot. Its path visits the goals in order and rests at the last.
 //
-// A step of a path ticks off at most one goal, the current one, if it ends there: two equal goals in a row cost a
-// wait. So the goal that a step leads to follows from the locations alone.
+// A step that ends at the current goal reaches it, and only it: two equal goals in a row cost a wait. So the leg of a
+// step follows from the locations alone.
 struct Agent {
   std::uint32_t robot = 0;  // index in the host's problem
   Location start = nowhere;
@@ -44,24 +44,25 @@ struct BasicProblem {
 
 using Problem = BasicProblem<4>;
 
-// Where a robot is by time: one location a step, from its start until it rests at its last goal for good.
+// A robot's locations by time: one for each step, from its start until it rests at its last goal.
 using PathView = std::span<const Location>;
 
 inline std::int32_t cost_of(PathView path) {
   return static_cast<std::int32_t>(path.size()) - 1;
 }
 
-// Robots that are not active rest where they are: their cells are taken out of the graph if `resting_robots_block`.
-// Locations that are not on a free cell are nowhere.
+// Robots that are not active rest where they are; with `resting_robots_block` their cells are removed from the graph.
+// Starts and goals that are not on a free cell become nowhere.
 template <Direction connectivity = 4>
 BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block);
 
-// Hands the active robots' paths, in the order of problem.agents, and the resting robots' single waypoints to the host.
+// Gives the host the paths of the active robots, in the order of problem.agents, and one waypoint for each resting
+// robot.
 template <Direction connectivity>
 void write_paths(const PlanningProblem& host_problem, const BasicProblem<connectivity>& problem,
                  const std::vector<PathView>& paths, PlanSink& sink);
 
-// Number of changes of direction; waits in between do not count.
+// The number of changes of direction. Waits do not count.
 template <Direction connectivity>
 std::int32_t count_turns(const BasicGridGraph<connectivity>& graph, PathView path);
 

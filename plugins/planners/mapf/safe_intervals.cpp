@@ -7,7 +7,7 @@ namespace dmrp::planners {
 
 namespace {
 
-// Calls visit(location, from, to) for each stay of a path; the last one is forever.
+// Calls visit(location, from, to) for each stay of a path. The last one lasts forever.
 template <class Visit>
 void visit_stays(PathView path, Visit visit) {
   std::size_t from = 0;
@@ -41,7 +41,7 @@ bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, s
   const auto there = occupations(to);
   const std::size_t i = index_at(there, t - 1);
   std::size_t at_t = i;
-  if (i < there.size() && there[i].to == t - 1) ++at_t;  // left just then
+  if (i < there.size() && there[i].to == t - 1) ++at_t;  // that robot leaves in this step
   if (at_t < there.size() && there[at_t].from <= t && there[at_t].agent != agent) return true;
   if (from == to || at_t == i || there[i].agent == agent) return false;
   return agent_at(from, t) == there[i].agent;  // a swap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// safe_intervals.hpp: which robot is where and when, by location: sorted lists of occupations with safe intervals
-// between them. Robots are added and taken out one by one.
+// safe_intervals.hpp: the positions of all robots over time: for each location a sorted list of occupations, with safe
+// intervals between them. Paths are added and removed one by one.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dmrp::planners {
 
-// `agent` is at a location from one step to another, both included.
+// `agent` is at a location in the steps `from` to `to`, both included.
 struct Occupation {
   std::int32_t from;
   std::int32_t to;
@@ -24,12 +24,12 @@ class SafeIntervals {
  public:
   explicit SafeIntervals(const GridGraph& graph) : lists_(static_cast<std::size_t>(graph.location_count())) {}
 
-  // The path must have no vertex conflict with those added before.
+  // The path must have no vertex conflict with the paths already added.
   void add(std::int32_t agent, PathView path);
-  // A path that was added.
+  // The path must have been added.
   void remove(PathView path);
 
-  // In the order of time, disjoint.
+  // Disjoint, by ascending time.
   std::span<const Occupation> occupations(Location location) const {
     const List& list = lists_[static_cast<std::size_t>(location)];
     return {pool_.data() + list.begin, list.count};
@@ -38,7 +38,7 @@ class SafeIntervals {
   // The first occupation that ends at `t` or later; the number of occupations if there is none. So `t` lies in that
   // occupation, or in the gap before it.
   static std::size_t index_at(std::span<const Occupation> occupations, std::int32_t t) {
-    // without branches that depend on the data, since these cannot be foreseen
+    // branch-free, because branches on this data are mispredicted
     const Occupation* first = occupations.data();
     std::size_t count = occupations.size();
     while (count > 1) {
@@ -50,14 +50,14 @@ class SafeIntervals {
     return count == 1 && first->to < t ? index + 1 : index;
   }
 
-  // Whether a robot other than `agent` stands in the way of a move (or wait) that arrives at time t > 0.
+  // Whether a move or wait that arrives at time t > 0 conflicts with a robot other than `agent`.
   bool is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const;
 
-  // The robots that a path has conflicts with, each once, in the order of time.
+  // The robots with which a path conflicts, each once, by ascending time.
   void list_conflicts(PathView path, std::vector<std::int32_t>& agents) const;
 
  private:
-  // A part of the pool: 2^(size_class + 2) occupations, of which the first `count` are in use.
+  // A part of the pool: room for 2^(size_class + 2) occupations, of which `count` are in use.
   struct List {
     std::uint32_t begin = 0;
     std::uint32_t count = 0;
@@ -73,7 +73,7 @@ class SafeIntervals {
 
   std::vector<List> lists_;
   std::vector<Occupation> pool_;
-  std::vector<std::vector<std::uint32_t>> unused_;  // parts of the pool to be used again, by size class
+  std::vector<std::vector<std::uint32_t>> unused_;  // free parts of the pool, by size class
 };
 
 }  // namespace dmrp::planners

@@ -11,7 +11,7 @@ namespace {
 struct Component {
   std::vector<Location> locations;
   std::vector<std::size_t> agents;
-  bool branches = false;  // somewhere a location has more than two neighbors
+  bool branches = false;  // some location has more than two neighbors
 };
 
 // The neighbor by a move in either direction, or nowhere.
@@ -28,7 +28,7 @@ int degree(const BasicGridGraph<connectivity>& graph, Location location) {
   return count;
 }
 
-// How much of a component its user wants to know.
+// How far to follow a component.
 enum class Extent { whole, until_branch };
 
 template <Direction connectivity>
@@ -44,7 +44,8 @@ Component component_of(const BasicGridGraph<connectivity>& graph, Location start
       const Location to = linked(graph, component.locations[i], d);
       if (to == nowhere) continue;
       std::int32_t& known = component_at[static_cast<std::size_t>(to)];
-      if (known >= 0 && known != number) component.branches = true;  // part of one that was left at a branch
+      if (known >= 0 && known != number)
+        component.branches = true;  // another part of a component that stopped at a branch
       if (known >= 0) continue;
       known = number;
       component.locations.push_back(to);
@@ -53,7 +54,7 @@ Component component_of(const BasicGridGraph<connectivity>& graph, Location start
   return component;
 }
 
-// With Extent::until_branch those that branch are parts, maybe several of one component.
+// With Extent::until_branch, a component that branches can appear as several parts.
 template <Direction connectivity>
 std::vector<Component> components_with_agents(const BasicProblem<connectivity>& problem, Extent extent) {
   std::vector<std::int32_t> component_at(static_cast<std::size_t>(problem.graph.location_count()), -1);
@@ -70,7 +71,7 @@ std::vector<Component> components_with_agents(const BasicProblem<connectivity>& 
   return components;
 }
 
-// The locations in order if the component is a corridor without a branch; empty otherwise.
+// The locations in order if the component is a corridor without a branch; otherwise empty.
 template <Direction connectivity>
 std::vector<Location> as_corridor(const BasicGridGraph<connectivity>& graph, const Component& component) {
   if (component.branches) return {};
@@ -149,7 +150,7 @@ class JointReachability {
     for (std::size_t i = 0; i < from_.size(); ++i) std::erase(missing_[i], from_[i]);
   }
 
-  // Tries all moves of agent i and those after it that do not conflict with the moves of the agents before.
+  // Tries all moves of the agents from i on that do not conflict with the moves of the agents before.
   void move_agent(std::size_t i, StopSignal& stop) {
     if (stop.poll()) return;
     if (i == from_.size()) return add_reached();
@@ -179,7 +180,7 @@ class JointReachability {
   std::vector<std::size_t> place_of_;
   std::vector<bool> visited_;
   std::vector<std::size_t> queue_;
-  std::vector<std::vector<Location>> missing_;  // goals nobody was seen at, by agent
+  std::vector<std::vector<Location>> missing_;  // by agent: goals that it has not reached in any state
   std::vector<Location> from_;
   std::vector<Location> to_;
   std::vector<Direction> direction_;  // of the moves; `connectivity` where there is none

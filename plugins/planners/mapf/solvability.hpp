@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// solvability.hpp: sound proofs that a problem has no plan, for searches that would not end on such a problem.
+// solvability.hpp: proofs that a problem has no plan, for searches that do not terminate on such problems.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace dmrp::planners {
 
-// Why there is no plan, by tests that cost next to nothing: two robots share a start or a last goal, or robots in a
-// corridor without any branch end in another order than they begin. All goals must be on the graph.
+// The reason why there is no plan, if cheap tests find one: two robots share a start or a last goal, or the last goals
+// of robots in a corridor without a branch are in another order than their starts. All goals must be on the graph.
 template <Direction connectivity>
 std::optional<std::string> find_obvious_obstruction(const BasicProblem<connectivity>& problem);
 
-// Why there is no plan, by visiting all joint positions of the robots in each connected part of the graph that has
-// at most `state_limit` of them. Says nothing about larger parts; complete for smaller ones where moves can be undone.
+// The reason why there is no plan, if a visit of all joint positions finds one. Skips connected parts of the graph with
+// more than `state_limit` joint positions. Complete for the other parts if their moves are symmetric.
 template <Direction connectivity>
 std::optional<std::string> find_joint_obstruction(const BasicProblem<connectivity>& problem, std::size_t state_limit,
                                                   StopSignal& stop);

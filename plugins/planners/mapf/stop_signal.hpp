@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// stop_signal.hpp: asks the host now and then whether to stop, cheaply enough for the innermost loops.
+// stop_signal.hpp: polls the host's request to stop, cheaply enough for innermost loops.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,11 @@ class StopSignal {
  public:
   explicit StopSignal(std::function<bool()> should_stop) : should_stop_(std::move(should_stop)) {}
 
-  // Call once a unit of work of well under a microsecond; the host is asked every 256th time. Once raised, stays so.
+  // Call it once for each unit of work of less than a microsecond: it asks the host every 256th time. Once raised, the
+  // signal stays raised.
   bool poll() { return ++polls_ % 256 == 0 ? poll_now() : raised_; }
 
-  // Asks the host.
+  // Asks the host each time.
   bool poll_now() { return raised_ = raised_ || should_stop_(); }
 
   bool raised() const { return raised_; }

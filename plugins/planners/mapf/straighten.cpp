@@ -11,12 +11,12 @@ namespace dmrp::planners {
 
 namespace {
 
-// States that are looked at for a robot before the others have their turn.
+// The number of states for one robot before the next one takes its turn.
 constexpr std::int64_t first_work_a_robot = 100;
 
-// Fewest turns of a path that ends at a given time, among the others: a search by number of turns over states
-// (location, safe interval, leg, heading), of which the earliest are kept. A robot may wait without a turn, so who is
-// somewhere earlier can do whatever who is there later can.
+// Finds a path with the fewest turns that ends at a given time and avoids the others. It searches by number of turns
+// over states (location, safe interval, leg, heading) and keeps the earliest arrival in each. An earlier arrival
+// dominates a later one, because waiting is not a turn.
 class StraightestPath {
  public:
   StraightestPath(const GridGraph& graph, const SafeIntervals& others)
@@ -24,8 +24,8 @@ class StraightestPath {
 
   enum class Result { straighter, no_straighter, given_up };
 
-  // Replaces the path, which has `turns` and is not among the others, by one with fewest turns, if that has fewer.
-  // Gives up when `work_left`, which it counts down, or `stop` says so.
+  // Replaces the path, which has `turns` turns and is not among the others, if another one has fewer. Decrements
+  // `work_left`; gives up when it is used up or when `stop` was raised.
   Result improve(const Agent& agent, const TourTable& table, std::int32_t turns, std::int64_t& work_left,
                  StopSignal& stop, std::vector<Location>& path) {
     begin(agent, table, turns, path);
@@ -68,7 +68,7 @@ class StraightestPath {
       return std::min(with_fewer, *std::min_element(by_heading.begin(), by_heading.end()));
     }
   };
-  // Where the states of a location begin, made when it is first seen in a search.
+  // The first state of a location. Set at the first visit of a search.
   struct Place {
     std::uint32_t epoch = 0;
     std::uint32_t first = 0;
@@ -100,7 +100,7 @@ class StraightestPath {
     return states_[place.first + static_cast<std::size_t>(label.leg) * gaps + label.gap];
   }
 
-  // Whether the label is worth expanding; notes it.
+  // Records the label. False if it is dominated.
   bool close(const Label& label) {
     State& state = state_of(label);
     if (state.turns < label.turns) {
@@ -120,7 +120,7 @@ class StraightestPath {
     std::int32_t follower = from.gap < here.size() ? here[from.gap].agent : -1;
     const std::int32_t leg = agent_->leg_after(from.leg, from.location);
     if (leg != from.leg && from.location == agent_->goal(leg) && from.t < last_t) {
-      // between equal goals: a wait gets the tour on
+      // between equal goals a wait continues the tour
       generate({from.location, from.gap, leg, from.t + 1, from.turns, index, from.heading, false});
       last_t = from.t;
       follower = -1;
@@ -133,7 +133,7 @@ class StraightestPath {
     }
   }
 
-  // `label` has the earliest arrival; `follower` takes the location that is left right after the latest departure.
+  // `label` is the earliest arrival; `follower` enters the location right after the latest departure.
   void move(Label label, std::int32_t latest, std::int32_t follower) {
     const std::int32_t to_go = table_->distance(label.leg, label.location);
     if (label.t + to_go > cost_ || !is_promising(label)) return;
@@ -161,14 +161,14 @@ class StraightestPath {
     push(label);
   }
 
-  // Whether the tour can be ended from here with fewer turns than the limit, walls and others aside.
+  // Whether the tour could end with fewer turns than the limit, ignoring walls and other robots.
   bool is_promising(const Label& label) const {
     const std::int32_t spare = turn_limit_ - 1 - label.turns;
     return spare >= 2 ||
            (spare >= 0 && fewest_turns(graph_, label.location, agent_->goal(label.leg), label.heading) <= spare);
   }
 
-  // The robot comes to stay. Between equal goals at the end it just waits.
+  // The robot comes to rest. Equal goals at the end of the tour take only waits.
   void generate_end(Label label, std::int32_t latest) {
     if (label.leg < end_leg_ || label.location != agent_->last_goal()) return;
     const std::int32_t end_t = cost_ - (agent_->last_leg() - label.leg);
@@ -197,9 +197,9 @@ class StraightestPath {
   const SafeIntervals& others_;
   const Agent* agent_ = nullptr;
   const TourTable* table_ = nullptr;
-  std::int32_t turn_limit_ = 0;  // the path found must have less
+  std::int32_t turn_limit_ = 0;  // the path found must have fewer
   std::int32_t cost_ = 0;
-  std::int32_t end_leg_ = 0;  // from here on all goals are the last one's location
+  std::int32_t end_leg_ = 0;  // from this leg on all goals are at the last location
   std::vector<Place> places_;
   std::vector<State> states_;
   std::vector<Label> labels_;
@@ -220,7 +220,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
                         std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop) {
   using Result = StraightestPath::Result;
   std::vector<std::int32_t> turns;
-  std::vector<std::size_t> candidates;  // robots that may do with fewer turns
+  std::vector<std::size_t> candidates;  // robots whose turns exceed the lower bound
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Agent& agent = problem.agents[i];
     turns.push_back(count_turns(problem.graph, paths[i]));
@@ -234,7 +234,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
   std::int32_t saved = 0;
   bool changed = false;
   while (!left.empty() && work_limit > 0 && !stop.raised()) {
-    // those who are settled with little work first
+    // first those that took little work
     std::erase_if(left, [&](std::size_t i) {
       if (work_limit <= 0 || stop.raised()) return false;
       const std::int64_t limit = std::min(work_a_robot, work_limit);
@@ -253,7 +253,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
     });
     work_a_robot *= 4;
     if (!left.empty() || !changed) continue;
-    // all anew among the new paths
+    // try all again among the new paths
     left = candidates;
     work_a_robot = first_work_a_robot;
     changed = false;

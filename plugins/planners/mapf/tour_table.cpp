@@ -7,7 +7,7 @@ namespace dmrp::planners {
 
 namespace {
 
-// What the goal of a leg is away from the tour's end, the later legs being known.
+// The distance from the goal of a leg to the end of the tour. The later legs must be filled.
 std::int32_t rest_of_tour(const TourTable& table, const GridGraph& graph, const Agent& agent, std::int32_t leg) {
   if (leg == agent.last_leg()) return 0;
   const Location goal = agent.goal(leg);
@@ -26,7 +26,7 @@ TourTable::TourTable(const GridGraph& graph, const Agent& agent, std::vector<Loc
   for (std::int32_t leg = agent.last_leg(); leg >= 0 && !stop.raised(); --leg) fill_leg(graph, agent, leg, queue, stop);
 }
 
-// Breadth-first from the goal.
+// Breadth-first search from the goal.
 void TourTable::fill_leg(const GridGraph& graph, const Agent& agent, std::int32_t leg, std::vector<Location>& queue,
                          StopSignal& stop) {
   const Location goal = agent.goal(leg);

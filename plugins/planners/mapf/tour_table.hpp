@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tour_table.hpp: for one robot, the true distance to the end of its tour from everywhere. The exact heuristic of every
-// search for a robot alone.
+// tour_table.hpp: for one robot, the true distance from every location to the end of its tour: the exact heuristic for
+// a robot without others.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class TourTable {
  public:
   static constexpr std::int32_t unreachable = 1 << 28;
 
-  // Unfinished, and not to be used, if `stop` says so. `queue` is scratch.
+  // Incomplete if `stop` was raised. `queue` is scratch.
   TourTable(const GridGraph& graph, const Agent& agent, std::vector<Location>& queue, StopSignal& stop);
 
   // Steps from `location`, on the way to goal `leg`, until the tour's end; or unreachable.
@@ -32,7 +32,7 @@ class TourTable {
   std::vector<std::int32_t> distance_;
 };
 
-// One table an agent; nothing if `stop` ended it.
+// One table for each agent; nothing if `stop` was raised.
 std::optional<std::vector<TourTable>> make_tour_tables(const Problem& problem, StopSignal& stop);
 
 // The first robot (as the host counts) that cannot make its tour even alone, if there is one.

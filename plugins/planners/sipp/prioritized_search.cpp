@@ -11,14 +11,14 @@ namespace dmrp::planners {
 
 namespace {
 
-// An attempt ends when each robot was displaced so often on average.
+// An attempt fails after this many displacements for each robot.
 constexpr std::int64_t displacements_a_robot = 10;
 
-// After a restart every other robot stays where it starts for fewer steps than this. Where two have to yield to each
+// After a restart every second robot has a delay of fewer steps than this. Where two robots have to give way to each
 // other no order helps, but a delay often does.
 constexpr std::uint64_t delay_limit = 8;
 
-// The most joint positions that a proof that there is no plan visits.
+// The limit of joint positions for the proof that there is no plan.
 constexpr std::size_t joint_state_limit = 300'000;
 
 }  // namespace
@@ -45,7 +45,7 @@ PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
   return Result::restart_limit;
 }
 
-// Plans all robots in the first order, or in one drawn at random.
+// Plans all robots, in the first order or in a random one.
 PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
   begin(restart);
   const std::int64_t limit =
@@ -60,15 +60,15 @@ PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
   return restart == 0 ? Attempt::succeeded : tighten();
 }
 
-// What delays have cost: each robot anew among all others, without, until none gains.
+// Removes the cost of delays: replans each robot among all others without a delay, until no path gets shorter.
 PrioritizedSearch::Attempt PrioritizedSearch::tighten() {
   std::size_t unchanged = 0;
-  for (std::size_t who = 0; unchanged < paths_.size(); who = (who + 1) % paths_.size()) {
-    planned_.remove(paths_[who]);
-    const auto result = low_level_.search(problem_.agents[who], tables_[who], {}, 0, stop_, path_);
-    const bool gains = result == SippSearch::Result::free && path_.size() < paths_[who].size();
-    if (gains) paths_[who] = path_;
-    planned_.add(static_cast<std::int32_t>(who), paths_[who]);
+  for (std::size_t i = 0; unchanged < paths_.size(); i = (i + 1) % paths_.size()) {
+    planned_.remove(paths_[i]);
+    const auto result = low_level_.search(problem_.agents[i], tables_[i], {}, 0, stop_, path_);
+    const bool gains = result == SippSearch::Result::free && path_.size() < paths_[i].size();
+    if (gains) paths_[i] = path_;
+    planned_.add(static_cast<std::int32_t>(i), paths_[i]);
     if (result == SippSearch::Result::stopped) return Attempt::stopped;
     unchanged = gains ? 0 : unchanged + 1;
   }
@@ -77,7 +77,7 @@ PrioritizedSearch::Attempt PrioritizedSearch::tighten() {
 
 void PrioritizedSearch::begin(std::int64_t restart) {
   statistics_.restarts = restart;
-  for (std::size_t i = 0; i < paths_.size(); ++i) take_back(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < paths_.size(); ++i) remove_path(static_cast<std::int32_t>(i));
   prices_.assign(paths_.size(), 1);
   delays_.assign(paths_.size(), 0);
   order_.resize(paths_.size());
@@ -91,34 +91,34 @@ void PrioritizedSearch::begin(std::int64_t restart) {
     return;
   }
   const auto distance = [this](std::int32_t agent) {
-    const auto who = static_cast<std::size_t>(agent);
-    return tables_[who].distance(0, problem_.agents[who].start);
+    const auto i = static_cast<std::size_t>(agent);
+    return tables_[i].distance(0, problem_.agents[i].start);
   };
   std::stable_sort(order_.begin(), order_.end(),
                    [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
 }
 
 SippSearch::Result PrioritizedSearch::plan(std::int32_t agent) {
-  const auto who = static_cast<std::size_t>(agent);
-  const auto result = low_level_.search(problem_.agents[who], tables_[who], prices_, delays_[who], stop_, path_);
+  const auto i = static_cast<std::size_t>(agent);
+  const auto result = low_level_.search(problem_.agents[i], tables_[i], prices_, delays_[i], stop_, path_);
   if (result != SippSearch::Result::free && result != SippSearch::Result::displacing) return result;
-  if (result == SippSearch::Result::displacing) displace_those_in_the_way();
-  paths_[who] = path_;
-  planned_.add(agent, paths_[who]);
+  if (result == SippSearch::Result::displacing) displace_blockers();
+  paths_[i] = path_;
+  planned_.add(agent, paths_[i]);
   return result;
 }
 
-void PrioritizedSearch::displace_those_in_the_way() {
-  planned_.list_conflicts(path_, in_the_way_);
-  for (const std::int32_t other : in_the_way_) {
-    take_back(other);
+void PrioritizedSearch::displace_blockers() {
+  planned_.list_conflicts(path_, blockers_);
+  for (const std::int32_t other : blockers_) {
+    remove_path(other);
     order_.push_back(other);
     ++prices_[static_cast<std::size_t>(other)];
   }
-  statistics_.displaced += static_cast<std::int64_t>(in_the_way_.size());
+  statistics_.displaced += static_cast<std::int64_t>(blockers_.size());
 }
 
-void PrioritizedSearch::take_back(std::int32_t agent) {
+void PrioritizedSearch::remove_path(std::int32_t agent) {
   std::vector<Location>& path = paths_[static_cast<std::size_t>(agent)];
   planned_.remove(path);
   path.clear();

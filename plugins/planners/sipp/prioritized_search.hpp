@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// prioritized_search.hpp: robots planned one after the other, each among the paths of those before it.
+// prioritized_search.hpp: plans robots one after the other, each around the paths of those before it.
 //
-// The first order is by distance, the nearest goal first, so that few robots wait for those that cross their goals
-// late. A robot that finds no way is planned through others: through those that are cheapest to displace. They lose
-// their paths and go to the end of the order; all others keep theirs. With every time the price of a robot grows, so
-// that those who are hard to place come before the others sooner or later: the order is learned. When too many were
-// displaced all begin anew, in an order drawn at random, and some of them later than they could.
+// The first order is by distance, nearest goal first, so that few robots wait for others that cross their goals late. A
+// robot that finds no free path takes one through the robots that are cheapest to displace. These lose their paths and
+// go to the end of the order. Each time a robot is displaced its price grows, so robots that are hard to place come
+// earlier in time: the search learns the order. After too many displacements it restarts in a random order, with random
+// delays for some robots.
 #pragma once
 
 #include <cstdint>
@@ -27,16 +27,16 @@ class PrioritizedSearch {
  public:
   enum class Result { solved, unsolvable, restart_limit, stopped };
 
-  // The problem has no obvious obstruction: all goals can be reached, starts and last goals differ.
+  // The problem must have no obvious obstruction: all goals can be reached; starts differ, and so do last goals.
   PrioritizedSearch(const Problem& problem, const std::vector<TourTable>& tables, std::uint64_t seed, StopSignal& stop);
 
   Result run(std::int64_t restart_limit);
 
-  // After Result::solved: a path an agent.
+  // After Result::solved: one path for each agent.
   std::vector<std::vector<Location>>& paths() { return paths_; }
-  // Where they are, path by path.
+  // The same paths, by location.
   SafeIntervals& occupied() { return planned_; }
-  // After Result::unsolvable.
+  // After Result::unsolvable: why there is no plan.
   const std::string& obstruction() const { return obstruction_; }
   PrioritizedStatistics statistics() const;
 
@@ -47,8 +47,8 @@ class PrioritizedSearch {
   void begin(std::int64_t restart);
   Attempt tighten();
   SippSearch::Result plan(std::int32_t agent);
-  void displace_those_in_the_way();
-  void take_back(std::int32_t agent);
+  void displace_blockers();
+  void remove_path(std::int32_t agent);
 
   const Problem& problem_;
   const std::vector<TourTable>& tables_;
@@ -56,12 +56,12 @@ class PrioritizedSearch {
   StopSignal& stop_;
   SafeIntervals planned_;
   SippSearch low_level_;
-  std::vector<std::vector<Location>> paths_;  // empty for a robot that is not planned
-  std::deque<std::int32_t> order_;            // robots to be planned
+  std::vector<std::vector<Location>> paths_;  // empty for a robot without a path
+  std::deque<std::int32_t> order_;            // robots to plan
   std::vector<std::int32_t> prices_;          // of displacing a robot
-  std::vector<std::int32_t> delays_;          // steps that a robot stays where it starts
+  std::vector<std::int32_t> delays_;          // steps for which a robot stays at its start
   std::vector<Location> path_;
-  std::vector<std::int32_t> in_the_way_;
+  std::vector<std::int32_t> blockers_;
   std::string obstruction_;
   PrioritizedStatistics statistics_;
 };

@@ -11,7 +11,7 @@ Descriptor Sipp::describe() {
   return Descriptor("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
       .vendor("dmrp")
       .license("MIT")
-      .summary("robots planned one after the other in the safe intervals that those before leave")
+      .summary("robots planned one after the other in the safe intervals that the earlier ones leave")
       .source(
           "Phillips, Likhachev: SIPP: Safe interval path planning for dynamic environments, ICRA 2011; displacing "
           "robots by SIPPS: Li et al.: MAPF-LNS2, AAAI 2022")

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
-// sipp.hpp: prioritized safe-interval path planning: robots one after the other, among those before as moving
-// obstacles.
+// sipp.hpp: prioritized safe-interval path planning: plans robots one after the other and treats the earlier ones as
+// moving obstacles.
 #pragma once
 
 #include <dmrp/plugin.hpp>
 
 namespace dmrp::planners {
 
-// Phillips, Likhachev 2011, with what is known to make prioritized planning succeed: first the robots with the nearest
-// goals; a robot that finds no way displaces those that stand in it (found as in SIPPS, Li et al. 2022), and these are
-// planned again after all others, at a price that grows; new orders, and delays, drawn at random by the seed when that
-// goes round in circles. In the end turns are taken out as far as the others' paths allow.
+// Phillips, Likhachev 2011, with additions that make prioritized planning succeed more often. The robots with the
+// nearest goals come first. A robot without a free path displaces the robots that block it (found as in SIPPS, Li et
+// al. 2022); these are planned again after all others, and their price grows. When that does not converge, the search
+// restarts with a random order and random delays, drawn from the seed. Finally turns are removed where the other paths
+// allow.
 //
-// There are no vertex or swap conflicts: robots are seen when they move, wait and rest. A path costs least among those
-// that were planned before it and kept; the sum of costs has no bound. `lower_bound` is the sum of what the robots
-// would cost alone.
+// Plans have no vertex or swap conflicts: moving, waiting and resting robots are obstacles. Each path has the least
+// cost among the paths that were planned before it and kept; the sum of costs has no bound. `lower_bound` is the sum of
+// the robots' costs alone.
 //
-// NO_SOLUTION: a start or goal is cut off; two robots end on one cell, or would have to pass each other in a corridor
-// without a branch; the joint positions of few robots in a small part of the map were all tried. TIMEOUT after
-// `restarts` or when the host says so. Prioritized planning is not complete: of two robots that have to yield to each
-// other one must be late for that, which only a delay at its start can bring about here.
+// Returns NO_SOLUTION for problems that provably have no plan: a start or goal is cut off; two robots end on one cell,
+// or would have to pass each other in a corridor without a branch; or all joint positions of few robots in a small part
+// of the map were tried. Returns TIMEOUT after `restarts` or when the host asks it to stop. Prioritized planning is not
+// complete: where two robots have to give way to each other, one must be late, and only a delay at its start makes it
+// so.
 class Sipp final : public GlobalPlanner {
  public:
   static Descriptor describe();
 
-  Param<std::int64_t> restarts = param("restarts", 1000)
-                                     .unit("1")
-                                     .range(0, 100'000'000)
-                                     .doc("new orders that are drawn before the search gives up");
+  Param<std::int64_t> restarts =
+      param("restarts", 1000).unit("1").range(0, 100'000'000).doc("restarts in a new order before the search gives up");
 
   Status start(const World& world, std::uint64_t seed) override;
   Status plan(const PlanningProblem& problem, PlanSink& sink) override;

@@ -35,7 +35,7 @@ SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table
   }
 }
 
-// There is no way round the others: on from all places that can be reached, through them.
+// There is no free path: continues through the other robots, from all labels expanded so far.
 void SippSearch::start_displacing(const Task& task) {
   may_displace_ = true;
   for (std::size_t i = 0; i < expanded_labels_.size() && !task.stop.poll(); ++i) expand(task, expanded_labels_[i]);
@@ -58,7 +58,8 @@ void SippSearch::begin(const Task& task, std::int32_t delay) {
 void SippSearch::expand(const Task& task, std::int32_t index) {
   const Label label = labels_[static_cast<std::size_t>(index)];
   const auto here = others_.occupations(label.location);
-  const auto occupation = static_cast<std::size_t>(label.interval / 2);  // the current one, or that after the gap
+  const auto occupation =
+      static_cast<std::size_t>(label.interval / 2);  // the current occupation, or the one after the gap
   const bool is_gap = label.interval % 2 == 0;
   Departure departure{index, task.agent.leg_after(label.leg, label.location), forever, -1};
   if (!is_gap)
@@ -70,7 +71,7 @@ void SippSearch::expand(const Task& task, std::int32_t index) {
 
   if (may_displace_ && is_at_last_goal(task, label)) generate_end(task, label);
   wait(task, departure);
-  // Between equal goals a wait gets the tour on: then only what leaves at once is left.
+  // Between equal goals a wait continues the tour, so any other move must leave at once.
   if (departure.leg != label.leg && label.location == task.agent.goal(departure.leg) && label.t < departure.last_t) {
     departure.last_t = label.t;
     departure.follower = -1;
@@ -79,7 +80,7 @@ void SippSearch::expand(const Task& task, std::int32_t index) {
     if (const Location to = graph_.neighbor(label.location, d); to != nowhere) move(task, departure, d, to);
 }
 
-// Into the location's next interval; or, between equal goals, one step on in this one.
+// Waits until the location's next interval or, between equal goals, one step within this one.
 void SippSearch::wait(const Task& task, const Departure& departure) {
   Label label = labels_[static_cast<std::size_t>(departure.label)];
   const bool gets_on = departure.leg != label.leg && label.location == task.agent.goal(departure.leg);
@@ -114,7 +115,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
     const std::int32_t left = i > 0 ? there[i - 1].to + 1 : 0;
     const std::int32_t gap_end = i < there.size() ? there[i].from - 1 : forever;
     if (left > latest) return;
-    // who comes the other way if the robot leaves at the last moment
+    // the robot that comes the other way if this one leaves at the last moment
     const std::int32_t swapper =
         departure.follower >= 0 && i > 0 && left == latest && there[i - 1].agent == departure.follower
             ? departure.follower
@@ -152,7 +153,7 @@ void SippSearch::generate(const Task& task, const Label& label) {
   push(task, label);
 }
 
-// The robot stays at its last goal for good, whoever comes by.
+// The robot rests at its last goal from here on, through all later occupations.
 void SippSearch::generate_end(const Task& task, const Label& label) {
   Label end = label;
   end.is_end = true;
@@ -167,11 +168,11 @@ void SippSearch::push(const Task& task, Label label) {
     return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(low);
   };
   const std::int32_t to_go = task.table.distance(label.leg, label.location);
-  // a path that displaces nobody cannot end before the last of them has crossed the goal
+  // a free path cannot end before the last of the others has crossed the goal
   const std::int32_t steps = label.price > 0 ? label.t + to_go : std::max(label.t + to_go, task.rest_from);
   const std::int32_t turns =
       label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading);
-  // who has time to spare should get on first of all
+  // a robot with time to spare should first make progress
   const bool has_time = steps == task.rest_from;
   push_open({pack(label.price, steps), has_time ? pack(to_go, turns) : pack(turns, to_go),
              static_cast<std::int32_t>(labels_.size())});
@@ -189,7 +190,7 @@ void SippSearch::push_open(const OpenEntry& entry) {
   std::push_heap(open_.begin(), open_.end(), IsWorse());
 }
 
-// The label of the best entry, which is taken out.
+// Removes the best entry and returns its label.
 std::int32_t SippSearch::pop_open() {
   if (latest_.label != none && (open_.empty() || IsWorse()(open_.front(), latest_)))
     return std::exchange(latest_.label, none);

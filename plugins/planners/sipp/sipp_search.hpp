@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// sipp_search.hpp: the best path of one robot among robots that move on known paths.
+// sipp_search.hpp: the best path of one robot among robots with known paths.
 //
-// A* over states (location, safe interval, leg of the tour) with the earliest time of arrival (Phillips & Likhachev
-// 2011). Where that finds no way the search goes on through the other robots, as in SIPPS (Li et al. 2022): a path
-// may then take what they occupy, at a price a robot, and the cheapest path is found, of these an earliest.
+// A* over states (location, safe interval, leg of the tour), each with its earliest arrival (Phillips, Likhachev 2011).
+// If there is no free path the search continues through the other robots, as in SIPPS (Li et al. 2022): a path may then
+// use locations that they occupy, at a price for each robot. The search returns an earliest one of the cheapest paths.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ class SippSearch {
 
   enum class Result { free, displacing, none, stopped };
 
-  // The agent itself must not be among the others. `prices` has what it costs to displace each robot, all positive;
-  // if it is empty none may be. Result::displacing: the path has conflicts with some. The robot stays where it starts
-  // for `delay` steps, or as long as it can if that is less.
+  // The agent itself must not be among the others. `prices` has the positive price of displacing each robot; if it is
+  // empty no robot may be displaced. Result::displacing: the path conflicts with some robots. The robot stays at its
+  // start for `delay` steps, or as long as it can if that is less.
   Result search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices, std::int32_t delay,
                 StopSignal& stop, std::vector<Location>& path);
 
@@ -34,7 +34,7 @@ class SippSearch {
  private:
   static constexpr std::int32_t none = -1;
 
-  // An interval of a location is a gap between occupations (2i before occupation i) or an occupation (2i + 1).
+  // Intervals of a location: 2i is the gap before occupation i, 2i + 1 is occupation i.
   struct Label {
     Location location;
     std::int32_t interval;
@@ -43,11 +43,11 @@ class SippSearch {
     std::int32_t price;  // so far
     std::int32_t parent;
     std::int32_t turns;      // so far
-    std::int32_t displaced;  // whose occupation this is, or -1
+    std::int32_t displaced;  // the robot whose occupation this is, or -1
     std::int8_t heading;
     bool is_end;
   };
-  // Smaller is better; of equals the later label, which is further on its way.
+  // Smaller is better. Ties go to the later label, which is further along its path.
   struct OpenEntry {
     std::uint64_t price_and_steps;  // the least possible cost of the path
     std::uint64_t preference;
@@ -60,13 +60,13 @@ class SippSearch {
       return a.label < b.label;
     }
   };
-  // What is known of an interval on a leg.
+  // The best labels of an interval on a leg.
   struct State {
     std::int32_t expanded_t = forever;  // earliest so far; later labels are no cheaper
     std::int32_t generated_t = forever;
     std::int32_t generated_price = forever;
   };
-  // Where the states of a location begin, made when it is first seen in a search.
+  // The first state of a location. Set at the first visit of a search.
   struct LocationStates {
     std::uint32_t epoch = 0;
     std::uint32_t first = 0;
@@ -76,14 +76,14 @@ class SippSearch {
     const TourTable& table;
     std::span<const std::int32_t> prices;
     StopSignal& stop;
-    std::int32_t rest_from;  // the last goal's last gap begins here
+    std::int32_t rest_from;  // begin of the last goal's last gap
   };
-  // The part of an expanded label that all its successors share.
+  // The data of an expanded label that all its successors use.
   struct Departure {
     std::int32_t label;
     std::int32_t leg;       // of the next step
     std::int32_t last_t;    // last departure
-    std::int32_t follower;  // who takes the location right after last_t, or -1
+    std::int32_t follower;  // the robot that enters the location right after last_t, or -1
   };
 
   static bool is_at_last_goal(const Task& task, const Label& label) {
@@ -111,10 +111,10 @@ class SippSearch {
   std::vector<LocationStates> intervals_;
   std::vector<State> states_;
   std::vector<Label> labels_;
-  std::vector<OpenEntry> open_;  // a heap, apart from the best of the latest: that is often the next to be expanded
+  std::vector<OpenEntry> open_;  // a heap; without `latest_`, the best of the new entries, which is often expanded next
   OpenEntry latest_ = {0, 0, none};
   std::vector<std::int32_t> expanded_labels_;
-  bool may_displace_ = false;  // not as long as there may be a path that displaces nobody
+  bool may_displace_ = false;  // false while a free path is still possible
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;
 };

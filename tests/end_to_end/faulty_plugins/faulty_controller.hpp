@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// faulty_controller.hpp: stands still, and does one thing wrong in one function, in the robot `robot` from `at_s` on.
+// faulty_controller.hpp: stands still, and has one fault in one function: for robot `robot`, from `at_s` on.
 #pragma once
 
 #include <limits>

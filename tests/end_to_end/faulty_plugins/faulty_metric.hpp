@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// faulty_metric.hpp: counts samples, and does one thing wrong. One class a fault: names of values are unique in a run.
+// faulty_metric.hpp: counts samples, and has one fault. One class per fault: names of values are unique in a run.
 #pragma once
 
 #include <limits>
@@ -28,7 +28,7 @@ class FaultyMetric final : public dmrp::Metric {
   void begin(const dmrp_plan*) override {
     samples_ = 0;
     if (fault == MetricFault::throw_in_begin) throw std::runtime_error("thrown on purpose");
-    // a fault in the first trial of the process only: start() and begin() are the way back
+    // a fault in the first trial of the process only: it recovers by start() and begin()
     if (fault == MetricFault::recovers && !failed_once_) {
       failed_once_ = true;
       throw std::runtime_error("thrown on purpose");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// faulty_pedestrians.hpp: people who stand, until one does what no person can.
+// faulty_pedestrians.hpp: people stand still, until one gets an invalid velocity.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// faulty_planner.hpp: knows the world `crossing` by heart, gives its plan with one fault in it.
+// faulty_planner.hpp: returns a fixed plan for the world `crossing`, with one fault.
 #pragma once
 
 #include <limits>

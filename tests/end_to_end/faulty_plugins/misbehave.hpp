@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// misbehave.hpp: what any plugin can do wrong in any of its functions.
+// misbehave.hpp: faults that any plugin can have in any function.
 #pragma once
 
 #include <fenv.h>
@@ -14,7 +14,7 @@
 
 namespace dmrp::test {
 
-// Faults beyond these are of one kind of plugin: wrong outputs.
+// Other faults belong to one kind of plugin: wrong outputs.
 inline dmrp::Status misbehave(const std::string& fault) {
   if (fault == "crash") std::raise(SIGSEGV);
   if (fault == "abort") std::abort();

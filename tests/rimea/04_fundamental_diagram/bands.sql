@@ -1,5 +1,5 @@
--- RiMEA test 4: Weidmann's curve, v = 1.34 (1 - exp(-1.913 (1 / density - 1 / 5.4))) m/s. Held at 0.5, 1, 2 and 3
--- people/m2. ORCA slows down only where it must to avoid collisions: known to walk too fast.
+-- RiMEA test 4: Weidmann's curve, v = 1.34 (1 - exp(-1.913 (1 / density - 1 / 5.4))) m/s. Judged at 0.5, 1, 2 and 3
+-- people/m2. ORCA slows down only to avoid collisions, so it is known to be too fast.
 WITH point AS (
   SELECT speed.model, density.value AS density, speed.value AS speed,
          1.34 * (1 - exp(-1.913 * (1 / density.value - 1 / 5.4))) AS weidmann

@@ -1,3 +1,3 @@
--- RiMEA test 6: everybody gets round the corner; that they stay out of the walls is judged for every test.
+-- RiMEA test 6: everybody passes the corner; judge.sh checks overlaps with walls in every test.
 SELECT model, 'people who did not get round', max(value), 0, 0, 1
 FROM measured WHERE metric = 'people_left_behind' GROUP BY model ORDER BY model DESC;

@@ -1,6 +1,6 @@
--- RiMEA test 12: a jam before the corridor, none in the room behind it, while the corridor is fed. A jam is denser than
--- where the flow is greatest (1.75 people/m2 by Weidmann's curve) and slower than half the free speed; without one people
--- walk faster than half the free speed, and the room is less dense than that.
+-- RiMEA test 12: a jam before the corridor, and none in the room behind it, while people arrive at the corridor. In a
+-- jam, the density exceeds that of the greatest flow (1.75 people/m2 by Weidmann's curve) and the speed is below half
+-- of the free speed; without a jam, the density is lower and the speed higher.
 SELECT model, 'density before the corridor, people/m2', avg(value), 1.75, NULL, 1
 FROM measured WHERE metric = 'density_before' GROUP BY model ORDER BY model DESC;
 SELECT model, 'speed before the corridor, m/s', avg(value), 0, 0.67, 1

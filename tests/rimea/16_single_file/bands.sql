@@ -1,5 +1,5 @@
--- RiMEA test 16: reported against the line that Seyfried et al. (2005) measured: a person who walks at v m/s takes up
--- 0.36 m + 1.06 s v; nobody walks faster than alone.
+-- RiMEA test 16: reported next to the line measured by Seyfried et al. (2005): a person at v m/s needs
+-- 0.36 m + 1.06 s v; the free speed is the upper bound.
 WITH point AS (
   SELECT speed.model, density.value AS density, speed.value AS speed,
          max(0, min(1.34, (1 / density.value - 0.36) / 1.06)) AS seyfried

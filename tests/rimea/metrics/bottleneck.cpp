@@ -7,7 +7,7 @@ namespace dmrp::rimea {
 
 Descriptor Bottleneck::describe() {
   return describe_rimea("dmrp.rimea.bottleneck", "Bottleneck")
-      .summary("where a crowd jams: before a bottleneck or behind it")
+      .summary("density and speed of a crowd before and behind a bottleneck")
       .value("density_before", "1/m2", Direction::none, Subjects::system, "in the area before the bottleneck")
       .value("speed_before", "m/s", Direction::none, Subjects::system, "of the people there")
       .value("density_behind", "1/m2", Direction::none, Subjects::system, "in the area behind it")
@@ -15,14 +15,14 @@ Descriptor Bottleneck::describe() {
       .value("density_at_exit", "1/m2", Direction::none, Subjects::system, "in the area before the exit")
       .value("speed_at_exit", "m/s", Direction::none, Subjects::system, "of the people there")
       .value("bottleneck_flow", "1/(m s)", Direction::none, Subjects::system,
-             "people who pass the bottleneck, a second and metre of its width");
+             "people who pass the bottleneck per second and metre of its width");
 }
 
 void Bottleneck::begin(const dmrp_plan*) {
   before_ = rectangle_of(before_lower_m, before_upper_m);
   behind_ = rectangle_of(behind_lower_m, behind_upper_m);
   exit_ = rectangle_of(exit_lower_m, exit_upper_m);
-  walkers_.clear();
+  walking_speeds_.clear();
   people_ = 0;
   passed_.clear();
   intervals_.clear();
@@ -33,7 +33,7 @@ void Bottleneck::observe(const Sample& sample) {
   for (const Person& person : sample.people)
     if (person.position.x >= line_x_m) passed_.insert(person.id);
   if (!is_due(sample.t_ns, interval_s)) return;
-  walkers_.update(sample.people);
+  walking_speeds_.update(sample.people);
   intervals_.push_back({seconds(sample.t_ns), passed_.size(), presence_in(before_, sample.people),
                         presence_in(behind_, sample.people), presence_in(exit_, sample.people)});
 }
@@ -70,7 +70,7 @@ Bottleneck::Presence Bottleneck::presence_in(const toolkit::Rectangle& area, con
   for (const Person& person : people) {
     if (!toolkit::contains(area, person.position)) continue;
     ++presence.people;
-    if (const auto speed = walkers_.speed(person, interval_s)) {
+    if (const auto speed = walking_speeds_.speed(person, interval_s)) {
       presence.speeds += *speed;
       ++presence.speed_count;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// bottleneck.hpp: where a crowd jams: before a bottleneck or behind it.
+// bottleneck.hpp: density and speed of a crowd before and behind a bottleneck.
 //
-// Measured while the bottleneck is fed: from when the first tenth of the people have passed it until eight tenths have.
+// The measurement runs while people arrive at the bottleneck: from one tenth of the people through it to eight tenths.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/rimea/metrics/walkers.hpp"
+#include "tests/rimea/metrics/walking_speeds.hpp"
 
 namespace dmrp::rimea {
 
@@ -19,8 +19,8 @@ class Bottleneck final : public Metric {
  public:
   static Descriptor describe();
 
-  Param<double> line_x_m = param("line_x_m", 0.0).unit("m").doc("who is beyond this x has passed the bottleneck");
-  Param<double> width_m = param("width_m", 1.0).unit("m").range(0.1, 100.0).doc("of the bottleneck");
+  Param<double> line_x_m = param("line_x_m", 0.0).unit("m").doc("people beyond this x have passed the bottleneck");
+  Param<double> width_m = param("width_m", 1.0).unit("m").range(0.1, 100.0).doc("width of the bottleneck");
   Param<std::vector<double>> before_lower_m =
       param("before_lower_m", std::vector<double>{0.0, 0.0}).unit("m").doc("the area before it: lower left corner");
   Param<std::vector<double>> before_upper_m =
@@ -59,7 +59,7 @@ class Bottleneck final : public Metric {
   toolkit::Rectangle before_;
   toolkit::Rectangle behind_;
   toolkit::Rectangle exit_;
-  Walkers walkers_;
+  WalkingSpeeds walking_speeds_;
   std::size_t people_ = 0;  // at the beginning
   std::set<std::uint64_t> passed_;
   std::vector<Interval> intervals_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// describe_rimea.hpp: what the descriptors of these metrics have in common, and small pieces that they share.
+// describe_rimea.hpp: the common part of these metrics' descriptors, and shared functions.
 #pragma once
 
 #include <dmrp/plugin.hpp>
@@ -16,10 +16,10 @@ inline Descriptor describe_rimea(const char* id, const char* name) {
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 
-// The rectangle between two corners that parameters give as [x, y]. Throws std::invalid_argument for anything else.
+// The rectangle of two corners [x, y]. Throws std::invalid_argument unless the first is the lower left one.
 toolkit::Rectangle rectangle_of(const std::vector<double>& lower_m, const std::vector<double>& upper_m);
 
-// Whether a moment falls on a whole number of intervals. Steps divide the intervals that experiments ask for.
+// Whether a time is a multiple of the interval. Experiments must use intervals that are multiples of the step.
 inline bool is_due(std::int64_t t_ns, double interval_s) {
   return t_ns % static_cast<std::int64_t>(interval_s * 1e9 + 0.5) == 0;
 }

@@ -7,10 +7,10 @@ namespace dmrp::rimea {
 
 Descriptor Evacuation::describe() {
   return describe_rimea("dmrp.rimea.evacuation", "Evacuation")
-      .summary("when everybody has left")
+      .summary("time until all people have left")
       .value("evacuation_time", "s", Direction::none, Subjects::system,
-             "until the last person left; undefined where somebody stayed")
-      .value("people_left_behind", "1", Direction::lower_is_better, Subjects::system, "people there at the end");
+             "time until the last person left; undefined if somebody stayed")
+      .value("people_left_behind", "1", Direction::lower_is_better, Subjects::system, "people present at the end");
 }
 
 void Evacuation::begin(const dmrp_plan*) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// evacuation.hpp: when everybody has left.
+// evacuation.hpp: the time until all people have left.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ class Evacuation final : public Metric {
 
  private:
   std::size_t people_ = 0;   // at the last sample
-  double deserted_s_ = 0.0;  // since when nobody is there
+  double deserted_s_ = 0.0;  // since this time nobody is present
 };
 
 }  // namespace dmrp::rimea

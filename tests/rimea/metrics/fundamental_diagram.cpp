@@ -7,7 +7,7 @@ namespace dmrp::rimea {
 
 Descriptor FundamentalDiagram::describe() {
   return describe_rimea("dmrp.rimea.fundamental_diagram", "Fundamental diagram")
-      .summary("how dense a crowd is in a measurement area and how fast it walks there, by the classical method")
+      .summary("density and speed of a crowd in a measurement area, by the classical method")
       .value("density", "1/m2", Direction::none, Subjects::system,
              "people in the area over its extent, mean over time (1/m where the extent is a length)")
       .value("walking_speed", "m/s", Direction::none, Subjects::system, "mean over time and the people in the area")
@@ -17,19 +17,19 @@ Descriptor FundamentalDiagram::describe() {
 
 void FundamentalDiagram::begin(const dmrp_plan*) {
   area_ = rectangle_of(lower_m, upper_m);
-  walkers_.clear();
+  walking_speeds_.clear();
   intervals_ = people_ = speeds_ = speed_count_ = 0.0;
 }
 
 void FundamentalDiagram::observe(const Sample& sample) {
   if (!is_due(sample.t_ns, interval_s)) return;
-  walkers_.update(sample.people);
+  walking_speeds_.update(sample.people);
   if (seconds(sample.t_ns) <= from_s) return;
   ++intervals_;
   for (const Person& person : sample.people) {
     if (!toolkit::contains(area_, person.position)) continue;
     ++people_;
-    const auto speed = walkers_.speed(person, interval_s);
+    const auto speed = walking_speeds_.speed(person, interval_s);
     if (!speed) continue;
     speeds_ += *speed;
     ++speed_count_;

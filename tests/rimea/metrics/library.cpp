@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The measurements of the RiMEA tests as one plugin library, built from the SDK alone.
+// The plugin library of the RiMEA tests' metrics. It depends only on the SDK.
 #include <stdexcept>
 
 #include "tests/rimea/metrics/bottleneck.hpp"

@@ -43,7 +43,7 @@ void Solidity::observe_walls(const Person& person) {
   wall_overlap_m_ = std::max(wall_overlap_m_, person.radius_m - clearance_m);
 }
 
-// Sorted by x, whoever overlaps is near in the order.
+// People who overlap are close to each other in the order by x.
 void Solidity::observe_each_other(const Span<Person>& people) {
   by_x_.resize(people.size());
   std::iota(by_x_.begin(), by_x_.end(), std::size_t{0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// solidity.hpp: whether people stay out of walls and out of each other.
+// solidity.hpp: overlaps of people with walls and with each other.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@ namespace dmrp::rimea {
 
 Descriptor TravelTime::describe() {
   return describe_rimea("dmrp.rimea.travel_time", "Travel time")
-      .summary("how long people take from one line across their way to another")
+      .summary("time that people take from one line across their way to another")
       .value("travel_time", "s", Direction::none, Subjects::system_and_pedestrians,
              "from the line x = from_x_m to the line x = to_x_m; system: the mean of all who crossed both");
 }
@@ -23,7 +23,7 @@ void TravelTime::observe(const Sample& sample) {
   for (const Person& person : sample.people) {
     const auto [found, is_new] = walks_.try_emplace(person.id, Walk{person.position.x, t_s, undefined, undefined});
     Walk& walk = found->second;
-    // between two samples people walk evenly
+    // linear motion between two samples
     const auto crossing_s = [&](double line_m) {
       const double share = (line_m - walk.last_x_m) / (person.position.x - walk.last_x_m);
       return walk.last_t_s + share * (t_s - walk.last_t_s);

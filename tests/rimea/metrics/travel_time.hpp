@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// travel_time.hpp: how long people take from one line across their way to another.
+// travel_time.hpp: the time that people take from one line across their way to another.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class TravelTime final : public Metric {
  public:
   static Descriptor describe();
 
-  Param<double> from_x_m = param("from_x_m", 0.0).unit("m").doc("the time runs from this x on");
+  Param<double> from_x_m = param("from_x_m", 0.0).unit("m").doc("the time begins at this x");
   Param<double> to_x_m = param("to_x_m", 1.0).unit("m").doc("and ends at this one");
 
   void begin(const dmrp_plan* plan) override;

@@ -101,4 +101,13 @@ inline dmrp_vec2 free_place(const StaticGeometry& geometry, toolkit::Stream& str
   }
 }
 
+// A hall with a kiosk and a planter, and people who walk through it both ways.
+inline Scenario busy_hall(std::uint32_t people) {
+  Scenario scenario = empty_scenario(30, 12);
+  scenario.shapes = {box("kiosk", {14, 4}, {16, 8}), circle("planter", {8, 6}, 0.7)};
+  scenario.regions = {{"west", {0.5, 1}, {2.5, 11}}, {"north", {14, 9}, {16, 11}}, {"east", {27.5, 1}, {29.5, 11}}};
+  scenario.flows = {{"eastward", {0, 1, 2}, people / 2}, {"westward", {2, 0}, people - people / 2}};
+  return scenario;
+}
+
 }  // namespace dmrp::core::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// STO, IBTR and LDF of random trials against their definitions written down as plainly as can be.
+// STO, IBTR and LDF of random trials, compared with the plainest implementations of their definitions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <dmrp/toolkit/random.hpp>
@@ -15,7 +15,7 @@ double distance(dmrp_vec2 a, dmrp_vec2 b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-// Robots that wander, crawl at times, and arrive at different times; steps of one second or less.
+// Robots at random positions that sometimes crawl and arrive at different times; steps of one second or less.
 struct RandomTrial {
   std::vector<double> times_s;
   std::vector<std::vector<dmrp_robot_sample>> samples;
@@ -117,7 +117,7 @@ Blocking ibtr_by_definition(const RandomTrial& random, double reach_m, double fr
   return {100.0 * blocked / random.times_s.back(), 100.0 * pair_sum / random.times_s.back()};
 }
 
-// Over the samples that stand for 0, 1, 2, ... s; active_only: among active robots, while active.
+// Over the samples that represent 0, 1, 2, ... s; active_only: among active robots, while active.
 double ldf_by_definition(const RandomTrial& random, double reach_m, bool active_only) {
   double largest = -1.0;
   for (std::size_t robot = 0; robot < random.robots(); ++robot) {
@@ -166,7 +166,7 @@ TEST_CASE("STO, IBTR and LDF agree with their definitions on random trials") {
     with_blocking += blocking.share > 0.0;
     with_several_pairs += blocking.pair_sum > 1.001 * blocking.share;
   }
-  // the trials are of the kind that tells right from wrong
+  // enough trials have events
   CHECK(with_overlap > 50);
   CHECK(with_blocking > 50);
   CHECK(with_several_pairs > 50);

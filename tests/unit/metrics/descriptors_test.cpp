@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the metrics say about themselves, what they do where there is nothing to measure, and the parameter sets.
+// The descriptors of the metrics, their values where there is nothing to measure, and the parameter sets.
 #include <toml++/toml.h>
 
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ const dmrp_param_spec* parameter_of(const dmrp_descriptor& descriptor, const std
   return nullptr;
 }
 
-// Parameters of a file of a parameter set, all checked against the descriptor.
+// The parameters in a file of a parameter set, checked against the descriptor.
 std::map<std::string, double> read_parameters(const std::string& file, const dmrp_descriptor& descriptor) {
   std::map<std::string, double> parameters;
   for (const auto& [key, value] : toml::parse_file(DMRP_METRIC_PARAMETER_SETS "/" + file)) {
@@ -44,8 +44,8 @@ std::map<std::string, double> read_parameters(const std::string& file, const dmr
 
 }  // namespace
 
-TEST_CASE("the metrics give the values that results are read by, each once") {
-  // neither the crowd that was met nor the shape of the task can be better
+TEST_CASE("the metrics declare the values that results are read by, each once") {
+  // properties of the crowd and of the task are neither better nor worse
   const std::set<std::string> neither_better_nor_worse = {"people_nearby",    "sto_cell_size",
                                                           "shortest_length",  "neighbours",
                                                           "proxemics_social", "pedestrian_desired_speed"};
@@ -150,13 +150,13 @@ TEST_CASE("the metrics give the values that results are read by, each once") {
   CHECK(units == expected);
 }
 
-TEST_CASE("a trial without a plan has a value for every name, and 0 only where nothing happening is an answer") {
+TEST_CASE("a trial without a plan has a value for every name, and 0 only where no event is a result") {
   SyntheticTrial trial(3);
   trial.end(0.0, {never, never, never});  // no plan, no sample
   const std::set<std::string> zero = {"isr",           "csr",          "spl",          "shortest_length", "success",
                                       "trial_success", "safe_success", "mission_time", "throughput"};
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
-    const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name comes
+    const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name has a value
     CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));
     for (const auto& [key, value] : m.values) {
       const std::string& name = std::get<0>(key);
@@ -170,7 +170,7 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
   }
 }
 
-TEST_CASE("in a trial with a plan only what never happened and who was not there is undefined") {
+TEST_CASE("in a trial with a plan, only values without events or people are undefined") {
   SyntheticTrial trial(2);  // nobody moves, nobody arrives
   trial.plan({{{0, 0}, {1, 0}}, {{5, 0}}});
   for (int t = 0; t <= 3; ++t) trial.sample(t, {at(0, 0), at(5, 0)});
@@ -195,7 +195,7 @@ TEST_CASE("in a trial with a plan only what never happened and who was not there
   }
 }
 
-TEST_CASE("a trial without robots has nothing to measure but time and people") {
+TEST_CASE("a trial without robots has values of time and people only") {
   SyntheticTrial trial(0);
   for (int t = 0; t <= 3; ++t) trial.sample(t, {}).people_at({{0, 0}, {5, 0}});
   trial.end(3.0);
@@ -211,7 +211,7 @@ TEST_CASE("a trial without robots has nothing to measure but time and people") {
   }
 }
 
-TEST_CASE("the paper's parameter set is the defaults, the released code's differs where it is known to") {
+TEST_CASE("the paper's parameter set equals the defaults, the released code's has the known differences") {
   const std::map<std::string, std::map<std::string, double>> released = {
       {"sto", {{"distance_m", 0.5}, {"window", 2.0}}},
       {"ibtr", {{"distance_m", 2.5}, {"speed_fraction", 0.5}}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bugs that were found in the metric code of other benchmarks, one case each: here they must not be.
+// One test for each bug that was found in the metric code of other benchmarks.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
@@ -38,7 +38,7 @@ TEST_CASE("known bug: abs(w < 0.02) (HuNavSim)") {
   CHECK(measure("dmrp.metric.idle_time", trial).system("idle_time") == 0.0);
 }
 
-TEST_CASE("known bug: collisions counted a step (HuNavSim)") {
+TEST_CASE("known bug: collisions counted per step (HuNavSim)") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).people({5});
   for (int i = 1; i <= 50; ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("known bug: yaw not wrapped (Arena)") {
   CHECK_THAT(measure("dmrp.metric.smoothness", trial).system("heading_change"), WithinAbs(2 * M_PI - 6.2, 1e-14));
 }
 
-TEST_CASE("known bug: danger intervals of one sample dropped, and the last one (MRPB)") {
+TEST_CASE("known bug: danger intervals of one sample and the last interval dropped (MRPB)") {
   SyntheticTrial trial(1);
   trial.box("wall", {1, -9}, {2, 9}).plan({{{0, 0}}});
   const double x[] = {0.0, 0.0, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.6};  // 0.6 is 0.15 m from the wall

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A trial written down by hand, and what a metric of libdmrp_metrics.so measures in it:
+// synthetic_trial.hpp: a trial written by hand, and the values that a metric of libdmrp_metrics.so measures in it:
 //
 //   SyntheticTrial trial(2);
 //   trial.plan({{{0, 0}, {1, 0}}, {{5, 0}}});                 // a path a robot, one waypoint a second
-//   trial.sample(0.0, {at(0, 0), at(5, 0)});                  // the plan added last is in force
+//   trial.sample(0.0, {at(0, 0), at(5, 0)});                  // the latest plan is the current one
 //   trial.sample(1.0, {at(1, 0, 1.0), at(5, 0)});             // the first robot drives 1 m/s
 //   trial.end(1.0, {1.0, never});                             // it arrives; the second does not
 //   const Measurement m = measure("dmrp.metric.path_length", trial);
@@ -34,7 +34,7 @@ inline std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-// A robot at a sample: its place, its measured speed ahead, its state.
+// A robot at a sample: its position, its measured forward speed, its state.
 inline dmrp_robot_sample at(double x, double y, double speed = 0.0, std::uint32_t state = DMRP_ROBOT_ACTIVE) {
   dmrp_robot_sample robot{};
   robot.pose = {x, y, 0.0};
@@ -47,7 +47,7 @@ inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b
   return {kind, flags, a, b, 0.01, {0.0, 0.0}};
 }
 
-// An array element as a later version of the contract may have it: metrics have to go by the stride.
+// An array element as in a later version of the contract: metrics must use the stride.
 template <class Element>
 struct Longer {
   Element element;
@@ -74,7 +74,8 @@ class SyntheticTrial {
     box("shelf B", {899, 899}, {901, 901});
     walking_grid({-16, -16}, 4.0, std::vector<std::vector<float>>(8, std::vector<float>(8, 5.0F)));
   }
-  SyntheticTrial(SyntheticTrial&&) = default;  // what plans point to does not move; a copy would point into this one
+  SyntheticTrial(SyntheticTrial&&) =
+      default;  // the targets of plans' pointers keep their addresses; a copy would point into the original
 
   SyntheticTrial& route(std::size_t robot, dmrp_pose start, const std::vector<dmrp_pose>& goals) {
     goals_.emplace_back();
@@ -156,7 +157,7 @@ class SyntheticTrial {
     return *this;
   }
 
-  // The plan added last is in force. Controllers were called in every step, where without_control() does not follow.
+  // The latest plan is the current one. Controllers were called in every step unless without_control() follows.
   SyntheticTrial& sample(double t_s, const std::vector<dmrp_robot_sample>& robots) {
     const std::int64_t t_ns = nanoseconds(t_s);
     const std::int64_t dt_ns = samples_.empty() ? 0 : t_ns - samples_.back().c.t_ns;
@@ -171,7 +172,7 @@ class SyntheticTrial {
     return *this;
   }
 
-  // Of the sample added last.
+  // The following functions change the latest sample.
   SyntheticTrial& without_control() {
     samples_.back().c.control_tick = 0;
     return *this;
@@ -206,7 +207,7 @@ class SyntheticTrial {
     return *this;
   }
 
-  // Times of arrival, `never` for a robot that did not; all, where none is given.
+  // Times of arrival, `never` for a robot that did not arrive; without any, all robots arrive at the end.
   SyntheticTrial& end(double t_s, const std::vector<double>& arrivals_s = {}) {
     end_ns_ = nanoseconds(t_s);
     ends_.assign(robots_.size(), {});
@@ -224,7 +225,7 @@ class SyntheticTrial {
     return *this;
   }
 
-  // Points into this trial.
+  // Has pointers into this trial.
   dmrp_world world() const {
     dmrp_world world{};
     world.struct_size = sizeof(world);
@@ -316,10 +317,10 @@ struct MeasuredEvent {
   std::string text;
 };
 
-// What a metric gave, refused as a host would where it is undeclared, infinite or given twice.
+// The values of a metric. As by a host, values that are undeclared, infinite or repeated are refused.
 struct Measurement {
   using Key = std::tuple<std::string, std::uint32_t, std::uint64_t>;  // name, kind of subject, subject
-  std::map<Key, double> values;                                       // of a curve its last point
+  std::map<Key, double> values;                                       // for a curve: its last point
   std::map<std::string, std::map<double, double>> curves;             // of the system: name, coordinate
   std::vector<MeasuredEvent> events;
 
@@ -407,7 +408,7 @@ inline bool same_bits(const Measurement& a, const Measurement& b) {
   return true;
 }
 
-// Every declared name must come for the system, and a second trial of the same instance must give the same bits.
+// Requires a system value for every declared name, and the same bits from a second trial of the same instance.
 inline Measurement measure(const std::string& id, const SyntheticTrial& trial, ParamOverrides overrides = {}) {
   PluginUnderTest plugin("libdmrp_metrics.so", id, std::move(overrides));
   const dmrp_world world = trial.world();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// STO, IBTR and LDF over their thresholds: at the default threshold a curve holds the scalar, and every point is what
-// the scalar would be with that threshold.
+// STO, IBTR and LDF over their thresholds: every point of a curve equals the scalar for this threshold.
 #include <catch2/catch.hpp>
 #include <dmrp/toolkit/random.hpp>
 
@@ -11,7 +10,7 @@ using dmrp::toolkit::Stream;
 
 namespace {
 
-// Three robots that wander in a small room, crawl at times and arrive in turn.
+// Three robots at random positions in a small room that sometimes crawl and arrive one after the other.
 SyntheticTrial wandering(std::uint64_t index) {
   Stream stream(1, "metrics.curves", index);
   SyntheticTrial trial(3);
@@ -49,7 +48,7 @@ constexpr Curve curves[] = {
 
 }  // namespace
 
-TEST_CASE("every point of a threshold curve is what the scalar is with that threshold, to the bit") {
+TEST_CASE("every point of a threshold curve equals the scalar with this threshold, to the bit") {
   int different = 0;
   for (std::uint64_t index = 0; index < 5; ++index) {
     const SyntheticTrial trial = wandering(index);
@@ -67,7 +66,7 @@ TEST_CASE("every point of a threshold curve is what the scalar is with that thre
   CHECK(different > 10);
 }
 
-TEST_CASE("a threshold that is named twice has one point") {
+TEST_CASE("a repeated threshold has one point") {
   const SyntheticTrial trial = wandering(0);
   for (const Curve& curve : curves)
     CHECK(measure(curve.metric, trial, {{curve.thresholds, std::vector<double>{1.0, 0.5, 1.0}}})
@@ -75,7 +74,7 @@ TEST_CASE("a threshold that is named twice has one point") {
               .size() == 2);
 }
 
-TEST_CASE("without thresholds a curve is one undefined value") {
+TEST_CASE("a curve without thresholds is one undefined value") {
   const SyntheticTrial trial = wandering(0);
   for (const Curve& curve : curves) {
     const Measurement m = measure(curve.metric, trial, {{curve.thresholds, std::vector<double>{}}});
@@ -84,7 +83,7 @@ TEST_CASE("without thresholds a curve is one undefined value") {
   }
 }
 
-TEST_CASE("the default thresholds hold the paper's and, where it has other ones, the released code's") {
+TEST_CASE("the default thresholds include those of the paper and of its released code") {
   const SyntheticTrial trial = wandering(0);
   const auto has = [&](const char* metric, const char* curve, double threshold) {
     return measure(metric, trial).curves.at(curve).count(threshold) == 1;

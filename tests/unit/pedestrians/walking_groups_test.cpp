@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How groups of the social force model walk, against Moussaid et al., PLoS ONE 5 (2010): side by side at low density,
-// threes in a line or a V, and together also among others.
+// Groups in the social force model, compared with Moussaid et al., PLoS ONE 5 (2010): they walk side by side at low
+// density, threes in a line or a V, and stay together among other people.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 const std::string social_force = "dmrp.pedestrian.social_force";
 
-// Companions who walk east, with targets side by side; `begin`: where they are at first.
+// Members of a group who walk east to targets side by side; `begin`: their first positions.
 void add_group(Walk& walk, uint32_t group, const std::vector<dmrp_vec2>& begin, double speed) {
   for (std::size_t i = 0; i < begin.size(); ++i) {
     const double y = begin[0].y + 0.8 * (static_cast<double>(i) - 0.5 * static_cast<double>(begin.size() - 1));
@@ -26,11 +26,11 @@ void add_group(Walk& walk, uint32_t group, const std::vector<dmrp_vec2>& begin, 
   }
 }
 
-// What a group of people, who walk along x, looks like.
+// The shape of a group that walks along x.
 struct Shape {
-  double longest_m = 0.0;  // from one to the next from right to left, over time the most
-  double abreast = 0.0;    // share of the time in which it is broader than long
-  double mean_m = 0.0;     // from one to the next, on average
+  double longest_m = 0.0;  // greatest distance of neighbours, from right to left, at any time
+  double abreast = 0.0;    // share of the time in which the group is wider than long
+  double mean_m = 0.0;     // mean distance of neighbours
   double middle_m = 0.0;   // how far the middle one of three is ahead of the others, on average
 };
 
@@ -61,7 +61,7 @@ Shape watch(Walk& walk, std::size_t first, std::size_t size, double duration_s) 
 
 }  // namespace
 
-TEST_CASE("a pair walks side by side, near to each other, however it begins") {
+TEST_CASE("a pair walks side by side and close together from any first positions") {
   const WalkingWorld world({100.0, 8.0}, {});
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     Stream chance(seed, "test.pair");
@@ -74,11 +74,11 @@ TEST_CASE("a pair walks side by side, near to each other, however it begins") {
     INFO("angle " << angle);
     CHECK(shape.longest_m < 1.5);
     CHECK(shape.abreast > 0.9);
-    CHECK(shape.mean_m == Approx(1.0).margin(0.35));  // 1.2 m: bodies 0.6 m across push each other off
+    CHECK(shape.mean_m == Approx(1.0).margin(0.35));  // 1.2 m: bodies 0.6 m across repel each other
   }
 }
 
-TEST_CASE("three walk together side by side or in a V") {
+TEST_CASE("groups of three walk side by side or in a V") {
   const WalkingWorld world({100.0, 8.0}, {});
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     Stream chance(seed, "test.three");
@@ -97,7 +97,7 @@ TEST_CASE("three walk together side by side or in a V") {
   }
 }
 
-TEST_CASE("groups stay together, and mostly side by side, among people who come toward them") {
+TEST_CASE("groups in a counter-flow stay together and mostly side by side") {
   const WalkingWorld world({100.0, 8.0}, {});
   for (const std::size_t size : {2, 3})
     for (uint64_t seed = 1; seed <= 3; ++seed) {

@@ -21,7 +21,7 @@ void add_outline(const Box& box, std::vector<dmrp_segment>& segments) {
   for (int i = 0; i < 4; ++i) segments.push_back({corners[i], corners[(i + 1) % 4]});
 }
 
-// Takes away the part of a velocity that brings a body deeper into what lies `toward` it.
+// Removes the part of a velocity that leads toward an obstacle.
 void cancel(dmrp_vec2& velocity, dmrp_vec2 toward) {
   const double closing = toolkit::dot(velocity, toward);
   if (closing > 0.0) velocity -= closing * toward;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small world for pedestrian models: boxes for walls, a walking grid, people who walk to their targets, and bodies
-// that lose the part of a motion that leads deeper into another. (The host's world lets people push each other.)
+// walking_world.hpp: a small world for pedestrian models, with boxes as walls, a walking grid, and solid bodies: a body
+// loses the part of its motion that would deepen an overlap. (In the host's world, people also push each other.)
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Box {
 
 double distance_to_box(const Box& box, dmrp_vec2 point);  // 0 inside
 
-// The static world: a rectangle with boxes in it. Never moves.
+// The static world: a rectangle with boxes in it. Its address must not change.
 class WalkingWorld {
  public:
   WalkingWorld(dmrp_vec2 size, std::vector<Box> boxes, double cell_m = 0.25);
@@ -41,7 +41,7 @@ class WalkingWorld {
   dmrp_world world_{};
 };
 
-// A person with everything that a test seldom sets. The target is a point, unless the area is widened.
+// A person with defaults for all other fields. The target area is a square of 0.4 m around the target.
 dmrp_person person(uint64_t id, dmrp_vec2 position, dmrp_vec2 target, double desired_speed = 1.3);
 
 dmrp_agent robot(uint64_t id, dmrp_vec2 position, dmrp_vec2 velocity = {0.0, 0.0}, double radius_m = 0.25);
@@ -52,10 +52,10 @@ bool all_arrived(const std::vector<dmrp_person>& people);
 // The least gap between two people's bodies; negative where they overlap.
 double least_gap(const std::vector<dmrp_person>& people);
 
-// Somewhere at least 0.5 m from any wall.
+// A random point at least 0.5 m from all walls.
 dmrp_vec2 anywhere(const WalkingWorld& world, toolkit::Stream& chance);
 
-// People anywhere in the world with 5 cm between them, each bound for somewhere else.
+// People at random positions with gaps of at least 5 cm and random targets.
 std::vector<dmrp_person> random_people(const WalkingWorld& world, uint64_t count, uint64_t seed, double radius_m = 0.3);
 
 // A model, its people and robots, stepped at 50 Hz.
@@ -65,18 +65,18 @@ class Walk {
 
   Walk(const WalkingWorld& world, const std::string& model, ParamOverrides params = {}, uint64_t seed = 1);
 
-  // Begins a new trial with the same instance; people and robots stay.
+  // Begins a new trial with the same instance; keeps people and robots.
   void restart(const WalkingWorld& world, uint64_t seed);
 
   std::vector<dmrp_person> people;
   std::vector<dmrp_agent> robots;
-  std::vector<dmrp_vec2> velocities;  // as the model gave them last
+  std::vector<dmrp_vec2> velocities;  // the model's last answer
   double t_s() const { return static_cast<double>(step_) * step_s; }
 
-  // One step. Robots move at their velocities. Fails the test where an answer is not finite or above 5 m/s.
+  // One step. Robots move at their velocities. Fails the test if a velocity is not finite or above 5 m/s.
   void step();
 
-  // Steps until done() says so or the time is over; returns whether done() said so.
+  // Steps until done() returns true or the time limit is reached. Returns the last result of done().
   template <class Done>
   bool until(double time_limit_s, Done&& done) {
     const double end_s = t_s() + time_limit_s;
@@ -97,7 +97,8 @@ class Walk {
 
 void walk_for(Walk& walk, double duration_s);
 
-// How near, between centres, somebody who walks 20 m east comes to a robot in the way; fails the test who never arrives.
+// The least distance between the centres of a person who walks 20 m east and a robot in the way. Fails the test if the
+// person does not arrive.
 double passing_distance(const std::string& model, ParamOverrides params, const dmrp_agent& in_the_way);
 
 }  // namespace dmrp::test

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// CBS, ECBS, EECBS and individual shortest paths through the C interface, on problems made by hand.
+// CBS, ECBS, EECBS and individual shortest paths through the C interface, on small problems written by hand.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/planners/joint_optimum.hpp"
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/planner_variants.hpp"
+#include "tests/unit/planners/stopping.hpp"
 
 using namespace dmrp::test;
 
@@ -39,7 +40,7 @@ TEST_CASE("one robot takes a shortest path with fewest turns") {
       REQUIRE(check_plan(c, plan) == "");
       CHECK(plan.cost() == 0);
     }
-    SECTION("round a thin wall, " + id) {
+    SECTION("around a thin wall, " + id) {
       PlanningCase c({"....", "...."});
       c.thin_wall({1, 0}, {2, 0}).robot({1, 0}, {{2, 0}});
       const Plan plan = run_planner(id, c);
@@ -86,7 +87,7 @@ TEST_CASE("one robot takes a shortest path with fewest turns") {
       outside.robot({0, 0}, {{-3, 5}});
       CHECK(run_planner(id, outside).status == DMRP_NO_SOLUTION);
     }
-    SECTION("nobody to plan for, " + id) {
+    SECTION("no active robot, " + id) {
       PlanningCase c({"..."});
       CHECK(run_planner(id, c).status == DMRP_OK);
       c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED);
@@ -107,7 +108,7 @@ TEST_CASE("individual ignores the others") {
   CHECK(plan.cost() == 8);
 }
 
-TEST_CASE("planners by conflicts resolve what robots can do to each other") {
+TEST_CASE("conflict-based planners resolve every kind of conflict") {
   const std::string id = GENERATE(cbs, ecbs, eecbs);
   CAPTURE(id);
   const auto plan_best = [&](const PlanningCase& c) {
@@ -131,7 +132,7 @@ TEST_CASE("planners by conflicts resolve what robots can do to each other") {
     REQUIRE(check_plan(c, plan) == "");
     CHECK(plan.cost() == JointSearch(c).optimum());
   }
-  SECTION("a robot at its goal makes way and comes back") {
+  SECTION("a robot at its goal gives way and comes back") {
     PlanningCase c({".....", "##.##"});
     c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}});
     const Plan plan = plan_best(c);
@@ -161,11 +162,11 @@ TEST_CASE("planners by conflicts resolve what robots can do to each other") {
     const Plan plan = plan_best(c);
     REQUIRE(plan.status == DMRP_OK);
     REQUIRE(check_plan(c, plan) == "");
-    CHECK(plan.cost() == 8 + 7);  // the second moves when the first turns round, one step behind it
+    CHECK(plan.cost() == 8 + 7);  // the second moves when the first turns back, one step behind it
   }
 }
 
-TEST_CASE("planners by conflicts prove that there is no plan") {
+TEST_CASE("conflict-based planners prove that there is no plan") {
   const std::string id = GENERATE(cbs, ecbs, eecbs);
   CAPTURE(id);
 
@@ -189,38 +190,25 @@ TEST_CASE("planners by conflicts prove that there is no plan") {
     c.robot({0, 0}, {{4, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FINISHED);
     CHECK(run_planner(id, c).status == DMRP_NO_SOLUTION);
   }
-  SECTION("two of three robots in a ring would have to change places") {
+  SECTION("two of three robots in a ring would have to swap") {
     PlanningCase c({"..", ".."});
     c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
     CHECK(run_planner(id, c).status == DMRP_NO_SOLUTION);
   }
 }
 
-TEST_CASE("planners by conflicts give up when told to") {
+TEST_CASE("conflict-based planners give up at their limit or when they are stopped") {
   const std::string id = GENERATE(cbs, ecbs, eecbs);
   CAPTURE(id);
-  // Nobody can pass, but the part is too large for a proof.
-  std::vector<std::string> rows(2, std::string(120, '.'));
-  rows[1].assign(120, '#');
-  rows[1][60] = '.';
-  PlanningCase c(rows);
-  for (int i = 0; i < 4; ++i) c.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
   SECTION("by its own limit") {
-    const Plan plan = run_planner(id, c, {{"node_limit", 50}});
+    const Plan plan = run_planner(id, jammed_case(), {{"node_limit", 50}});
     CHECK(plan.status == DMRP_TIMEOUT);
     CHECK(plan.statistics.at("high_level_generated") > 0);
     CHECK(plan.statistics.at("high_level_generated") <= 52);
   }
   SECTION("by the host") {
     PluginUnderTest planner(planner_library, id);
-    int asked = 0;
-    planner.host().should_stop = [&] { return ++asked > 100; };
-    CHECK(run_planner(planner, c).status == DMRP_TIMEOUT);
-    CHECK(asked == 101);
-    planner.host().should_stop = nullptr;
-    PlanningCase easy({"..."});
-    easy.robot({0, 0}, {{2, 0}});
-    CHECK(run_planner(planner, easy).status == DMRP_OK);
+    check_stop_and_go(planner);
   }
   SECTION("the host is asked often: also by individual") {
     PluginUnderTest planner(planner_library, individual);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The least sum of costs by A* over the joint positions of all robots: slow, and obviously right.
+// The least sum of costs by A* over the joint positions of all robots: slow, and simple enough to be trusted.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -14,10 +15,26 @@
 
 namespace dmrp::test {
 
-class JointSearch {
+// Moves in four directions; each step costs 1.
+struct FourDirections {
+  using Cost = int;
+  static constexpr Cost unreachable = 1'000'000;
+  static constexpr Cost tolerance = 0;
+
+  static std::vector<CellXY> reach(CellXY c) {
+    return {c, {c.x + 1, c.y}, {c.x - 1, c.y}, {c.x, c.y + 1}, {c.x, c.y - 1}};
+  }
+  static Cost step_cost(CellXY, CellXY) { return 1; }
+  static bool conflict(CellXY a0, CellXY a1, CellXY b0, CellXY b1) { return a1 == b1 || (a1 == b0 && b1 == a0); }
+};
+
+template <class Moves>
+class BasicJointSearch {
  public:
-  // Problems with more joint positions to look at than `most_states` are given up.
-  explicit JointSearch(const PlanningCase& c, std::size_t most_states = std::numeric_limits<std::size_t>::max())
+  using Cost = typename Moves::Cost;
+
+  // Gives up after visiting `most_states` joint positions.
+  explicit BasicJointSearch(const PlanningCase& c, std::size_t most_states = std::numeric_limits<std::size_t>::max())
       : case_(c), most_states_(most_states) {
     for (const CaseRobot& robot : c.robots) {
       if (robot.state == DMRP_ROBOT_ACTIVE)
@@ -28,8 +45,8 @@ class JointSearch {
     for (const CaseRobot* robot : robots_) distances_.push_back(distances_to_the_end(*robot));
   }
 
-  // Nothing if there is no plan (or the search gave up).
-  std::optional<int> optimum() {
+  // Nothing if there is no plan, or if the search gave up.
+  std::optional<Cost> optimum() {
     State start;
     for (const CaseRobot* robot : robots_) start.push_back({robot->start, 0, false});
     for (std::size_t a = 0; a < start.size(); ++a)
@@ -40,9 +57,9 @@ class JointSearch {
       if (best_.size() > most_states_) return std::nullopt;
       const auto [f, code] = open_.top();
       open_.pop();
-      const int cost = best_.at(code);
+      const Cost cost = best_.at(code);
       const State state = decode(code);
-      if (cost + estimate(state) != f) continue;
+      if (cost + estimate(state) < f - Moves::tolerance) continue;
       if (all_rest(state)) return cost;
       State next = state;
       move(state, next, 0, cost);
@@ -52,28 +69,24 @@ class JointSearch {
 
   bool gave_up() const { return best_.size() > most_states_; }
 
-  // Of robot `index` among the active ones, alone: nothing if it is cut off.
-  std::optional<int> alone(std::size_t index) const {
-    const int d = distance(index, {robots_[index]->start, 0, false});
-    return d == unreachable ? std::nullopt : std::optional(d);
+  // The cost of active robot `index` without the other active ones; nothing if it is cut off.
+  std::optional<Cost> alone(std::size_t index) const {
+    const Cost d = distance(index, {robots_[index]->start, 0, false});
+    return d >= Moves::unreachable ? std::nullopt : std::optional(d);
   }
 
  private:
   struct Place {
     CellXY cell;
-    int leg;     // goals ticked off before this step
-    bool rests;  // for good
+    int leg;     // goals reached before this step
+    bool rests;  // has come to rest
   };
   using State = std::vector<Place>;
-  static constexpr int unreachable = 1'000'000;
 
   bool is_open(CellXY from, CellXY to) const {
-    for (const CellXY& cell : resting_)
-      if (cell == to) return false;
-    return from == to || case_.is_open(from, to);
-  }
-  static std::vector<CellXY> reach(CellXY c) {
-    return {c, {c.x + 1, c.y}, {c.x - 1, c.y}, {c.x, c.y + 1}, {c.x, c.y - 1}};
+    if (!case_.is_free(to) || (!(from == to) && !case_.is_open(from, to))) return false;
+    return std::none_of(resting_.begin(), resting_.end(),
+                        [&](CellXY cell) { return Moves::conflict(from, to, cell, cell); });
   }
   bool may_rest(std::size_t robot, const Place& place) const {
     return place.leg + 1 == static_cast<int>(robots_[robot]->goals.size()) &&
@@ -85,9 +98,9 @@ class JointSearch {
   }
 
   // By relaxation until nothing changes.
-  std::vector<int> distances_to_the_end(const CaseRobot& robot) const {
+  std::vector<Cost> distances_to_the_end(const CaseRobot& robot) const {
     const std::size_t cells = case_.free.size();
-    std::vector<int> distance(cells * robot.goals.size(), unreachable);
+    std::vector<Cost> distance(cells * robot.goals.size(), Moves::unreachable);
     for (bool changed = true; changed;) {
       changed = false;
       for (int leg = 0; leg < static_cast<int>(robot.goals.size()); ++leg)
@@ -95,26 +108,26 @@ class JointSearch {
           for (int x = 0; x < case_.width; ++x) {
             const Place place{{x, y}, leg, false};
             if (!case_.is_free(place.cell)) continue;
-            int& here = distance[static_cast<std::size_t>(leg) * cells + case_.index(place.cell)];
-            int best = here;
+            Cost& here = distance[static_cast<std::size_t>(leg) * cells + case_.index(place.cell)];
+            Cost best = here;
             if (leg + 1 == static_cast<int>(robot.goals.size()) && place.cell == robot.goals.back()) best = 0;
             const auto next_leg = static_cast<std::size_t>(leg_after(robot, place));
-            for (const CellXY to : reach(place.cell))
-              if (case_.is_free(to) && is_open(place.cell, to))
-                best = std::min(best, 1 + distance[next_leg * cells + case_.index(to)]);
-            changed = changed || best < here;
+            for (const CellXY to : Moves::reach(place.cell))
+              if (is_open(place.cell, to))
+                best = std::min(best, Moves::step_cost(place.cell, to) + distance[next_leg * cells + case_.index(to)]);
+            changed = changed || best < here - Moves::tolerance;
             here = best;
           }
     }
     return distance;
   }
-  int distance(std::size_t robot, const Place& place) const {
+  Cost distance(std::size_t robot, const Place& place) const {
     return place.rests
-               ? 0
+               ? Cost{0}
                : distances_[robot][static_cast<std::size_t>(place.leg) * case_.free.size() + case_.index(place.cell)];
   }
-  int estimate(const State& state) const {
-    int sum = 0;
+  Cost estimate(const State& state) const {
+    Cost sum = 0;
     for (std::size_t i = 0; i < state.size(); ++i) sum += distance(i, state[i]);
     return sum;
   }
@@ -124,7 +137,7 @@ class JointSearch {
     return true;
   }
 
-  void move(const State& from, State& to, std::size_t robot, int cost) {
+  void move(const State& from, State& to, std::size_t robot, Cost cost) {
     if (robot == from.size()) return offer_with_rests(to, 0, cost);
     if (from[robot].rests) {
       to[robot] = from[robot];
@@ -132,22 +145,20 @@ class JointSearch {
       return;
     }
     const int leg = leg_after(*robots_[robot], from[robot]);
-    for (const CellXY cell : reach(from[robot].cell)) {
-      if (!case_.is_free(cell) || !is_open(from[robot].cell, cell)) continue;
+    for (const CellXY cell : Moves::reach(from[robot].cell)) {
+      if (!is_open(from[robot].cell, cell)) continue;
       to[robot] = {cell, leg, false};
-      if (!meets(from, to, robot)) move(from, to, robot + 1, cost + 1);
+      if (!meets(from, to, robot)) move(from, to, robot + 1, cost + Moves::step_cost(from[robot].cell, cell));
     }
   }
   static bool meets(const State& from, const State& to, std::size_t robot) {
     for (std::size_t other = 0; other < robot; ++other)
-      if (to[other].cell == to[robot].cell ||
-          (to[other].cell == from[robot].cell && to[robot].cell == from[other].cell))
-        return true;
+      if (Moves::conflict(from[robot].cell, to[robot].cell, from[other].cell, to[other].cell)) return true;
     return false;
   }
 
-  // Every robot that is at its end may decide to rest there, or not.
-  void offer_with_rests(State& state, std::size_t robot, int cost) {
+  // Every robot at the end of its tour may come to rest there, or not.
+  void offer_with_rests(State& state, std::size_t robot, Cost cost) {
     if (robot == state.size()) return offer(state, cost);
     offer_with_rests(state, robot + 1, cost);
     if (state[robot].rests || !may_rest(robot, state[robot])) return;
@@ -155,11 +166,11 @@ class JointSearch {
     offer_with_rests(state, robot + 1, cost);
     state[robot].rests = false;
   }
-  void offer(const State& state, int cost) {
-    const int rest = estimate(state);
-    if (rest >= unreachable) return;
+  void offer(const State& state, Cost cost) {
+    const Cost rest = estimate(state);
+    if (rest >= Moves::unreachable) return;
     const auto [at, is_new] = best_.emplace(encode(state), cost);
-    if (!is_new && at->second <= cost) return;
+    if (!is_new && at->second <= cost + Moves::tolerance) return;
     at->second = cost;
     open_.push({cost + rest, at->first});
   }
@@ -183,14 +194,16 @@ class JointSearch {
     return state;
   }
 
-  using Open = std::pair<int, uint64_t>;
+  using Open = std::pair<Cost, uint64_t>;
   const PlanningCase& case_;
   std::size_t most_states_;
   std::vector<const CaseRobot*> robots_;
   std::vector<CellXY> resting_;
-  std::vector<std::vector<int>> distances_;
-  std::unordered_map<uint64_t, int> best_;
+  std::vector<std::vector<Cost>> distances_;
+  std::unordered_map<uint64_t, Cost> best_;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
 };
+
+using JointSearch = BasicJointSearch<FourDirections>;
 
 }  // namespace dmrp::test

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "tests/unit/planners/planning_case.hpp"
@@ -32,6 +33,17 @@ inline void add_robots(PlanningCase& c, const std::filesystem::path& scenario, i
     fields >> bucket >> map >> width >> height >> start.x >> start.y >> goal.x >> goal.y;
     c.robot(start, {goal});
   }
+}
+
+// The first robots of random-`instance` on a map of MovingAI or of the generated ones.
+inline PlanningCase read_instance(const std::filesystem::path& data, const std::string& map, int robots, int instance) {
+  const bool is_generated = std::filesystem::exists(data / "generated" / (map + ".map"));
+  const auto maps = is_generated ? data / "generated" : data / "movingai" / "maps";
+  const auto scenarios = is_generated ? data / "generated" : data / "movingai" / "scens";
+  PlanningCase c = read_map(maps / (map + ".map"));
+  add_robots(c, scenarios / (map + "-random-" + std::to_string(instance) + ".scen"), robots);
+  if (c.robots.size() != static_cast<std::size_t>(robots)) throw std::runtime_error("not enough tasks for " + map);
+  return c;
 }
 
 }  // namespace dmrp::test

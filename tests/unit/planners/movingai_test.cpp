@@ -12,21 +12,11 @@ using namespace dmrp::test;
 
 namespace {
 
-// The folder with the data; without it the test says so.
+// The folder with the data. Warns if there is none.
 std::optional<std::filesystem::path> data_or_warn() {
   const auto data = test_data();
   if (!data) WARN("skipped: DMRP_TEST_DATA is not set");
   return data;
-}
-
-PlanningCase read_instance(const std::filesystem::path& data, const std::string& map, int robots, int instance) {
-  const bool is_generated = std::filesystem::exists(data / "generated" / (map + ".map"));
-  const auto maps = is_generated ? data / "generated" : data / "movingai" / "maps";
-  const auto scenarios = is_generated ? data / "generated" : data / "movingai" / "scens";
-  PlanningCase c = read_map(maps / (map + ".map"));
-  add_robots(c, scenarios / (map + "-random-" + std::to_string(instance) + ".scen"), robots);
-  REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
-  return c;
 }
 
 void check_solved(const std::string& id, double suboptimality, const std::string& map, int robots,
@@ -53,7 +43,7 @@ struct Crowd {
   int64_t node_limit;
 };
 
-// Whether the parameters make the search go another way on some of the crowds.
+// Whether the parameters change the number of expansions on some of the crowds.
 bool changes_expansions(const std::filesystem::path& data, const std::string& id, const std::vector<Crowd>& crowds,
                         const ParamOverrides& changed) {
   for (const Crowd& crowd : crowds)
@@ -71,39 +61,39 @@ bool changes_expansions(const std::filesystem::path& data, const std::string& id
 
 }  // namespace
 
-TEST_CASE("CBS solves 20 robots on random-32-32-20") {
+TEST_CASE("CBS solves 20 robots on random-32-32-20", "[data]") {
   check_solved(cbs, 1, "random-32-32-20", 20, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 40 robots on random-32-32-20") {
+TEST_CASE("CBS solves 40 robots on random-32-32-20", "[data]") {
   check_solved(cbs, 1, "random-32-32-20", 40, {2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 20 robots on 40x40 rooms") {
+TEST_CASE("CBS solves 20 robots on 40x40 rooms", "[data]") {
   check_solved(cbs, 1, "gen-rooms-40-40", 20, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 4 robots on 40x40 cells") {
+TEST_CASE("CBS solves 4 robots on 40x40 cells", "[data]") {
   check_solved(cbs, 1, "gen-random-40-40-10", 4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
 }
 
-TEST_CASE("CBS solves 100 robots on empty-32-32") {
+TEST_CASE("CBS solves 100 robots on empty-32-32", "[data]") {
   check_solved(cbs, 1, "empty-32-32", 100, {1, 2});
 }
 
-TEST_CASE("ECBS solves 100 robots on random-32-32-20") {
+TEST_CASE("ECBS solves 100 robots on random-32-32-20", "[data]") {
   check_solved(ecbs, 1.2, "random-32-32-20", 100, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("EECBS solves 100 robots on random-32-32-20") {
+TEST_CASE("EECBS solves 100 robots on random-32-32-20", "[data]") {
   check_solved(eecbs, 1.2, "random-32-32-20", 100, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("EECBS solves 80 robots on room-32-32-4") {
+TEST_CASE("EECBS solves 80 robots on room-32-32-4", "[data]") {
   check_solved(eecbs, 1.2, "room-32-32-4", 80, {1, 2});
 }
 
-TEST_CASE("every improvement of CBS changes what is expanded", "[slow]") {
+TEST_CASE("every improvement of CBS changes what is expanded", "[data][slow]") {
   const auto data = data_or_warn();
   if (!data) return;
   std::vector<std::string> switches = improvements;
@@ -115,7 +105,7 @@ TEST_CASE("every improvement of CBS changes what is expanded", "[slow]") {
   }
 }
 
-TEST_CASE("every improvement of EECBS changes what is expanded", "[slow]") {
+TEST_CASE("every improvement of EECBS changes what is expanded", "[data][slow]") {
   const auto data = data_or_warn();
   if (!data) return;
   std::vector<std::string> switches = improvements;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks a plan against its case from first principles. Shares nothing with the planners.
+// Checks a plan against its case from first principles. Shares no code with the planners.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,17 @@ inline std::optional<std::vector<CellXY>> cells_of(const PlanningCase& c, const 
   return cells;
 }
 
-// What is wrong with one robot's path alone; empty if nothing is.
-inline std::string check_path(const PlanningCase& c, const CaseRobot& robot, const std::vector<dmrp_waypoint>& path) {
+// The error of a step between two different cells; empty if there is none.
+using StepCheck = std::string (*)(const PlanningCase& c, CellXY from, CellXY to);
+
+inline std::string check_step(const PlanningCase& c, CellXY from, CellXY to) {
+  if (std::abs(to.x - from.x) + std::abs(to.y - from.y) != 1) return "a jump";
+  return c.is_open(from, to) ? "" : "through a wall";
+}
+
+// The error of one robot's path alone; empty if there is none.
+inline std::string check_path(const PlanningCase& c, const CaseRobot& robot, const std::vector<dmrp_waypoint>& path,
+                              StepCheck check) {
   const auto cells = cells_of(c, path);
   if (path.empty() || !cells) return "no path on free cells' centers";
   if (!(cells->front() == robot.start)) return "begins elsewhere";
@@ -31,18 +40,16 @@ inline std::string check_path(const PlanningCase& c, const CaseRobot& robot, con
   std::size_t goal = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path[i].t_ns != PlanningCase::effective_from_ns + static_cast<int64_t>(i) * PlanningCase::step_duration_ns)
-      return "not one waypoint a step";
+      return "not one waypoint for each step";
     if (!std::isnan(path[i].theta)) return "a heading";
     if (path[i].goal_index != 3 + goal) return "a wrong goal index";
     if (i > 0 && !((*cells)[i] == (*cells)[i - 1])) {
-      const int dx = (*cells)[i].x - (*cells)[i - 1].x;
-      const int dy = (*cells)[i].y - (*cells)[i - 1].y;
-      if (std::abs(dx) + std::abs(dy) != 1) return "a jump";
-      if (!c.is_open((*cells)[i - 1], (*cells)[i])) return "through a wall";
+      const std::string error = check(c, (*cells)[i - 1], (*cells)[i]);
+      if (!error.empty()) return error;
     }
     if (goal + 1 < robot.goals.size() && (*cells)[i] == robot.goals[goal]) ++goal;
   }
-  if (goal + 1 != robot.goals.size()) return "a goal left out";
+  if (goal + 1 != robot.goals.size()) return "misses a goal";
   if (!(cells->back() == robot.goals.back())) return "ends elsewhere";
   if (path.size() > 1 && cells->back() == (*cells)[path.size() - 2] &&
       (robot.goals.size() == 1 || path[path.size() - 2].goal_index == path.back().goal_index))
@@ -50,8 +57,9 @@ inline std::string check_path(const PlanningCase& c, const CaseRobot& robot, con
   return "";
 }
 
-// Vertex and swap conflicts of all pairs, robots resting where their paths end.
-inline std::string check_conflicts(const PlanningCase& c, const Plan& plan) {
+// The first error that check(a0, a1, b0, b1) finds in a step of two robots, which rest where their paths end.
+template <class CheckSteps>
+std::string check_pairs(const PlanningCase& c, const Plan& plan, CheckSteps check) {
   std::vector<std::vector<CellXY>> cells;
   std::size_t steps = 0;
   for (const auto& path : plan.paths) {
@@ -61,16 +69,25 @@ inline std::string check_conflicts(const PlanningCase& c, const Plan& plan) {
   const auto at = [&](std::size_t robot, std::size_t t) { return cells[robot][std::min(t, cells[robot].size() - 1)]; };
   for (std::size_t a = 0; a < cells.size(); ++a)
     for (std::size_t b = a + 1; b < cells.size(); ++b)
-      for (std::size_t t = 0; t < steps; ++t) {
-        if (at(a, t) == at(b, t)) return "vertex conflict";
-        if (t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1)) return "swap conflict";
+      for (std::size_t t = 1; t <= steps; ++t) {
+        const std::string error = check(at(a, t - 1), at(a, t), at(b, t - 1), at(b, t));
+        if (error.empty()) continue;
+        return "robots " + std::to_string(a) + " and " + std::to_string(b) + ", step " + std::to_string(t) + ": " +
+               error;
       }
   return "";
 }
 
-inline std::string check_paths(const PlanningCase& c, const Plan& plan) {
+inline std::string check_conflicts(const PlanningCase& c, const Plan& plan) {
+  return check_pairs(c, plan, [](CellXY a0, CellXY a1, CellXY b0, CellXY b1) {
+    if (a0 == b0 || a1 == b1) return "vertex conflict";
+    return a0 == b1 && a1 == b0 ? "swap conflict" : "";
+  });
+}
+
+inline std::string check_paths(const PlanningCase& c, const Plan& plan, StepCheck check = check_step) {
   for (std::size_t i = 0; i < c.robots.size(); ++i) {
-    const std::string problem = check_path(c, c.robots[i], plan.paths[i]);
+    const std::string problem = check_path(c, c.robots[i], plan.paths[i], check);
     if (!problem.empty()) return "robot " + std::to_string(i) + ": " + problem;
   }
   return "";
@@ -82,7 +99,7 @@ inline std::string check_plan(const PlanningCase& c, const Plan& plan) {
   return problem.empty() ? check_conflicts(c, plan) : problem;
 }
 
-// Changes of direction of motion.
+// The number of changes of direction.
 inline int turns_of(const std::vector<dmrp_waypoint>& path) {
   int turns = 0;
   int heading = 0;  // none; else a code of (sign dx, sign dy)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CBS, ECBS and EECBS with their switches set in many ways, and what all of them promise of any problem.
+// CBS, ECBS and EECBS with many combinations of parameters, and a check of the promises that all of them make.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ inline const std::vector<std::string> improvements = {
     "prioritize_conflicts", "bypass",           "weighted_dependency_graph", "rectangle_reasoning",
     "corridor_reasoning",   "target_reasoning", "disjoint_splitting"};
 
-// How often each kind of answer came.
+// The number of answers of each kind.
 struct Tally {
   int solved = 0;
   int unsolvable = 0;
@@ -55,7 +55,7 @@ inline Variant cbs_with(const std::vector<std::string>& on, ParamOverrides overr
   return Variant(cbs, what, 1, std::move(overrides));
 }
 
-// Whatever is promised of an answer. Hard problems may be given up; the bound holds there too.
+// Checks all promises of an answer. A planner may give up on hard problems; its lower bound must hold there, too.
 inline void check_answer(const PlanningCase& c, const Plan& plan, double suboptimality, std::optional<int> optimum,
                          Tally& tally) {
   if (!optimum) {

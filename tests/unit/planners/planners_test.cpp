@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> by_conflicts = {cbs, ecbs, eecbs};
 
-// Small problems with their optimum, found once for all test cases.
+// Small problems with their optimum, computed once for all test cases.
 struct SolvedCase {
   PlanningCase problem;
   std::optional<int> optimum;
@@ -31,8 +31,7 @@ const std::vector<SolvedCase>& solved_cases() {
   return cases;
 }
 
-// Each case is for some of the variants, so that each variant has a good share of the cases, and together they have
-// all of them.
+// Assigns each case to some of the variants: each variant gets many cases, and every case is used.
 void share_out(std::vector<Variant>& variants, std::size_t variants_of_a_case) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < solved_cases().size(); ++i) {
@@ -77,7 +76,7 @@ TEST_CASE("the library describes its planners") {
   CHECK(descriptor->planner_flags == DMRP_PLANNER_UNCOORDINATED);
 }
 
-TEST_CASE("random small problems: CBS as it is finds the joint optimum, individual each robot's own") {
+TEST_CASE("random small problems: CBS finds the joint optimum, individual each robot's own") {
   Variant as_it_is(cbs, "as it is", 1, {{"node_limit", 2000}});
   PluginUnderTest individual_planner(planner_library, individual);
   int coordinated = 0;
@@ -98,7 +97,7 @@ TEST_CASE("random small problems: CBS as it is finds the joint optimum, individu
       REQUIRE(static_cast<int>(own.paths[i].size()) - 1 == *alone.alone(i));
     if (c.optimum && *c.optimum > own.cost()) ++coordinated;
   }
-  // The draw must hold enough of each kind to mean something.
+  // The random cases must contain enough of each kind.
   CHECK(solved_cases().size() > 2350);
   CHECK(as_it_is.tally.solved > 1800);
   CHECK(as_it_is.tally.unsolvable > 300);
@@ -113,7 +112,8 @@ TEST_CASE("random small problems: CBS with any improvements finds the joint opti
     variants.push_back(cbs_with({}, common));
     variants.push_back(cbs_with(all_but({}), common));
     for (std::size_t a = 0; a < improvements.size(); ++a)
-      for (std::size_t b = 0; b <= a; ++b) {  // each alone and, as a == b, in pairs; on with all others off, and off
+      for (std::size_t b = 0; b <= a;
+           ++b) {  // in pairs and, where a == b, alone; on with all others off, and the other way round
         std::vector<std::string> some = {improvements[a]};
         if (b != a) some.push_back(improvements[b]);
         variants.push_back(cbs_with(some, common));
@@ -150,7 +150,7 @@ TEST_CASE("random small problems: EECBS with any improvements stays within its b
   share_out(variants, 6);
 }
 
-TEST_CASE("crowded small problems: optimal where nothing else is asked for") {
+TEST_CASE("crowded small problems: optimal with suboptimality 1") {
   for (const std::string& id : by_conflicts) {
     CAPTURE(id);
     Variant planner(id, "crowded", 1, {{"node_limit", 20000}});
@@ -190,7 +190,7 @@ TEST_CASE("EECBS restarts in another order by another seed, and keeps its promis
   CHECK(different > 10);
 }
 
-TEST_CASE("the same problem and seed give the same bits, whatever came before and whoever plans between") {
+TEST_CASE("the same problem and seed give the same bits, whatever was planned before") {
   const std::vector<std::pair<std::string, ParamOverrides>> planners = {
       {cbs, {{"node_limit", 300}}},
       {ecbs, {{"node_limit", 300}}},

@@ -28,7 +28,7 @@ struct CaseRobot {
   uint32_t state = DMRP_ROBOT_ACTIVE;
 };
 
-// Cells of 0.5 m, the lower left corner at (10, -3): nothing here may rely on unit cells or the world's origin.
+// Cells of 0.5 m with the lower left corner at (10, -3), so that planners cannot rely on unit cells or on the origin.
 struct PlanningCase {
   static constexpr double resolution_m = 0.5;
   static constexpr dmrp_vec2 origin{10.0, -3.0};
@@ -38,7 +38,7 @@ struct PlanningCase {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> free;
-  std::vector<uint8_t> edges;  // masks of all eight directions, as the host makes them
+  std::vector<uint8_t> edges;  // edge masks of all eight directions, as from the host
   std::vector<CaseRobot> robots;
 
   // Rows from y = 0 upwards; '.' is free.
@@ -56,7 +56,7 @@ struct PlanningCase {
     return *this;
   }
 
-  // A wall so thin that both cells stay free.
+  // A thin wall: both cells stay free.
   PlanningCase& thin_wall(CellXY a, CellXY b) { return close_one_way(a, b).close_one_way(b, a); }
   PlanningCase& close_one_way(CellXY from, CellXY to) {
     edges[index(from)] &= static_cast<uint8_t>(~bit(to.x - from.x, to.y - from.y));
@@ -92,10 +92,10 @@ struct PlanningCase {
 
 struct Plan {
   int32_t status = -1;
-  std::vector<std::vector<dmrp_waypoint>> paths;  // a robot, empty where none came
+  std::vector<std::vector<dmrp_waypoint>> paths;  // by robot; empty if the planner gave none
   std::map<std::string, double> statistics;
 
-  // Steps of all paths together.
+  // The sum of steps of all paths.
   int cost() const {
     int sum = 0;
     for (const auto& path : paths) sum += static_cast<int>(path.size()) - 1;
@@ -143,7 +143,7 @@ class CProblem {
   const dmrp_world& world() const { return world_; }
 
  private:
-  // As a later host's: longer than what the plugin knows.
+  // Longer than the plugin's struct, as from a later host.
   struct PaddedRobot : dmrp_planning_robot {
     uint64_t of_a_later_version = ~uint64_t{0};
   };
@@ -166,7 +166,7 @@ class CProblem {
     planning.goals = goals.data();
     planning.goal_count = static_cast<uint32_t>(goals.size());
     planning.goal_stride = sizeof(dmrp_goal);
-    planning.first_goal_index = 3;  // as if earlier goals of a tour were reached before
+    planning.first_goal_index = 3;  // as if the robot had already reached three goals
     planning.robot = &whole;
     planning.start = c.center(robot.start);
     planning.pose = {planning.start.x, planning.start.y, 0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What CBS, ECBS and EECBS promise whatever their parameters, and wherever the host stops them.
+// The promises of CBS, ECBS and EECBS hold with all parameters, and wherever the host stops them.
 #include <catch2/catch.hpp>
 #include <optional>
 #include <string>
@@ -41,7 +41,7 @@ std::vector<Variant> variants() {
   return all;
 }
 
-// Some moves can be made in one direction only.
+// Some moves exist in one direction only.
 PlanningCase one_way_case(uint64_t seed, int most_robots) {
   PlanningCase c = random_case(seed, most_robots);
   Random random(seed * 7 + 3);
@@ -53,7 +53,7 @@ PlanningCase one_way_case(uint64_t seed, int most_robots) {
   return c;
 }
 
-// What is wrong with an answer; empty if nothing is.
+// The error of an answer; empty if there is none.
 std::string check_answer(const PlanningCase& c, const Plan& plan, std::optional<int> optimum, double suboptimality) {
   if (plan.status == DMRP_NO_SOLUTION) return optimum ? "no solution, though there is one" : "";
   const auto bound = plan.statistics.find("lower_bound");
@@ -78,7 +78,7 @@ TEST_CASE("four robots and one-way moves: bounds and costs hold with every choic
   }
 }
 
-TEST_CASE("stopped anywhere, a planner gives up or is right") {
+TEST_CASE("a planner that is stopped anywhere times out or returns a valid plan") {
   int given_up = 0;
   for (const Variant& variant : variants()) {
     PluginUnderTest planner("libdmrp_planners.so", variant.id, variant.parameters);

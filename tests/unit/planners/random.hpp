@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small reproducible numbers for drawing test cases (SplitMix64).
+// Reproducible random numbers for test cases (SplitMix64).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Problems drawn at random, and whether two answers to one are the same.
+// Random problems, and the comparison of two answers.
 #pragma once
 
 #include <string>
@@ -10,8 +10,26 @@
 
 namespace dmrp::test {
 
-// 4x4 to 6x6 cells with obstacles and thin walls; 2 to `most_robots` robots, some with tours, some resting. Starts and
-// last goals are distinct free cells; whether there is a plan is left to chance.
+inline CellXY random_free_cell(Random& random, const PlanningCase& c) {
+  for (;;)
+    if (const CellXY cell{random.below(c.width), random.below(c.height)}; c.is_free(cell)) return cell;
+}
+
+// Starts and last goals are distinct free cells. Some cases have no plan.
+inline void add_random_robots(Random& random, PlanningCase& c, int count, bool with_tours, bool with_resting) {
+  while (static_cast<int>(c.robots.size()) < count) {
+    CaseRobot robot{random_free_cell(random, c), {}, DMRP_ROBOT_ACTIVE};
+    if (with_resting && random.one_in(8)) robot.state = DMRP_ROBOT_FINISHED;
+    const int goals = with_tours && random.one_in(4) ? 2 + random.below(2) : 1;
+    for (int g = 0; g < goals; ++g) robot.goals.push_back(random_free_cell(random, c));
+    bool distinct = true;
+    for (const CaseRobot& other : c.robots)
+      distinct = distinct && !(other.start == robot.start) && !(other.goals.back() == robot.goals.back());
+    if (distinct) c.robots.push_back(robot);
+  }
+}
+
+// 4x4 to 6x6 cells with obstacles and thin walls; 2 to `most_robots` robots, some with tours, some resting.
 inline PlanningCase random_case(uint64_t seed, int most_robots = 3) {
   Random random(seed);
   const int width = 4 + random.below(3);
@@ -30,22 +48,7 @@ inline PlanningCase random_case(uint64_t seed, int most_robots = 3) {
         if (x + 1 < width && random.one_in(6)) c.thin_wall({x, y}, {x + 1, y});
         if (y + 1 < height && random.one_in(6)) c.thin_wall({x, y}, {x, y + 1});
       }
-  const auto free_cell = [&] {
-    for (;;)
-      if (const CellXY cell{random.below(width), random.below(height)}; c.is_free(cell)) return cell;
-  };
-  const int robots = 2 + random.below(most_robots - 1);
-  for (int i = 0; i < robots;) {
-    CaseRobot robot{free_cell(), {}, random.one_in(8) ? uint32_t{DMRP_ROBOT_FINISHED} : uint32_t{DMRP_ROBOT_ACTIVE}};
-    const int goals = random.one_in(4) ? 2 + random.below(2) : 1;
-    for (int g = 0; g < goals; ++g) robot.goals.push_back(free_cell());
-    bool distinct = true;
-    for (const CaseRobot& other : c.robots)
-      distinct = distinct && !(other.start == robot.start) && !(other.goals.back() == robot.goals.back());
-    if (!distinct) continue;
-    c.robots.push_back(robot);
-    ++i;
-  }
+  add_random_robots(random, c, 2 + random.below(most_robots - 1), true, true);
   return c;
 }
 

@@ -4,7 +4,7 @@ import {scaleLinear} from 'd3-scale';
 import {curveStepAfter, line} from 'd3-shape';
 
 import * as controls from '../controls.js';
-import {element, fill, hidden, titled_table} from '../elements.js';
+import {element, fill, group_row, head_row, hidden, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -61,18 +61,12 @@ function table(data, rows, variants) {
   const made = element(
     'table',
     {class: 'results with-intervals'},
-    element(
-      'thead',
-      {},
-      element(
-        'tr',
-        {},
-        element('th', {scope: 'col'}, 'combination'),
-        column('restricted mean', 's'),
-        column('time limit', 's'),
-        column('arrived', '%'),
-        column('robots', '–')
-      )
+    head_row(
+      element('th', {scope: 'col'}, 'combination'),
+      column('restricted mean', 's'),
+      column('time limit', 's'),
+      column('arrived', '%'),
+      column('robots', '–')
     )
   );
   for (const variant of variants) {
@@ -87,12 +81,7 @@ function table(data, rows, variants) {
       element(
         'tbody',
         {},
-        data.scenarios.length > 1 &&
-          element(
-            'tr',
-            {class: 'group'},
-            element('th', {scope: 'rowgroup', colspan: 5}, element('span', {}, variant.label))
-          ),
+        data.scenarios.length > 1 && group_row(variant.label, 5),
         own.map((row, i) =>
           element(
             'tr',

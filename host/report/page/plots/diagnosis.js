@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // diagnosis.js: scatter plots of two metrics, one panel for each scenario and planner, with rank correlations.
 import * as controls from '../controls.js';
-import {element, fill, titled_table} from '../elements.js';
+import {element, fill, head_row, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -97,16 +97,10 @@ function correlation_table(data, strata) {
     element(
       'table',
       {class: 'results with-intervals'},
-      element(
-        'thead',
-        {},
-        element(
-          'tr',
-          {},
-          element('th', {scope: 'col'}, 'scenario and planner'),
-          pairs.map((pair) =>
-            element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
-          )
+      head_row(
+        element('th', {scope: 'col'}, 'scenario and planner'),
+        pairs.map((pair) =>
+          element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
         )
       ),
       element(

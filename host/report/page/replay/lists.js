@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lists.js: the lists beside the map: robots with their current state, and events.
-import {element} from '../elements.js';
+import {element, head_row} from '../elements.js';
 import * as numbers from '../numbers.js';
 import {is_now} from './events.js';
 import * as look from './look.js';
@@ -35,17 +35,11 @@ export function make_robot_list(handlers) {
     element(
       'table',
       {},
-      element(
-        'thead',
-        {},
-        element(
-          'tr',
-          {},
-          element('th', {scope: 'col'}, 'Robot'),
-          element('th', {scope: 'col'}, 'State'),
-          element('th', {scope: 'col', class: 'number'}, 'm/s'),
-          element('th', {scope: 'col', class: 'number', title: 'distance from its current path'}, 'off path (m)')
-        )
+      head_row(
+        element('th', {scope: 'col'}, 'Robot'),
+        element('th', {scope: 'col'}, 'State'),
+        element('th', {scope: 'col', class: 'number'}, 'm/s'),
+        element('th', {scope: 'col', class: 'number', title: 'distance from its current path'}, 'off path (m)')
       ),
       body
     )

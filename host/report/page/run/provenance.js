@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // provenance.js: software, machine and files behind the results, and the command that reproduces them.
 import * as controls from '../controls.js';
-import {element, fill, titled_table} from '../elements.js';
+import {element, fill, head_row, titled_table} from '../elements.js';
 import * as overview from './overview.js';
 
 // Quotes an argument for a POSIX shell.
@@ -41,15 +41,7 @@ function files(data) {
     element(
       'table',
       {class: 'files'},
-      element(
-        'thead',
-        {},
-        element(
-          'tr',
-          {},
-          ['role', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))
-        )
-      ),
+      head_row(['role', 'path', 'SHA-256'].map((text) => element('th', {scope: 'col'}, text))),
       element(
         'tbody',
         {},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // comparisons.js: paired differences between combinations with the same seeds, as a forest plot.
 import * as controls from '../controls.js';
-import {element, fill} from '../elements.js';
+import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as interval_rows from './interval_rows.js';
@@ -82,20 +82,14 @@ function side_words(direction) {
 function head(metric, title, x) {
   const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
   const unit = numbers.unit(metric.unit);
-  return element(
-    'thead',
-    {},
-    element(
-      'tr',
-      {},
-      element('th', {scope: 'col'}, 'first \u2212 second'),
-      interval_rows.axis(x, ...side_words(metric.direction)),
-      column(title, unit && element('span', {class: 'unit'}, unit)),
-      column('p'),
-      column('p (Holm)'),
-      column('effect'),
-      column('pairs')
-    )
+  return head_row(
+    element('th', {scope: 'col'}, 'first \u2212 second'),
+    interval_rows.axis(x, ...side_words(metric.direction)),
+    column(title, unit && element('span', {class: 'unit'}, unit)),
+    column('p'),
+    column('p (Holm)'),
+    column('effect'),
+    column('pairs')
   );
 }
 
@@ -117,12 +111,7 @@ function table(data, rows, chosen) {
       element(
         'tbody',
         {},
-        data.scenarios.length > 1 &&
-          element(
-            'tr',
-            {class: 'group'},
-            element('th', {scope: 'rowgroup', colspan: 7}, element('span', {}, variant.label))
-          ),
+        data.scenarios.length > 1 && group_row(variant.label, 7),
         own.map((row) => row_element(data, row, x, decimals))
       )
     );
@@ -143,7 +132,7 @@ function note_words(data, rows, chosen) {
       test ? `${test.name}, two-sided` : rows[0].test
     }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, corrected for all ` +
     'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
-    `\u22121 to 1. Pairs: seeds ${successes ? 'in which both trials succeeded' : 'that both trials have'}.` +
+    `\u22121 to 1. Pairs: seeds ${successes ? 'with which both trials succeeded' : 'with values in both trials'}.` +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
     (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed with values of both.` : '')
   );

@@ -3,7 +3,7 @@
 import {scaleLinear} from 'd3-scale';
 
 import * as controls from '../controls.js';
-import {element, fill, hidden} from '../elements.js';
+import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -93,15 +93,9 @@ function grid_table(grid, metric, decimals) {
         'table',
         {class: 'heat'},
         element('caption', {}, element('h4', {}, grid.title)),
-        element(
-          'thead',
-          {},
-          element(
-            'tr',
-            {},
-            element('td'),
-            grid.controllers.map((name) => element('th', {scope: 'col'}, name))
-          )
+        head_row(
+          element('td'),
+          grid.controllers.map((name) => element('th', {scope: 'col'}, name))
         ),
         element(
           'tbody',

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // metrics_table.js: all metrics of one combination, with units, directions and descriptions.
 import * as controls from '../controls.js';
-import {element, fill, hidden} from '../elements.js';
+import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 
@@ -72,15 +72,7 @@ function head() {
     ['defined', 'number'],
     ['paper\u2019s rule', 'number'],
   ];
-  return element(
-    'thead',
-    {},
-    element(
-      'tr',
-      {},
-      columns.map(([text, kind]) => element('th', {scope: 'col', class: kind}, text))
-    )
-  );
+  return head_row(columns.map(([text, kind]) => element('th', {scope: 'col', class: kind}, text)));
 }
 
 function combination_options(data) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // pedestrian_delay.js: the delay of pedestrians by robots, from pairs of trials with and without robots.
 import * as controls from '../controls.js';
-import {element, fill} from '../elements.js';
+import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as interval_rows from './interval_rows.js';
@@ -15,17 +15,11 @@ function table_of(data, rows, variants) {
   const table = element(
     'table',
     {class: 'forest with-intervals'},
-    element(
-      'thead',
-      {},
-      element(
-        'tr',
-        {},
-        element('th', {scope: 'col'}, 'combination'),
-        interval_rows.axis(x, '← sooner', 'later →'),
-        column('delay', element('span', {class: 'unit'}, 's')),
-        column('pairs')
-      )
+    head_row(
+      element('th', {scope: 'col'}, 'combination'),
+      interval_rows.axis(x, '← sooner', 'later →'),
+      column('delay', element('span', {class: 'unit'}, 's')),
+      column('pairs')
     )
   );
   for (const variant of variants) {
@@ -35,12 +29,7 @@ function table_of(data, rows, variants) {
       element(
         'tbody',
         {},
-        data.scenarios.length > 1 &&
-          element(
-            'tr',
-            {class: 'group'},
-            element('th', {scope: 'rowgroup', colspan: 4}, element('span', {}, variant.label))
-          ),
+        data.scenarios.length > 1 && group_row(variant.label, 4),
         own.map((i) =>
           element(
             'tr',

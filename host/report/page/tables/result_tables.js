@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // result_tables.js: the result tables that the layout defines; their headers sort them.
 import * as controls from '../controls.js';
-import {element, fill, hidden, titled_table} from '../elements.js';
+import {element, fill, group_row, hidden, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -156,14 +156,7 @@ function table_element(data, layout, variants) {
     .filter((group) => group.rows.length > 0)
     .map((group) => {
       const rows = group.rows.map((row) => row_element(row, model.columns));
-      const title =
-        group.title &&
-        data.scenarios.length > 1 &&
-        element(
-          'tr',
-          {class: 'group'},
-          element('th', {scope: 'rowgroup', colspan: model.columns.length + 1}, element('span', {}, group.title))
-        );
+      const title = group.title && data.scenarios.length > 1 && group_row(group.title, model.columns.length + 1);
       return {rows, body: element('tbody', {}, title, rows)};
     });
   table.append(

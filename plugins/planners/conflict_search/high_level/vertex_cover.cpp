@@ -15,13 +15,13 @@ struct Edge {
 };
 using Adjacency = std::vector<std::vector<Edge>>;
 
-// Depth-first branch and bound over one connected part: vertices in the order given, each value tried from the least.
+// Depth-first branch and bound over one connected part: assigns the vertices in order, least values first.
 class CoverSearch {
  public:
   CoverSearch(const Adjacency& edges, std::vector<std::size_t> part, StopSignal& stop)
       : stop_(stop), edges_(edges), order_(std::move(part)), value_(edges.size(), unset) {}
 
-  // Nothing found within the limit: best() is an upper bound only.
+  // False if the limit was reached: then best() is only an upper bound.
   bool run() {
     best_ = 0;
     for (const std::size_t v : order_) best_ += heaviest(v);
@@ -38,7 +38,7 @@ class CoverSearch {
     for (const Edge& edge : edges_[v]) weight = std::max(weight, edge.weight);
     return weight;
   }
-  // What v must add, its assigned neighbors given.
+  // The least value of v, given its assigned neighbors.
   std::int32_t least_value(std::size_t v) const {
     std::int32_t least = 0;
     for (const Edge& edge : edges_[v])
@@ -58,7 +58,7 @@ class CoverSearch {
     }
     if (sum + bound_of_rest(i) >= best_) return;
     const std::size_t v = order_[i];
-    // A vertex needs no more than what its unassigned neighbors may ask of it.
+    // No vertex needs more than the greatest weight towards its unassigned neighbors.
     std::int32_t most = least_value(v);
     for (const Edge& edge : edges_[v])
       if (value_[edge.to] == unset) most = std::max(most, edge.weight);
@@ -77,7 +77,7 @@ class CoverSearch {
   std::int64_t states_ = 0;
 };
 
-// Pairs without a common agent each add their own.
+// A lower bound: the weights of pairs without a common agent add up.
 std::int32_t sum_of_disjoint_pairs(const Adjacency& edges, const std::vector<std::size_t>& part) {
   struct Pair {
     std::int32_t weight;
@@ -99,7 +99,7 @@ std::int32_t sum_of_disjoint_pairs(const Adjacency& edges, const std::vector<std
   return sum;
 }
 
-// The vertices reached from `start`, those with more edges first among what is adjacent to what came before.
+// The vertices connected with `start`, by descending number of edges.
 std::vector<std::size_t> connected_part(const Adjacency& edges, std::size_t start, std::vector<bool>& seen) {
   std::vector<std::size_t> part = {start};
   seen[start] = true;

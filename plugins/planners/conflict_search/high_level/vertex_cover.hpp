@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// vertex_cover.hpp: the least weight that agents must add together when every dependent pair must add its own.
+// vertex_cover.hpp: the minimum edge-weighted vertex cover of a graph of dependent agents.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,16 @@
 
 namespace dmrp::planners {
 
-// Two agents whose costs together are at least `weight` (> 0) above the sum of their least costs.
+// Two agents whose least joint cost exceeds the sum of their least costs by `weight` > 0.
 struct DependentPair {
   std::int32_t a;
   std::int32_t b;
   std::int32_t weight;
 };
 
-// The least sum of whole numbers x >= 0, one an agent, with x[a] + x[b] >= weight for every pair: an edge-weighted
-// vertex cover (Li, Felner, Boyarski, Ma, Koenig: Improved heuristics for MAPF with CBS, IJCAI 2019). Exact for parts
-// of the graph that a bounded search settles; for others a lower bound by disjoint pairs. Not to be used if `stop` says
-// so.
+// The least sum of integers x >= 0, one for each agent, with x[a] + x[b] >= weight for every pair (Li, Felner,
+// Boyarski, Ma, Koenig: Improved heuristics for MAPF with CBS, IJCAI 2019). Exact for connected parts that a bounded
+// search solves; for others a lower bound by disjoint pairs. Meaningless if `stop` was raised.
 std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs, StopSignal& stop);
 
 }  // namespace dmrp::planners

@@ -17,11 +17,11 @@ ConflictTable::ConflictTable(const GridGraph& graph, std::size_t agent_count, st
 }
 
 void ConflictTable::set(std::int32_t agent, PathView path) {
-  const auto who = static_cast<std::size_t>(agent);
-  if (paths_[who].data() == path.data() && paths_[who].size() == path.size()) return;
+  const auto index = static_cast<std::size_t>(agent);
+  if (paths_[index].data() == path.data() && paths_[index].size() == path.size()) return;
   take_out(agent);
   if (static_cast<std::int32_t>(path.size()) > horizon_) grow(static_cast<std::int32_t>(path.size()));
-  paths_[who] = path;
+  paths_[index] = path;
   put_in(agent);
 }
 
@@ -60,7 +60,7 @@ void ConflictTable::take_out(std::int32_t agent) {
 void ConflictTable::grow(std::int32_t horizon) {
   horizon_ = std::max(2 * horizon_, (horizon + 63) / 64 * 64);
   passed_.assign(location_count_ * static_cast<std::size_t>(horizon_) / 64, 0);
-  first_.reset();  // not both at a time: it is large
+  first_.reset();  // before the allocation, as the array is large
   first_ = std::make_unique_for_overwrite<Link[]>(location_count_ * static_cast<std::size_t>(horizon_));
   for (std::size_t agent = 0; agent < paths_.size(); ++agent) put_in(static_cast<std::int32_t>(agent));
 }

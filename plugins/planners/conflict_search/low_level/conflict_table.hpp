@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// conflict_table.hpp: who is where and when, for counting and listing conflicts with the paths of other agents.
+// conflict_table.hpp: the positions of all agents over time, to count and list conflicts with a path.
 //
-// Agents' paths are put in and taken out one by one: moving from one node of a constraint tree to another touches only
-// the agents whose paths differ.
+// Paths are added and removed one by one, so changing from one node of the constraint tree to another costs only the
+// paths that differ.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace dmrp::planners {
 
-// Two agents, a < b, at `location` at time t; or, where `from` is a location, a arrives there at time t from `from`
-// while b goes the other way.
+// Vertex conflict: agents a < b are both at `location` at time t, and `from` is nowhere. Swap conflict: a moves from
+// `from` to `location`, b the other way, arriving at time t.
 struct Conflict {
   std::int32_t a = -1;
   std::int32_t b = -1;
@@ -27,39 +27,39 @@ struct Conflict {
 
 class ConflictTable {
  public:
-  // Makes room for paths of `expected_steps`; for longer ones it grows, which takes long when there are many.
+  // Reserves space for paths of `expected_steps`. Longer paths make the table grow, which is slow.
   ConflictTable(const GridGraph& graph, std::size_t agent_count, std::int32_t expected_steps = 0);
 
-  // Puts an agent's path in the place of the one before. The path must stay where it is. No two agents may end at one
-  // location. An empty path takes the agent out.
+  // Replaces an agent's path; an empty path removes the agent. The table keeps the view, not a copy. No two agents may
+  // end at the same location.
   void set(std::int32_t agent, PathView path);
   PathView path(std::int32_t agent) const { return paths_[static_cast<std::size_t>(agent)]; }
 
-  // From this time on everybody rests.
+  // From this time on all agents rest.
   std::int32_t rest_from() const;
 
-  // From when on somebody is at `location` for good; or forever, for nobody.
+  // The time at which an agent comes to rest at `location`; forever if none does.
   std::int32_t resting_from(Location location) const { return resting_from_[static_cast<std::size_t>(location)]; }
 
-  // Whether somebody is at `location` at time t on its way (up to its last step).
+  // Whether an agent is at `location` at time t on its path, the last step included.
   bool is_passed(Location location, std::int32_t t) const {
     return t < horizon_ && (passed_[word(location, t)] >> (t % 64) & 1u);
   }
-  // The first time from t on, or the last time up to t, when somebody is there on its way; or forever, or -1.
+  // The first such time from t on (forever if none), and the last one up to t (-1 if none).
   std::int32_t next_passed(Location location, std::int32_t t) const;
   std::int32_t previous_passed(Location location, std::int32_t t) const;
 
-  // Conflicts that somebody who goes (or waits) so that it arrives at time t would have.
+  // The number of conflicts of a move or wait that arrives at time t.
   std::int32_t count_at(Location from, Location to, std::int32_t t) const {
     std::int32_t count = 0;
     visit_at(from, to, t, [&](std::int32_t, bool) { ++count; });
     return count;
   }
 
-  // Conflicts that somebody who stays at `location` after time t would have: agents that still pass.
+  // The number of conflicts of staying at `location` after time t: one for each agent and step that passes.
   std::int32_t count_after(Location location, std::int32_t t) const;
 
-  // Lists the conflicts of `agent`, which is not in the table, in the order of time.
+  // Appends the conflicts of `agent`, which is not in the table, by ascending time.
   void list(std::int32_t agent, PathView path, std::vector<Conflict>& out) const;
 
  private:
@@ -90,11 +90,11 @@ class ConflictTable {
 
   using Link = std::uint16_t;  // an agent plus one; zero ends a list
   std::size_t location_count_;
-  std::int32_t horizon_ = 0;                // times told apart, a multiple of 64
-  std::vector<std::uint64_t> passed_;       // by location and time, a bit each: whether somebody is there on its way
-  std::unique_ptr<Link[]> first_;           // likewise: the first of them; set only where the bit is
-  std::vector<std::vector<Link>> next_;     // by agent and time: the next one in the same list
-  std::vector<Link> resting_;               // by location: who ends there ...
+  std::int32_t horizon_ = 0;                // number of times in the table, a multiple of 64
+  std::vector<std::uint64_t> passed_;       // by location and time, one bit: whether an agent passes
+  std::unique_ptr<Link[]> first_;           // by location and time: first agent of the list; valid if the bit is set
+  std::vector<std::vector<Link>> next_;     // by agent and time: the next agent of the same list
+  std::vector<Link> resting_;               // by location: the agent that ends there ...
   std::vector<std::int32_t> resting_from_;  // ... and when; or forever
   std::vector<PathView> paths_;
 };

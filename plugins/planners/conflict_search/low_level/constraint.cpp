@@ -74,7 +74,7 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
         break;
     }
   }
-  // At the end of its path the agent stays: a landmark elsewhere comes before.
+  // The agent stays at the end of its path, so it must pass landmarks elsewhere before.
   for (const Landmark& landmark : landmarks_)
     if (landmark.location != agent.last_goal()) finish_from_ = std::max(finish_from_, landmark.t + 1);
   std::sort(landmarks_.begin(), landmarks_.end(),
@@ -84,7 +84,7 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
                   [](const Landmark& a, const Landmark& b) { return a.t == b.t && a.location == b.location; }),
       landmarks_.end());
   for (std::size_t i = 1; i < landmarks_.size(); ++i)
-    if (landmarks_[i].t == landmarks_[i - 1].t) finish_from_ = forever;  // nobody is in two places
+    if (landmarks_[i].t == landmarks_[i - 1].t) finish_from_ = forever;  // contradiction
 }
 
 bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// constraint.hpp: what the high level asks of an agent, and a table of it for the searches of one agent.
+// constraint.hpp: the constraints that the high level puts on agents, and a lookup table of one agent's constraints.
 #pragma once
 
 #include <compare>
@@ -11,14 +11,14 @@
 
 namespace dmrp::planners {
 
-// One agent's constraint. A few kinds say something to the others too; binds() and for_another() tell what.
+// A constraint on one agent. Some kinds bind the other agents, too: see binds_others().
 struct Constraint {
   enum class Kind : std::uint8_t {
-    avoid_vertex,  // not at `location` from time t on, before `until`
-    avoid_move,    // not arriving at `location` from `from` at time t
-    pass_vertex,   // at `location` at time t; all others avoid it (disjoint splitting, Li et al. 2019)
-    finish_after,  // comes to rest at its last goal, for good, later than t (target reasoning, Li et al. 2020)
-    finish_by,     // comes to rest at its last goal at t or before: from t on all others avoid `location`, that goal
+    avoid_vertex,  // must not be at `location` from time t to before `until`
+    avoid_move,    // must not arrive at `location` from `from` at time t
+    pass_vertex,   // must be at `location` at time t; all others avoid it then (disjoint splitting, Li et al. 2019)
+    finish_after,  // must come to rest at its last goal, `location`, later than t (target reasoning, Li et al. 2020)
+    finish_by,     // must come to rest at its last goal, `location`, by t; all others avoid it from t on
   };
 
   std::int32_t agent = -1;
@@ -30,10 +30,10 @@ struct Constraint {
 
   auto operator<=>(const Constraint&) const = default;
 
-  // Whether agents other than `agent` have to heed it as well.
+  // Whether the constraint also applies to agents other than `agent`.
   bool binds_others() const { return kind == Kind::pass_vertex || kind == Kind::finish_by; }
 
-  // What it means to another agent, where it binds_others().
+  // The constraint on another agent that follows, if it binds_others().
   Constraint for_another(std::int32_t other) const {
     return {other, Kind::avoid_vertex, location, nowhere, t, kind == Kind::finish_by ? forever : t + 1};
   }
@@ -58,16 +58,16 @@ inline Constraint finish_by(std::int32_t agent, Location goal, std::int32_t t) {
   return {agent, Constraint::Kind::finish_by, goal, nowhere, t, t + 1};
 }
 
-// Of everything but the agent.
+// A hash of all fields but the agent.
 std::uint64_t hash_of(const Constraint& constraint);
 
-// Whether a path (which rests at its end) does what the constraint asks of its own agent.
+// Whether a path of the constraint's own agent, which rests at its end, satisfies the constraint.
 bool satisfies(PathView path, const Constraint& constraint);
 
-// The constraints of one agent, found by location. Filled anew for each search in time proportional to their number.
+// The constraints of one agent by location. fill() takes time proportional to their number.
 class ConstraintTable {
  public:
-  // A place to be at a time.
+  // The agent must be at `location` at time t.
   struct Landmark {
     std::int32_t t;
     Location location;
@@ -76,10 +76,10 @@ class ConstraintTable {
   explicit ConstraintTable(const GridGraph& graph)
       : location_count_(static_cast<std::size_t>(graph.location_count())) {}
 
-  // `agent` is whom the constraints are of; they are its own and those for_another().
+  // Replaces the content by the constraints on `agent`: its own and those that follow for_another().
   void fill(const Agent& agent, std::span<const Constraint> constraints);
 
-  // Whether the agent may go (or wait) so that it arrives at time t. Landmarks are not looked at.
+  // Whether a move or wait may arrive at time t. Ignores landmarks.
   bool allows(Location from, Location to, std::int32_t t) const {
     if (!constrains(to)) return true;
     for (std::int32_t i = first_[static_cast<std::size_t>(to)]; i >= 0;
@@ -90,14 +90,14 @@ class ConstraintTable {
     return true;
   }
 
-  // Whether some arrival at `to` is not allowed.
+  // Whether some arrival at `to` is forbidden.
   bool constrains(Location to) const { return !entries_.empty() && epoch_of_[static_cast<std::size_t>(to)] == epoch_; }
 
-  // Whether the agent may be at `location` at time t, and over which times from `first` to before `end` around t that
-  // stays the same; narrows [first, end) to them. Landmarks elsewhere forbid a place, too.
+  // Whether the agent may be at `location` at time t. Narrows [first, end) to the times around t with the same answer.
+  // A landmark elsewhere forbids the location, too.
   bool narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const;
 
-  // Whether the agent may arrive at time t by this move, being at `to` then allowed.
+  // Whether the agent may arrive at time t by this move, given that it may be at `to` then.
   bool allows_move(Location from, Location to, std::int32_t t) const {
     if (!constrains(to)) return true;
     for (std::int32_t i = first_[static_cast<std::size_t>(to)]; i >= 0;
@@ -108,15 +108,15 @@ class ConstraintTable {
     return true;
   }
 
-  // From this time on what is allowed stays the same.
+  // From this time on the constraints do not change.
   std::int32_t constant_from() const { return constant_from_; }
 
-  // The agent may come to rest at its last goal, for good, at a time from here (forever: never) ...
+  // The earliest time at which the agent may come to rest at its last goal; forever: never.
   std::int32_t finish_from() const { return finish_from_; }
-  // ... to here (forever: any time).
+  // The latest such time; forever: any.
   std::int32_t finish_until() const { return finish_until_; }
 
-  // In the order of time; no two at one time unless finish_from() is forever.
+  // By ascending time. Two at the same time contradict each other; then finish_from() is forever.
   std::span<const Landmark> landmarks() const { return landmarks_; }
 
  private:
@@ -129,8 +129,7 @@ class ConstraintTable {
   void add_entry(Location location, const Entry& entry);
 
   std::size_t location_count_;
-  std::vector<std::uint32_t> epoch_of_;  // by location, from the first entry on: first_ is of this filling if it
-                                         // equals epoch_
+  std::vector<std::uint32_t> epoch_of_;  // by location: first_ is valid if this equals epoch_; empty before any entry
   std::vector<std::int32_t> first_;
   std::vector<Entry> entries_;
   std::vector<Landmark> landmarks_;

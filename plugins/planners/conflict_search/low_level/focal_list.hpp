@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// focal_list.hpp: OPEN and FOCAL of a low-level search (Pearl, Kim 1982): nodes by their f, and those whose f is
-// within a bound of the least in an order of the search's own.
+// focal_list.hpp: OPEN and FOCAL of a low-level search (Pearl, Kim 1982): OPEN orders nodes by f; FOCAL holds those
+// whose f is within a factor of the least, in an order that the search chooses.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace dmrp::planners {
 
-// Nodes are numbers. Whether one is still open is the search's to know: it asks nobody to take nodes out.
+// Nodes are indices. The list never removes closed nodes by itself: the caller of pop() says which are still open.
 //
-// The bound is the least f among the nodes counted as fresh: those at a place that nothing reached as early before.
-// Others are there for their conflicts and say nothing new about cost.
+// The lower bound is the least f among the nodes counted as fresh, those that reached their place earlier than any
+// other. The other nodes exist for their fewer conflicts; they do not affect the bound.
 class FocalList {
  public:
   using Id = std::uint32_t;
   static constexpr Id none = ~Id{0};
 
-  // Empties it. No f is below `least_f`.
+  // Empties the list. No f will be below `least_f`.
   void reset(std::int32_t least_f, double suboptimality) {
     for (std::size_t i = 0; i < level_count_; ++i) {
       levels_[i].fresh = 0;
@@ -49,7 +49,7 @@ class FocalList {
 
   void add_fresh(std::int32_t f, std::int32_t count) { level(f).fresh += count; }
 
-  // Moves the bound to the least f of a fresh node, and the nodes within it to FOCAL. False if there is none.
+  // Raises the bound to the least f of a fresh node and fills FOCAL up to it. False if no fresh node is left.
   bool advance() {
     const auto level_of_bound = [this] { return static_cast<std::size_t>(bound_ - least_f_); };
     while (level_of_bound() < level_count_ && levels_[level_of_bound()].fresh == 0) ++bound_;
@@ -64,7 +64,7 @@ class FocalList {
     return true;
   }
 
-  // Takes the first of FOCAL that is open; none if there is none.
+  // Removes and returns the first open node of FOCAL; none if there is none.
   template <class IsOpen>
   Id pop(IsOpen is_open) {
     while (!focal_.empty()) {
@@ -83,7 +83,7 @@ class FocalList {
   };
   struct Level {  // nodes of one f
     std::int32_t fresh = 0;
-    std::vector<Entry> waiting;  // those that are not in FOCAL yet
+    std::vector<Entry> waiting;  // not in FOCAL yet
   };
 
   static bool is_later(const Entry& a, const Entry& b) { return a.order > b.order; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// low_level.hpp: what a low-level search is asked for and gives: a path for one agent under constraints, with few
-// conflicts with the others, of a cost within a bound of the least.
+// low_level.hpp: request and result of a low-level search. It plans a path for one agent under constraints, with few
+// conflicts with the other agents and a cost within a factor of the least.
 //
-// Both searches are focal searches (Pearl, Kim 1982; in this use Barer et al. 2014): OPEN by f, the least cost of a
-// path through a node; FOCAL, the nodes of OPEN within the bound, by conflicts. With suboptimality 1 that is A* with
-// ties broken by conflicts: a path of least cost, and of these one with fewest conflicts.
+// Both implementations are focal searches (Pearl, Kim 1982; for CBS: Barer et al. 2014). OPEN is ordered by f, the
+// least cost of a path through a node; FOCAL holds the nodes of OPEN within the bound, ordered by conflicts. With
+// suboptimality 1 this is A* that breaks ties by conflicts.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct LowLevelRequest {
   const ConstraintTable& constraints;
   const ConflictTable& others;
   double suboptimality = 1;
-  std::int32_t conflict_steps = 0;  // steps that a path may be longer for a conflict less; 0: any, within the bound
-  std::int32_t lower_bound = 0;     // of the agent's cost under these constraints, as far as it is known
+  std::int32_t conflict_steps = 0;  // steps that a path may be longer to avoid one conflict; 0: any, within the bound
+  std::int32_t lower_bound = 0;     // known lower bound of the cost under these constraints
 };
 
 struct LowLevelPath {
@@ -35,8 +35,8 @@ struct LowLevelPath {
 
 enum class LowLevelResult { found, none, stopped };
 
-// The least cost of a path by way of a place at a time. `waited_at_end`: the last step was a wait where the path could
-// have ended, so that it cannot end there now.
+// The least cost of a path that is at a location at time t. `waited_at_end`: its last step was a wait at the end of the
+// tour; the path should have ended before it, so it cannot end now.
 inline std::int32_t least_cost_by_way_of(const LowLevelRequest& request, std::int32_t leg, Location location,
                                          std::int32_t t, bool waited_at_end) {
   std::int32_t rest = request.table.distance(leg, location);
@@ -45,7 +45,7 @@ inline std::int32_t least_cost_by_way_of(const LowLevelRequest& request, std::in
   std::int32_t cost = std::max(t + rest, finish_from);
   if (request.agent.last_leg() > 0) return cost;
   for (const ConstraintTable::Landmark& landmark : request.constraints.landmarks())
-    // a landmark at the goal may be kept by resting there from before
+    // an agent that rests at its goal also satisfies a landmark there
     if (landmark.t >= t && landmark.location != request.agent.last_goal())
       cost = std::max(cost, landmark.t + request.table.distance(0, landmark.location));
   return cost;
@@ -56,9 +56,8 @@ inline bool may_end(const LowLevelRequest& request, std::int32_t leg, Location l
          t >= request.constraints.finish_from() && t <= request.constraints.finish_until();
 }
 
-// The order within FOCAL: fewest conflicts first, then least f; or both together, a conflict counting as so many steps.
-// Then nearest to the end, then fewest turns. What does not fit its part of the number ranks with the largest that
-// does.
+// The order within FOCAL, as one number: fewest conflicts, then least f (with conflict_steps: least f plus that many
+// steps for each conflict, then fewest conflicts); then nearest to the end; then fewest turns. Each part saturates.
 inline std::uint64_t focal_order(std::int32_t conflicts, std::int32_t conflict_steps, std::int32_t f_above_least,
                                  std::int32_t rest, std::int32_t turns) {
   const auto part = [](std::int64_t value, int bits, int shift) {

@@ -7,7 +7,7 @@ namespace dmrp::planners {
 
 namespace {
 
-// While an MDD grows: nodes by level, each with its successors in the next level.
+// A node during construction, with its successors in the next level.
 struct GrowingNode {
   Mdd::Node node;
   std::uint32_t successors_begin;
@@ -22,14 +22,14 @@ struct Growth {
   bool may_wait_at_end = false;
 };
 
-// False if the agent has to be elsewhere at that time.
+// False if a landmark requires the agent elsewhere at that time.
 bool at_landmark(const ConstraintTable& constraints, Location location, std::int32_t t) {
   for (const ConstraintTable::Landmark& landmark : constraints.landmarks())
     if (landmark.t == t && landmark.location != location) return false;
   return true;
 }
 
-// Adds the places that can be reached at time t from level t - 1 and from which the end can still be reached by `cost`.
+// Adds level t: the places reached from level t - 1 from which the end can still be reached by `cost`.
 void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, const TourTable& table,
                 const ConstraintTable& constraints, std::int32_t t, std::int32_t cost,
                 std::vector<std::uint32_t>& node_at, StopSignal* stop) {
@@ -46,11 +46,11 @@ void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, cons
       const Location to = d == GridGraph::direction_count ? from.location : graph.neighbor(from.location, d);
       if (to == nowhere || t + table.distance(leg, to) > cost || !constraints.allows(from.location, to, t)) continue;
       if (!at_landmark(constraints, to, t)) continue;
-      if (t == cost && to == from.location && leg == from.leg) {  // it would have ended before
+      if (t == cost && to == from.location && leg == from.leg) {  // the path would have ended before
         growth.may_wait_at_end = true;
         continue;
       }
-      // A number from an earlier level is smaller than level_begin, and one not yet set points elsewhere.
+      // Indices of earlier levels are below level_begin; those not set are 0.
       std::uint32_t& at = node_at[static_cast<std::size_t>(leg) * locations + static_cast<std::size_t>(to)];
       const bool known = at >= level_begin && at < growth.nodes.size();
       if (!known) {
@@ -63,7 +63,7 @@ void grow_level(Growth& growth, const GridGraph& graph, const Agent& agent, cons
   }
 }
 
-// Marks, from the last level back, the nodes with a way to the end.
+// Marks the nodes from which the end can be reached, from the last level back.
 void mark(Growth& growth, const Agent& agent) {
   for (std::size_t i = growth.nodes.size(); i-- > 0;) {
     GrowingNode& node = growth.nodes[i];
@@ -114,21 +114,21 @@ constexpr std::size_t size_limit = 8'000'000;
 
 std::shared_ptr<const Mdd> MddCache::get(std::int32_t agent, std::vector<Constraint>& constraints,
                                          std::int32_t at_least) {
-  const auto who = static_cast<std::size_t>(agent);
+  const auto index = static_cast<std::size_t>(agent);
   std::sort(constraints.begin(), constraints.end());
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
   std::uint64_t hash = 0;
   for (const Constraint& constraint : constraints) hash += hash_of(constraint);
-  const auto [first, last] = of_agent_[who].equal_range(hash);
+  const auto [first, last] = of_agent_[index].equal_range(hash);
   for (auto it = first; it != last; ++it)
     if (it->second.constraints == constraints) return it->second.mdd;
-  constraint_table_.fill(problem_.agents[who], constraints);
+  constraint_table_.fill(problem_.agents[index], constraints);
   for (std::int32_t cost = at_least;; ++cost) {
-    Mdd mdd(problem_.graph, problem_.agents[who], tables_[who], constraint_table_, cost, stop_);
+    Mdd mdd(problem_.graph, problem_.agents[index], tables_[index], constraint_table_, cost, stop_);
     if (stop_ && stop_->poll()) return nullptr;
     if (mdd.is_empty()) continue;
     size_ += mdd.node_count() + 2 * static_cast<std::size_t>(cost) + 4 * constraints.size();
-    return of_agent_[who].emplace(hash, Entry{constraints, std::make_shared<const Mdd>(std::move(mdd))})->second.mdd;
+    return of_agent_[index].emplace(hash, Entry{constraints, std::make_shared<const Mdd>(std::move(mdd))})->second.mdd;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mdd.hpp: all of an agent's paths of least cost under its constraints, as the places it can be at each time
-// (a multi-valued decision diagram; Sharon et al. 2013), and a cache of them.
+// mdd.hpp: multi-valued decision diagrams (Sharon et al. 2013): all paths of least cost of one agent under its
+// constraints, as the places where it can be at each time; and a cache of them.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,25 @@ class Mdd {
     std::int32_t leg;
   };
 
-  // Empty if there is no path of this cost, or if `stop` says so. `cost` is at most the least under the constraints.
+  // Empty if there is no path of this cost, or if `stop` was raised. `cost` must not exceed the least cost.
   Mdd(const GridGraph& graph, const Agent& agent, const TourTable& table, const ConstraintTable& constraints,
       std::int32_t cost, StopSignal* stop = nullptr);
 
-  // Whether the agent can be at its goal one step before and wait there, but must not have come to rest so early. (So a
-  // longer path can meet the last node by a way that is not in here: no other node can be met like that.)
+  // Whether the agent can be at its goal one step early and wait there, without being allowed to come to rest so early.
+  // A longer path can then reach the last node by a way that is not in the MDD; this holds for no other node.
   bool may_wait_at_end() const { return may_wait_at_end_; }
 
   bool is_empty() const { return nodes_.empty(); }
   std::size_t node_count() const { return nodes_.size(); }
   std::int32_t cost() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
 
-  // The nodes of a time up to cost(), each on at least one path.
+  // The nodes at a time up to cost(). Each is on at least one path.
   std::span<const Node> level(std::int32_t t) const {
     const auto at = static_cast<std::size_t>(t);
     return {nodes_.data() + level_begin_[at], nodes_.data() + level_begin_[at + 1]};
   }
 
-  // Whether every path of this cost is at `location` at time t (or rests there by then).
+  // Whether every path of least cost is at `location` at time t, or rests there by then.
   bool must_be_at(Location location, std::int32_t t) const;
 
  private:
@@ -48,7 +48,7 @@ class Mdd {
   bool may_wait_at_end_ = false;
 };
 
-// The MDDs made so far, keyed by what they follow from: the agent and its constraints.
+// MDDs by agent and set of constraints.
 class MddCache {
  public:
   MddCache(const Problem& problem, const std::vector<TourTable>& tables, StopSignal* stop = nullptr)
@@ -58,11 +58,11 @@ class MddCache {
         constraint_table_(problem.graph),
         of_agent_(problem.agents.size()) {}
 
-  // `constraints` are the agent's in any order, and there is a path under them; none costs less than `at_least`. Sorts
-  // the constraints. Null if `stop` says so.
+  // The MDD of the least cost, which is at least `at_least`. There must be a path under the constraints. Sorts and
+  // deduplicates them. Null if `stop` was raised.
   std::shared_ptr<const Mdd> get(std::int32_t agent, std::vector<Constraint>& constraints, std::int32_t at_least);
 
-  // Forgets everything once it has grown too large.
+  // Empties the cache if it is too large.
   void trim();
 
  private:
@@ -77,7 +77,7 @@ class MddCache {
   StopSignal* stop_;
   ConstraintTable constraint_table_;
   std::vector<ByHash> of_agent_;
-  std::size_t size_ = 0;  // nodes of all
+  std::size_t size_ = 0;  // about the number of nodes
 };
 
 }  // namespace dmrp::planners

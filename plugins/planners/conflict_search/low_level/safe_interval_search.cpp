@@ -43,7 +43,7 @@ void SafeIntervalSearch::reset(const LowLevelRequest& request) {
   ++epoch_;
 }
 
-// Adds the successors up to the focal bound that the node does not have yet.
+// Adds the successors up to the focal bound that earlier expansions did not.
 void SafeIntervalSearch::expand(Id id) {
   ++expanded_;
   Expansion expansion{id, nodes_[id], request_->agent.leg_after(nodes_[id].leg, nodes_[id].location)};
@@ -54,9 +54,9 @@ void SafeIntervalSearch::expand(Id id) {
   const bool was_fresh = from.fresh_f >= 0;
   set_fresh(id, -1);
   nodes_[id].expanded_to = focal_.focal_bound();
-  if (expansion.left_out == forever || expansion.left_out > request_->constraints.finish_until()) return;
-  nodes_[id].f = expansion.left_out;
-  if (was_fresh) set_fresh(id, expansion.left_out);
+  if (expansion.missing_f == forever || expansion.missing_f > request_->constraints.finish_until()) return;
+  nodes_[id].f = expansion.missing_f;
+  if (was_fresh) set_fresh(id, expansion.missing_f);
   open(id);
 }
 
@@ -67,8 +67,8 @@ void SafeIntervalSearch::move(Expansion& expansion, Direction d) {
   const std::int32_t latest = from.end;  // the agent leaves before the interval ends
   for (std::int32_t t = from.t + 1; t <= latest;) {
     if (const std::int32_t f = estimate(expansion.leg, to, t, false); f > focal_.focal_bound()) {
-      expansion.left_out = std::min(expansion.left_out, f);
-      // Later is dearer, but for the time when the path may end.
+      expansion.missing_f = std::min(expansion.missing_f, f);
+      // Later arrivals cost more, except for the first time at which the path may end.
       if (t >= request_->constraints.finish_from() || request_->table.distance(expansion.leg, to) > 0) return;
       t = request_->constraints.finish_from();
       continue;
@@ -79,7 +79,7 @@ void SafeIntervalSearch::move(Expansion& expansion, Direction d) {
       return t <= latest && t < interval.end;
     };
     if (interval.is_allowed && skip_forbidden()) {
-      // Only someone who is there just before can swap.
+      // Only an agent that is at `to` one step before can swap.
       const std::int32_t swaps =
           t == interval.first ? request_->others.count_at(from.location, to, t) - interval.conflicts : 0;
       add_successor(expansion, to, d, interval, t, interval.conflicts + swaps);
@@ -91,7 +91,7 @@ void SafeIntervalSearch::move(Expansion& expansion, Direction d) {
   }
 }
 
-// On in the same place: in the next interval, or, where a tour has the same goal twice, in the same.
+// Stays at the location: until the next interval or, where the tour has the same goal twice, within this one.
 void SafeIntervalSearch::wait(Expansion& expansion) {
   const Node& from = expansion.from;
   const Agent& agent = request_->agent;
@@ -113,7 +113,7 @@ void SafeIntervalSearch::add_successor(Expansion& expansion, Location to, Direct
                              expansion.leg == request_->agent.last_leg();
   const std::int32_t f = estimate(expansion.leg, to, t, waited_at_end);
   if (f > focal_.focal_bound()) {
-    expansion.left_out = std::min(expansion.left_out, f);
+    expansion.missing_f = std::min(expansion.missing_f, f);
     return;
   }
   if (f <= from.expanded_to || f > request_->constraints.finish_until()) return;
@@ -132,11 +132,11 @@ void SafeIntervalSearch::add_successor(Expansion& expansion, Location to, Direct
   offer(node);
 }
 
-// Keeps a node unless one of the same interval came as early with as few conflicts.
+// Adds a node unless one of the same interval is as early with as few conflicts.
 void SafeIntervalSearch::offer(const Node& node) {
   Id& first = first_at(node.location);
   bool is_earliest = true;
-  std::int32_t fresh_f = -1;  // what a node that gives way still had to say about cost, the new one has to say now
+  std::int32_t fresh_f = -1;  // inherited from an equally early node that the new one replaces
   for (Id* link = &first; *link != none;) {
     Node& other = nodes_[*link];
     if (other.first != node.first || other.leg != node.leg || other.waited_at_end != node.waited_at_end) {
@@ -168,7 +168,7 @@ void SafeIntervalSearch::offer(const Node& node) {
   open(id);
 }
 
-// The agent may stay where the node is: a node of its own, since others that pass there later count.
+// Adds the node in which the agent comes to rest here. Its conflicts include those with agents that pass later.
 void SafeIntervalSearch::offer_end(Id id) {
   Node end = nodes_[id];
   end.parent = id;
@@ -202,14 +202,14 @@ SafeIntervalSearch::Interval SafeIntervalSearch::interval_at(Location location, 
   }
   const Agent& agent = request_->agent;
   const std::int32_t finish_from = constraints.finish_from();
-  // Where all goals left of a tour are here, who comes before it may end has to go away again: the step in which it
-  // ends must not be a wait.
+  // Where all remaining goals are this location, an agent that arrives before it may come to rest has to leave again:
+  // a path must not end with a wait.
   const auto is_here = [&](Location goal) { return goal == location; };
   if (leg < agent.last_leg() && std::all_of(agent.goals.begin() + leg, agent.goals.end(), is_here)) {
     if (t < finish_from) return {t, t + 1, true, interval.conflicts};
     interval.first = std::max(interval.first, finish_from);
   }
-  // Where the path may end, those times are not like the ones before.
+  // Times at which the path may end differ from those before.
   if (location == agent.last_goal() && leg == agent.last_leg()) {
     if (t < finish_from)
       interval.end = std::min(interval.end, finish_from);

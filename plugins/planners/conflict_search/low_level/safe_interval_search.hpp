@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// safe_interval_search.hpp: the low level over safe intervals (Phillips, Likhachev 2011): the times at a location that
-// are alike form one interval, whose earliest time stands for all of them.
+// safe_interval_search.hpp: the low level over safe intervals (Phillips, Likhachev 2011): equivalent times at a
+// location form one interval, represented by its earliest reachable time.
 //
-// Constraints bound the intervals, and so do the paths of others (soft, as in SIPPS: Li et al. 2022): between two
-// visits of others one interval is free of conflicts, each step of a visit is an interval of its own with conflicts,
-// and where somebody rests for good that is one interval with one conflict.
+// Constraints delimit the intervals, and so do the paths of the other agents (softly, as in SIPPS: Li et al. 2022).
+// Between two visits lies one interval without conflicts; each step of a visit is an interval with conflicts; the time
+// after an agent has come to rest is one interval with one conflict.
 //
-// A node is expanded as far as the bound goes, and again when it has moved on: whoever may wait long has many
-// successors, most of them never of use.
+// Expansion is partial: a node gets its successors up to the bound, and is expanded again when the bound has risen. An
+// agent that may wait long has many successors, most of which are never needed.
 #pragma once
 
 #include "planners/conflict_search/low_level/focal_list.hpp"
@@ -27,7 +27,7 @@ class SafeIntervalSearch {
   using Id = FocalList::Id;
   static constexpr Id none = FocalList::none;
 
-  // Times from `first` to before `end` at one location that are alike.
+  // Equivalent times at one location, from `first` to before `end`.
   struct Interval {
     std::int32_t first;
     std::int32_t end;
@@ -40,24 +40,24 @@ class SafeIntervalSearch {
     std::int32_t first;  // of the interval
     std::int32_t end;
     std::int32_t t;  // of arrival
-    std::int32_t f;  // or, where a part of the successors was left out, their least f
+    std::int32_t f;  // after a partial expansion: the least f of the successors that are missing
     std::int32_t conflicts;
     std::int32_t turns;
     Id parent;
     Id next;                        // at the same location
     std::int32_t expanded_to = -1;  // f of the successors it has
-    std::int32_t fresh_f = -1;      // it counts as fresh there; or -1
+    std::int32_t fresh_f = -1;      // the f for which the node counts as fresh, or -1
     std::uint8_t heading = GridGraph::no_direction;
-    bool waited_at_end = false;  // its last step is a wait where the path could have ended: it cannot end here then
+    bool waited_at_end = false;  // its last step is a wait at the end of the tour; the path cannot end here then
     bool is_open = false;
-    bool is_end = false;  // stays there for good; its conflicts are those until then, too
+    bool is_end = false;  // comes to rest here; `conflicts` include those of resting
   };
-  // What the expansion of a node is about.
+  // A node under expansion.
   struct Expansion {
     Id id;
     Node from;
-    std::int32_t leg;                 // of the next step
-    std::int32_t left_out = forever;  // least f of the successors beyond the bound
+    std::int32_t leg;                  // of the next step
+    std::int32_t missing_f = forever;  // least f of the successors beyond the bound
   };
 
   void reset(const LowLevelRequest& request);
@@ -83,7 +83,7 @@ class SafeIntervalSearch {
     std::uint32_t epoch = 0;
     Id first = none;
   };
-  std::vector<Slot> slots_;  // by location: the last node added there, if it is of this search
+  std::vector<Slot> slots_;  // by location: the last node added there in this search
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;
 };

@@ -71,7 +71,7 @@ void SpaceTimeSearch::expand(Id id) {
   }
 }
 
-// Keeps a node unless a better one of the same key is known.
+// Adds a node unless a better one with the same key is known.
 void SpaceTimeSearch::offer(Node node) {
   node.f =
       std::max(least_cost_by_way_of(*request_, node.leg, node.location, node.t, node.waited_at_end), focal_.least_f());
@@ -86,7 +86,7 @@ void SpaceTimeSearch::offer(Node node) {
   Id& known = slot_of(node.key);
   if (known != none) {
     const Node& other = nodes_[known];
-    // by time, not by f: where a lower bound has raised f, the later node may have the same
+    // by time, not by f: with f raised to the lower bound, a later node may have the same f
     const auto rank = [](const Node& n) { return std::tuple(n.t, n.conflicts, n.turns); };
     const bool is_only_straighter = other.t == node.t && other.conflicts == node.conflicts;
     if (rank(other) <= rank(node) || (is_only_straighter && !other.is_open)) return;
@@ -99,7 +99,7 @@ void SpaceTimeSearch::offer(Node node) {
   if (nodes_.size() * 2 > slots_.size()) grow_slots();
 }
 
-// The agent may stay where the node is: a node of its own, since others that pass there later count.
+// Adds the node in which the agent comes to rest here. Its conflicts include those with agents that pass later.
 void SpaceTimeSearch::offer_end(Id id) {
   Node end = nodes_[id];
   end.parent = id;
@@ -110,7 +110,7 @@ void SpaceTimeSearch::offer_end(Id id) {
   open(nodes_.back());
 }
 
-// Whether the next landmark is near enough for the time that is left.
+// Whether the agent can still reach the next landmark in time.
 bool SpaceTimeSearch::can_keep_landmarks(Location location, std::int32_t t) const {
   const auto steps_to = [&](Location to) {
     const std::int32_t width = graph_.width();
@@ -121,7 +121,7 @@ bool SpaceTimeSearch::can_keep_landmarks(Location location, std::int32_t t) cons
   return true;
 }
 
-// The node is the last one.
+// Opens the last node.
 void SpaceTimeSearch::open(const Node& node) {
   const auto id = static_cast<Id>(nodes_.size() - 1);
   nodes_[id].is_open = true;
@@ -153,7 +153,7 @@ SpaceTimeSearch::Id& SpaceTimeSearch::slot_of(std::uint64_t key) {
 void SpaceTimeSearch::grow_slots() {
   slots_.assign(slots_.size() * 2, {});
   epoch_ = 1;
-  // of nodes with one key the last one is the best
+  // of nodes with equal keys the last one is the best
   for (Id id = 0; id < nodes_.size(); ++id)
     if (!nodes_[id].is_end) slot_of(nodes_[id].key) = id;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// space_time_search.hpp: the low level over single steps: nodes are (location, time, leg). Slower than safe intervals,
-// and simpler: the measure for them.
+// space_time_search.hpp: the low level over single steps: nodes are (location, time, leg). Slower and simpler than safe
+// intervals, which are tested against it.
 #pragma once
 
 #include "planners/conflict_search/low_level/focal_list.hpp"
@@ -12,8 +12,8 @@ class SpaceTimeSearch {
  public:
   explicit SpaceTimeSearch(const GridGraph& graph) : graph_(graph) {}
 
-  // From the last constraint and the last move of the others on, time is not told apart: of two ways to be somewhere
-  // then the earlier one is kept, even if it has more conflicts.
+  // After the last constraint and the last move of the others, times are not distinguished: of two ways to be somewhere
+  // then the search keeps the earlier one, even if it has more conflicts.
   LowLevelResult search(const LowLevelRequest& request, StopSignal& stop, LowLevelPath& found);
 
   std::int64_t expanded() const { return expanded_; }
@@ -23,7 +23,7 @@ class SpaceTimeSearch {
   static constexpr Id none = FocalList::none;
 
   struct Node {
-    std::uint64_t key;  // where, when and in which leg: equal for nodes of which only the best is kept
+    std::uint64_t key;  // place, time and leg; of nodes with equal keys only the best one is kept
     Id parent;
     Location location;
     std::int32_t t;
@@ -32,10 +32,10 @@ class SpaceTimeSearch {
     std::int32_t conflicts;
     std::int32_t turns;
     std::uint8_t heading = GridGraph::no_direction;
-    bool waited_at_end = false;  // its last step is a wait where the path could have ended: it cannot end here then
+    bool waited_at_end = false;  // its last step is a wait at the end of the tour; the path cannot end here then
     bool is_open = false;
     bool is_fresh = false;
-    bool is_end = false;  // stays there for good; its conflicts are those until then, too
+    bool is_end = false;  // comes to rest here; `conflicts` include those of resting
   };
   struct Slot {
     std::uint32_t epoch = 0;
@@ -55,7 +55,7 @@ class SpaceTimeSearch {
 
   const GridGraph& graph_;
   const LowLevelRequest* request_ = nullptr;
-  std::int32_t horizon_ = 0;  // from here on time is not told apart
+  std::int32_t horizon_ = 0;  // from here on times are not distinguished
   FocalList focal_;
   std::vector<Node> nodes_;
   std::vector<Slot> slots_;  // open addressing by key

@@ -9,7 +9,7 @@ namespace dmrp::planners {
 
 namespace {
 
-// An agent that can only go round is not followed further than that many steps more than its path has.
+// The search for another way gives up at that many steps more than the agent's path has.
 constexpr std::int32_t longest_detour = 64;
 
 std::array<Location, GridGraph::direction_count> neighbors_of(const GridGraph& graph, Location location) {
@@ -38,7 +38,7 @@ Corridors::Corridors(const GridGraph& graph)
   }
 }
 
-// Adds the corridor that starts there, unless it leads back to its start.
+// Adds the corridor that begins with `end` and `first`, unless it leads back to its start.
 void Corridors::follow(const GridGraph& graph, Location end, Location first) {
   std::vector<Location> cells = {end, first};
   while (cells.back() != end && has_two_neighbors(graph, cells.back())) {
@@ -57,8 +57,8 @@ void Corridors::follow(const GridGraph& graph, Location end, Location first) {
 
 namespace {
 
-// The way of an agent in a corridor from time t on: towards its last location, if `to_last`, or its first. Nothing if
-// the path goes elsewhere.
+// The way of an agent in a corridor from time t on, towards the corridor's last location if `to_last`, otherwise
+// towards its first. Nothing if the path goes elsewhere.
 std::optional<Passage::Way> way_through(const Corridors& corridors, const Corridors::Corridor& corridor, PathView path,
                                         std::int32_t t, bool to_last) {
   Passage::Way way{corridor.end(to_last), to_last ? corridor.cells[corridor.cells.size() - 2] : corridor.cells[1],
@@ -74,7 +74,7 @@ std::optional<Passage::Way> way_through(const Corridors& corridors, const Corrid
   return way;
 }
 
-// Whether both agents start inside and each is past the other already.
+// Whether both agents start inside and have already passed each other.
 bool have_passed(const Corridors& corridors, const Corridors::Corridor& corridor, PathView path_a, PathView path_b,
                  bool a_to_last) {
   const Location a = path_a.front();
@@ -83,7 +83,7 @@ bool have_passed(const Corridors& corridors, const Corridors::Corridor& corridor
   return (corridors.position(a) > corridors.position(b)) == a_to_last;
 }
 
-// Of the whole corridor.
+// The agents' ways if the passage is the whole corridor.
 std::optional<Passage::Ways> whole_ways(const Corridors& corridors, const Corridors::Corridor& corridor, std::int32_t t,
                                         PathView path_a, PathView path_b) {
   for (const bool a_to_last : {false, true}) {
@@ -97,7 +97,7 @@ std::optional<Passage::Ways> whole_ways(const Corridors& corridors, const Corrid
 
 constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
 
-// By position in the corridor: when the path is there first, or never.
+// By position in the corridor: the first time at which the path is there, or never.
 std::vector<std::int32_t> first_times(const Corridors& corridors, const Corridors::Corridor& corridor, PathView path) {
   std::vector<std::int32_t> times(corridor.cells.size(), never);
   for (std::size_t t = path.size(); t-- > 0;) {
@@ -109,8 +109,8 @@ std::vector<std::int32_t> first_times(const Corridors& corridors, const Corridor
   return times;
 }
 
-// The way of an agent to a position, on the part of a corridor that begins `length` steps before. Nothing if the path
-// never goes that way, or first gets there by another.
+// The way of an agent to a position through the part of the corridor that begins `length` steps before it. Nothing if
+// the path never goes that way, or first reaches the position by another way.
 std::optional<Passage::Way> way_to(const Corridors::Corridor& corridor, PathView path,
                                    const std::vector<std::int32_t>& times, std::int32_t position, bool ascending,
                                    std::int32_t length) {
@@ -121,8 +121,8 @@ std::optional<Passage::Way> way_to(const Corridors::Corridor& corridor, PathView
   return Passage::Way{corridor.cells[at], before, length, 0};
 }
 
-// The longest part of the corridor through which both paths go at a time, in opposite directions as far as the times
-// tell.
+// The longest part of the corridor in which both paths are at the same time, in opposite directions according to their
+// first times.
 std::optional<Passage::Ways> partial_ways(const Corridors& corridors, const Corridors::Corridor& corridor,
                                           PathView path_a, PathView path_b) {
   const std::vector<std::int32_t> times_a = first_times(corridors, corridor, path_a);
@@ -151,15 +151,15 @@ std::optional<Passage> passage_in(const Corridors& corridors, const Corridors::C
   return std::nullopt;
 }
 
-// When the path is through or, if its way ends inside, at rest.
+// The time at which the path leaves the passage or, if its way ends inside, comes to rest.
 std::int32_t arrival_of(PathView path, const Passage::Way& way) {
   if (way.ends_inside()) return cost_of(path);
   return static_cast<std::int32_t>(std::find(path.begin(), path.end(), way.exit) - path.begin());
 }
 
-// Whether all paths of the MDD are at the location before time t.
+// Whether all paths of the MDD visit the location before time t.
 bool must_be_there_before(const GridGraph& graph, const Mdd& mdd, Location location, std::int32_t t) {
-  std::vector<Location> before;  // where paths can be that have not been there
+  std::vector<Location> before;  // nodes of paths that have not visited it
   std::vector<Location> here;
   for (std::int32_t at = 0; at < t && at <= mdd.cost(); ++at) {
     here.clear();
@@ -178,38 +178,38 @@ bool must_be_there_before(const GridGraph& graph, const Mdd& mdd, Location locat
   return false;
 }
 
-std::optional<std::int32_t> arrival_at_exit(const CorridorAgent& who, const Passage::Way& way, bool around,
+std::optional<std::int32_t> arrival_at_exit(const CorridorAgent& agent, const Passage::Way& way, bool around,
                                             std::int32_t latest, EarliestArrival& search) {
   return search.search(
-      {who.agent, who.table, who.constraints, way.exit, around ? way.last_before_exit : nowhere, latest});
+      {agent.agent, agent.table, agent.constraints, way.exit, around ? way.last_before_exit : nowhere, latest});
 }
 
-// The earliest time at which an agent can be there (the exit or, inside, at rest) by another way, or `limit`. Inside it
-// may be by its way too, if it goes out for the other to come in: that takes two steps.
-std::optional<std::int32_t> arrival_around(const CorridorAgent& who, const Passage::Way& way, std::int32_t limit,
+// The earliest time at which an agent can be at its exit (or at rest inside) by another way, at most `limit`. To rest
+// inside it may also take its way, leave for the other agent to enter, and return: that takes two steps.
+std::optional<std::int32_t> arrival_around(const CorridorAgent& agent, const Passage::Way& way, std::int32_t limit,
                                            EarliestArrival& search) {
   std::int32_t latest = limit - 1 - way.beyond;
   if (way.ends_inside()) {
-    const auto through = arrival_at_exit(who, way, false, latest, search);
+    const auto through = arrival_at_exit(agent, way, false, latest, search);
     if (!through) return std::nullopt;
     latest = std::min(latest, *through + 1);
   }
-  const auto around = arrival_at_exit(who, way, true, latest, search);
+  const auto around = arrival_at_exit(agent, way, true, latest, search);
   if (!around) return std::nullopt;
   return *around + way.beyond;
 }
 
-// The times before which, for one agent or for the other, no path is there.
+// The times before which one agent or the other must not be at its exit (or rest inside).
 std::optional<std::array<std::int32_t, 2>> find_not_before(const Passage::Ways& ways,
                                                            const std::array<const CorridorAgent*, 2>& agents,
                                                            EarliestArrival& search) {
   std::array<std::int32_t, 2> of_path{};
   std::array<std::int32_t, 2> not_before{};
   for (std::size_t i = 0; i < 2; ++i) of_path[i] = arrival_of(agents[i]->path, ways[i]);
-  // Behind the other ...
+  // After the other agent ...
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t other = 1 - i;
-    if (ways[other].ends_inside()) {  // and stays
+    if (ways[other].ends_inside()) {  // and comes to rest
       not_before[i] = of_path[i] + longest_detour;
       continue;
     }
@@ -241,7 +241,7 @@ std::optional<Passage> find_passage(const Corridors& corridors, const Conflict& 
                      std::nullopt};
   }
   if (here != nullptr) return passage_in(corridors, *here, t, path_a, path_b);
-  // At an end: one agent comes out that the other is about to go into.
+  // At an end of a corridor one agent leaves it while the other is about to enter.
   for (const PathView path : {path_a, path_b}) {
     const Corridors::Corridor* left = corridors.inside(path[static_cast<std::size_t>(t - 1)]);
     if (left == nullptr) continue;

@@ -12,9 +12,9 @@ std::optional<SymmetrySplit> CorridorReasoning::find_split(const Passage& passag
                                                            const Party& a, const Party& b) {
   if (!scratch_) scratch_.emplace(problem_.graph, stop_);
   const auto known_of = [this](const Party& party, ConstraintTable& table) {
-    const auto who = static_cast<std::size_t>(party.agent);
-    table.fill(problem_.agents[who], party.constraints);
-    return CorridorAgent{problem_.agents[who], tables_[who], table, party.mdd, party.path};
+    const auto index = static_cast<std::size_t>(party.agent);
+    table.fill(problem_.agents[index], party.constraints);
+    return CorridorAgent{problem_.agents[index], tables_[index], table, party.mdd, party.path};
   };
   return find_corridor(problem_.graph, passage, conflict, known_of(a, scratch_->tables[0]),
                        known_of(b, scratch_->tables[1]), scratch_->earliest_arrival);

@@ -15,7 +15,7 @@ constexpr std::int32_t max_visits = 20'000;  // of one search
 EarliestArrival::EarliestArrival(const GridGraph& graph, StopSignal* stop)
     : graph_(&graph), stop_(stop), visited_in_(static_cast<std::size_t>(graph.location_count()), 0) {}
 
-// From landmark to landmark: the agent is at each, or has been where it is to go before.
+// One stage for each landmark: the agent is at the landmark at its time, unless it has reached query.to before.
 std::optional<std::int32_t> EarliestArrival::search(const Query& query) {
   Location from = query.agent.start;
   std::int32_t t = 0;
@@ -66,7 +66,7 @@ EarliestArrival::Outcome EarliestArrival::search_stage(const Query& query, Locat
   return Outcome::too_late;
 }
 
-// The agent may wait before it moves: to each neighbor at the earliest time of each safe interval there.
+// Adds the arrivals at the neighbors, after any wait: the earliest time of each safe interval there.
 void EarliestArrival::expand(const Query& query, Location from, std::int32_t t, std::int32_t latest) {
   const ConstraintTable& constraints = query.constraints;
   for (Direction d = 0; d < GridGraph::direction_count; ++d) {
@@ -90,13 +90,13 @@ void EarliestArrival::expand(const Query& query, Location from, std::int32_t t, 
   }
 }
 
-// Only puts it at the end of the heap's array.
+// Appends to the heap's array without restoring the heap.
 void EarliestArrival::push(const Query& query, Location location, std::int32_t t, std::int32_t latest) {
   const std::int32_t estimate = t + lower_bound(query, location);
   if (estimate <= latest) open_.push_back({estimate, t, location});
 }
 
-// False if the agent could have been there before and have waited.
+// False if an earlier visit could have waited until then.
 bool EarliestArrival::visit(const ConstraintTable& constraints, Location location, std::int32_t t) {
   if (!constraints.constrains(location)) {
     std::uint32_t& visited = visited_in_[static_cast<std::size_t>(location)];
@@ -112,7 +112,8 @@ bool EarliestArrival::visit(const ConstraintTable& constraints, Location locatio
   return true;
 }
 
-// Moves can be undone, so the ways from two places to the agent's last goal differ by no more than the way in between.
+// The graph is symmetric, so the distances from two places to the last goal differ by at most the distance between
+// them.
 std::int32_t EarliestArrival::lower_bound(const Query& query, Location from) const {
   const std::int32_t leg = query.agent.last_leg();
   return std::abs(query.table.distance(leg, from) - query.table.distance(leg, query.to));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// earliest_arrival.hpp: how early an agent can be at a location, under its constraints.
+// earliest_arrival.hpp: the earliest time at which an agent can be at a location, under its constraints.
 //
-// A* over locations and the stretches of time during which the agent may stay there (safe intervals; Phillips and
-// Likhachev 2011): without constraints each location is met once, however far away the time.
+// A* over locations and safe intervals, the time spans during which the agent may stay there (Phillips, Likhachev
+// 2011). A location without constraints is visited once, whatever the time.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@ class EarliestArrival {
     const TourTable& table;
     const ConstraintTable& constraints;
     Location to;
-    Location not_from = nowhere;  // the move from here to `to` is taken out of the graph
+    Location not_from = nowhere;  // the search ignores the move from here to `to`
     std::int32_t latest = 0;
   };
 
-  // A time before which the agent cannot be there: the earliest but for what is asked of it after it has been there;
-  // latest + 1 if that is after query.latest. Nothing if it takes too long to find out or `stop` says so. The graph
-  // must be symmetric.
+  // A lower bound of the time at which the agent can be there: ignores constraints that apply after the arrival.
+  // query.latest + 1 if it is later than query.latest. Nothing if the search takes too long or `stop` was raised. The
+  // graph must be symmetric.
   std::optional<std::int32_t> search(const Query& query);
 
  private:

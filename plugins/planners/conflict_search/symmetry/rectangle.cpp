@@ -18,7 +18,7 @@ struct Coordinates {
   std::int32_t w;
 };
 
-// Coordinates as one agent sees them: u along its own step into the conflict, w along the other's.
+// The coordinates of one agent: u along its own step into the conflict, w along the other agent's.
 struct Frame {
   std::int32_t width;
   Location origin;
@@ -37,7 +37,7 @@ struct Frame {
   std::int32_t time(Coordinates c) const { return t + c.u + c.w; }
   bool in_phase(Coordinates c, std::int32_t time_there) const { return time(c) == time_there; }
 
-  // Of an agent that steps into the conflict in that direction, while the other does so in a perpendicular one.
+  // The frame of the other agent, whose step into the conflict is perpendicular to this agent's.
   Frame of_the_other() const { return {width, origin, t, along_w, along_u}; }
 };
 
@@ -46,9 +46,9 @@ constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min() / 2;
 // The nodes of an MDD at one time.
 struct FrontNode {
   Location location;
-  bool pure;                  // in phase, like all that lead to it since the time of the separation
-  bool is_entry;              // some way comes from the column before
-  std::int32_t least_column;  // of all ways here, the least of the highest columns reached while pure; or none
+  bool pure;                  // in phase, like all its ancestors since the separation
+  bool is_entry;              // has a parent in the column before
+  std::int32_t least_column;  // the least, over all ways here, of the highest column reached while pure; or none
   bool operator<(const FrontNode& other) const { return location < other.location; }
 };
 using Front = std::vector<FrontNode>;
@@ -58,23 +58,23 @@ const FrontNode* find(const Front& front, Location location) {
   return at != front.end() && at->location == location ? &*at : nullptr;
 }
 
-// What may become a barrier of an agent: the pure nodes with one u, by ascending w.
+// A candidate for a barrier of an agent: the pure nodes with one u, by ascending w.
 struct Column {
   std::vector<std::int32_t> rows;
-  std::int32_t highest_entry = none;  // where MDD paths come in from the column before
-  std::int32_t entry_of_path = 0;     // where the path at hand comes in
+  std::int32_t highest_entry = none;  // row of the last entry from the column before, over all MDD paths
+  std::int32_t entry_of_path = 0;     // row in which the current path enters
 
   std::int32_t count_up_to(std::int32_t row) const {
     return static_cast<std::int32_t>(std::upper_bound(rows.begin(), rows.end(), row) - rows.begin());
   }
 };
 
-// The way of one agent through the rectangle: columns from zero on, as far as the path at hand is pure.
+// The way of one agent through the rectangle: columns from 0 on, as far as the current path is pure.
 struct Crossing {
   std::vector<Column> columns;
-  std::int32_t crossed_by_all = none;  // every MDD path crosses the columns up to this one while pure
+  std::int32_t crossed_by_all = none;  // all MDD paths cross the columns up to this one while pure
 
-  // Whether all MDD paths are on the barrier at this column and up to this row at some time.
+  // Whether all MDD paths meet the barrier at this column and up to this row.
   bool is_closed_by(std::int32_t column, std::int32_t row) const {
     return column <= crossed_by_all && columns[static_cast<std::size_t>(column)].highest_entry <= row;
   }
@@ -111,22 +111,22 @@ std::int32_t highest_u(const Frame& frame, std::span<const Mdd::Node> level, std
   return highest;
 }
 
-// The last time up to the conflict at which all nodes of a are to the left of all of b (as far as they are in phase);
-// the paths at hand are in phase from then on.
+// The last time up to the conflict at which all nodes of a that are in phase are to the left of all such nodes of b.
+// Nothing if the current paths are not in phase from then on.
 std::optional<std::int32_t> find_separation(const Frame& frame, const Mdd& mdd_a, const Mdd& mdd_b, PathView path_a,
                                             PathView path_b) {
   const Frame frame_b = frame.of_the_other();
   for (std::int32_t t = frame.t; t >= 0; --t) {
     const auto at = static_cast<std::size_t>(t);
     if (!frame.in_phase(frame.at(path_a[at]), t) || !frame.in_phase(frame.at(path_b[at]), t)) return std::nullopt;
-    // b's u is what its w leaves of t.
+    // b's u is the rest of t after its w.
     const std::int32_t lowest_u_of_b = t - frame.t - highest_u(frame_b, mdd_b.level(t), t);
     if (highest_u(frame, mdd_a.level(t), t) <= lowest_u_of_b) return t;
   }
   return std::nullopt;
 }
 
-// The front of the first time.
+// The front at the time of the separation.
 Front first_front(const Frame& frame, const Mdd& mdd, std::int32_t t) {
   Front front;
   for (const Mdd::Node& node : mdd.level(t)) {
@@ -137,8 +137,7 @@ Front first_front(const Frame& frame, const Mdd& mdd, std::int32_t t) {
   return front;
 }
 
-// The front after `before`. A step that a constraint forbids counts as a step here: that can only take nodes out of
-// the pure ones.
+// The front after `before`. Ignores that constraints forbid some steps: this can only make fewer nodes pure.
 Front next_front(const GridGraph& graph, const Frame& frame, const Mdd& mdd, std::int32_t t, const Front& before) {
   Front front;
   const bool all_ways_are_known = t < mdd.cost() || !mdd.may_wait_at_end();
@@ -204,12 +203,12 @@ Crossing make_crossing(const GridGraph& graph, const Frame& frame, const Mdd& md
 struct Corner {
   std::int32_t u = 0;
   std::int32_t w = 0;
-  std::int32_t closed = -1;         // agents all whose MDD paths meet their barrier
+  std::int32_t closed = -1;         // agents of which all MDD paths meet their barrier
   std::int32_t pairs_of_nodes = 0;  // one of each barrier
 };
 
-// The corner whose barriers raise the costs of most agents, and of those the one that rules out most. Both paths at
-// hand meet their barriers.
+// The corner whose barriers raise the cost of most agents and, of these, the one that rules out most pairs of nodes.
+// Both current paths meet their barriers.
 Corner choose_corner(const Crossing& a, const Crossing& b) {
   Corner best;
   for (std::int32_t u = 0; u < static_cast<std::int32_t>(a.columns.size()); ++u)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// symmetry_split.hpp: a way to part two agents that settles many of their conflicts at once.
+// symmetry_split.hpp: a split that resolves many conflicts of two agents at once.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace dmrp::planners {
 
-// Two sets of constraints, of conflict.a and of conflict.b. Every two paths of the agents that satisfy the constraints
-// they have by now and do not conflict satisfy all of at least one set. The paths at hand satisfy neither.
+// Two sets of constraints, on conflict.a and on conflict.b. Any two paths that satisfy the agents' present constraints
+// and do not conflict satisfy one of the sets. The current paths satisfy neither.
 struct SymmetrySplit {
   std::array<std::vector<Constraint>, 2> constraints;
-  std::array<bool, 2> raises_cost{};  // no path of the agent's least cost satisfies its set
+  std::array<bool, 2> raises_cost{};  // whether no path of the agent's least cost satisfies its set
 };
 
 }  // namespace dmrp::planners

@@ -97,7 +97,7 @@ TEST_CASE("a trace comes back from its file", "[mcap]") {
   CHECK(read_trace(file.path()) == trace);
 }
 
-TEST_CASE("a trace that stays in its file is read as often as wanted", "[mcap]") {
+TEST_CASE("a trace that stays in its file is read repeatedly", "[mcap]") {
   const ScratchFile file;
   const TraceBytes trace = write_example(file, many_samples);
   const std::size_t most_bytes_in_memory = GENERATE(std::size_t{0}, std::size_t{100'000}, std::size_t{100'000'000});
@@ -128,7 +128,7 @@ TEST_CASE("a trace that stays in its file is read as often as wanted", "[mcap]")
   }
 }
 
-TEST_CASE("a spool gives records back, whatever changes from one to the next", "[mcap]") {
+TEST_CASE("a spool gives records back, with any changes between them", "[mcap]") {
   const ScratchFile file;
   TraceSpool spool(file.path());
   CHECK_FALSE(std::filesystem::exists(file.path()));
@@ -195,7 +195,7 @@ TEST_CASE("a damaged file is refused", "[mcap]") {
   CHECK_THROWS_AS(read_trace(file.path()), std::system_error);
 }
 
-TEST_CASE("whatever byte is wrong, a file is read or refused", "[mcap]") {
+TEST_CASE("with any wrong byte a file is read or refused", "[mcap]") {
   const ScratchFile file;
   const TraceBytes trace = write_example(file, 60);
   const TraceBytes whole = file.bytes();
@@ -266,7 +266,7 @@ TEST_CASE("the file ends with a summary whose offsets lead to its records", "[mc
   CHECK(groups == std::vector<std::uint8_t>{0x03, 0x04, 0x08, 0x0B});
 }
 
-TEST_CASE("numbers of messages have four decimals and are always numbers", "[mcap]") {
+TEST_CASE("numbers in messages have four decimals and are always finite", "[mcap]") {
   const auto text = [](double value) { return JsonText().number(value).text(); };
   CHECK(text(0.0) == "0");
   CHECK(text(-0.00004) == "0");
@@ -280,7 +280,7 @@ TEST_CASE("numbers of messages have four decimals and are always numbers", "[mca
   CHECK(JsonText().string("a \"b\"\\\n\x01 \xC3\xB6").text() == "\"a \\\"b\\\"\\\\\\u000a\\u0001 \xC3\xB6\"");
 }
 
-TEST_CASE("what there is to look at stands beside the trace", "[mcap]") {
+TEST_CASE("a trace file contains the channels for Foxglove", "[mcap]") {
   const ScratchFile file;
   {
     TraceFileWriter writer(file.path());
@@ -288,7 +288,7 @@ TEST_CASE("what there is to look at stands beside the trace", "[mcap]") {
         12, [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { writer.write(t_ns, record); },
         &writer.foxglove());
     const std::array<std::uint32_t, 2> robots{0, 1};
-    writer.foxglove().mark({"sto", 40'000'000, 1'240'000'000, robots, "near"});
+    writer.foxglove().metric_event({"sto", 40'000'000, 1'240'000'000, robots, "near"});
     writer.finish();
   }
   std::vector<std::string> seen;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// People who come and go: crowds that begin in a region, leave for good, or walk as they were recorded.
+// Crowds that start in a region, leave the world, or walk along recorded tracks.
 #include <catch2/catch.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <map>
@@ -8,8 +8,7 @@
 
 #include "core/execution/ending.hpp"
 #include "core/people/crowd_lattice.hpp"
-#include "core/world/world.hpp"
-#include "tests/unit/core/sample_scenarios.hpp"
+#include "tests/unit/core/people/people_in_worlds.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
@@ -19,32 +18,13 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
-World world_of(const Scenario& scenario, std::uint64_t seed = 1) {
-  return World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), seed);
-}
-
-// A room of 9 m x 9 m with a way out in the east.
+// A room of 9 m x 9 m with an exit in the east.
 Scenario room(std::uint32_t people) {
   Scenario scenario = empty_scenario(14, 10);
   scenario.shapes = {box("wall, low", {10, 0}, {10.2, 4.5}), box("wall, high", {10, 5.5}, {10.2, 10})};
   scenario.regions = {{"room", {0.5, 0.5}, {9.5, 9.5}}, {"out", {12, 0.5}, {13, 9.5}}};
   scenario.flows = {{"leaving", {0, 1}, people, FlowStart::from, false}};
   return scenario;
-}
-
-std::vector<dmrp_vec2> straight_on(const World& world) {
-  std::vector<dmrp_vec2> velocities;
-  for (const dmrp_person& person : world.people())
-    velocities.push_back(person.desired_speed * toolkit::normalized(person.target - person.position));
-  return velocities;
-}
-
-double nearest_pair(std::span<const dmrp_person> people) {
-  double nearest_m = 1e9;
-  for (std::size_t a = 0; a < people.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      nearest_m = std::min(nearest_m, toolkit::distance(people[a].position, people[b].position));
-  return nearest_m;
 }
 
 Track track(std::vector<Track::Point> points) {
@@ -79,7 +59,7 @@ TEST_CASE("a crowd fills a region evenly, free and apart, up to nearly the close
   CHECK_THROWS_WITH(world_of(room(300)), Catch::Contains("no room in region 'room' for 300 people"));
 }
 
-TEST_CASE("flows that begin in the same region, or in regions that overlap, share the place") {
+TEST_CASE("flows that start in the same or in overlapping regions share the space") {
   Scenario scenario = room(40);
   scenario.regions.push_back({"corner", {5.0, 5.0}, {9.5, 9.5}});
   scenario.flows.push_back({"too", {0, 1}, 40, FlowStart::from, false});
@@ -93,7 +73,7 @@ TEST_CASE("flows that begin in the same region, or in regions that overlap, shar
     CHECK(toolkit::contains(toolkit::Rectangle{{5.0, 5.0}, {9.5, 9.5}}, world.people()[i].position));
 }
 
-TEST_CASE("who leaves for good gives up the place, the others keep their ids, and the trial ends with the last") {
+TEST_CASE("people who leave free their slots, the others keep their ids, and the trial ends with the last one") {
   Scenario scenario = room(30);
   scenario.shapes.clear();
   World world = world_of(scenario);
@@ -123,7 +103,7 @@ TEST_CASE("who leaves for good gives up the place, the others keep their ids, an
   CHECK(world.t_ns() < 60 * second_ns);
 }
 
-TEST_CASE("without robots a trial whose people stay ends at the time limit, not at once") {
+TEST_CASE("a trial without robots whose people stay ends at the time limit") {
   Scenario scenario = room(3);
   scenario.flows[0].respawn = true;
   const World world = world_of(scenario);
@@ -134,14 +114,12 @@ TEST_CASE("without robots a trial whose people stay ends at the time limit, not 
   CHECK(monitor.robot_ends(DMRP_ENDING_TIME_LIMIT, {}).empty());
 }
 
-TEST_CASE("the crowd at the beginning is the same however many robots take part") {
+TEST_CASE("the crowd at the beginning does not depend on the number of robots") {
   Scenario all = empty_scenario(30, 12);
   all.regions = {{"west", {0.5, 1}, {2.5, 11}}, {"east", {27.5, 1}, {29.5, 11}}};
   all.flows = {{"eastward", {0, 1}, 12}};
   for (int i = 0; i < 4; ++i) all.robots.push_back(robot({6.0 + 5.0 * i, 6.0, 0.0}, dmrp_vec2{25, 2.0 + i}));
-  Scenario none = all;
-  none.robots.clear();
-  for (const RobotTask& task : all.robots) none.other_starts.push_back({task.start.x, task.start.y});
+  const Scenario none = without_robots(all);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const World with = world_of(all, seed);
     const World without = world_of(none, seed);
@@ -153,7 +131,7 @@ TEST_CASE("the crowd at the beginning is the same however many robots take part"
   }
 }
 
-TEST_CASE("a track is straight and even from point to point") {
+TEST_CASE("motion between the points of a track is linear") {
   const Track way = track({{0, {0, 0}}, {2 * second_ns, {2, 0}}, {3 * second_ns, {2, 2}}});
   CHECK(position_on(way, second_ns / 2) == dmrp_vec2{0.5, 0.0});
   CHECK(position_on(way, 2 * second_ns + second_ns / 4) == dmrp_vec2{2.0, 0.5});
@@ -168,7 +146,7 @@ TEST_CASE("a track is straight and even from point to point") {
   CHECK(mean_speed(track({{5, {1, 1}}})) == 0.0);
 }
 
-TEST_CASE("recorded people come and leave with their tracks, and go along them to the point") {
+TEST_CASE("recorded people appear and leave with their tracks and follow them exactly") {
   Scenario scenario = room(2);
   scenario.flows[0].respawn = true;
   scenario.tracks = {track({{second_ns, {2, 2}}, {4 * second_ns, {5, 2}}}),
@@ -197,7 +175,7 @@ TEST_CASE("recorded people come and leave with their tracks, and go along them t
   CHECK(world.people().size() == 2);
 }
 
-TEST_CASE("nobody begins in a recorded person") {
+TEST_CASE("nobody starts on top of a recorded person") {
   Scenario scenario = room(60);
   for (const double x : {2.0, 4.0, 6.0, 8.0}) scenario.tracks.push_back(track({{0, {x, x}}, {second_ns, {x, x}}}));
   scenario.flows.push_back({"along", {0, 1}, 10});
@@ -206,7 +184,7 @@ TEST_CASE("nobody begins in a recorded person") {
   CHECK(nearest_pair(world.people()) >= 0.6);
 }
 
-TEST_CASE("a world of recorded people is deserted when the last has left, not before the first has come") {
+TEST_CASE("a world of recorded people is deserted after the last one left, not before the first one appears") {
   Scenario scenario = empty_scenario(10, 10);
   scenario.tracks = {track({{second_ns, {2, 2}}, {2 * second_ns, {3, 2}}})};
   World world = world_of(scenario);
@@ -216,8 +194,7 @@ TEST_CASE("a world of recorded people is deserted when the last has left, not be
   CHECK(world.t_ns() == 2 * second_ns + 20'000'000);
 }
 
-TEST_CASE(
-    "a recorded person walks through whoever stands there, and nobody is pushed; nor does anybody walk into them") {
+TEST_CASE("a recorded person walks through bodies without pushing them, and bodies stop at a recorded person") {
   Scenario scenario = empty_scenario(12, 6);
   scenario.robots = {robot({5, 3, 0}, dmrp_vec2{11, 3}), robot({9, 3, 3.14159265358979323846}, dmrp_vec2{1, 3})};
   scenario.tracks = {track({{0, {2, 3}}, {5 * second_ns, {7, 3}}, {15 * second_ns, {7, 3}}})};
@@ -225,7 +202,8 @@ TEST_CASE(
   bool touched = false;
   double deepest_m = 0.0;
   while (world.t_ns() < 15 * second_ns) {
-    if (world.t_ns() >= 6 * second_ns) world.set_command(1, {0.8, 0.0, 0.0});  // at the person, who stands by then
+    if (world.t_ns() >= 6 * second_ns)
+      world.set_command(1, {0.8, 0.0, 0.0});  // toward the person, who stands at this time
     world.step(std::vector<dmrp_vec2>(1));
     for (const dmrp_contact& contact : world.contacts()) {
       if (contact.kind != DMRP_CONTACT_PERSON) continue;

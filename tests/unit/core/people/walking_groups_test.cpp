@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flows whose people walk in groups: who is dealt to whom, where they begin, and that they come again together.
+// Flows whose people walk in groups: their division, first positions, and respawning.
 #include "core/people/walking_groups.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,8 +9,7 @@
 
 #include "core/execution/ending.hpp"
 #include "core/people/crowd_lattice.hpp"
-#include "core/world/world.hpp"
-#include "tests/unit/core/sample_scenarios.hpp"
+#include "tests/unit/core/people/people_in_worlds.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
@@ -19,11 +18,7 @@ using namespace dmrp::core::test;
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-constexpr double neighbors_m = 0.8;  // between companions who begin: two radii of 0.3 m and 0.2 m
-
-World world_of(const Scenario& scenario, std::uint64_t seed = 1) {
-  return World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), seed);
-}
+constexpr double neighbors_m = 0.8;  // between members at the beginning: two radii of 0.3 m and 0.2 m
 
 // A hall of 30 m x 12 m with two pillars; everybody walks eastward.
 Scenario hall(std::vector<Flow> flows) {
@@ -36,7 +31,7 @@ Scenario hall(std::vector<Flow> flows) {
 
 using Members = std::map<std::uint32_t, std::vector<dmrp_person>>;
 
-// By group; who walks alone is not there.
+// By group, without people who walk alone.
 Members members_of(const World& world) {
   Members members;
   for (const dmrp_person& person : world.people())
@@ -44,27 +39,12 @@ Members members_of(const World& world) {
   return members;
 }
 
-double nearest_pair(std::span<const dmrp_person> people) {
-  double nearest_m = 1e9;
-  for (std::size_t a = 0; a < people.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      nearest_m = std::min(nearest_m, toolkit::distance(people[a].position, people[b].position));
-  return nearest_m;
-}
-
-// The longest of the ways from a member to the one in the next slot.
+// The greatest distance between members in successive slots.
 double longest_step(const std::vector<dmrp_person>& members) {
   double longest_m = 0.0;
   for (std::size_t i = 1; i < members.size(); ++i)
     longest_m = std::max(longest_m, toolkit::distance(members[i - 1].position, members[i].position));
   return longest_m;
-}
-
-std::vector<dmrp_vec2> straight_on(const World& world) {
-  std::vector<dmrp_vec2> velocities;
-  for (const dmrp_person& person : world.people())
-    velocities.push_back(person.desired_speed * toolkit::normalized(person.target - person.position));
-  return velocities;
 }
 
 void check_standing(const Scenario& scenario, const World& world) {
@@ -81,22 +61,22 @@ void check_standing(const Scenario& scenario, const World& world) {
 
 }  // namespace
 
-TEST_CASE("people are dealt into groups by slot, a remainder forms a smaller one, who is alone has no group") {
-  const auto groups = deal_groups({{"pairs", {0, 1}, 5, FlowStart::along, true, 2},
-                                   {"singles", {0, 1}, 2},
-                                   {"nobody", {0, 1}, 0, FlowStart::along, true, 3},
-                                   {"triples", {0, 1}, 8, FlowStart::from, true, 3}});
-  std::vector<std::vector<std::uint32_t>> told;
+TEST_CASE("people form groups by slot, a remainder forms a smaller group, people alone have no group") {
+  const auto groups = divide_into_groups({{"pairs", {0, 1}, 5, FlowStart::along, true, 2},
+                                          {"singles", {0, 1}, 2},
+                                          {"nobody", {0, 1}, 0, FlowStart::along, true, 3},
+                                          {"triples", {0, 1}, 8, FlowStart::from, true, 3}});
+  std::vector<std::vector<std::uint32_t>> found;
   for (const WalkingGroup& group : groups)
-    told.push_back({group.flow, group.number, group.first_slot, group.size, group.id});
-  CHECK(told == std::vector<std::vector<std::uint32_t>>{{0, 0, 0, 2, 1},
-                                                        {0, 1, 2, 2, 2},
-                                                        {0, 2, 4, 1, 0},
-                                                        {1, 0, 5, 1, 0},
-                                                        {1, 1, 6, 1, 0},
-                                                        {3, 0, 7, 3, 3},
-                                                        {3, 1, 10, 3, 4},
-                                                        {3, 2, 13, 2, 5}});
+    found.push_back({group.flow, group.number, group.first_slot, group.size, group.id});
+  CHECK(found == std::vector<std::vector<std::uint32_t>>{{0, 0, 0, 2, 1},
+                                                         {0, 1, 2, 2, 2},
+                                                         {0, 2, 4, 1, 0},
+                                                         {1, 0, 5, 1, 0},
+                                                         {1, 1, 6, 1, 0},
+                                                         {3, 0, 7, 3, 3},
+                                                         {3, 1, 10, 3, 4},
+                                                         {3, 2, 13, 2, 5}});
 }
 
 TEST_CASE("a group stands side by side, from right to left, at most three in a row") {
@@ -116,8 +96,7 @@ TEST_CASE("a group stands side by side, from right to left, at most three in a r
   CHECK(widest_row(7) == 3);
 }
 
-TEST_CASE(
-    "companions begin side by side along the way, free and apart from others, with one speed and targets in a row") {
+TEST_CASE("members of a group start side by side, apart from others, with one desired speed and targets in a row") {
   Scenario scenario = hall({{"pairs", {0, 1}, 10, FlowStart::along, true, 2},
                             {"singles", {0, 1}, 6},
                             {"triples", {1, 0}, 11, FlowStart::along, true, 3}});
@@ -128,7 +107,7 @@ TEST_CASE(
     REQUIRE(world.people().size() == 27);
     check_standing(scenario, world);
     const Members members = members_of(world);
-    CHECK(members.size() == 9);  // five pairs, three triples, the two who were left
+    CHECK(members.size() == 9);  // five pairs, three triples, the remaining two
     for (const auto& [group, people] : members) {
       CHECK(people.size() == (group <= 5 ? 2 : group <= 8 ? 3 : 2));
       CHECK(longest_step(people) <= neighbors_m + 1e-9);
@@ -137,7 +116,7 @@ TEST_CASE(
         CHECK(people[i].desired_speed == people[0].desired_speed);
         CHECK(people[i].target_id == people[0].target_id);
         CHECK(toolkit::distance(people[i].target, people[i - 1].target) == Approx(neighbors_m));
-        // nobody has to change sides (where no row had room, they begin behind each other: 0)
+        // members do not have to swap sides (0: they start behind each other because no row had room)
         const dmrp_vec2 from = people[i].position - people[i - 1].position;
         const dmrp_vec2 to = people[i].target - people[i - 1].target;
         CHECK(toolkit::dot(from, to) > -1e-9);
@@ -148,7 +127,7 @@ TEST_CASE(
   CHECK(speeds.size() == 450);
 }
 
-TEST_CASE("where a row finds no room, companions begin behind each other") {
+TEST_CASE("members start behind each other where there is no room for a row") {
   Scenario scenario = empty_scenario(40, 1);
   scenario.regions = {{"west", {0.5, 0.3}, {4, 0.7}}, {"east", {36, 0.3}, {39.5, 0.7}}};
   scenario.flows = {{"triples", {0, 1}, 12, FlowStart::along, true, 3}};
@@ -159,7 +138,7 @@ TEST_CASE("where a row finds no room, companions begin behind each other") {
   }
 }
 
-TEST_CASE("groups and singles share a region at the beginning, near to companions, evenly, up to a dense crowd") {
+TEST_CASE("groups and single people share a region evenly, with members close together, up to a dense crowd") {
   for (const std::uint32_t each : {6u, 30u, 60u}) {  // 0.2 to 2.2 people a square metre
     Scenario scenario = empty_scenario(16, 10);
     scenario.shapes = {circle("pillar", {5, 5}, 1.0), box("screen", {2, 7.45}, {5, 7.5})};
@@ -187,7 +166,7 @@ TEST_CASE("groups and singles share a region at the beginning, near to companion
   }
 }
 
-TEST_CASE("groups that begin in a region stand in rows across their way") {
+TEST_CASE("groups that start in a region stand in rows across their way") {
   Scenario scenario = hall({{"pairs", {0, 1}, 12, FlowStart::from, true, 2}});
   int across = 0;
   int all = 0;
@@ -198,10 +177,10 @@ TEST_CASE("groups that begin in a region stand in rows across their way") {
       ++all;
     }
   CHECK(all == 60);
-  CHECK(across >= 54);  // but for those at the end of a row
+  CHECK(across >= 54);  // exceptions are at the ends of rows
 }
 
-TEST_CASE("a region too small for its groups is told") {
+TEST_CASE("an error names a region or flow that is too small for its groups") {
   Scenario scenario = hall({{"triples", {0, 1}, 300, FlowStart::from, true, 3}});
   CHECK_THROWS_WITH(world_of(scenario), Catch::Contains("no room in region 'west' for 300 people"));
   scenario = empty_scenario(6, 1);
@@ -210,13 +189,11 @@ TEST_CASE("a region too small for its groups is told") {
   CHECK_THROWS_WITH(world_of(scenario), Catch::Contains("no room along flow 'crowd' for 20 people in groups of 10"));
 }
 
-TEST_CASE("a group's crowd at the beginning is the same however many robots take part") {
+TEST_CASE("groups at the beginning do not depend on the number of robots") {
   Scenario all =
       hall({{"triples", {0, 1}, 12, FlowStart::along, true, 3}, {"from", {0, 1}, 6, FlowStart::from, true, 2}});
   for (int i = 0; i < 4; ++i) all.robots.push_back(robot({4.0 + 6.0 * i, 8.0, 0.0}, dmrp_vec2{25, 2.0 + i}));
-  Scenario none = all;
-  none.robots.clear();
-  for (const RobotTask& task : all.robots) none.other_starts.push_back({task.start.x, task.start.y});
+  const Scenario none = without_robots(all);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const World with = world_of(all, seed);
     const World without = world_of(none, seed);
@@ -229,7 +206,7 @@ TEST_CASE("a group's crowd at the beginning is the same however many robots take
   }
 }
 
-TEST_CASE("companions leave as they arrive and come again together, as new people of a new group") {
+TEST_CASE("members leave as they arrive and respawn together, as new people of a new group") {
   Scenario scenario = hall({{"triples", {0, 1}, 9, FlowStart::along, true, 3}, {"singles", {1, 0}, 3}});
   scenario.shapes.clear();
   World world = world_of(scenario, 3);
@@ -242,7 +219,7 @@ TEST_CASE("companions leave as they arrive and come again together, as new peopl
   };
   std::map<std::uint64_t, Seen> seen;
   while (world.t_ns() < 120 * second_ns) {
-    // one of each three dawdles, so that the others arrive long before
+    // one member of each group is slow, so that the others arrive long before
     std::vector<dmrp_vec2> velocities = straight_on(world);
     for (std::size_t i = 0; i < velocities.size(); ++i)
       if (world.people()[i].id % 12 % 3 == 1) velocities[i] = 0.6 * velocities[i];
@@ -275,7 +252,7 @@ TEST_CASE("companions leave as they arrive and come again together, as new peopl
     CHECK(companion->second.first_ns == one.first_ns);
     CHECK(toolkit::distance(companion->second.first, one.first) < 2.0 * neighbors_m + 0.1);
     CHECK(toolkit::contains(toolkit::Rectangle{{0.5, 1}, {2.5, 11}}, one.first));
-    // in the very step in which the last of those before left
+    // in the step in which the last member of the previous group left
     std::int64_t last_ns = 0;
     const std::uint64_t first_before = id - 12 - id % 12 % 3;
     for (std::uint64_t other = first_before; other < first_before + 3; ++other)
@@ -304,7 +281,7 @@ TEST_CASE("a group waits outside until there is room for all of it") {
   CHECK(world.people()[1].id == 3);
 }
 
-TEST_CASE("companions who leave for good leave one by one, and the trial ends with the last") {
+TEST_CASE("members who leave the world leave one by one, and the trial ends with the last one") {
   Scenario scenario = hall({{"pairs", {0, 1}, 7, FlowStart::from, false, 2}});
   World world = world_of(scenario);
   EndingMonitor monitor(0, 90 * second_ns);
@@ -317,7 +294,7 @@ TEST_CASE("companions who leave for good leave one by one, and the trial ends wi
   CHECK(ending == DMRP_ENDING_DESERTED);
 }
 
-TEST_CASE("companions go on through a region by themselves, to targets in a row") {
+TEST_CASE("members pass a region independently, to targets in a row") {
   Scenario scenario = hall({{"pair", {0, 2, 1}, 2, FlowStart::from, false, 2}});
   scenario.shapes.clear();
   scenario.regions.push_back({"middle", {14, 5}, {16, 7}});

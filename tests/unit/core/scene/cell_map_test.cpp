@@ -57,7 +57,7 @@ TEST_CASE("blocked cells become boxes, each cell in one of them") {
   }
 }
 
-TEST_CASE("walls become one box, whichever way they run") {
+TEST_CASE("walls become one box in either direction") {
   CHECK(core::boxes_of(cells({"@@@@", "@@@@"}), 1.0, {}).size() == 1);
   CHECK(core::boxes_of(cells({"....", "...."}), 1.0, {}).empty());
   CHECK(core::boxes_of(cells({"@@@@", "....", "@@@@"}), 1.0, {}).size() == 2);

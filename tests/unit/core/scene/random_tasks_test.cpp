@@ -25,7 +25,7 @@ dmrp_vec2 place(const dmrp_pose& pose) {
 
 }  // namespace
 
-TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reachable part of the world") {
+TEST_CASE("random starts and goals are free, on cell centres, apart, and in one connected part of the world") {
   Scenario scenario = random_scenario(3, 40.0, 60);
   // a closed room that nobody gets out of
   scenario.shapes.push_back(box("room, east", {8, 0}, {8.2, 8}));
@@ -35,7 +35,7 @@ TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reac
   const toolkit::GridView view(c_grid);
   std::set<std::pair<double, double>> starts;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const std::vector<RobotTask> tasks = draw_robots(grid, 20, seed);
+    const std::vector<RobotTask> tasks = random_tasks(grid, 20, seed);
     REQUIRE(tasks.size() == 20);
     const auto reachable = reachable_cells(grid, view.index_of(place(tasks[0].start)));
     for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -46,10 +46,10 @@ TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reac
         CHECK(reachable[view.index_of(point)]);
       }
       CHECK(std::isnan(tasks[i].start.theta));
-      CHECK(toolkit::distance(place(tasks[i].start), place(tasks[i].goals[0])) >= drawn_way_m);
+      CHECK(toolkit::distance(place(tasks[i].start), place(tasks[i].goals[0])) >= min_task_length_m);
       for (std::size_t k = 0; k < i; ++k) {
-        CHECK(toolkit::distance(place(tasks[i].start), place(tasks[k].start)) > drawn_apart_m);
-        CHECK(toolkit::distance(place(tasks[i].goals[0]), place(tasks[k].goals[0])) > drawn_apart_m);
+        CHECK(toolkit::distance(place(tasks[i].start), place(tasks[k].start)) > task_separation_m);
+        CHECK(toolkit::distance(place(tasks[i].goals[0]), place(tasks[k].goals[0])) > task_separation_m);
       }
     }
     starts.emplace(tasks[0].start.x, tasks[0].start.y);
@@ -57,10 +57,10 @@ TEST_CASE("drawn starts and goals stand free on cell centres, apart, in one reac
   CHECK(starts.size() > 15);
 }
 
-TEST_CASE("more robots are drawn beside the same ones") {
+TEST_CASE("the tasks of the first robots do not depend on the number") {
   const PlanningGrid grid = grid_of(empty_scenario(30, 30));
-  const auto few = draw_robots(grid, 4, 7);
-  const auto many = draw_robots(grid, 30, 7);
+  const auto few = random_tasks(grid, 4, 7);
+  const auto many = random_tasks(grid, 30, 7);
   REQUIRE(few.size() == 4);
   REQUIRE(many.size() == 30);
   for (std::size_t i = 0; i < few.size(); ++i) {
@@ -70,16 +70,16 @@ TEST_CASE("more robots are drawn beside the same ones") {
   }
 }
 
-TEST_CASE("where there is no room for all there are as many as were found, and what is sure is true") {
+TEST_CASE("without room for all there are fewer tasks, and has_room_for_tasks() is never wrong") {
   const PlanningGrid grid = grid_of(empty_scenario(12, 12));
-  CHECK(draw_robots(grid, 1000, 1).size() < 30);  // no two within 2 m on 144 cells
-  CHECK(draw_robots(grid, 1000, 1).size() > 8);
-  CHECK_FALSE(surely_room_for(grid, 12));
+  CHECK(random_tasks(grid, 1000, 1).size() < 30);  // no two within 2 m on 144 cells
+  CHECK(random_tasks(grid, 1000, 1).size() > 8);
+  CHECK_FALSE(has_room_for_tasks(grid, 12));
   std::size_t sure = 0;
-  while (surely_room_for(grid, sure + 1)) ++sure;
+  while (has_room_for_tasks(grid, sure + 1)) ++sure;
   CHECK(sure >= 4);  // 13 cells a robot, and 81 about its own start
-  for (std::uint64_t seed = 0; seed < 200; ++seed) REQUIRE(draw_robots(grid, sure, seed).size() == sure);
+  for (std::uint64_t seed = 0; seed < 200; ++seed) REQUIRE(random_tasks(grid, sure, seed).size() == sure);
   // a world too small for a way of 5 m
-  CHECK(draw_robots(grid_of(empty_scenario(4, 4)), 1, 1).empty());
-  CHECK(draw_robots(grid_of(empty_scenario(4, 4)), 0, 1).empty());
+  CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 1, 1).empty());
+  CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 0, 1).empty());
 }

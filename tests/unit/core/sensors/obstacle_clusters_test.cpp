@@ -156,7 +156,7 @@ void check_promises(const Sketch& sketch, const std::vector<dmrp_agent>& agents 
 
 }  // namespace
 
-TEST_CASE("nothing lethal gives no clusters, lone cells are points") {
+TEST_CASE("no lethal cells give no clusters, and single cells give points") {
   Sketch sketch(40, 30);
   sketch.set(3, 3, DMRP_COST_INSCRIBED);
   CHECK(clusters_of(sketch).empty());
@@ -234,7 +234,7 @@ TEST_CASE("a solid block is one polygon, counter-clockwise") {
   check_promises(disc);
 }
 
-TEST_CASE("what an agent accounts for is left out, and no shape leads over its place") {
+TEST_CASE("cells of an agent are excluded, and no shape covers its place") {
   Sketch sketch(100, 60);
   sketch.block(0, 40, 100, 1);
   sketch.arc(50.0, 20.0, 6.0, 0.0, 6.3);
@@ -250,7 +250,7 @@ TEST_CASE("what an agent accounts for is left out, and no shape leads over its p
   check_promises(sketch, leaning);
 }
 
-TEST_CASE("both promises hold on maps drawn at random") {
+TEST_CASE("both guarantees hold on random maps") {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     toolkit::Stream stream(seed, "test.clusters");
     Sketch sketch(static_cast<int>(stream.below(70)) + 10, static_cast<int>(stream.below(70)) + 10);

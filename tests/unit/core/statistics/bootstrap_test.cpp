@@ -67,7 +67,7 @@ TEST_CASE("the bootstrap's interval", "[statistics]") {
     CHECK(interval.low == Approx(9.5 - half).margin(0.05));
     CHECK(interval.high == Approx(9.5 + half).margin(0.05));
   }
-  SECTION("is as wide for robots that share a trial's fate as for one robot a trial") {
+  SECTION("is as wide for robots with the same outcome in a trial as for one robot per trial") {
     std::vector<std::vector<double>> single;
     std::vector<std::vector<double>> fourfold;
     for (int i = 0; i < 20; ++i) {
@@ -77,7 +77,7 @@ TEST_CASE("the bootstrap's interval", "[statistics]") {
     CHECK(cluster_bootstrap_interval(fourfold).low == cluster_bootstrap_interval(single).low);
     CHECK(cluster_bootstrap_interval(fourfold).high == cluster_bootstrap_interval(single).high);
   }
-  SECTION("repeats to the bit, and moves with the seed") {
+  SECTION("is repeatable to the bit, and changes with the seed") {
     std::vector<std::vector<double>> clusters;
     for (int i = 0; i < 30; ++i) clusters.push_back({std::sin(i)});
     const Interval first = cluster_bootstrap_interval(clusters);
@@ -87,7 +87,7 @@ TEST_CASE("the bootstrap's interval", "[statistics]") {
 }
 
 TEST_CASE("the paper's mean", "[statistics]") {
-  SECTION("leaves out what is farther than two standard deviations") {
+  SECTION("excludes values farther than two standard deviations") {
     // 1, ..., 9 and 100: mean 14.5, deviation 30.22, so that 100 goes and 5 is the mean of the rest
     const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 100};
     const TrimmedMean trimmed = paper_mean(values);
@@ -104,7 +104,7 @@ TEST_CASE("the paper's mean", "[statistics]") {
     CHECK(trimmed.count == 9);
     CHECK(trimmed.mean == Approx(10.0 / 9.0));
   }
-  SECTION("leaves out none below five values") {
+  SECTION("excludes no value of fewer than five") {
     // of four values none is ever farther than 1.5 deviations; the rule holds anyway
     const std::vector<double> values{0, 0, 0, 100};
     CHECK(paper_mean(values).mean == 25.0);
@@ -114,7 +114,7 @@ TEST_CASE("the paper's mean", "[statistics]") {
     const std::vector<double> values{0, 0, 0, 0, 100};
     CHECK(paper_mean(values).count == 5);
   }
-  SECTION("says so where a rare event vanishes: in 3 of 20 trials, but not in 4") {
+  SECTION("reports that a rare event is trimmed: in 3 of 20 trials, but not in 4") {
     // k of n ones: the ones lie sqrt((n - 1)(n - k) / (n k)) deviations off: 2.32 for 3 of 20, 1.95 for 4
     std::vector<double> three = repeated(0.0, 17);
     three.resize(20, 1.0);
@@ -126,7 +126,7 @@ TEST_CASE("the paper's mean", "[statistics]") {
     CHECK_FALSE(paper_mean(four).trimmed_all_nonzero);
     CHECK(paper_mean(four).mean == 0.2);
   }
-  SECTION("does not say so where nothing was there") {
+  SECTION("does not report it if all values are zero") {
     CHECK_FALSE(paper_mean(repeated(0.0, 20)).trimmed_all_nonzero);
   }
   SECTION("of nothing is NaN") {

@@ -110,25 +110,25 @@ TEST_CASE("the signed-rank test is exact with ties and zeros", "[statistics]") {
 
 TEST_CASE("the signed-rank test at its edges", "[statistics]") {
   CHECK(std::isnan(signed_rank_test({}).p));
-  SECTION("all zero: nothing speaks against equality") {
+  SECTION("all zero: p is 1") {
     const SignedRankTest test = signed_rank_test(std::vector<double>{0, 0, 0});
     CHECK(test.p == 1.0);
     CHECK(test.rank_biserial == 0.0);
     CHECK(test.zeros == 3);
   }
-  SECTION("zeros keep their ranks: two differences among eighteen zeros are no large effect") {
+  SECTION("zeros keep their ranks: two differences among eighteen zeros are a small effect") {
     std::vector<double> differences(18, 0.0);
     differences.insert(differences.end(), {1.0, 1.0});
     const SignedRankTest test = signed_rank_test(differences);
     CHECK(test.p == 0.5);
     CHECK(test.rank_biserial == Approx(39.0 / 210.0));
   }
-  SECTION("differences that rounding parts are tied") {
+  SECTION("differences that differ by rounding are tied") {
     // 0.3 - 0.2 and 0.4 - 0.3 differ in their last bits
     const SignedRankTest test = signed_rank_test(std::vector<double>{0.3 - 0.2, 0.3 - 0.4, 0.5 - 0.3});
     CHECK(test.positive_rank_sum == 4.5);
   }
-  SECTION("many differences go by the normal distribution") {
+  SECTION("many differences use the normal distribution") {
     std::vector<double> differences;
     for (int i = 1; i <= 120; ++i) differences.push_back(i % 3 == 0 ? -i : i);
     const SignedRankTest test = signed_rank_test(differences);
@@ -138,7 +138,7 @@ TEST_CASE("the signed-rank test at its edges", "[statistics]") {
     const double z = (4800.0 - 3630.0 - 0.5) / std::sqrt(120.0 * 121.0 * 241.0 / 24.0);
     CHECK(test.p == Approx(std::erfc(z / std::sqrt(2.0))).epsilon(1e-9));
   }
-  SECTION("the two ways meet where one takes over") {
+  SECTION("the exact and the normal result agree at the limit") {
     std::vector<double> differences;
     for (int i = 1; i <= 100; ++i) differences.push_back(i % 3 == 0 ? -i : i);
     // T- is 3 + 6 + ... + 99 = 1683 of 5050
@@ -166,7 +166,7 @@ TEST_CASE("the Hodges-Lehmann estimate and its interval", "[statistics]") {
     CHECK(six.interval.low == 1.0);
     CHECK(six.interval.high == 6.0);
   }
-  SECTION("the interval holds what the test does not reject, and nothing else") {
+  SECTION("the interval contains exactly the shifts that the test does not reject") {
     const std::vector<double>& differences = darwin_maize();
     const HodgesLehmann shift = hodges_lehmann(differences);
     const auto p_of = [&](double by) {
@@ -227,7 +227,7 @@ TEST_CASE("the sign-flip test of the mean", "[statistics]") {
 
 TEST_CASE("Holm's correction", "[statistics]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  SECTION("the example that is taught with it: 0.01, 0.04, 0.03 and 0.005 at 5 % keep the first and the last") {
+  SECTION("the textbook example: 0.01, 0.04, 0.03 and 0.005 at 5 % keep the first and the last") {
     const std::vector<double> adjusted = holm_adjusted(std::vector<double>{0.01, 0.04, 0.03, 0.005});
     CHECK(adjusted[0] == Approx(0.03));
     CHECK(adjusted[1] == Approx(0.06));  // 0.04 itself, but never below the one before
@@ -238,7 +238,7 @@ TEST_CASE("Holm's correction", "[statistics]") {
     CHECK(holm_adjusted(std::vector<double>{0.3})[0] == 0.3);
     CHECK(holm_adjusted(std::vector<double>{0.7, 0.8}) == std::vector<double>{1.0, 1.0});
   }
-  SECTION("what is undefined is no test") {
+  SECTION("an undefined p value does not count as a test") {
     const std::vector<double> adjusted = holm_adjusted(std::vector<double>{nan, 0.02, 0.5});
     CHECK(std::isnan(adjusted[0]));
     CHECK(adjusted[1] == 0.04);

@@ -55,8 +55,8 @@ TEST_CASE("Spearman's rank correlation agrees with its textbook examples", "[sta
   }
 }
 
-TEST_CASE("a rank correlation's p counts the orders", "[statistics]") {
-  SECTION("all of them, where there are few") {
+TEST_CASE("the p value of a rank correlation counts permutations", "[statistics]") {
+  SECTION("all permutations of a few values") {
     const std::vector<double> x{1, 2, 3, 4};
     // of 24 orders only the rising and the falling one have |rho| = 1
     CHECK(rank_correlation(x, x, each_its_own(4)).p == Approx(2.0 / 24.0));
@@ -64,7 +64,7 @@ TEST_CASE("a rank correlation's p counts the orders", "[statistics]") {
     // 1, 2, 4, 3: rho 0.8; as far: 4 + 4 with |rho| >= 0.8 (one swap of neighbours, or none)
     CHECK(rank_correlation(x, std::vector<double>{1, 2, 4, 3}, each_its_own(4)).p == Approx(8.0 / 24.0));
   }
-  SECTION("drawn ones come near all of them") {
+  SECTION("drawn permutations approximate all") {
     // n = 9 in Kendall and Gibbons' table: |rho| >= 0.700 at 5 %, 0.833 at 1 %
     const std::vector<double> x{1, 2, 3, 4, 5, 6, 7, 8, 9};
     const std::vector<double> y{3, 1, 2, 6, 4, 5, 9, 7, 8};  // sum of squared differences 18: rho 0.85
@@ -108,7 +108,7 @@ TEST_CASE("a rank correlation's interval", "[statistics]") {
   CHECK(found.interval.low > 0.7);
   CHECK(found.ties_share == 0.0);
 
-  SECTION("does not shrink where every observation is there four times over in its seed") {
+  SECTION("does not shrink if every observation occurs four times in its seed") {
     std::vector<double> x_fourfold;
     std::vector<double> y_fourfold;
     std::vector<std::uint64_t> seed_fourfold;
@@ -128,7 +128,7 @@ TEST_CASE("a rank correlation's interval", "[statistics]") {
   }
 }
 
-TEST_CASE("a rank correlation that cannot be", "[statistics]") {
+TEST_CASE("an undefined rank correlation", "[statistics]") {
   CHECK(std::isnan(rank_correlation({}, {}, {}).rho));
   CHECK(rank_correlation({}, {}, {}).n == 0);
   const RankCorrelation constant =
@@ -162,21 +162,21 @@ TEST_CASE("the restricted mean", "[statistics]") {
     CHECK(restricted_mean(freireich_6mp(), 35.0) == Approx(area).epsilon(1e-12));
     CHECK(restricted_mean(freireich_6mp(), 35.0) == Approx(23.287).margin(5e-4));  // survfit's rmean
   }
-  SECTION("of times that nothing cut short is their mean: placebo, 8.667 weeks") {
+  SECTION("of times without censoring is their mean: placebo, 8.667 weeks") {
     std::vector<TimeToEvent> placebo;
     for (const double time : {1, 1, 2, 2, 3, 4, 4, 5, 5, 8, 8, 8, 8, 11, 11, 12, 12, 15, 17, 22, 23})
       placebo.push_back({time, true, placebo.size()});
     CHECK(restricted_mean(placebo, 23.0) == Approx(182.0 / 21.0));
     CHECK(restricted_mean(placebo, 8.0) == Approx((1 + 1 + 2 + 2 + 3 + 4 + 4 + 5 + 5 + 12 * 8) / 21.0));
   }
-  SECTION("counts who never arrives until the horizon") {
+  SECTION("counts a robot that never arrives until the horizon") {
     const std::vector<TimeToEvent> robots{{40.0, true, 0}, {60.0, true, 0}, {180.0, false, 1}, {180.0, false, 1}};
     CHECK(restricted_mean(robots, 180.0) == Approx((40.0 + 60.0 + 180.0 + 180.0) / 4.0));
     const Interval interval = restricted_mean_interval(robots, 180.0);
     CHECK(interval.low == Approx(50.0));    // both draws the first seed: one in four
     CHECK(interval.high == Approx(180.0));  // both the second
   }
-  SECTION("of nobody") {
+  SECTION("without cases") {
     CHECK(std::isnan(restricted_mean({}, 10.0)));
     CHECK(kaplan_meier({}).empty());
     CHECK(std::isnan(restricted_mean_interval(std::vector<TimeToEvent>{{1.0, true, 3}}, 10.0).low));

@@ -133,7 +133,7 @@ TEST_CASE("a trace gives the world back", "[trace]") {
   CHECK(world.walking_grid->clearance == nullptr);
 }
 
-TEST_CASE("a trace gives plans back, and under which one each sample was", "[trace]") {
+TEST_CASE("a trace gives plans back, and the plan of each sample", "[trace]") {
   const TraceBytes bytes = example_trace(4);
   TraceReader trace(bytes);
   const ExamplePlan example(1);
@@ -165,7 +165,7 @@ TEST_CASE("a trace gives plans back, and under which one each sample was", "[tra
   CHECK(in_force == std::vector<const dmrp_plan*>{first, first, second, second});
 }
 
-TEST_CASE("a trace gives samples back to the bit, as often as wanted", "[trace]") {
+TEST_CASE("a trace gives samples back to the bit, repeatedly", "[trace]") {
   const std::int64_t count = 16;
   const TraceBytes bytes = example_trace(count);
   TraceReader trace(bytes);
@@ -228,7 +228,7 @@ TEST_CASE("a trace keeps scans", "[trace]") {
         std::vector<float>{1.5F, std::numeric_limits<float>::infinity(), 0.25F});
 }
 
-TEST_CASE("the encoder walks arrays by their owner's stride", "[trace]") {
+TEST_CASE("the encoder reads arrays by their owner's stride", "[trace]") {
   struct Grown {
     dmrp_robot_sample robot;
     double younger_field;
@@ -259,7 +259,7 @@ TEST_CASE("the sink gets the records that make up the trace", "[trace]") {
   CHECK(times.size() == 11);  // world, plan, sample, 2 plans, note, sample, trajectory, scan, sample, end
 }
 
-TEST_CASE("a trial cut short is a trace without an end", "[trace]") {
+TEST_CASE("the trace of an interrupted trial has no end", "[trace]") {
   const ExampleWorld example;
   const ExamplePlan plan(1);
   TraceInMemory encoder(example.world);
@@ -271,12 +271,12 @@ TEST_CASE("a trial cut short is a trace without an end", "[trace]") {
   CHECK(trace.sample_count() == 1);
 }
 
-TEST_CASE("what contradicts itself is refused", "[trace]") {
+TEST_CASE("a contradictory trace is refused", "[trace]") {
   const ExampleWorld example;
   const ExamplePlan plan(1);
   TraceInMemory encoder(example.world);
 
-  SECTION("a sample under a plan that is not there") {
+  SECTION("a sample with an unknown plan") {
     encoder->sample(ExampleSample(0, &plan.plan).sample);
   }
   SECTION("two plans of one revision") {
@@ -288,7 +288,7 @@ TEST_CASE("what contradicts itself is refused", "[trace]") {
     sample.sample.robot_count = 1;
     encoder->sample(sample.sample);
   }
-  SECTION("a contact with a person who is not there") {
+  SECTION("a contact with an unknown person") {
     ExampleSample sample(0, nullptr);
     sample.contacts[1].b = 2;
     encoder->sample(sample.sample);
@@ -306,7 +306,7 @@ TEST_CASE("what contradicts itself is refused", "[trace]") {
   CHECK_THROWS_AS(TraceReader(encoder.bytes()), TraceError);
 }
 
-TEST_CASE("a trace of another format says so", "[trace]") {
+TEST_CASE("a trace of another format version is refused", "[trace]") {
   TraceBytes bytes = example_trace(1);
   bytes[dmrp::core::trace_record_prefix_bytes] = 99;
   CHECK_THROWS_WITH(TraceReader(bytes), "trace, byte 5: format version 99, not 1");

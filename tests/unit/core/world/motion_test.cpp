@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How robots and people move: exact arcs, limits, and bodies that stay solid.
+// Motion of robots and people: exact arcs, limits, solid bodies.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -25,7 +25,7 @@ World make_world(const Scenario& scenario, std::uint64_t seed = 1) {
   return World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), seed);
 }
 
-// One flow across the scenario, so that it has people; where they stand is up to the population.
+// Adds one flow across the scenario. The population chooses the positions of its people.
 void add_people(Scenario& scenario, std::uint32_t count) {
   scenario.regions = {{"west", scenario.lower, {scenario.lower.x + 1.5, scenario.upper.y}},
                       {"east", {scenario.upper.x - 1.5, scenario.lower.y}, scenario.upper}};
@@ -36,7 +36,7 @@ std::vector<dmrp_vec2> standing(const World& world) {
   return std::vector<dmrp_vec2>(world.people().size());
 }
 
-// Lets one person go straight there while all others stand.
+// Moves one person straight to the place; all others stand.
 void walk_to(World& world, std::size_t person, dmrp_vec2 place) {
   for (int i = 0; i < 2000; ++i) {
     const dmrp_vec2 way = place - world.people()[person].position;
@@ -120,7 +120,7 @@ TEST_CASE("a robot accelerates to its command and drives on") {
   CHECK(world.t_ns() == 2'000'000'000);
 }
 
-TEST_CASE("a robot that drives at a wall stops at it, may turn and may leave") {
+TEST_CASE("a robot that drives at a wall stops there, can turn and can leave") {
   Scenario scenario = empty_scenario(10, 10);
   scenario.shapes = {box("wall", {6, 0}, {7, 10})};
   scenario.robots = {robot({5, 5, 0}, dmrp_vec2{1, 5})};
@@ -138,7 +138,7 @@ TEST_CASE("a robot that drives at a wall stops at it, may turn and may leave") {
   CHECK(contact.point.y == Approx(5.0).margin(1e-9));
   CHECK(world.robots()[0].velocity.v_x == Approx(0.0).margin(1e-9));
 
-  // turning on the spot is not held up, and driving away ends the contact
+  // it can turn in place, and driving away ends the contact
   world.set_command(0, {0.0, 0.0, 1.0});
   for (int i = 0; i < 150; ++i) world.step({});
   CHECK(world.robots()[0].pose.theta > 2.0);
@@ -148,12 +148,12 @@ TEST_CASE("a robot that drives at a wall stops at it, may turn and may leave") {
   CHECK(world.robots()[0].pose.x < 5.74);
 }
 
-TEST_CASE("along a wall only the part of a motion that leads into it is lost") {
+TEST_CASE("along a wall, only the part of a motion toward the wall is lost") {
   Scenario scenario = empty_scenario(20, 20);
   scenario.shapes = {box("wall", {0, 10}, {20, 11})};
   scenario.robots = {robot({5, 9.7, pi / 6}, dmrp_vec2{1, 5})};
   World world = make_world(scenario);
-  // hold the speed: the wall takes 1/4 of it away in every step (the share along the robot's own way is cos^2)
+  // the wall takes away 1/4 of the speed in every step (the share along the robot's direction is cos^2)
   world.set_command(0, {0.8, 0.0, 0.0});
   for (int i = 0; i < 100; ++i) world.step({});
   const RobotState before = world.robots()[0];
@@ -166,7 +166,7 @@ TEST_CASE("along a wall only the part of a motion that leads into it is lost") {
   CHECK(after.pose.theta == before.pose.theta);
 }
 
-TEST_CASE("a robot is pushed by nobody and pushes nobody") {
+TEST_CASE("robots neither push nor are pushed") {
   Scenario scenario = empty_scenario(20, 20);
   scenario.robots = {robot({5, 5, 0}, dmrp_vec2{18, 5}), robot({8, 5, 0}, dmrp_vec2{18, 5})};
   add_people(scenario, 1);
@@ -193,7 +193,7 @@ TEST_CASE("a robot is pushed by nobody and pushes nobody") {
   CHECK(world.people()[0].position == before);
 }
 
-TEST_CASE("people push people, each bearing half, but never into a robot or a wall") {
+TEST_CASE("people push people, each bears half, but never into a robot or a wall") {
   Scenario scenario = empty_scenario(20, 20);
   scenario.robots = {robot({12, 5, 0}, dmrp_vec2{18, 5})};
   add_people(scenario, 2);
@@ -201,7 +201,7 @@ TEST_CASE("people push people, each bearing half, but never into a robot or a wa
   walk_to(world, 0, {8.0, 5.0});
   walk_to(world, 1, {9.0, 5.0});
 
-  // who stands is met after 0.4 m and goes along at half the speed from then on
+  // the contact begins after 0.4 m; from then on, both move at half of the speed
   const std::vector<dmrp_vec2> eastward = {{1.0, 0.0}, {0.0, 0.0}};
   for (int i = 0; i < 100; ++i) world.step(eastward);
   CHECK(world.people()[1].velocity.x == Approx(0.5));
@@ -218,7 +218,7 @@ TEST_CASE("people push people, each bearing half, but never into a robot or a wa
   CHECK(world.people()[0].position.y == Approx(0.9).margin(0.004));
 }
 
-TEST_CASE("two who drive at each other meet in the middle") {
+TEST_CASE("two robots that drive at each other meet in the middle") {
   Scenario scenario = empty_scenario(20, 20);
   scenario.robots = {robot({5, 5, 0}, dmrp_vec2{18, 5}), robot({8, 5, pi}, dmrp_vec2{1, 5})};
   World world = make_world(scenario);
@@ -236,7 +236,7 @@ TEST_CASE("two who drive at each other meet in the middle") {
 
 namespace {
 
-// Random commands for robots and people in a random world, checked at every step by looking at all pairs.
+// Random commands for robots and people in a random world. Checks all pairs at every step.
 class Chaos {
  public:
   explicit Chaos(std::uint64_t seed) : stream_(seed, "test.chaos"), scenario_(random_scenario(seed, 14.0, 22)) {
@@ -261,7 +261,7 @@ class Chaos {
     world_->step(velocities_);
   }
 
-  // The largest speed, turn rate and speeding up relative to what is allowed; 1 at the limit.
+  // The greatest speed, turn rate and acceleration relative to their limits; 1 at the limit.
   double limits_used() const {
     double used = 0.0;
     for (std::size_t i = 0; i < before_.size(); ++i) {
@@ -285,7 +285,7 @@ class Chaos {
     return deepest;
   }
 
-  // Contacts of robots, by looking at everything.
+  // The number of robots' contacts, by exhaustive search.
   std::size_t contacts_expected() const {
     const StaticGeometry& geometry = world_->geometry();
     const std::vector<std::pair<dmrp_vec2, double>> discs = all_discs();
@@ -349,7 +349,7 @@ std::uint64_t fingerprint(const World& world) {
 
 }  // namespace
 
-TEST_CASE("whatever is commanded, bodies stay solid and limits hold") {
+TEST_CASE("bodies stay solid and limits hold for random commands") {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
     Chaos chaos(seed);
     double deepest = 0.0;
@@ -371,7 +371,7 @@ TEST_CASE("whatever is commanded, bodies stay solid and limits hold") {
   }
 }
 
-TEST_CASE("equal worlds take equal courses, to the bit") {
+TEST_CASE("equal worlds evolve identically, to the bit") {
   Chaos one(42);
   Chaos two(42);
   Chaos other(43);

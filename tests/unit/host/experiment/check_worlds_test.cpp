@@ -72,7 +72,7 @@ TEST_CASE("without robots there is a combination for each model, and neither pla
   check_round_trip(e);
 }
 
-TEST_CASE("an experiment without any robots needs nobody to plan and drive") {
+TEST_CASE("an experiment without robots needs no planner and no controller") {
   const ExperimentFolder folder;
   const std::string alone =
       with(with(with_robots("robots = 0"), "[[local_controller]]\nuse = \"test.controller\"\n", ""),
@@ -91,7 +91,7 @@ TEST_CASE("an experiment without any robots needs nobody to plan and drive") {
                         "")) == "experiment.toml:1:1: the experiment needs a [[global_planner]]");
 }
 
-TEST_CASE("there has to be somebody") {
+TEST_CASE("a scenario without robots and people is a mistake") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 0"));
   CHECK(message_of(with_robots("robots = 0")) ==
@@ -105,7 +105,7 @@ TEST_CASE("there has to be somebody") {
   CHECK(message_of(experiment_text) == "experiment.toml:8:7: scenario 'hall' lists neither robots nor people");
 }
 
-TEST_CASE("more robots than are listed are drawn, for each repetition anew") {
+TEST_CASE("more robots than listed get random tasks, different in each repetition") {
   const ExperimentFolder folder;
   const Experiment e = load(with_robots("robots = [0, 2, 3]"));
   REQUIRE(e.scenarios.size() == 3);
@@ -140,7 +140,7 @@ TEST_CASE("mistakes in the number of robots") {
   const auto at = [](const std::string& lines) { return message_of(with_robots(lines)); };
   CHECK(at("robots = -1") == "experiment.toml:9:10: 'robots' must be at least 0, not -1");
   CHECK(at("robots = []") == "experiment.toml:9:10: 'robots' must have at least one number");
-  CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' is there twice");
+  CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' occurs twice");
   CHECK(at("robots = 3\ntasks = \"listed\"") ==
         "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
   CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', how many");
@@ -150,7 +150,7 @@ TEST_CASE("mistakes in the number of robots") {
                  Catch::EndsWith("(repetition 0: starts, and goals, more than 2 m apart), not 100"));
 }
 
-TEST_CASE("a world of tiles has everything of its tile but the robots") {
+TEST_CASE("a world of tiles has everything from its tile but the robots") {
   const ExperimentFolder folder;
   write_file("row/scenario.toml", R"([scenario]
 name = "row"
@@ -229,7 +229,7 @@ TEST_CASE("recorded people come from a file beside the scenario") {
   check_round_trip(load(experiment_text));
 }
 
-TEST_CASE("who is only replayed needs no model") {
+TEST_CASE("recorded people need no pedestrian model") {
   const ExperimentFolder folder;
   write_file("hall/crowd.csv", "time,id,x,y\n0,7,1,1\n5,7,3,1\n");
   write_file("hall/scenario.toml",
@@ -248,7 +248,7 @@ TEST_CASE("mistakes in a recording") {
     CHECK(message_of(experiment_text) == "hall/crowd.csv:" + message);
   };
   mistake("", "1:1: the file needs the line 'time,id,x,y'");
-  mistake("time,id,x,y\n", "1:1: nobody is recorded");
+  mistake("time,id,x,y\n", "1:1: the recording has no rows");
   mistake("time,person,x,y\n", "1:6: the first line must be 'time,id,x,y': 'person' should be 'id'");
   mistake("time,id,x\n", "1:1: a row has 4 values, time,id,x,y, not 3");
   mistake("time,id,x,y\n0,1,2,3,4\n", "2:1: a row has 4 values, time,id,x,y, not 5");
@@ -271,16 +271,17 @@ TEST_CASE("mistakes in a recording") {
   mistake("time,id,x,y\n0,1,5,4\n", "2:1: person 1 is inside 'wall', at (5, 4)");
 }
 
-TEST_CASE("a recording of which nobody is ever there gets a warning") {
+TEST_CASE("a recording without a person during the trial gives a warning") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
   const auto warnings = [](const std::string& csv, const std::string& settings) {
     write_file("hall/crowd.csv", "time,id,x,y\n" + csv);
     return load(experiment_text + settings).warnings;
   };
-  CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
-        std::vector<std::string>{"hall/scenario.toml:46:8: nobody of 'hall/crowd.csv' is there during the trial, from "
-                                 "0 to 180 s: its rows are of -20 to 200 s"});
+  CHECK(
+      warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "") ==
+      std::vector<std::string>{"hall/scenario.toml:46:8: nobody in 'hall/crowd.csv' is present during the trial, from "
+                               "0 to 180 s: its rows are from -20 to 200 s"});
   CHECK(warnings("-20,1,1,1\n-3.5,1,2,1\n200,2,1,1\n", "[simulation]\ntime_limit_s = 200\n").empty());
   CHECK(warnings("2,1,1,1\n", "[simulation]\ntime_limit_s = 1.5\n").size() == 1);
   CHECK(warnings("-1,1,1,1\n0,1,2,1\n", "").empty());
@@ -297,7 +298,7 @@ TEST_CASE("a flow leads from region to region") {
   CHECK(message_of_scenario("to = \"east\"", "via = [\"east\"]\nto = \"west\"") == "no error");  // there and back
 }
 
-TEST_CASE("people who have to be somewhere at t = 0 need room there") {
+TEST_CASE("people need room at t = 0") {
   const ExperimentFolder folder;
   std::string text = scenario_text;
   const auto begin = text.find("[[robot]]");
@@ -354,7 +355,7 @@ TEST_CASE("flows that start in their first region and leave for good") {
 }
 
 // Two robots start by the region 'west': of its 1 m x 2 m, people find but a corner that is 1.5 m away from both.
-TEST_CASE("a crowd has to find room beside the robots' starts, whether they take part or not") {
+TEST_CASE("a crowd needs room beside the starts of all listed robots") {
   const ExperimentFolder folder;
   const std::string crowd = with(scenario_text, "people = 2", "people = 3\nstart = \"from\"");
   const auto no_room = Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 3 people, for");
@@ -368,7 +369,7 @@ TEST_CASE("a crowd has to find room beside the robots' starts, whether they take
   CHECK(message_of(experiment_text) == "no error");
 }
 
-TEST_CASE("what is imperfect is off unless it is asked for") {
+TEST_CASE("imperfections are off by default") {
   const ExperimentFolder folder;
   const Experiment off = load(experiment_text);
   CHECK(off.robot.actuation_latency_ns == 0);
@@ -395,11 +396,11 @@ odometry = { noise = [0.01, 0.02, 0.03, 0.04], fix_period_s = 2 }
              Catch::EndsWith("'planning_latency_s' must be at most 10, not 30"));
 }
 
-TEST_CASE("plan draws robots for a seed") {
+TEST_CASE("plan uses random tasks for a seed") {
   const ExperimentFolder folder;
   Experiment e = adhoc_experiment("hall/scenario.toml");
-  draw_robots_in(e, 4, 3);
+  use_random_tasks(e, 4, 3);
   CHECK(e.scenarios[0].scenario.robots.size() == 4);
-  CHECK_THROWS_WITH(draw_robots_in(e, 100, 3),
-                    Catch::StartsWith("--agents 100: scenario 'hall' holds at most ") && Catch::EndsWith("drawn so"));
+  CHECK_THROWS_WITH(use_random_tasks(e, 100, 3), Catch::StartsWith("--agents 100: scenario 'hall' has room for ") &&
+                                                     Catch::EndsWith("robots with random tasks"));
 }

@@ -273,7 +273,7 @@ TEST_CASE("a parameter file gives values that params and sweep override") {
   }
 }
 
-TEST_CASE("robots named by number are the first of the list") {
+TEST_CASE("a number of robots selects the first of the list") {
   const ExperimentFolder folder;
   const Experiment e = load(full_experiment());
   REQUIRE(e.scenarios.size() == 2);
@@ -288,7 +288,7 @@ TEST_CASE("robots named by number are the first of the list") {
   CHECK_THROWS_AS(load(experiment_text), InputError);
 }
 
-TEST_CASE("near starts and odd libraries give warnings") {
+TEST_CASE("near starts and libraries with warnings give warnings") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [0.5, 2.5]"));
   const Experiment e = load(with(with(experiment_text, "\"./libfake.so\"", "\"./libfake.so\", \"./librival.so\""),
@@ -321,7 +321,7 @@ TEST_CASE("libraries and scenarios are found by name in the folders of the envir
   unsetenv("DMRP_SCENARIO_PATH");
 }
 
-TEST_CASE("a file that is not there") {
+TEST_CASE("a missing file") {
   const ExperimentFolder folder;
   CHECK_THROWS_WITH(load_experiment("none.toml", 0, &fake_probe), "none.toml: there is no such experiment file");
   CHECK_THROWS_WITH(load_experiment("hall", 0, &fake_probe), "hall: there is no such experiment file");
@@ -341,7 +341,7 @@ TEST_CASE("effective.toml reads back as the same experiment, from anywhere") {
     CHECK(again.scenarios[i].label == original.scenarios[i].label);
 }
 
-TEST_CASE("the digest changes with all that an experiment reads") {
+TEST_CASE("the digest changes with every file that an experiment reads") {
   const ExperimentFolder folder;
   const std::string digest = experiment_digest(load(full_experiment()));
   CHECK(digest.size() == 64);
@@ -362,7 +362,7 @@ TEST_CASE("the digest changes with all that an experiment reads") {
     write_file("table.csv", "1,3\n");
     CHECK(changed());
   }
-  SECTION("a file of parameters, even where its values are the same") {
+  SECTION("a file of parameters, even with the same values") {
     const std::string text = with(experiment_text, "params = {", "params_file = \"set.toml\"\nparams = {");
     write_file("set.toml", "expansions = 7\n");
     const std::string before = experiment_digest(load(text));
@@ -371,7 +371,7 @@ TEST_CASE("the digest changes with all that an experiment reads") {
   }
 }
 
-TEST_CASE("combinations vary the model fastest and need one only where people walk") {
+TEST_CASE("combinations vary the model fastest and need a model only for scenarios with people") {
   const ExperimentFolder folder;
   write_file("empty/scenario.toml",
              with(with(scenario_text, "name = \"hall\"", "name = \"empty\""), "people = 2", "people = 0"));
@@ -402,7 +402,7 @@ TEST_CASE("the nearest name") {
   CHECK(did_you_mean("x", {}).empty());
 }
 
-TEST_CASE("damaged files end in one line or in an experiment") {
+TEST_CASE("damaged files give an error of one line or an experiment") {
   const ExperimentFolder folder;
   const std::string pieces[] = {"[",    "]",   "{",  "}",      "\"",  "=",    "\n",       ".",   ",",
                                 "-1",   "1e9", "[]", "{}",     "nan", "true", "\"\\n\"",  "\0",  "[[robot]]",

@@ -84,7 +84,7 @@ TEST_CASE("mistakes in an experiment file") {
        "experiment.toml:9:14: 'robots' must be at least 0, not -1"},
       {"scenario.toml\"", "scenario.toml\"\nrobots = []",
        "experiment.toml:9:10: 'robots' must have at least one number"},
-      {"scenario.toml\"", "scenario.toml\"\nrobots = [1, 1]", "experiment.toml:9:14: scenario 'hall/1' is there twice"},
+      {"scenario.toml\"", "scenario.toml\"\nrobots = [1, 1]", "experiment.toml:9:14: scenario 'hall/1' occurs twice"},
       {"scenario.toml\"", "scenario.toml\"\nrobot = 1",
        "experiment.toml:9:1: unknown key 'robot' in [[scenario]] (did you mean 'robots'?)"},
       // keys of other tables
@@ -136,7 +136,7 @@ TEST_CASE("mistakes in an experiment file") {
       {"params = { weight = 1.5 }", "sweep = { weight = [2, 2.0] }",
        "experiment.toml:12:24: 'weight 2' twice in a sweep"},
       {"params = { weight = 1.5 }", "params = { weight = 1.5 }\nsweep = { weight = [2] }",
-       "experiment.toml:13:11: 'weight' stands in 'params' already"},
+       "experiment.toml:13:11: 'weight' is already set in 'params'"},
       {"params = { weight = 1.5 }", "sweep = { weigth = [2] }",
        "experiment.toml:12:11: unknown key 'weigth' for test.planner (did you mean 'weight'?)"},
       // a mistake is the first of the file, whatever is read first
@@ -236,9 +236,9 @@ TEST_CASE("mistakes in a scenario file") {
       {"size_m = [10.0, 8.0]", "size_m = [10.0]", "5:10: 'size_m' must be [x, y], not 1 number"},
       {"size_m = [10.0, 8.0]", "size_m = [10.0, 20000]", "5:10: 'size_m' must be at most [10000, 10000]"},
       {"size_m = [10.0, 8.0]", "size_m = [9000, 9000]",
-       "5:10: the world is too large: the planning grid of 1 m cells would have 81000000 of them, at most 16777216"},
+       "5:10: the world is too large: the planning grid with cells of 1 m would have 81000000 cells, at most 16777216"},
       {"size_m = [10.0, 8.0]", "size_m = [2000, 2000]",
-       "5:10: the world is too large: the grid for people of 0.25 m cells would have 64000000 of them, at most "
+       "5:10: the world is too large: the grid for people with cells of 0.25 m would have 64000000 cells, at most "
        "16777216"},
       {"[[box]]", "[[boks]]", "7:3: unknown key 'boks' (did you mean 'box'?)"},
       {"name = \"wall\"\n", "", "7:1: [[box]] needs 'name'"},
@@ -315,7 +315,7 @@ TEST_CASE("mistakes in a scenario file") {
   }
 }
 
-TEST_CASE("robots can keep the order only of plans that have one") {
+TEST_CASE("ordered execution needs conflict-free plans on cells") {
   const ExperimentFolder folder;
   const auto message = [](std::uint32_t connectivity, std::uint32_t flags) -> std::string {
     write_file("experiment.toml", std::string(experiment_text) + "[simulation]\nexecution = \"ordered\"\n");

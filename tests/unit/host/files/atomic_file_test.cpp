@@ -11,7 +11,7 @@ using namespace dmrp::host;
 using dmrp::test::content_of;
 using dmrp::test::ScratchFolder;
 
-TEST_CASE("files are replaced at once, with the permissions of others", "[files]") {
+TEST_CASE("files are replaced atomically, with default permissions", "[files]") {
   const ScratchFolder folder;
   write_file_atomically(folder / "a.txt", "old");
   write_file_atomically(folder / "a.txt", "new");

@@ -128,12 +128,12 @@ TEST_CASE("a scenario of a map and tasks") {
     CHECK(moved.robots[0].start.x == 100.5);
     CHECK(moved.robots[0].start.y == -47.5);
   }
-  SECTION("robots of its own") {
+  SECTION("its own robots") {
     const core::Scenario own = read_yard(
         with(yard_text, "[robots]\nscen = \"yard.scen\"\ncount = 2", "[[robot]]\nstart = [1, 1]\ngoal = [9, 1]"));
     CHECK(own.robots.size() == 1);
   }
-  SECTION("an experiment runs with fewer of the tasks and knows the files") {
+  SECTION("an experiment uses fewer of the tasks and lists the files") {
     const std::string text = with(experiment_text, "./hall/scenario.toml", "./yard/scenario.toml");
     const host::Experiment before = load(with(text, "[[global_planner]]", "robots = 1\n[[global_planner]]"));
     CHECK(before.scenarios[0].scenario.robots.size() == 1);
@@ -166,7 +166,7 @@ TEST_CASE("mistakes in a scenario of a map") {
         "yard/yard.map:6:1: unknown cell '#' (known: '.', 'G', 'S' free; '@', 'O', 'T', 'W' blocked)");
 }
 
-TEST_CASE("tasks that the robots of a trial cannot do are told") {
+TEST_CASE("tasks that the robots cannot do are refused") {
   const ExperimentFolder folder;
   write_yard();
   // 0.5 m cells on a planning grid of 1 m: starts are no cells' centres any more

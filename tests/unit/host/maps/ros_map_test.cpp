@@ -147,7 +147,7 @@ TEST_CASE("a map of map_server is read, the image's first row above all others")
   CHECK(map.image == "attic/attic.pgm");
   CHECK(read_map(UnknownCells::free).cells.free == Cells{1, 1, 0, 1, 1, 0});
 
-  SECTION("with other keys of other tools, by an absolute path") {
+  SECTION("with keys of other tools, by an absolute path") {
     write_file("attic/attic.yaml", with(yaml_text, "attic.pgm", (folder.path() / "attic/attic.pgm").string()) +
                                        "created_by: {tool: somebody's, passes: [1, 2]}\n");
     CHECK(read_map().cells.free == attic_cells);
@@ -183,7 +183,7 @@ TEST_CASE("images of every kind give the same map") {
         attic_cells);
 }
 
-TEST_CASE("an image with transparency: trinary takes the mean of all channels, scale calls it unknown") {
+TEST_CASE("an image with transparency: trinary takes the mean of all channels, scale treats it as unknown") {
   const ExperimentFolder folder;
   // white, opaque; white, half transparent; black, opaque
   const std::string gray = bytes_of({255, 255, 255, 127, 0, 255, 255, 255, 255, 0, 0, 0});
@@ -198,7 +198,7 @@ TEST_CASE("an image with transparency: trinary takes the mean of all channels, s
   CHECK(host::read_ros_map("attic/attic.yaml", "a.yaml", UnknownCells::free).cells.free == Cells{1, 1, 1, 1, 1, 0});
 }
 
-TEST_CASE("scale and raw: a cell stands from a chance of 50 on") {
+TEST_CASE("scale and raw: a cell is blocked from a probability of 50 on") {
   const ExperimentFolder folder;
   // half way between the thresholds is 0.423 of 255: grey 147
   CHECK(read_with_image("P2 3 2 255  254 150 0  148 146 60", "mode: scale\n").cells.free == Cells{1, 0, 0, 1, 1, 0});
@@ -209,7 +209,7 @@ TEST_CASE("scale and raw: a cell stands from a chance of 50 on") {
   CHECK(read_map().cells.free == Cells{0, 0, 0, 1, 1, 0});
 }
 
-TEST_CASE("a scenario of a map of map_server lies where the map says") {
+TEST_CASE("a scenario of a map of map_server has the map's origin") {
   const ExperimentFolder folder;
   write_attic();
   const core::Scenario attic = read_attic(scenario_text_of_map);
@@ -229,7 +229,7 @@ TEST_CASE("a scenario of a map of map_server lies where the map says") {
     REQUIRE(open.shapes.size() == 1);
     CHECK(core::StaticGeometry(open).clearance({-0.25, 2.75}) == 0.25);
   }
-  SECTION("an experiment knows the files") {
+  SECTION("an experiment lists the files") {
     const host::Experiment before = load(
         with(experiment_text, "./hall/scenario.toml", "./attic/scenario.toml") +
         "[simulation]\ngrid_resolution_m = 0.5\nplanning_margin_m = 0.0\n[robot]\nfootprint = { radius_m = 0.2 }\n");
@@ -241,7 +241,7 @@ TEST_CASE("a scenario of a map of map_server lies where the map says") {
   }
 }
 
-TEST_CASE("a turned map: its cells, and nothing but walls around it") {
+TEST_CASE("a rotated map: its cells, and walls around it") {
   const ExperimentFolder folder;
   toolkit::Stream stream(1, "turned");
   for (int round = 0; round < 40; ++round) {
@@ -323,7 +323,7 @@ TEST_CASE("mistakes in a map's YAML file") {
   CHECK(told("0.196", "0.7") == at + "6:14: 'free_thresh' must be below 'occupied_thresh', not 0.7 and 0.65");
   CHECK(told("negate: 0", "negate: 0\nmode: trinaty") ==
         at + "5:7: 'mode' must be one of trinary, scale, raw, not 'trinaty' (did you mean 'trinary'?)");
-  CHECK(told("negate: 0", "image: b.pgm") == at + "4:1: 'image' is there twice");
+  CHECK(told("negate: 0", "image: b.pgm") == at + "4:1: 'image' occurs twice");
   CHECK(told("[-1.0, 2.0, 0.0]", "[-1.0, 2.0, 0.0") == at + "4:7: end of sequence flow not found");
   CHECK(told(yaml_text, "attic.pgm") == at + "1:1: expected 'image: ...' and other keys: this is no map of map_server");
   CHECK(told(yaml_text, "") == at + "1:1: expected 'image: ...' and other keys: this is no map of map_server");
@@ -362,7 +362,7 @@ TEST_CASE("mistakes in a map's image") {
   CHECK(told(large).substr(0, at.size() + 5) == at + "1:1: ");
 }
 
-TEST_CASE("damaged maps are told in one line or read, never worse") {
+TEST_CASE("damaged maps give an error of one line or a map") {
   const ExperimentFolder folder;
   write_attic();
   const std::string png = png_of({PNG_COLOR_TYPE_GRAY_ALPHA, 8, PNG_INTERLACE_ADAM7}, 3, "123456789012");
@@ -398,7 +398,7 @@ TEST_CASE("damaged maps are told in one line or read, never worse") {
   }
 }
 
-TEST_CASE("public maps become few shapes that hold each blocked cell") {
+TEST_CASE("public maps become few shapes that contain every blocked cell", "[data]") {
   const auto data = test_data();
   if (!data || !std::filesystem::is_directory(*data / "mrpb")) {
     WARN("skipped: DMRP_TEST_DATA is not set");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What paths amount to, counted by hand, on a grid of 6 x 4 cells of 0.5 m at (10, 20).
+// Figures of paths, computed by hand, on a grid of 6 x 4 cells of 0.5 m at (10, 20).
 #include "host/plan/plan_figures.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,7 +40,7 @@ struct Place {
   std::uint32_t goal = 0;
 };
 
-// One waypoint a step; a hair off the centres, as sums of coordinates come out.
+// One waypoint per step; off the centres by rounding errors, as sums of coordinates are.
 std::vector<dmrp_waypoint> path(const std::vector<Place>& places) {
   std::vector<dmrp_waypoint> out;
   for (const Place& p : places)

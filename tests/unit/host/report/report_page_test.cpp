@@ -10,7 +10,7 @@
 
 using namespace dmrp::host;
 
-TEST_CASE("the page holds its parts, and no part ends another", "[report]") {
+TEST_CASE("the page contains its parts, and no part ends another", "[report]") {
   dmrp::test::ScratchFolder folder;
   const auto write = [&](const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; };
   write("page.html", "<!-- dmrp:styles -->|<!-- dmrp:data -->|<!-- dmrp:scripts -->");

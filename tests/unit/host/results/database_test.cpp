@@ -86,7 +86,7 @@ TrialRecord full_trial(std::uint64_t id) {
 
 }  // namespace
 
-TEST_CASE("the database gives trials back to the bit", "[results]") {
+TEST_CASE("trials read from the database equal the written ones bit by bit", "[results]") {
   const ScratchFolder folder;
   const std::vector<TrialRecord> written{example_trial(3, "A", 1, std::nullopt, 0.5), full_trial(7)};
   {
@@ -110,7 +110,7 @@ TEST_CASE("the database gives trials back to the bit", "[results]") {
   CHECK(metrics[5].wall_clock);
 }
 
-TEST_CASE("others read the database by SQL", "[results]") {
+TEST_CASE("the database can be read by SQL", "[results]") {
   const ScratchFolder folder;
   ResultsDatabase::create(folder / "results.sqlite", example_metrics()).write(full_trial(7));
   const SqliteConnection connection(folder / "results.sqlite", SqliteMode::read_only);
@@ -150,7 +150,7 @@ TEST_CASE("a trial is written whole or not at all", "[results]") {
   CHECK(database.trials().size() == 1);
 }
 
-TEST_CASE("a run is taken up again", "[results]") {
+TEST_CASE("a run can be resumed", "[results]") {
   const ScratchFolder folder;
   {
     ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
@@ -168,7 +168,7 @@ TEST_CASE("a run is taken up again", "[results]") {
   check_same(database.trials()[0], again);  // nothing of what was there before is left
 }
 
-TEST_CASE("databases that cannot be used say why", "[results]") {
+TEST_CASE("unusable databases are reported with the reason", "[results]") {
   const ScratchFolder folder;
   CHECK_THROWS_WITH(ResultsDatabase::open(folder / "none.sqlite"), Catch::Contains("none.sqlite"));
   write_file_atomically(folder / "text.sqlite", std::string(2000, 'x'));

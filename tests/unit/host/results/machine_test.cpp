@@ -5,7 +5,7 @@
 
 using namespace dmrp::host;
 
-TEST_CASE("the level of a CPU is the highest whose features are all there", "[results]") {
+TEST_CASE("the level of a CPU is the highest whose features are all present", "[results]") {
   const std::string v2 = "cx16 lahf_lm popcnt pni sse4_1 sse4_2 ssse3";
   const std::string v3 = v2 + " avx avx2 bmi1 bmi2 f16c fma abm movbe";
   const auto level = [](const std::string& flags) {

@@ -10,7 +10,7 @@
 using namespace dmrp::host;
 using dmrp::test::ScratchFolder;
 
-TEST_CASE("the manifest comes back from its file", "[results]") {
+TEST_CASE("a manifest can be written and read", "[results]") {
   const ScratchFolder folder;
   write_file_atomically(folder / "map.yaml", "abc");
   const auto begun = std::chrono::system_clock::time_point(std::chrono::seconds(1'700'000'000));
@@ -33,7 +33,7 @@ TEST_CASE("the manifest comes back from its file", "[results]") {
   CHECK_THROWS_WITH(read_manifest(folder / "half.json"), Catch::Contains("half.json"));
 }
 
-TEST_CASE("manifests tell what may change bits, and nothing else", "[results]") {
+TEST_CASE("manifests differ in what can change bits, and in nothing else", "[results]") {
   Manifest before;
   before.machine = {"glibc 2.36", "x86-64-v3", {"avx", "avx2", "erms", "fma"}, "gcc 12.2.0"};
   before.files = {{"plugin library", "/a/libx.so", "11"}, {"map", "/a/m.yaml", "22"}};

@@ -11,7 +11,7 @@ using namespace dmrp::host;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
 
-TEST_CASE("trials are summed up by combination", "[results]") {
+TEST_CASE("trials are summarised by combination", "[results]") {
   std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "B", 0, 50.0, 0.5),
                                   example_trial(2, "A", 1, 44.0, 0.5), example_trial(3, "A", 2, std::nullopt, 0.5),
                                   example_trial(4, "A", 3, 40.0, 0.5), example_trial(5, "A", 4, 40.0, 0.5)};
@@ -42,13 +42,13 @@ TEST_CASE("trials are summed up by combination", "[results]") {
   CHECK(std::isnan(summaries[1].metrics[1].sd));
 }
 
-TEST_CASE("failing counts where a metric is about failing", "[results]") {
+TEST_CASE("failed trials count in metrics that count failures", "[results]") {
   std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, std::nullopt, 0.5),
                                   example_trial(2, "A", 2, 44.0, 0.5)};
   trials.back().outcome = trial_outcome::fault;
   trials.back().values.clear();  // a trial that ended in a fault has none
-  const std::vector<std::string> about_failing{"done"};
-  const auto summaries = summarise(example_metrics(), trials, about_failing);
+  const std::vector<std::string> failure_metrics{"done"};
+  const auto summaries = summarise(example_metrics(), trials, failure_metrics);
   const MetricSummary& done = summaries[0].metrics[0];  // 1, 0.5, 0
   CHECK(done.defined == 3);
   CHECK(done.mean == 0.5);

@@ -29,7 +29,7 @@ TEST_CASE("the closing line counts", "[terminal]") {
   CHECK(closing_line(layout, trials) == "1 fault · 1 trial skipped · repeatable");
 }
 
-TEST_CASE("the run directory comes with its files", "[terminal]") {
+TEST_CASE("the run directory is printed with its files", "[terminal]") {
   const std::vector<std::string> files{"results.sqlite", "traces/"};
   CHECK(files_line("runs/quickstart", files) == "runs/quickstart   results.sqlite  traces/");
 }

@@ -7,7 +7,7 @@
 
 using namespace dmrp::host;
 
-TEST_CASE("texts are as wide as a terminal shows them", "[terminal]") {
+TEST_CASE("the width of a text is that on a terminal", "[terminal]") {
   CHECK(display_width("") == 0);
   CHECK(display_width("abc") == 3);
   CHECK(display_width("±0.17 – ö") == 9);

@@ -47,7 +47,7 @@ TEST_CASE("the best of several is marked", "[terminal]") {
   }
 }
 
-TEST_CASE("only what is comparable is compared", "[terminal]") {
+TEST_CASE("only comparable rows are compared", "[terminal]") {
   std::vector<TrialRecord> trials = two_planners();
   trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
   trials[1].scenario = trials[3].scenario = "office";
@@ -62,7 +62,7 @@ TEST_CASE("only what is comparable is compared", "[terminal]") {
         "    A* + DWA      0.50        –    0.61 ±0.17          –\n");
 }
 
-TEST_CASE("a table that is too wide goes on below", "[terminal]") {
+TEST_CASE("a table that is too wide continues below", "[terminal]") {
   const std::string table = table_of({example_trial(0, "CBS", 0, 41.75, 0.51)}, {45, false});
   CHECK(table ==
         "              success   time s    speed m/s\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one way into a plugin function: what it lets through, what it makes a fault, what it notes for the watchdog.
+// The call guard: statuses that pass, faults, and the call note for the watchdog.
 #include <catch2/catch.hpp>
 #include <cfenv>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/plugins/call_guard.hpp"
+#include "host/program/monotonic_time.hpp"
 #include "host/trial/planning.hpp"
 
 using namespace dmrp::host;
@@ -64,7 +65,7 @@ TEST_CASE("statuses that end a trial are faults with the plugin's own words") {
   CHECK(says(7).kind() == std::string(fault_kind::abi_breach));
   CHECK(says(-1).kind() == std::string(fault_kind::abi_breach));
 
-  // the words of an earlier call are not this one's
+  // the text of an earlier call does not count
   CHECK(guarded.fault([] { return DMRP_ERROR; }).what() == std::string("returned DMRP_ERROR without a text"));
 }
 
@@ -81,7 +82,7 @@ TEST_CASE("changed floating-point control bits are a fault, and are put back") {
   CHECK(fault.kind() == std::string(fault_kind::abi_breach));
   CHECK(std::fegetround() == FE_TONEAREST);
 
-  // flags that arithmetic raises are nobody's fault
+  // exception flags, which arithmetic raises, are no fault
   CHECK_NOTHROW(guarded.guard.call({"test.plugin", "step", 0, 0}, second_ns,
                                    [] { return std::feraiseexcept(FE_DIVBYZERO | FE_INEXACT), DMRP_OK; }));
 }
@@ -114,7 +115,7 @@ TEST_CASE("the note says who is being called") {
     CHECK(note.step.load() == 12);
     CHECK(note.robot.load() == 5);
     CHECK(note.start_ns.load() <= monotonic_ns());
-    CHECK(note.limit_ns.load() > second_ns);  // should_stop() speaks first
+    CHECK(note.limit_ns.load() > second_ns);  // should_stop() returns true before that
     return DMRP_OK;
   });
   CHECK(guarded.note.call_number.load() == 2);
@@ -155,7 +156,7 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
     CHECK(path[2].y == 0.4);
     CHECK(path[2].theta == 1.0);
     CHECK(path[2].t_ns == 3600);
-    CHECK(path[2].goal_index == 0);  // the way to the first goal ends there
+    CHECK(path[2].goal_index == 0);  // the path to the first goal ends there
     CHECK(path[3].x == 1.5);
     CHECK(path[3].y == 0.5);
     CHECK(path[3].t_ns == 5400);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A planner that is asked again and a controller that is handed one path after the other: both check what they get.
+// A planner for replanning and a controller for many paths; both check their inputs.
 #include <dmrp/ext/annotate.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void expect(bool holds, const char* what) {
 
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 
-// Along x, a cell a step; each robot waits for two steps in its first cell.
+// Along x, one cell per step; each robot waits two steps in its first cell.
 class AgainPlanner final : public dmrp::GlobalPlanner {
  public:
   static dmrp::Descriptor describe() {
@@ -67,7 +67,7 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
   std::uint64_t plans_ = 0;
 };
 
-// Goes where it may along what it was handed, and notes that.
+// Drives along its path as far as it is released, and writes a note for each path.
 class Follower final : public dmrp::LocalController {
  public:
   static dmrp::Descriptor describe() { return dmrp::Descriptor("test.controller.follower", "Follower", "1.0.0"); }

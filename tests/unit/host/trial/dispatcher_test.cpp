@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How plans reach robots in whole trials: dispatch by waypoint, planning anew, and execution in the plan's order.
-// The plugins (dispatch_plugins.cpp) check what they are given; the planner of the crowded halls is a real one.
+// Dispatch by waypoint, replanning and ordered execution in whole trials. The plugins (dispatch_plugins.cpp) check their
+// inputs; the planner of the crowded halls is a real one.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t second_ns = 1'000'000'000;
 
-// Robots on lanes of their own along x, from x = 1.5 to goals that are given.
+// Robots on separate lanes along x, from x = 1.5 to the given goals.
 core::Scenario lanes(const std::vector<double>& goals) {
   core::Scenario scenario;
   scenario.name = "lanes";
@@ -79,14 +79,14 @@ struct Stage {
     return ending.succeeded;
   }
 
-  // What controllers noted of the paths that they were handed.
+  // The notes that controllers wrote about their paths.
   std::vector<std::string> notes() const {
     std::vector<std::string> texts;
     for (const core::TraceNote& note : reader->notes()) texts.emplace_back(note.text);
     return texts;
   }
 
-  // When the planner was asked.
+  // The times of the calls of plan().
   std::vector<double> plan_times_s() const {
     std::vector<double> times;
     for (const core::TracePlan& made : reader->plans()) times.push_back(1e-9 * static_cast<double>(made.made_at_ns));
@@ -104,14 +104,14 @@ dmrp_robot_sample robot_of(const dmrp_sample& sample, std::size_t robot) {
 
 }  // namespace
 
-TEST_CASE("a full path is handed over once") {
+TEST_CASE("a controller gets a full path once") {
   Stage stage(lanes({4.8}));
   CHECK(stage.run());
   // three moves, two waits, and a leg from the last cell's centre to the goal
   CHECK(stage.notes() == std::vector<std::string>{"7 to 4.800000"});
 }
 
-TEST_CASE("waypoints are handed over one at a time, waits dropped, without a stop in between") {
+TEST_CASE("a controller gets waypoints one at a time, without waits, and does not stop in between") {
   Stage stage(lanes({4.8}));
   stage.experiment.simulation.dispatch = core::Dispatch::waypoint;
   Stage::set(stage.experiment.local_controllers[0], "by_waypoint");
@@ -136,7 +136,7 @@ TEST_CASE("waypoints are handed over one at a time, waits dropped, without a sto
   CHECK(progress_m == Approx(3.3).margin(0.2));
 }
 
-TEST_CASE("on a tour a robot arrives at each goal before it is sent on") {
+TEST_CASE("on a tour a robot arrives at each goal before it gets the next waypoint") {
   Stage stage(lanes({4.8}));
   stage.experiment.scenarios[0].scenario.robots[0].goals.push_back({2.5, 1.5, any_heading});
   stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
@@ -154,7 +154,7 @@ TEST_CASE("on a tour a robot arrives at each goal before it is sent on") {
     if (sample->t_ns < sent[4].t_ns - second_ns / 10) CHECK(robot_of(*sample, 0).goal_index == 0);
 }
 
-TEST_CASE("every new plan is handed over with the next revision, and robots get where they go") {
+TEST_CASE("a controller gets every new plan with the next revision, and robots arrive") {
   Stage stage(lanes({9.5, 2.5}));
   stage.experiment.simulation.replan.period_ns = 2 * second_ns;
   const auto dispatch = GENERATE(core::Dispatch::full_path, core::Dispatch::waypoint);
@@ -170,7 +170,7 @@ TEST_CASE("every new plan is handed over with the next revision, and robots get 
     CHECK(plans[i].plan.path_count == 2);
   }
   while (const dmrp_sample* sample = stage.reader->next_sample()) {
-    // the tick at which a plan was made was recorded before it
+    // the state at the tick of a plan is recorded before the plan
     const auto asked = static_cast<std::uint64_t>(std::max<std::int64_t>(0, sample->t_ns - 1) / (2 * second_ns));
     CHECK(sample->plan->revision == asked + 1);
   }
@@ -178,7 +178,7 @@ TEST_CASE("every new plan is handed over with the next revision, and robots get 
   const dmrp_path& rest = *DMRP_AT(dmrp_path, plans.back().plan.paths, plans.back().plan.path_stride, 1);
   CHECK(rest.count == 1);
   CHECK(rest.waypoints->x == 2.5);
-  // the first one is planned from the cell that it is on the way to
+  // the plan of the first robot starts in the cell that it drives to
   double x = 0.0;
   for (const core::TracePlan& made : plans) {
     CHECK(made.plan.paths->waypoints->x >= x);
@@ -186,12 +186,12 @@ TEST_CASE("every new plan is handed over with the next revision, and robots get 
   }
 }
 
-TEST_CASE("a robot that was given up is planned round where it stands") {
+TEST_CASE("plans avoid a failed robot") {
   Stage stage(lanes({11.5, 11.5}));
   stage.experiment.simulation.replan.period_ns = 2 * second_ns;
   Stage::set(stage.experiment.local_controllers[0], "gives_up");
   CHECK_FALSE(stage.run());
-  std::vector<double> xs;  // of the given-up robot's one cell, by plan
+  std::vector<double> xs;  // of the only cell of the failed robot, by plan
   for (const core::TracePlan& made : stage.reader->plans()) {
     const dmrp_path& path = *DMRP_AT(dmrp_path, made.plan.paths, made.plan.path_stride, 1);
     if (path.count == 1) xs.push_back(path.waypoints->x);
@@ -216,7 +216,7 @@ TEST_CASE("a plan that fails leaves the old one in force") {
   while (const dmrp_sample* sample = stage.reader->next_sample()) REQUIRE(sample->plan->revision == 1);
 }
 
-TEST_CASE("a plan takes effect when its latency is over: until the first robots wait, then the old one stands") {
+TEST_CASE("a plan takes effect after its latency: robots wait for the first, and keep the old one until the next") {
   Stage stage(lanes({9.5}));
   stage.experiment.simulation.replan.period_ns = 3 * second_ns;
   stage.experiment.simulation.planning_latency_ns = 1'500'000'000;
@@ -230,7 +230,7 @@ TEST_CASE("a plan takes effect when its latency is over: until the first robots 
     CHECK(plans[i].plan.revision == i + 1);
   }
   while (const dmrp_sample* sample = stage.reader->next_sample()) {
-    // the state of a control tick is written down before the plan is taken up
+    // the state of a control tick is recorded before the plan takes effect
     const std::int64_t in_force = (sample->t_ns - 1 + 1'500'000'000) / (3 * second_ns);
     if (sample->t_ns <= 1'500'000'000) {
       CHECK(sample->plan == nullptr);
@@ -294,7 +294,7 @@ TEST_CASE("a robot that strays is planned anew from where it is") {
 
 namespace {
 
-// A hall of 14 x 14 cells with pillars, and 20 robots from drawn cells to drawn cells.
+// A hall of 14 x 14 cells with pillars, and 20 robots from random cells to random cells.
 core::Scenario crowded_hall(std::uint64_t seed) {
   toolkit::Stream random(seed, "crowded_hall");
   core::Scenario scenario;
@@ -375,7 +375,7 @@ std::vector<std::vector<Passage>> passages(core::TraceReader& trace) {
   return of_cell;
 }
 
-// Of pairs of robots that come to a cell one after the other, how many do in another order than planned.
+// The number of pairs of robots that visit a cell in another order than planned.
 std::size_t out_of_order(core::TraceReader& trace, std::size_t& pairs) {
   std::size_t wrong = 0;
   for (const auto& cell : passages(trace))
@@ -411,5 +411,5 @@ TEST_CASE("execution in order: robots that dawdle pass shared cells as planned, 
     out_of_order_when_free += out_of_order(*stage.reader, free_pairs);
   }
   CHECK(pairs > 20 * seeds);
-  CHECK(out_of_order_when_free > 0);  // the order is not there by itself
+  CHECK(out_of_order_when_free > 0);  // free execution does not keep the order
 }

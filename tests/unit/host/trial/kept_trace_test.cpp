@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A trial's trace is the same for its metrics wherever it is kept meanwhile, and leaves nothing behind unasked.
+// Metrics read the same trace from memory and from the spool; no scratch file is left.
 #include "host/trial/kept_trace.hpp"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ class ScratchFolder {
   fs::path path_;
 };
 
-// About two megabytes: two chunks and what is in no chunk yet.
+// About two megabytes: two chunks and an incomplete one.
 constexpr std::int64_t samples = 4000;
 
 core::TraceBytes write_example(KeptTrace& kept) {

@@ -34,7 +34,7 @@ dmrp_waypoint waypoint(dmrp_vec2 at, std::int64_t t_ns, std::uint32_t goal = 0) 
   return w;
 }
 
-// One waypoint a step.
+// One waypoint per step.
 std::vector<dmrp_waypoint> path(const std::vector<Cell>& cells) {
   std::vector<dmrp_waypoint> out;
   for (const Cell& cell : cells)
@@ -42,7 +42,7 @@ std::vector<dmrp_waypoint> path(const std::vector<Cell>& cells) {
   return out;
 }
 
-// The planning problem that the paths answer, each from its first cell to its last.
+// The planning problem of the paths: each from its first cell to its last.
 class Case {
  public:
   explicit Case(PlannedPaths made) : paths(std::move(made)), free_(width * height, 1), edges_(width * height, 0xff) {
@@ -129,7 +129,7 @@ std::string error_of(Case& c, std::uint32_t connectivity = 4) {
   return c.verdict(connectivity).error;
 }
 
-// Both conflicts of the pair in either order of the robots: there is no first among them.
+// The pair in both orders: conflicts are symmetric.
 PlanVerdict conflicts_of(const std::vector<Cell>& a, const std::vector<Cell>& b, std::uint32_t connectivity) {
   const PlanVerdict one = Case({path(a), path(b)}).verdict(connectivity);
   const PlanVerdict other = Case({path(b), path(a)}).verdict(connectivity);
@@ -364,7 +364,7 @@ TEST_CASE("any-angle plans are moving discs") {
     CHECK(near.verdict(DMRP_CONNECTIVITY_ANY, open).conflicts > 0);
   }
   SECTION("crossing one after the other: least distance 2 sin 45 degrees of the lead") {
-    // 1 m/s each; the second is `lead` seconds late at the crossing
+    // 1 m/s each; the second reaches the crossing `lead` seconds later
     const auto late = [&](double lead) {
       auto second = straight({13, 20 - lead}, {13, 24 - lead}, 0, 4);
       Case c({straight({11, 22}, {15, 22}, 0, 4), second});

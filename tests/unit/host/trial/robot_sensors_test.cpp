@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot's sensors as its controller meets them: extensions over a world that goes on.
+// A robot's sensors as the extensions of its controller, while the world advances.
 #include "host/trial/robot_sensors.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ namespace {
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t seed = 5;
 
-// Three robots in a hall of 12 x 8 m with a wall across a part of it; the first drives, the second stands before it,
+// Three robots in a hall of 12 x 8 m with a wall across a part of it: the first drives, the second stands in front of it,
 // the third is behind the wall.
 struct Hall {
   core::RobotSettings robot;
@@ -59,7 +59,7 @@ std::vector<float> ranges_of(RobotSensors& sensors) {
   return {scan.ranges, scan.ranges + scan.count};
 }
 
-// How many clusters come nearer than this to a point.
+// The number of clusters within a distance of a point.
 int clusters_near(RobotSensors& sensors, dmrp_vec2 point, double reach_m) {
   const auto* extension = ask<dmrp_obstacle_clusters>(sensors, DMRP_EXT_OBSTACLE_CLUSTERS);
   const dmrp_obstacle_cluster_list& list = *extension->clusters(extension);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A trial and its measures with plugins that check what they are given (trial_plugins.cpp), in this process.
+// A trial and its metrics in this process, with plugins that check their inputs (trial_plugins.cpp).
 #include "host/trial/run_trial.hpp"
 
 #include <dmrp/ext/annotate.h>
@@ -46,7 +46,7 @@ core::Scenario hall(std::size_t robots) {
   return scenario;
 }
 
-// One trial at a time, again and again with the same instances, as in a worker.
+// Runs trials one after the other with the same instances, as a worker does.
 struct Stage {
   explicit Stage(std::size_t robots = 2, const std::string& planner_does = "plan",
                  const std::string& controller_does = "drive", double planner_time_s = 60.0) {
@@ -159,7 +159,7 @@ TEST_CASE("what plugins say goes to the trace where it is wanted, and changes no
   REQUIRE(notes.size() == 3);
   CHECK(notes[0].source.plugin_kind == DMRP_KIND_GLOBAL_PLANNER);
   CHECK(notes[0].text == "straight");
-  CHECK(notes[1].text == std::string(999, 'n'));  // no half of a character
+  CHECK(notes[1].text == std::string(999, 'n'));  // no partial character
 
   const auto one = motion(*silent.reader);
   const auto other = motion(*open.reader);
@@ -187,7 +187,7 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   const MetricResult result = stage.measured();
   CHECK(result.index == 3);
   CHECK(system_of(result, "samples") == 0.0);
-  // who is there for the calls sees the one that gave no plan
+  // a metric of calls sees the one without a plan
   stage.experiment.metrics[0].info.channels = DMRP_CHANNEL_CALLS;
   CHECK(system_of(stage.measured(), "samples") == 1.0);
   stage.reader->rewind();
@@ -300,4 +300,13 @@ TEST_CASE("a trace that was cut short is not measured") {
   const test::TraceInMemory cut(stage.variant->view.world());
   stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
+}
+
+TEST_CASE("every ending has its text") {
+  CHECK(ending_text(DMRP_ENDING_ARRIVED) == std::string("all robots arrived"));
+  CHECK(ending_text(DMRP_ENDING_TIME_LIMIT) == std::string("time limit"));
+  CHECK(ending_text(DMRP_ENDING_DEADLOCK) == std::string("deadlock"));
+  CHECK(ending_text(DMRP_ENDING_NO_PLAN) == std::string("the planner found no plan"));
+  CHECK(ending_text(DMRP_ENDING_DESERTED) == std::string("everybody left"));
+  CHECK(ending_text(0) == std::string());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins that look closely at what the host gives them: whatever breaks the contract they answer with an error.
+// Plugins that check the inputs from the host, and return an error if they break the contract.
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
@@ -20,7 +20,7 @@ void expect(bool holds, const char* what) {
 
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 
-// Straight along x, a cell a step.
+// Straight along x, one cell per step.
 class StraightPlanner final : public dmrp::GlobalPlanner {
  public:
   static dmrp::Descriptor describe() {
@@ -110,7 +110,7 @@ class CarefulController final : public dmrp::LocalController {
   }
 
  private:
-  // What makes sense, and what does not.
+  // Valid and invalid annotations.
   void annotate(const dmrp::Observation& now) const {
     const dmrp_pose nowhere = {any_heading, 0.0, 0.0};
     const dmrp_pose poses[] = {now.pose, {now.pose.x + 1.0, now.pose.y, 0.0}, nowhere};
@@ -135,7 +135,7 @@ class CarefulController final : public dmrp::LocalController {
   double progress_m_ = 0.0;
 };
 
-// Tries what the sink of a metric takes and refuses. Written against C: the C++ layer would throw.
+// Tests what the sink of a metric accepts and refuses. Uses the C interface: the C++ layer would throw.
 class SinkMetric final : public dmrp::Metric {
  public:
   static dmrp::Descriptor describe() {

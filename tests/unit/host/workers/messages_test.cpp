@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What supervisor and worker say to each other arrives as it was said.
 #include "host/workers/messages.hpp"
 
-#include <unistd.h>
-
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
-
-#include "host/workers/line_channel.hpp"
 
 namespace {
 
@@ -24,33 +16,6 @@ template <class T>
 T through_text(const T& value) {
   return json::parse(json(value).dump()).template get<T>();
 }
-
-// A channel to itself; `raw` writes what no channel would.
-struct Loop {
-  Loop() {
-    REQUIRE(pipe(ends.data()) == 0);
-    channel = std::make_unique<LineChannel>(ends[0], ends[1]);
-  }
-  void raw(const std::string& bytes) const {
-    REQUIRE(write(ends[1], bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
-  }
-  std::array<int, 2> ends{};
-  std::unique_ptr<LineChannel> channel;
-};
-
-// Two channels, each other's ends.
-struct Pair {
-  Pair() {
-    std::array<int, 2> there{};
-    std::array<int, 2> back{};
-    REQUIRE(pipe(there.data()) == 0);
-    REQUIRE(pipe(back.data()) == 0);
-    near = std::make_unique<LineChannel>(back[0], there[1]);
-    far = std::make_unique<LineChannel>(there[0], back[1]);
-  }
-  std::unique_ptr<LineChannel> near;
-  std::unique_ptr<LineChannel> far;
-};
 
 }  // namespace
 
@@ -106,64 +71,4 @@ TEST_CASE("metric values keep their bits, and what is undefined stays so") {
   REQUIRE(got.events.size() == 1);
   CHECK(got.events[0].to_ns == 9'000'000'000'000'000'001);
   CHECK(got.events[0].robots == std::vector<std::uint32_t>{0, 3});
-}
-
-TEST_CASE("messages come through a channel one by one, in order") {
-  const Pair pair;
-  REQUIRE(pair.near->send({{"type", "a"}, {"text", "two\nlines"}}));
-  REQUIRE(pair.near->send({{"type", "b"}}));
-  REQUIRE(pair.far->send({{"type", "answer"}}));
-  CHECK(pair.far->receive() == json({{"type", "a"}, {"text", "two\nlines"}}));
-  CHECK(pair.far->receive() == json({{"type", "b"}}));
-  CHECK(pair.near->receive() == json({{"type", "answer"}}));
-}
-
-TEST_CASE("a message larger than a pipe") {
-  const Pair pair;
-  const json large = std::string(1 << 20, 'x');
-  std::thread writer([&] { pair.near->send(large); });
-  const auto got = pair.far->receive();
-  writer.join();
-  CHECK(got == large);
-}
-
-TEST_CASE("fill and take: a message that comes in pieces") {
-  const Loop loop;
-  loop.raw("{\"type\":");
-  REQUIRE(loop.channel->fill());
-  CHECK_FALSE(loop.channel->take());
-  loop.raw("\"done\"}\n{\"type\":\"next\"}\n{\"ty");
-  REQUIRE(loop.channel->fill());
-  CHECK(loop.channel->take() == json({{"type", "done"}}));
-  CHECK(loop.channel->take() == json({{"type", "next"}}));
-  CHECK_FALSE(loop.channel->take());
-}
-
-TEST_CASE("a damaged line is told apart, and the next one is whole") {
-  const Loop loop;
-  loop.raw("{oops\n\n[1]\n");
-  REQUIRE(loop.channel->fill());
-  for (int i = 0; i < 2; ++i) {
-    const auto damaged = loop.channel->take();
-    REQUIRE(damaged);
-    CHECK(damaged->is_discarded());
-  }
-  CHECK(loop.channel->take() == json::array({1}));
-  loop.raw("}\n");
-  CHECK_FALSE(loop.channel->receive());
-}
-
-TEST_CASE("text that is no UTF-8 is replaced, not refused") {
-  const Loop loop;
-  REQUIRE(loop.channel->send({{"text", "a\xff z"}}));
-  const auto got = loop.channel->receive();
-  REQUIRE(got);
-  CHECK(got->at("text") == "a\uFFFD z");
-}
-
-TEST_CASE("the end of the other side") {
-  Pair pair;
-  pair.near.reset();
-  CHECK_FALSE(pair.far->fill());
-  CHECK_FALSE(pair.far->receive());
 }

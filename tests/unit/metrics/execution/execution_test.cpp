@@ -25,7 +25,7 @@ dmrp_call call(std::uint32_t kind, std::uint32_t robot, double milliseconds, std
 
 }  // namespace
 
-TEST_CASE("path irregularity is the turning beyond the least that the goals ask for, a metre") {
+TEST_CASE("path irregularity is the turning beyond the least that the goals need, per metre") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}});
   // east to (4, 0), then north to (4, 3), there to face west; begins facing north: least 90 + 90 + 90 degrees
@@ -44,7 +44,7 @@ TEST_CASE("path irregularity is the turning beyond the least that the goals ask 
   CHECK_THAT(m.system("path_irregularity"), WithinAbs(0.4 / 7.0, 1e-14));
 }
 
-TEST_CASE("path irregularity is 0 for a robot that turned less than it should have, undefined where it stood") {
+TEST_CASE("path irregularity is 0 for a robot that turned less than needed, undefined for one that stood") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   trial.route(0, {0, 0, 0}, {{-9, 0, std::nan("")}}).route(1, {0, 0, 0}, {{-9, 0, std::nan("")}});
@@ -55,7 +55,7 @@ TEST_CASE("path irregularity is 0 for a robot that turned less than it should ha
   CHECK(m.system("path_irregularity") == 0.0);
 }
 
-TEST_CASE("acceleration and jerk are mean sizes over time of differences from step to step") {
+TEST_CASE("acceleration and jerk are time averages of the differences from step to step") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   const double speeds[] = {0.0, 0.5, 1.0, 1.0, 0.0, 0.0};  // a: 0.5, 0.5, 0, -1, 0; da: 0, 0.5, 1, 1
@@ -69,7 +69,7 @@ TEST_CASE("acceleration and jerk are mean sizes over time of differences from st
   CHECK_THAT(m.robot("jerk", 1), WithinAbs(0.5 / 2.0, 1e-15));
 }
 
-TEST_CASE("acceleration and jerk weigh steps by their length") {
+TEST_CASE("acceleration and jerk weight steps by their length") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}});
   trial.sample(0.0, {at(0, 0, 0.0)}).sample(0.5, {at(0, 0, 0.5)}).sample(2.0, {at(0, 0, -1.0)}).end(2.0, {never});
@@ -79,7 +79,7 @@ TEST_CASE("acceleration and jerk weigh steps by their length") {
   CHECK_THAT(m.system("jerk"), WithinAbs(2.0, 1e-15));
 }
 
-TEST_CASE("acceleration does not depend on how fine the samples are") {
+TEST_CASE("acceleration does not depend on the sampling period") {
   for (const int steps : {10, 1000}) {
     SyntheticTrial trial(1);
     trial.plan({{{0, 0}}});
@@ -109,7 +109,7 @@ TEST_CASE("idle time is the active time in which a robot neither drives nor turn
   CHECK(measure("dmrp.metric.idle_time", trial).system("idle_time") == 3.5);
 }
 
-TEST_CASE("PFD has a maximum and a spread") {
+TEST_CASE("PFD has a maximum and a standard deviation") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {9, 0}}, {{0, 0}, {9, 0}}}).sample(0.0, {at(0, 5), at(0, 5)});
   trial.sample(1.0, {at(1, 0.1), at(1, 0.5)}).sample(2.0, {at(2, 0.3), at(2, -0.5)});
@@ -123,7 +123,7 @@ TEST_CASE("PFD has a maximum and a spread") {
   CHECK_THAT(m.system("pfd_sd"), WithinAbs(std::sqrt(0.02 / 3) / 2, 1e-15));
 }
 
-TEST_CASE("compute time is taken from the calls that the trace recorded") {
+TEST_CASE("compute time comes from the recorded calls") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   trial.sample(0.0, {at(0, 0), at(0, 0)}).calls({call(DMRP_CALL_PLAN, 0, 12.0)});

@@ -34,7 +34,7 @@ SyntheticTrial standing(const std::vector<dmrp_vec2>& places, const std::vector<
 
 }  // namespace
 
-TEST_CASE("blocked time is the time without progress after the robot set out and before it arrived") {
+TEST_CASE("blocked time is the time without progress between the first motion and the arrival") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {9, 0}}});
   fill(trial, 0.0, 20.0, [](double t) -> std::vector<dmrp_robot_sample> {
@@ -53,7 +53,7 @@ TEST_CASE("blocked time is the time without progress after the robot set out and
   }
 }
 
-TEST_CASE("blocked time does not take a new path for progress, nor for its loss") {
+TEST_CASE("a new path is neither progress nor a loss of progress") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {9, 0}}});
   fill(trial, 0.0, 2.0, [](double t) -> std::vector<dmrp_robot_sample> { return {gained(at(0, 0, 1.0), t)}; });
@@ -65,7 +65,7 @@ TEST_CASE("blocked time does not take a new path for progress, nor for its loss"
   CHECK(measure("dmrp.metric.blocked_time", trial).system("blocked_time") == 4.0);
 }
 
-TEST_CASE("blocked time of a robot that creeps on is 0, of one that never sets out too") {
+TEST_CASE("blocked time is 0 for a robot that creeps and for one that never moves") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {9, 0}}, {{0, 5}, {9, 5}}});
   fill(trial, 0.0, 10.0, [](double t) -> std::vector<dmrp_robot_sample> {
@@ -77,7 +77,7 @@ TEST_CASE("blocked time of a robot that creeps on is 0, of one that never sets o
   CHECK(m.robot("blocked_time", 1) == 0.0);
 }
 
-TEST_CASE("two robots head-on that stand still are in deadlock") {
+TEST_CASE("two robots that stand head-on are in deadlock") {
   SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
   fill(trial, 0.0, 12.0, [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; });
   trial.end(12.0, {never, never});
@@ -97,7 +97,7 @@ TEST_CASE("two robots head-on that stand still are in deadlock") {
   }
 }
 
-TEST_CASE("a deadlock is a circle: of three robots, with one that waits outside of it") {
+TEST_CASE("three robots form a deadlock, without a fourth one that waits for them") {
   // 0, 1 and 2 at the corners of a triangle with sides of 0.8 m, each heading for the next; 3 heads for 0 from behind
   const double half = 0.5, height = std::sqrt(0.75);
   SyntheticTrial trial = standing({{0, 0}, {0.8, 0}, {0.8 * half, 0.8 * height}, {-0.8, 0}},
@@ -114,7 +114,7 @@ TEST_CASE("a deadlock is a circle: of three robots, with one that waits outside 
   CHECK(m.robot("deadlock_time", 3) == 0.0);
 }
 
-TEST_CASE("no deadlock: one way only, a parked robot, nobody in the way, somebody who moves") {
+TEST_CASE("no deadlock: one-sided waiting, a parked robot, a free way, a moving robot") {
   const std::vector<dmrp_vec2> places = {{0, 0}, {0.7, 0}};
   const auto deadlocks = [](SyntheticTrial& trial, const std::function<std::vector<dmrp_robot_sample>(double)>& as) {
     fill(trial, 0.0, 20.0, as);
@@ -148,7 +148,7 @@ TEST_CASE("no deadlock: one way only, a parked robot, nobody in the way, somebod
   }
 }
 
-TEST_CASE("a deadlock that dissolves and comes back is two") {
+TEST_CASE("a deadlock that dissolves and returns counts twice") {
   SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
   fill(trial, 0.0, 30.0, [](double t) -> std::vector<dmrp_robot_sample> {
     const double progress_m = t < 14.0 ? 0.0 : 0.5;  // robot 0 jumps ahead once
@@ -161,7 +161,7 @@ TEST_CASE("a deadlock that dissolves and comes back is two") {
   CHECK(m.system("deadlock_time") == 12.0 + 14.5);
 }
 
-TEST_CASE("neighbours are counted by time among all robots, while active") {
+TEST_CASE("neighbours is the time average of the count among all robots, while active") {
   SyntheticTrial trial(3);
   trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
   trial.sample(0.0, {at(0, 0), at(0, 0), at(0, 0)});

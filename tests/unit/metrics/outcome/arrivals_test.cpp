@@ -62,7 +62,7 @@ TEST_CASE("throughput counts every goal of a tour") {
   CHECK_THAT(m.system("throughput"), WithinAbs(0.25, 1e-15));
 }
 
-TEST_CASE("SPL weighs success by the shortest length over the driven one") {
+TEST_CASE("SPL weights success by the shortest length over the driven one") {
   SyntheticTrial trial(3);
   for (std::size_t robot = 0; robot < 3; ++robot) trial.route(robot, {0, 0, 0}, {{3, 4, free_heading}});
   trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
@@ -86,14 +86,14 @@ TEST_CASE("SPL is at most 1: a robot that stops within its goal's tolerance driv
   CHECK(measure("dmrp.metric.spl", trial).system("spl") == 1.0);
 }
 
-TEST_CASE("SPL of a robot that begins at its goal is 1") {
+TEST_CASE("SPL of a robot that starts at its goal is 1") {
   SyntheticTrial trial(1);
   trial.route(0, {1, 1, 0}, {{1, 1, free_heading}}).plan({{{1, 1}}});
   trial.sample(0.0, {at(1, 1)}).end(0.5);
   CHECK(measure("dmrp.metric.spl", trial).system("spl") == 1.0);
 }
 
-TEST_CASE("the shortest length leads round walls at any angle, through gaps as wide as the robot, and along tours") {
+TEST_CASE("the shortest way passes walls at any angle, gaps as wide as the robot, and all goals of a tour") {
   //  . . . g . . .   a wall in column 3, open above, and in row 1 for a robot of at most 0.2 m
   //  . . . # . . .
   //  . . . # . . .

@@ -40,7 +40,7 @@ TEST_CASE("success is the share of robots that arrived and were not failed") {
   CHECK(m.events[1].text == "robot 2 failed: oscillation");
 }
 
-TEST_CASE("people nearby are counted around active robots, by time") {
+TEST_CASE("people nearby is the time average of the count around active robots") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{20, 0}}});
   trial.sample(0.0, {at(0, 0), at(20, 0)}).people_at({{3, 4}, {0, 5.1}});  // stands for no time
@@ -56,7 +56,7 @@ TEST_CASE("people nearby are counted around active robots, by time") {
   CHECK(m.system("people_nearby") == Approx(1.075));
 }
 
-TEST_CASE("nobody arrives: success is 0, not undefined") {
+TEST_CASE("success is 0, not undefined, when no robot arrives") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {1, 0}}, {{3, 0}, {4, 0}}});
   trial.sample(0.0, {at(0, 0), at(3, 0)}).end(180.0, {never, never});
@@ -67,7 +67,7 @@ TEST_CASE("nobody arrives: success is 0, not undefined") {
   CHECK(m.system("safe_success") == 0.0);
 }
 
-TEST_CASE("safe success asks for no contact of the robot's own fault") {
+TEST_CASE("safe success requires that no contact is the robot's fault") {
   SyntheticTrial trial(6);
   const std::vector<dmrp_robot_sample> robots(6, at(0, 0));
   trial.plan(std::vector<Points>(6, Points{{0, 0}}));
@@ -95,7 +95,7 @@ TEST_CASE("safe success asks for no contact of the robot's own fault") {
   CHECK(m.system("trial_success") == 1.0);
 }
 
-TEST_CASE("path length adds up what was driven") {
+TEST_CASE("path length is the sum of the driven lengths") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {3, 5}}, {{9, 9}}});
   trial.sample(0.0, {at(0, 0), at(9, 9)});
@@ -111,7 +111,7 @@ TEST_CASE("path length adds up what was driven") {
   CHECK(m.system("path_length") == 8.0);
 }
 
-TEST_CASE("path length loses nothing over many small steps") {
+TEST_CASE("path length stays accurate over many small steps") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {0.1, 0}}});
   for (int i = 0; i <= 9000; ++i) trial.sample(i * 0.02, {at(i % 2 == 0 ? 0.0 : 0.1, 0)});  // to and fro
@@ -120,7 +120,7 @@ TEST_CASE("path length loses nothing over many small steps") {
   CHECK_THAT(measure("dmrp.metric.path_length", trial).system("path_length"), WithinAbs(900.0, 1e-12));
 }
 
-TEST_CASE("planned length and turns come from the first plan, waits aside") {
+TEST_CASE("planned length and turns come from the first plan, without waits") {
   SyntheticTrial trial(5);
   trial.plan({
       {{0, 0}, {1, 0}, {2, 0}, {2, 0}, {2, 0}, {2, 1}, {2, 2}, {3, 2}},  // E E wait wait N N E: 5 m, 2 turns
@@ -148,7 +148,7 @@ TEST_CASE("planned length and turns come from the first plan, waits aside") {
   CHECK(m.system("plan_turns") == 4.0);
 }
 
-TEST_CASE("planning time is that of the first plan, in milliseconds") {
+TEST_CASE("planning time is the time of the first plan, in milliseconds") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {1, 0}}}, 12'500'000);
   trial.sample(0.0, {at(0, 0)});

@@ -83,7 +83,7 @@ TEST_CASE("STO keeps waits, in numerator and denominator") {
   CHECK_THAT(m.system("sto"), WithinAbs((0.4 + 1.0 / 6.0) / 2.0, 1e-15));
 }
 
-TEST_CASE("STO ends a robot's own way at its goal, however the planner pads it") {
+TEST_CASE("STO ignores padding after the robot's arrival") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {1, 0}, {1, 0}, {1, 0}, {1, 0}, {1, 0}}, {{1, 4}, {1, 3}, {1, 2}, {1, 1}, {1, 0.5}, {1, 0.5}}});
   trial.end(0.0);
@@ -92,7 +92,7 @@ TEST_CASE("STO ends a robot's own way at its goal, however the planner pads it")
   CHECK(measure("dmrp.metric.sto", trial, {{"window", 3}}).system("sto") == 0.35);
 }
 
-TEST_CASE("STO counts a goal that is left and reached again as way") {
+TEST_CASE("STO counts the way of a robot that leaves its goal and returns") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {1, 0}, {0, 0}, {1, 0}}, {{0, 9}, {0, 8}, {0, 0.5}}});
   trial.end(0.0);
@@ -149,7 +149,7 @@ TEST_CASE("IBTR closes an event that is open at the end") {
   CHECK(m.events[0].to_s == 10.0);
 }
 
-TEST_CASE("IBTR takes the union of overlapping pairs, its second value their sum") {
+TEST_CASE("IBTR is the union of overlapping pairs, its second value their sum") {
   // robots 0 and 2 are 4 m apart, 1 between them; each drives 1 m/s but where it stands: 0 in (2, 5], 1 in (2, 6],
   // 2 in (4, 6]. Pair 0-1 blocks in (2, 5], pair 1-2 in (4, 6].
   const auto stops = [](std::size_t from, std::size_t to) {
@@ -169,27 +169,27 @@ TEST_CASE("IBTR takes the union of overlapping pairs, its second value their sum
   CHECK(m.events[1].robots == std::vector<std::uint32_t>{1, 2});
 }
 
-TEST_CASE("IBTR knows two events of one pair apart") {
+TEST_CASE("IBTR separates two events of one pair") {
   const auto trial = crawling({{0, 0}, {1, 0}}, {{1, 0, 1, 1, 0, 0, 1, 1, 1, 1}, {1, 0, 1, 1, 0, 0, 1, 1, 1, 1}});
   const Measurement m = measure("dmrp.metric.ibtr", trial);
   CHECK(m.system("ibtr") == 30.0);  // (1, 2] and (4, 6]
   CHECK(m.events.size() == 2);
 }
 
-TEST_CASE("IBTR measures each robot by its own pace") {
+TEST_CASE("IBTR compares each robot with its own mean speed") {
   // robot 0: mean (9 * 1 + 0.1) / 10 = 0.91, so 0.1 is below 0.182; robot 1 always does 0.1, its mean: no crawl
   const auto trial = crawling({{0, 0}, {1, 0}}, {{1, 1, 1, 1, 1, 1, 1, 1, 1, 0.1}, std::vector<double>(10, 0.1)});
   CHECK(measure("dmrp.metric.ibtr", trial).system("ibtr") == 0.0);
 }
 
-TEST_CASE("IBTR finds no congestion beside a robot that never moves: it has no pace to fall below") {
+TEST_CASE("IBTR finds no congestion beside a robot that never moves, because its threshold is 0") {
   const std::vector<double> stops = {1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
   const std::vector<double> never_moves(10, 0.0);
   CHECK(measure("dmrp.metric.ibtr", crawling({{0, 0}, {1, 0}}, {stops, never_moves})).system("ibtr") == 0.0);
   CHECK(measure("dmrp.metric.ibtr", crawling({{0, 0}, {1, 0}}, {never_moves, stops})).system("ibtr") == 0.0);
 }
 
-TEST_CASE("IBTR does not take parked neighbours for congestion") {
+TEST_CASE("IBTR does not count parked neighbours as congestion") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{1, 0}}});
   trial.sample(0.0, {at(0, 0), at(1, 0)});
@@ -203,7 +203,7 @@ TEST_CASE("IBTR does not take parked neighbours for congestion") {
   CHECK(m.events.empty());
 }
 
-TEST_CASE("IBTR takes the mean speed over active time alone") {
+TEST_CASE("IBTR uses the mean speed over active time only") {
   // Robot 0 drives (1 + 0.05) / 2 = 0.525 m/s on average until it arrives at 2 s: threshold 0.105. Over all 20 s its
   // mean would be 0.0525, its threshold 0.0105, and its 0.05 m/s no crawl. The step of its arrival still counts.
   SyntheticTrial trial(2);
@@ -271,7 +271,7 @@ TEST_CASE("LDF is the largest variance of the number of neighbours, counted each
   CHECK(m.system("ldf_active") == 0.64);
 }
 
-TEST_CASE("LDF's distance includes itself, and can be the released code's") {
+TEST_CASE("LDF's distance is inclusive, and can be that of the released code") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{9, 0}}});
   trial.sample(0.0, {at(0, 0), at(2.0, 0)});  // within 2 m, not within 1
@@ -294,7 +294,7 @@ TEST_CASE("LDF counts at instants that fall between samples") {
   CHECK(measure("dmrp.metric.ldf", trial).system("ldf") == 0.1875);
 }
 
-TEST_CASE("LDF of one robot, and of robots that keep together, is 0") {
+TEST_CASE("LDF of one robot and of robots that stay together is 0") {
   SyntheticTrial alone(1);
   alone.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).sample(1.0, {at(1, 0)}).end(1.0);
   CHECK(measure("dmrp.metric.ldf", alone).system("ldf") == 0.0);
@@ -327,7 +327,7 @@ TEST_CASE("PFD averages the distance to the path over control steps until arriva
   CHECK_THAT(m.system("pfd_initial"), WithinAbs(1.075, 1e-15));
 }
 
-TEST_CASE("PFD measures against the plan in force, its second value against the first") {
+TEST_CASE("PFD uses the current plan, its second value the first plan") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {4, 0}}});
   trial.sample(0.0, {at(0, 0)});

@@ -19,7 +19,7 @@ constexpr std::uint32_t with_person = DMRP_CONTACT_PERSON;
 
 }  // namespace
 
-TEST_CASE("a contact that lasts is one collision, from its first sample to its last") {
+TEST_CASE("a lasting contact is one collision, from its first to its last sample") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   trial.sample(0.1, {at(0, 0)}).contacts({contact(with_static, 0, 0, begins | fault_a)});
@@ -43,7 +43,7 @@ TEST_CASE("a contact that lasts is one collision, from its first sample to its l
   CHECK(m.events[1].to_s == 2.0);
 }
 
-TEST_CASE("collisions are attributed to each robot and once to the system") {
+TEST_CASE("collisions count for each robot and once for the system") {
   const std::vector<dmrp_robot_sample> robots = {at(0, 0), at(0, 0), at(0, 0)};
   SyntheticTrial trial(3);
   trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}}).sample(0.0, robots);
@@ -79,7 +79,7 @@ TEST_CASE("collisions are attributed to each robot and once to the system") {
   CHECK(m.events[3].text == "robot 1 and robot 2: neither at fault");
 }
 
-TEST_CASE("contacts with people are told apart by whose fault they are") {
+TEST_CASE("contacts with people have a fault") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).people({7, 8, 9});
   trial.sample(1.0, {at(0, 0)})
@@ -104,7 +104,7 @@ TEST_CASE("contacts with people are told apart by whose fault they are") {
   CHECK(m.events[2].text == "robot 0 and person 9: unavoidable");
 }
 
-TEST_CASE("people keep their contacts when their places in the array change") {
+TEST_CASE("contacts follow people whose indices change") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).people({7, 8});
   trial.sample(1.0, {at(0, 0)})
@@ -123,7 +123,7 @@ TEST_CASE("people keep their contacts when their places in the array change") {
   CHECK(m.events[1].to_s == 2.0);  // 8
 }
 
-TEST_CASE("a trial without a plan has no number of collisions: 0 would flatter the planner") {
+TEST_CASE("without a plan the number of collisions is undefined") {
   SyntheticTrial trial(2);
   trial.end(0.0, {never, never});
   const Measurement m = measure("dmrp.metric.collisions", trial);

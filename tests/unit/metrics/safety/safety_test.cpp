@@ -31,7 +31,7 @@ dmrp_robot_sample turned(dmrp_robot_sample robot, double theta) {
 
 }  // namespace
 
-TEST_CASE("clearance is measured from surface to surface, by time, until arrival") {
+TEST_CASE("clearance is the time average of the surface distance until arrival") {
   SyntheticTrial trial(2);
   trial.box("wall", {2, -1}, {3, 1}).circle("pillar", {0, 4}, 1.0);
   trial.plan({{{0, 0}}, {{0, 0}}});
@@ -67,7 +67,7 @@ TEST_CASE("clearance is measured from surface to surface, by time, until arrival
   CHECK_THAT(m.system("danger_time"), WithinAbs(50.0 * 5 / 9, 1e-13));
 }
 
-TEST_CASE("clearance is negative in contact, also deep inside a shape and beyond the border") {
+TEST_CASE("clearance is negative in contact, deep inside a shape and beyond the border") {
   SyntheticTrial trial(3);
   trial.bounds({-10, -10}, {10, 10}).box("wall", {2, -1}, {5, 1}).circle("pillar", {-5, 0}, 2.0);
   trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}});
@@ -80,14 +80,14 @@ TEST_CASE("clearance is negative in contact, also deep inside a shape and beyond
   CHECK(m.robot("clearance_static_min", 2) == -0.75);
 }
 
-TEST_CASE("danger means nearer than the safe distance, not as near") {
+TEST_CASE("danger excludes the safe distance itself") {
   SyntheticTrial trial(1);
   trial.box("wall", {1, -1}, {2, 1}).plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   trial.sample(1.0, {at(0.5, 0)}).sample(2.0, {at(0.51, 0)}).end(2.0, {never});
   CHECK(measure("dmrp.metric.clearance", trial, {{"safe_distance_m", 0.25}}).system("danger_time") == 50.0);
 }
 
-TEST_CASE("clearance without others is to walls alone") {
+TEST_CASE("clearance without other bodies counts walls only") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).sample(1.0, {at(0, 0)}).end(1.0);
   const Measurement m = measure("dmrp.metric.clearance", trial);
@@ -98,7 +98,7 @@ TEST_CASE("clearance without others is to walls alone") {
   CHECK(m.system("danger_time") == 0.0);
 }
 
-TEST_CASE("clearance to many shapes is the least of all, wherever a robot wanders") {
+TEST_CASE("clearance among many shapes equals exhaustive search along random ways") {
   for (int i = 0; i < 40; ++i) {
     Stream stream(1, "metrics.clearance", i);
     SyntheticTrial trial(1);
@@ -133,7 +133,7 @@ TEST_CASE("clearance to many shapes is the least of all, wherever a robot wander
   }
 }
 
-TEST_CASE("time to collision is when the surfaces meet, all velocities kept") {
+TEST_CASE("time to collision is the time until surfaces meet at constant velocities") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}}).sample(0.0, {at(0, 0), at(9, 0)});
   SECTION("head-on with a person: 5 m less 0.55 m at 2 m/s") {
@@ -180,7 +180,7 @@ TEST_CASE("time to collision is when the surfaces meet, all velocities kept") {
   }
 }
 
-TEST_CASE("time to collision of one robot alone is undefined") {
+TEST_CASE("time to collision of a single robot is undefined") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).sample(1.0, {at(0, 0, 1.0)}).end(1.0);
   const Measurement m = measure("dmrp.metric.time_to_collision", trial);
@@ -188,7 +188,7 @@ TEST_CASE("time to collision of one robot alone is undefined") {
   CHECK(std::isnan(m.system("ttc_low_time")));
 }
 
-TEST_CASE("time to collision agrees with small steps forward in time") {
+TEST_CASE("time to collision agrees with simulation in small steps") {
   int hits = 0;
   for (int i = 0; i < 300; ++i) {
     Stream stream(1, "metrics.ttc", i);

@@ -38,7 +38,7 @@ dmrp_person walker(std::uint64_t id, dmrp_vec2 position, dmrp_vec2 target, doubl
 
 }  // namespace
 
-TEST_CASE("proxemics go by the nearest person's surface, zones include their outer bounds") {
+TEST_CASE("proxemics uses the nearest person's surface, and zones include their outer bounds") {
   // surfaces are 0.55 m nearer than centres
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).crowd({person(0.6, 0)});
@@ -56,7 +56,7 @@ TEST_CASE("proxemics go by the nearest person's surface, zones include their out
   CHECK_THAT(m.system("proxemics_social"), WithinAbs(100.0 * 3 / 11, 1e-13));
 }
 
-TEST_CASE("a robot between two people of a group intrudes, beside them or between strangers it does not") {
+TEST_CASE("a robot intrudes between two members of a group, not beside them or between people without a group") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   const std::vector<dmrp_person> pair = {person(-1, 0.2, 7), person(1, 0.2, 7), person(0, 0), person(0, 1, 8)};
@@ -72,7 +72,7 @@ TEST_CASE("a robot between two people of a group intrudes, beside them or betwee
   CHECK(m.system("group_intrusion_time") == 50.0);  // 3 s of 6
 }
 
-TEST_CASE("a group of more is intruded inside its hull, also where its members are far") {
+TEST_CASE("a robot intrudes a larger group anywhere inside its hull") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   // a square of 8 m with members inside it, two of them at one place, one on a side
@@ -89,7 +89,7 @@ TEST_CASE("a group of more is intruded inside its hull, also where its members a
   CHECK(m.system("group_intrusions") == 2.0);
 }
 
-TEST_CASE("people of a group in a line, and at one place, are a segment and a point") {
+TEST_CASE("the hull of a group in a line is a segment, that of a group at one place a point") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   trial.sample(1.0, {at(0, 0.2)}).crowd({person(-2, 0, 1), person(1, 0, 1), person(2, 0, 1)});
@@ -107,7 +107,7 @@ TEST_CASE("group intrusion without groups is undefined") {
   CHECK(std::isnan(m.system("group_intrusion_time")));
 }
 
-TEST_CASE("social work is the forces between robot and people, added up over time") {
+TEST_CASE("social work integrates the forces between robot and people over time") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
   SECTION("both at rest: 2.1 exp(-d / 0.35) each, for 2 s") {
@@ -159,10 +159,10 @@ TEST_CASE("social work is the forces between robot and people, added up over tim
   }
 }
 
-TEST_CASE("pedestrian progress telescopes over legs and generations") {
+TEST_CASE("pedestrian progress is a telescoping sum over legs and successive people") {
   SyntheticTrial trial(0);
   // 10 m from its target, walks on 1 m a second; at 3 s it has another target, to which it is 4 m; at 5 s it is
-  // replaced by somebody 6 m from a target, who walks away from it by 0.5 m a second
+  // replaced by a person 6 m from a target who walks away from it at 0.5 m/s
   trial.sample(0.0, {}).crowd({walker(0, {0, 0}, {11, 0})});
   trial.sample(1.0, {}).crowd({walker(0, {1, 0}, {11, 0})});
   trial.sample(2.0, {}).crowd({walker(0, {2, 0}, {11, 0})});
@@ -178,7 +178,7 @@ TEST_CASE("pedestrian progress telescopes over legs and generations") {
   CHECK_THAT(m.system("pedestrian_desired_speed"), WithinAbs(1.2, 1e-15));
 }
 
-TEST_CASE("pedestrian progress is a mean over the people there are at once, though some leave for good") {
+TEST_CASE("pedestrian progress is a mean over the people present at once, also when some leave the world") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).crowd({walker(0, {0, 0}, {5, 0}), walker(1, {0, 9}, {5, 9}), walker(2, {0, 3}, {5, 3})});
   trial.sample(0.6, {}).crowd({walker(0, {1, 0}, {5, 0}), walker(1, {0, 9}, {5, 9}), walker(2, {1, 3}, {5, 3})});
@@ -197,7 +197,7 @@ TEST_CASE("pedestrian progress is a mean over the people there are at once, thou
   CHECK_THAT(m.system("pedestrian_speed"), WithinAbs((1.8 + 0.6 + 0.8) / (1.8 + 1.2 + 0.8), 1e-12));
 }
 
-TEST_CASE("pedestrian progress follows people by id, whatever their places in the array") {
+TEST_CASE("pedestrian progress identifies people by id, not by index") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).crowd({walker(0, {0, 0}, {9, 0}), walker(1, {0, 0}, {5, 0})});
   trial.sample(1.0, {}).crowd({walker(1, {1, 0}, {5, 0}), walker(0, {2, 0}, {9, 0})});

@@ -20,12 +20,12 @@
 using namespace dmrp::pedestrians;
 using dmrp::toolkit::Stream;
 
-TEST_CASE("the neighbour grid finds whom a search through all finds") {
+TEST_CASE("the neighbour grid finds the same bodies as exhaustive search") {
   const double reach_m = GENERATE(0.7, 5.0, 100.0);
   NeighborGrid grid;
   grid.start({-10.0, 0.0}, {13.0, 17.0}, GENERATE(0.5, 2.0, 30.0));
   for (uint64_t round = 0; round < 5; ++round) {
-    // some stand outside the world
+    // some bodies are outside the world
     Stream chance(1, "bodies", round);
     std::vector<Body> bodies;
     for (std::uint32_t slot = 0; slot < 60 * round; ++slot)
@@ -49,7 +49,7 @@ TEST_CASE("the neighbour grid finds whom a search through all finds") {
   }
 }
 
-TEST_CASE("the wall grid finds the walls that a search through all finds") {
+TEST_CASE("the wall grid finds the same walls as exhaustive search") {
   const double reach_m = 1.5;
   Stream chance(1, "walls");
   std::vector<dmrp_segment> segments;
@@ -57,7 +57,7 @@ TEST_CASE("the wall grid finds the walls that a search through all finds") {
     const dmrp_vec2 from = {chance.uniform(0.0, 20.0), chance.uniform(5.0, 30.0)};
     segments.push_back({from, from + dmrp_vec2{chance.uniform(-6.0, 6.0), chance.uniform(-6.0, 6.0)}});
   }
-  segments.push_back({{3.0, 7.0}, {3.0, 7.0}});  // a point is a wall too
+  segments.push_back({{3.0, 7.0}, {3.0, 7.0}});  // a wall without length
   WallGrid grid;
   grid.start({segments.data(), segments.size()}, {0.0, 5.0}, {20.0, 30.0}, reach_m);
 
@@ -103,13 +103,13 @@ struct MaskGrid {
   }
 };
 
-TEST_CASE("who walks on sees what a look along the whole line shows") {
+TEST_CASE("cached lines of sight equal an examination of the whole line") {
   Stream chance(1, "sight");
   const std::uint32_t block = GENERATE(1, 2, 5);
   const double share = GENERATE(0.01, 0.05, 0.2);
   const MaskGrid grid(120, 90, share, block, chance);
-  Sight sight;
-  sight.start(grid.view);
+  LineOfSight line_of_sight;
+  line_of_sight.start(grid.view);
 
   // half of the places are corners and middles of cells
   const auto anywhere = [&] {
@@ -123,10 +123,10 @@ TEST_CASE("who walks on sees what a look along the whole line shows") {
     dmrp_vec2 at = anywhere();
     const dmrp_vec2 to = anywhere();
     const double stray_m = chance.uniform(0.0, 0.1);
-    LineOfSight line;
+    SightLine line;
     for (int step = 0; step < 60; ++step) {
       const dmrp_vec2 last = line.witness;
-      const bool is_free = sight.is_free(at, to, line);
+      const bool is_free = line_of_sight.is_free(at, to, line);
       REQUIRE(is_free == dmrp::toolkit::line_is_free(grid.view, at, to));
       seen += is_free;
       kept += step > 0 && line.witness == last;
@@ -136,10 +136,10 @@ TEST_CASE("who walks on sees what a look along the whole line shows") {
   }
   CHECK(seen > 100);
   CHECK(seen < 8900);
-  CHECK(kept > 1000);  // what it is for
+  CHECK(kept > 1000);  // answered without an examination
 }
 
-TEST_CASE("walkers are the people by place, with their ways, and robots are none") {
+TEST_CASE("walkers are the people in the order of the grid, with their directions, without robots") {
   NeighborGrid grid;
   grid.start({0.0, 0.0}, {20.0, 20.0}, 1.0);
   std::vector<dmrp_person> people;
@@ -175,7 +175,7 @@ TEST_CASE("walkers are the people by place, with their ways, and robots are none
   }
 }
 
-TEST_CASE("ways lead straight to what is in sight and round what is not") {
+TEST_CASE("directions lead straight to visible targets and around obstacles to hidden ones") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
   WayFinder ways;
   ways.start(*world.c().walking_grid);
@@ -194,12 +194,12 @@ TEST_CASE("ways lead straight to what is in sight and round what is not") {
     walked_m += 0.05;
     REQUIRE(world.clearance(p.position) >= 0.25);
   }
-  // 23.0 m round the corners at 0.3 m, less the last 0.3 m; the comfortable way keeps further off
+  // 23.0 m around the corners at 0.3 m, minus the last 0.3 m; the preferred way keeps a larger distance
   CHECK(walked_m > 22.5);
   CHECK(walked_m < 24.5);
 }
 
-TEST_CASE("where no way leads to the target people head straight for it") {
+TEST_CASE("people without a way to their target walk straight toward it") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 10.0}}});
   WayFinder ways;
   ways.start(*world.c().walking_grid);
@@ -208,14 +208,14 @@ TEST_CASE("where no way leads to the target people head straight for it") {
   CHECK(along.y == Approx(-3.0 / std::sqrt(409.0)));
 }
 
-TEST_CASE("somebody pushed off the free cells finds the way back") {
+TEST_CASE("a person pushed out of the free cells finds the way back") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
   WayFinder ways;
   ways.start(*world.c().walking_grid);
   CHECK(ways.direction(0, dmrp::test::person(1, {9.95, 3.0}, {22.0, 2.0})).x < 0.0);
 }
 
-TEST_CASE("groups are those with the same number, whatever their slots") {
+TEST_CASE("the members of a group are the people with its number, in any slots") {
   std::vector<dmrp_person> people(6);
   const std::uint32_t numbers[] = {7, 0, 3, 7, 0, 7};
   for (std::size_t slot = 0; slot < 6; ++slot) people[slot].group = numbers[slot];
@@ -234,10 +234,10 @@ TEST_CASE("groups are those with the same number, whatever their slots") {
   CHECK(members(0) == std::vector<std::uint32_t>{0, 5});
 }
 
-TEST_CASE("who gets on by nothing for seconds need not mind those before them who have farther to go") {
+TEST_CASE("a blocked person ignores people ahead who have farther to go") {
   RightOfWay right_of_way;
   right_of_way.start();
-  // 0 leaves after a while; 1 stands before 2, who has farther to go; 3 walks west all the time, 4 turns back half-way
+  // 0 leaves after a while; 1 and 2 face each other, 2 has farther to go; 3 always walks west, 4 turns back half-way
   std::vector<dmrp_person> people;
   for (const double x : {0.0, 5.0, 4.4, 20.0, 30.0})
     people.push_back(dmrp::test::person(people.size() + 10, {x, 2.0}, {x, 2.0}));
@@ -249,26 +249,26 @@ TEST_CASE("who gets on by nothing for seconds need not mind those before them wh
       for (dmrp_person& each : people) {
         const dmrp_vec2 way = each.id == 14 ? way_of_last : dmrp_vec2{each.id == 12 ? 1.0 : -1.0, 0.0};
         each.velocity = each.id >= 13 ? each.desired_speed * way : dmrp_vec2{0.0, 0.0};
-        right_of_way.note(each, way, 0.02);
+        right_of_way.update(each, way, 0.02);
       }
     }
   };
-  const auto holds = [&](std::uint32_t slot, std::uint32_t over) {
+  const auto ignores = [&](std::uint32_t slot, std::uint32_t over) {
     const Body body = {people[over].position, {0.0, 0.0}, 0.3, 1.0, over};
-    return right_of_way.holds_over(slot, body, {people.data(), people.size()});
+    return right_of_way.ignores(slot, body, {people.data(), people.size()});
   };
 
   pass(5.0, {1.0, 0.0});
-  CHECK_FALSE(holds(1, 2));  // held up for too short a time
+  CHECK_FALSE(ignores(1, 2));  // blocked for too short a time
   people.erase(people.begin());
   for (int tenth = 0; tenth < 150; ++tenth) {
     pass(0.1, tenth < 75 ? dmrp_vec2{1.0, 0.0} : dmrp_vec2{-1.0, 0.0});
-    CHECK_FALSE(holds(2, 0));  // both get on, whichever way that is
-    CHECK_FALSE(holds(3, 0));
+    CHECK_FALSE(ignores(2, 0));  // both make progress, in different directions
+    CHECK_FALSE(ignores(3, 0));
   }
-  CHECK(holds(0, 1));
-  CHECK_FALSE(holds(1, 0));  // has farther to go
-  CHECK_FALSE(holds(0, 2));  // who is behind
+  CHECK(ignores(0, 1));
+  CHECK_FALSE(ignores(1, 0));  // has farther to go
+  CHECK_FALSE(ignores(0, 2));  // a person behind
   const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, 1.0, no_slot};
-  CHECK_FALSE(right_of_way.holds_over(0, robot, {people.data(), people.size()}));
+  CHECK_FALSE(right_of_way.ignores(0, robot, {people.data(), people.size()}));
 }

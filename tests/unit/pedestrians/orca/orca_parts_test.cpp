@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ORCA's parts: the linear programme against exhaustive search, half-planes against motion along straight lines.
+// ORCA's parts: the linear programme against exhaustive search, half-planes against straight motion.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -91,7 +91,7 @@ double distance_to_walls(const std::vector<dmrp_segment>& walls, const dmrp_segm
   return nearest;
 }
 
-// How near two get within the horizon when both keep their velocities.
+// The least distance within the horizon when both keep their velocities.
 double nearest_approach(const Encounter& met, double horizon_s) {
   const dmrp_segment way = {{0.0, 0.0}, met.approach * horizon_s};
   return dmrp::toolkit::distance(way, met.apart);
@@ -99,7 +99,7 @@ double nearest_approach(const Encounter& met, double horizon_s) {
 
 }  // namespace
 
-TEST_CASE("the velocity nearest to the wish is the one that exhaustive search finds") {
+TEST_CASE("the velocity nearest to the preferred one equals that of exhaustive search") {
   Stream chance(1, "planes");
   VelocityProgram program;
   int feasible = 0;
@@ -117,7 +117,7 @@ TEST_CASE("the velocity nearest to the wish is the one that exhaustive search fi
   CHECK(feasible < 2800);
 }
 
-TEST_CASE("where the planes have no room, walls hold and the greatest violation of the others is least") {
+TEST_CASE("without a common velocity, walls hold and the greatest violation of the other planes is minimal") {
   Stream chance(2, "planes");
   VelocityProgram program;
   int infeasible = 0;
@@ -150,7 +150,7 @@ TEST_CASE("walls on both sides leave the velocity along them") {
   CHECK(along.y == Approx(-0.225).margin(1e-9));
 }
 
-TEST_CASE("two who both take half the way out do not meet within the horizon") {
+TEST_CASE("two people who each make half of the change do not meet within the horizon") {
   Stream chance(3, "encounters");
   for (int round = 0; round < 3000; ++round) {
     const dmrp_vec2 mine = in_disc(chance, max_speed);
@@ -163,12 +163,12 @@ TEST_CASE("two who both take half the way out do not meet within the horizon") {
     const dmrp_vec2 my_next = program.solve({for_me}, 0, 10.0, mine);
     const dmrp_vec2 their_next = program.solve({for_them}, 0, 10.0, theirs);
     CHECK(nearest_approach({apart, my_next - their_next, 0.6}, 2.0) >= 0.6 - 1e-9);
-    // nobody is asked for more than is needed
+    // a velocity without a conflict stays as it is
     if (nearest_approach(met, 2.0) > 0.6) CHECK(my_next == mine);
   }
 }
 
-TEST_CASE("two who overlap part within one step") {
+TEST_CASE("two people who overlap separate within one step") {
   const Encounter met = {{0.5, 0.0}, {1.0, 0.0}, 0.6};
   const Escape away = escape(met, 2.0, 0.02);
   const dmrp_vec2 next = met.approach + away.change;
@@ -211,18 +211,18 @@ TEST_CASE("no permitted velocity leads into a wall within the horizon") {
   CHECK(forbidden > 100);
 }
 
-TEST_CASE("who walks along a wall or toward a corner is slowed by no wall beside") {
+TEST_CASE("walls do not slow people who walk along them or toward a corner") {
   const auto walls = room();
   WallObstacles obstacles;
   obstacles.start({walls.data(), walls.size()}, {0.0, 0.0}, {10.0, 10.0}, 5.0);
   std::vector<HalfPlane> planes;
   obstacles.append_half_planes({5.0, 0.31}, {1.3, 0.0}, 0.3, 1.3, 1.0, planes);
   CHECK(greatest_violation(planes, 0, planes.size(), {1.3, 0.0}) <= 0.0);
-  // 2 m off both walls of a corner, and in touch within 1 s with neither
+  // 1.5 to 2 m from both walls of a corner, and no contact within 1 s
   planes.clear();
   obstacles.append_half_planes({8.0, 8.5}, {0.9, 0.7}, 0.3, 1.5, 1.0, planes);
   CHECK(greatest_violation(planes, 0, planes.size(), {0.9, 0.7}) <= 0.0);
-  // faster than the corner allows: just to touching both walls
+  // faster than the corner allows: the result just touches both walls
   planes.clear();
   obstacles.append_half_planes({9.0, 9.0}, {1.0, 1.0}, 0.3, 1.5, 1.0, planes);
   VelocityProgram program;

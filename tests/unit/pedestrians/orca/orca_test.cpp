@@ -16,31 +16,6 @@ const std::string orca = "dmrp.pedestrian.orca";
 
 }  // namespace
 
-TEST_CASE("ORCA: somebody alone walks to the target at the desired speed and stops there") {
-  const WalkingWorld world({44.0, 2.0}, {});
-  Walk walk(world, orca);
-  walk.people = {person(1, {1.0, 1.0}, {43.0, 1.0}, 1.33)};
-  REQUIRE(walk.until(60.0, [&] { return walk.people[0].position.x >= 41.0; }));
-  CHECK(walk.t_s() == Approx(40.0 / 1.33).margin(0.1));
-  walk.until(3.0, [] { return false; });
-  CHECK(distance(walk.people[0].position, walk.people[0].target) < 1e-3);
-}
-
-TEST_CASE("ORCA: two people pass each other head-on without touching") {
-  const double width_m = GENERATE(2.0, 10.0);
-  const double aside = GENERATE(0.0, 1e-6, 0.1, -0.3);
-  const WalkingWorld world({24.0, width_m}, {});
-  Walk walk(world, orca);
-  const double y = 0.5 * width_m;
-  walk.people = {person(1, {2.0, y}, {22.0, y}), person(2, {22.0, y + aside}, {2.0, y + aside})};
-  double least = 100.0;
-  REQUIRE(walk.until(20.0, [&] {
-    least = std::min(least, least_gap(walk.people));
-    return all_arrived(walk.people);
-  }));
-  CHECK(least >= 0.0);
-}
-
 TEST_CASE("ORCA: eight people on a circle change places") {
   const WalkingWorld world({20.0, 20.0}, {});
   const uint64_t seed = GENERATE(1u, 2u, 3u);
@@ -58,29 +33,16 @@ TEST_CASE("ORCA: eight people on a circle change places") {
   CHECK(least >= -0.001);
 }
 
-TEST_CASE("ORCA: people walk round a box to a target behind it, in touch with it at most") {
-  const WalkingWorld world({24.0, 10.0}, {{{10.0, 3.0}, {12.0, 7.0}}});
-  const double y = GENERATE(5.0, 4.3, 6.9);
-  Walk walk(world, orca);
-  walk.people = {person(1, {2.0, y}, {22.0, 5.0})};
-  double clearance = 100.0;
-  REQUIRE(walk.until(22.0, [&] {
-    clearance = std::min(clearance, world.clearance(walk.people[0].position));
-    return arrived(walk.people[0]);
-  }));
-  CHECK(clearance >= 0.3 - 1e-6);
-}
-
-TEST_CASE("ORCA: robots are minded as much as the awareness says") {
+TEST_CASE("ORCA: people keep less distance from robots at a lower awareness") {
   const dmrp_agent parked = robot(0, {12.0, 5.1});
   CHECK(passing_distance(orca, {{"robot_awareness", 1.0}}, parked) >= 0.55 - 1e-6);
   CHECK(passing_distance(orca, {{"robot_awareness", 0.5}}, parked) >= 0.55 - 0.001);
-  CHECK(passing_distance(orca, {{"robot_awareness", 0.0}}, parked) < 0.55);  // stopped by the solid robot alone
+  CHECK(passing_distance(orca, {{"robot_awareness", 0.0}}, parked) < 0.55);  // only the solid robot stops them
   const dmrp_agent oncoming = robot(0, {22.0, 5.1}, {-0.5, 0.0});
   CHECK(passing_distance(orca, {{"robot_awareness", 1.0}}, oncoming) >= 0.55 - 1e-6);
 }
 
-TEST_CASE("ORCA: the less people are aware of robots, the later they turn aside") {
+TEST_CASE("ORCA: people evade robots later at a lower awareness") {
   const auto turns_aside_at = [](double awareness) {
     const WalkingWorld world({24.0, 10.0}, {});
     Walk walk(world, orca, {{"robot_awareness", awareness}});
@@ -93,20 +55,7 @@ TEST_CASE("ORCA: the less people are aware of robots, the later they turn aside"
   CHECK(turns_aside_at(0.5) < turns_aside_at(0.25) - 0.3);
 }
 
-TEST_CASE("ORCA: who is blind to robots walks as though there were none") {
-  const WalkingWorld world({24.0, 10.0}, {});
-  Walk with(world, orca, {{"robot_awareness", 0.0}});
-  Walk without(world, orca);
-  with.people = without.people = {person(1, {2.0, 5.0}, {22.0, 5.0}), person(2, {8.0, 5.2}, {2.0, 5.0})};
-  with.robots = {robot(0, {12.0, 7.0})};
-  for (int i = 0; i < 400; ++i) {
-    with.step();
-    without.step();
-    for (std::size_t p = 0; p < 2; ++p) CHECK(with.people[p].position == without.people[p].position);
-  }
-}
-
-TEST_CASE("ORCA: a crowd never overlaps by 5 cm, crosses no wall and stays on the move") {
+TEST_CASE("ORCA: people in a crowd never overlap by 5 cm, cross no wall and keep moving") {
   const WalkingWorld world({12.0, 12.0},
                            {{{3.0, 3.0}, {4.0, 4.0}}, {{7.0, 2.0}, {8.0, 5.0}}, {{2.0, 8.0}, {8.0, 9.0}}});
   const uint64_t seed = GENERATE(1u, 2u);
@@ -115,7 +64,7 @@ TEST_CASE("ORCA: a crowd never overlaps by 5 cm, crosses no wall and stays on th
   walk.people = random_people(world, count, seed, 0.25);
   dmrp::toolkit::Stream chance(seed, "targets");
   double clearance = 100.0;
-  double deepening = 0.0;  // of somebody in a wall, by the model's own velocities
+  double deepening = 0.0;  // of an overlap with a wall, by the model's own velocities
   double least = 100.0;
   int arrivals = 0;
   std::vector<dmrp_person> before = walk.people;
@@ -140,7 +89,7 @@ TEST_CASE("ORCA: a crowd never overlaps by 5 cm, crosses no wall and stays on th
     return false;
   });
   CHECK(deepening < 1e-6);
-  CHECK(clearance >= 0.25 - 0.01);  // what solid bodies take from a velocity may turn it toward a wall
+  CHECK(clearance >= 0.25 - 0.01);  // contacts may turn a velocity toward a wall
   CHECK(least >= -0.05);
   CHECK(arrivals > 20);
 }
@@ -166,34 +115,7 @@ TEST_CASE("ORCA: packed at just below 4 people/m2 nobody overlaps by 5 cm") {
   CHECK(clearance >= 0.22 - 0.02);
 }
 
-TEST_CASE("ORCA: the same seed gives the same walk, whatever the instance did before") {
-  const WalkingWorld world({20.0, 20.0}, {{{5.0, 5.0}, {7.0, 6.0}}});
-  const WalkingWorld another({10.0, 10.0}, {});
-  const auto where_they_end = [&](Walk& walk) {
-    walk.people = random_people(world, 30, 3);
-    walk.until(5.0, [] { return false; });
-    return walk.people;
-  };
-  Walk first(world, orca, {}, 42);
-  Walk second(world, orca, {}, 42);
-  Walk of_another_seed(world, orca, {}, 43);
-  second.restart(another, 1);
-  second.people = {person(9, {1.0, 1.0}, {9.0, 9.0})};
-  second.until(2.0, [] { return false; });
-  second.restart(world, 42);
-
-  const auto expected = where_they_end(first);
-  const auto repeated = where_they_end(second);
-  const auto differing = where_they_end(of_another_seed);
-  int differ = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    CHECK(expected[i].position == repeated[i].position);
-    if (expected[i].position != differing[i].position) ++differ;
-  }
-  CHECK(differ > 15);  // some have arrived
-}
-
-TEST_CASE("ORCA: the slots that people stand in make no difference") {
+TEST_CASE("ORCA: velocities do not depend on the slots of people") {
   const WalkingWorld world({20.0, 20.0}, {});
   Walk one(world, orca);
   // on a lattice: most neighbours are at the same distance as another

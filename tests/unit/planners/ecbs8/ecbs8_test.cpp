@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// ECBS-8 against the joint optimum under its own model of time and conflicts, and where it must hold or give up.
+// ECBS-8 against the joint optimum under its own model of time and conflicts, and its behaviour without a plan.
 #include <catch2/catch.hpp>
 
 #include "tests/support/test_data.hpp"
 #include "tests/unit/planners/joint_optimum_8.hpp"
 #include "tests/unit/planners/movingai.hpp"
 #include "tests/unit/planners/plan_check_8.hpp"
-#include "tests/unit/planners/random.hpp"
+#include "tests/unit/planners/random_case.hpp"
+#include "tests/unit/planners/stopping.hpp"
 
 using namespace dmrp::test;
 
@@ -15,27 +16,8 @@ namespace {
 const char* const library = "libdmrp_planners.so";
 const char* const ecbs8 = "dmrp.planner.ecbs8";
 
-CellXY free_cell(Random& random, const PlanningCase& c) {
-  for (;;)
-    if (const CellXY cell{random.below(c.width), random.below(c.height)}; c.is_free(cell)) return cell;
-}
-
-// Starts and last goals are distinct free cells; whether there is a plan is left to chance.
-void add_robots(Random& random, PlanningCase& c, int count, bool with_tours, bool with_resting) {
-  while (static_cast<int>(c.robots.size()) < count) {
-    CaseRobot robot{free_cell(random, c), {}, DMRP_ROBOT_ACTIVE};
-    if (with_resting && random.one_in(8)) robot.state = DMRP_ROBOT_FINISHED;
-    const int goals = with_tours && random.one_in(4) ? 2 + random.below(2) : 1;
-    for (int g = 0; g < goals; ++g) robot.goals.push_back(free_cell(random, c));
-    bool distinct = true;
-    for (const CaseRobot& other : c.robots)
-      distinct = distinct && !(other.start == robot.start) && !(other.goals.back() == robot.goals.back());
-    if (distinct) c.robots.push_back(robot);
-  }
-}
-
-// Cells with up to 30 % of obstacles but for a corner with room for all, and half of the time thin walls: between
-// two cells, or across a corner only.
+// Cells with up to 30 % of obstacles, except for a corner with room for all robots. Half of the cases have thin walls:
+// between two cells, or across a corner only.
 PlanningCase random_grid(Random& random, int width, int height) {
   const int obstacles_of_20 = random.below(7);
   std::vector<std::string> rows(static_cast<std::size_t>(height), std::string(static_cast<std::size_t>(width), '.'));
@@ -61,24 +43,11 @@ PlanningCase small_case(uint64_t seed) {
   const int width = 4 + random.below(3);
   const int height = 4 + random.below(3);
   PlanningCase c = random_grid(random, width, height);
-  add_robots(random, c, 2 + random.below(2), true, true);
+  add_random_robots(random, c, 2 + random.below(2), true, true);
   return c;
 }
 
-bool same_bits(const Plan& a, const Plan& b) {
-  if (a.status != b.status || a.statistics != b.statistics || a.paths.size() != b.paths.size()) return false;
-  for (std::size_t i = 0; i < a.paths.size(); ++i) {
-    if (a.paths[i].size() != b.paths[i].size()) return false;
-    for (std::size_t k = 0; k < a.paths[i].size(); ++k) {
-      const dmrp_waypoint& u = a.paths[i][k];
-      const dmrp_waypoint& v = b.paths[i][k];
-      if (u.x != v.x || u.y != v.y || u.t_ns != v.t_ns || u.goal_index != v.goal_index) return false;
-    }
-  }
-  return true;
-}
-
-// A plan that was found is right, and keeps to its bound.
+// Checks a plan that was found, and its bound.
 void check_solved(const PlanningCase& c, const Plan& plan, double suboptimality) {
   REQUIRE(plan.status == DMRP_OK);
   REQUIRE(check_plan_8(c, plan) == "");
@@ -119,7 +88,7 @@ TEST_CASE("ECBS-8 keeps to its bound of the joint optimum on random small proble
       if (cost_8(plan) > *optimum + 1e-6) ++dearer;
     }
   }
-  // The draw must hold enough of each kind to mean something.
+  // The random cases must contain enough of each kind.
   CHECK(solvable > 1000);
   CHECK(unsolvable > 50);
   CHECK(dearer > 20);
@@ -134,7 +103,7 @@ TEST_CASE("ECBS-8 keeps to its bound of the joint optimum among four robots") {
       CAPTURE(seed, suboptimality);
       Random random(seed + 77);
       PlanningCase c({"....", ".#..", "....", "...#"});
-      add_robots(random, c, 4, false, false);
+      add_random_robots(random, c, 4, false, false);
       const std::optional<double> optimum = JointSearch8(c).optimum();
       const Plan plan = run_planner(planner, c);
       REQUIRE(optimum);
@@ -158,9 +127,9 @@ TEST_CASE("ECBS-8: twelve robots on 20x20 cells") {
       CAPTURE(seed, suboptimality);
       Random random(seed + 4000);
       PlanningCase c = random_grid(random, 20, 20);
-      add_robots(random, c, 12, true, true);
+      add_random_robots(random, c, 12, true, true);
       const Plan plan = run_planner(planner, c);
-      if (plan.status == DMRP_NO_SOLUTION) continue;  // somebody is walled in
+      if (plan.status == DMRP_NO_SOLUTION) continue;  // a robot is walled in
       check_solved(c, plan, suboptimality);
       ++solved;
     }
@@ -203,7 +172,7 @@ TEST_CASE("ECBS-8: one robot") {
     check_solved(c, plan, 1.0);
     CHECK(plan.paths[0].size() == 1);
   }
-  SECTION("round a thin wall") {
+  SECTION("around a thin wall") {
     PlanningCase c({"....", "...."});
     c.thin_wall({1, 0}, {2, 0}).thin_wall({1, 1}, {2, 0}).thin_wall({1, 0}, {2, 1}).robot({1, 0}, {{2, 0}});
     const Plan plan = run_planner(ecbs8, c);
@@ -234,7 +203,7 @@ TEST_CASE("ECBS-8: one robot") {
     check_solved(c, plan, 1.0);
     CHECK(cost_8(plan) == Approx(2 + 2 + diagonal));
   }
-  SECTION("nobody to plan for") {
+  SECTION("no active robot") {
     PlanningCase c({"..."});
     CHECK(run_planner(ecbs8, c).status == DMRP_OK);
     c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED);
@@ -244,7 +213,7 @@ TEST_CASE("ECBS-8: one robot") {
   }
 }
 
-TEST_CASE("ECBS-8 resolves what robots can do to each other") {
+TEST_CASE("ECBS-8 resolves every kind of conflict") {
   PluginUnderTest planner(library, ecbs8, {{"suboptimality", 1.0}});
   const auto optimal_cost = [&](const PlanningCase& c) {
     const Plan plan = run_planner(planner, c);
@@ -280,17 +249,17 @@ TEST_CASE("ECBS-8 resolves what robots can do to each other") {
     c.robots[1].state = DMRP_ROBOT_FAILED;
     CHECK(optimal_cost(c) == Approx(2));
   }
-  SECTION("diagonals that change places") {
+  SECTION("diagonals that swap") {
     PlanningCase c({"...", "..."});
     c.robot({0, 0}, {{1, 1}}).robot({1, 1}, {{0, 0}});
-    CHECK(optimal_cost(c) == Approx(4));  // round each other
+    CHECK(optimal_cost(c) == Approx(4));  // around each other
   }
   SECTION("a goal that blocks another's only way: the robot there comes late or steps aside") {
     PlanningCase c({"....", "#.##", "#.##"});
     c.robot({3, 0}, {{1, 1}}).robot({0, 0}, {{1, 2}});
     optimal_cost(c);
   }
-  SECTION("a robot at its goal makes way and comes back") {
+  SECTION("a robot at its goal gives way and comes back") {
     PlanningCase c({".....", "##.##"});
     c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}});
     CHECK(optimal_cost(c) == Approx(4 + 3));
@@ -303,7 +272,7 @@ TEST_CASE("ECBS-8 resolves what robots can do to each other") {
   SECTION("in a corridor one robot follows another on its tour, to a goal that the other crosses before") {
     PlanningCase c({".....", "####."});
     c.robot({0, 0}, {{4, 0}, {0, 0}}).robot({4, 1}, {{2, 0}});
-    CHECK(optimal_cost(c) == Approx(8 + 7));  // the second moves when the first turns round, one step behind it
+    CHECK(optimal_cost(c) == Approx(8 + 7));  // the second moves when the first turns back, one step behind it
   }
 }
 
@@ -339,40 +308,27 @@ TEST_CASE("ECBS-8 proves that there is no plan") {
     c.robot({0, 0}, {{1, 1}}).robot({2, 0}, {{1, 1}});
     CHECK(run_planner(ecbs8, c).status == DMRP_NO_SOLUTION);
   }
-  SECTION("two of three robots in a ring would have to change places") {
+  SECTION("two of three robots in a ring would have to swap") {
     PlanningCase c({"..", ".."});
     c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
     CHECK(run_planner(ecbs8, c).status == DMRP_NO_SOLUTION);
   }
 }
 
-TEST_CASE("ECBS-8 gives up when told to") {
-  // Nobody can pass, but the part is too large for a proof.
-  std::vector<std::string> rows(2, std::string(120, '.'));
-  rows[1].assign(120, '#');
-  rows[1][60] = '.';
-  PlanningCase c(rows);
-  for (int i = 0; i < 4; ++i) c.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
+TEST_CASE("ECBS-8 gives up at its limit or when it is stopped") {
   SECTION("by its own limit") {
-    const Plan plan = run_planner(ecbs8, c, {{"node_limit", 50}});
+    const Plan plan = run_planner(ecbs8, jammed_case(), {{"node_limit", 50}});
     CHECK(plan.status == DMRP_TIMEOUT);
     CHECK(plan.statistics.at("high_level_generated") >= 50);
     CHECK(plan.statistics.at("high_level_generated") <= 52);
   }
   SECTION("by the host") {
     PluginUnderTest planner(library, ecbs8);
-    int asked = 0;
-    planner.host().should_stop = [&] { return ++asked > 100; };
-    CHECK(run_planner(planner, c).status == DMRP_TIMEOUT);
-    CHECK(asked == 101);
-    planner.host().should_stop = nullptr;
-    PlanningCase easy({"..."});
-    easy.robot({0, 0}, {{2, 0}});
-    CHECK(run_planner(planner, easy).status == DMRP_OK);
+    check_stop_and_go(planner);
   }
 }
 
-TEST_CASE("ECBS-8: the same problem gives the same bits, whatever came before") {
+TEST_CASE("ECBS-8: the same problem gives the same bits, whatever was planned before") {
   PluginUnderTest used(library, ecbs8);
   for (uint64_t seed = 2000; seed < 2040; ++seed) {
     const PlanningCase c = small_case(seed);
@@ -381,25 +337,20 @@ TEST_CASE("ECBS-8: the same problem gives the same bits, whatever came before") 
   }
 }
 
-TEST_CASE("ECBS-8 solves 20 robots on three maps of 40x40 cells, and 50 on random-32-32-20") {
+TEST_CASE("ECBS-8 solves 20 robots on three maps of 40x40 cells, and 50 on random-32-32-20", "[data]") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");
     return;
   }
-  const auto solve = [](const std::filesystem::path& map, const std::filesystem::path& scenarios, int robots,
-                        int instances, double suboptimality) {
+  const auto solve = [&](const std::string& map, int robots, int instances, double suboptimality) {
     PluginUnderTest planner(library, ecbs8, {{"suboptimality", suboptimality}});
     for (int i = 1; i <= instances; ++i) {
       CAPTURE(map, i, suboptimality);
-      PlanningCase c = read_map(map);
-      add_robots(c, scenarios / (map.stem().string() + "-random-" + std::to_string(i) + ".scen"), robots);
-      REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
+      const PlanningCase c = read_instance(*data, map, robots, i);
       check_solved(c, run_planner(planner, c), suboptimality);
     }
   };
-  for (const char* map : {"gen-random-40-40-10.map", "gen-random-40-40-20.map", "gen-rooms-40-40.map"})
-    solve(*data / "generated" / map, *data / "generated", 20, 10, 2.0);
-  for (const double suboptimality : {1.2, 2.0})
-    solve(*data / "movingai" / "maps" / "random-32-32-20.map", *data / "movingai" / "scens", 50, 5, suboptimality);
+  for (const char* map : {"gen-random-40-40-10", "gen-random-40-40-20", "gen-rooms-40-40"}) solve(map, 20, 10, 2.0);
+  for (const double suboptimality : {1.2, 2.0}) solve("random-32-32-20", 50, 5, suboptimality);
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <tuple>
 
+#include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/planning_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
@@ -16,11 +17,6 @@ using namespace dmrp::planners;
 using ecbs8::Constraint;
 
 namespace {
-
-StopSignal& never() {
-  static StopSignal stop([] { return false; });
-  return stop;
-}
 
 // One robot under random constraints of all kinds, among two others that walk at random.
 struct LowLevelCase {
@@ -116,7 +112,7 @@ std::optional<double> least_cost(const LowLevelCase& c) {
   const CellXY start = c.grid.robots[0].start;
   const auto last_leg = c.goals.size() - 1;
   if (!c.allows_being(c.location(start), 0)) return std::nullopt;
-  // by place, leg and whether the last step was an arrival: only then the path may end
+  // by place, leg and whether the last step was an arrival, as a path must end with one
   std::map<std::tuple<Location, std::size_t, bool>, double> reached = {{{c.location(start), 0, true}, 0.0}};
   std::optional<double> best;
   for (int t = 0; t < 60; ++t) {
@@ -154,7 +150,7 @@ TEST_CASE("focal search finds a path within its bound of the least cost, if ther
     const ecbs8::Problem problem = make_problem<8>(dmrp::PlanningProblem(host.problem()), true);
     const ecbs8::TourDistances distances(problem.graph, problem.agents[0], never());
     ecbs8::ConstraintTable constraints(problem.graph);
-    constraints.fill({{Constraint::Use::at, 0, nowhere, 0, 30}});  // forgotten by the next
+    constraints.fill({{Constraint::Use::at, 0, nowhere, 0, 30}});  // replaced by the next fill()
     constraints.fill(c.constraints);
     ecbs8::Occupancy others(problem.graph, 3);
     others.set(1, c.others[1]);

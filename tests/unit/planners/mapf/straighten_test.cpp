@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Straightening finished plans, against trying all paths.
+// straighten(), against trying all paths.
 #include "planners/mapf/straighten.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
 
-#include "tests/unit/planners/planning_case.hpp"
+#include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
 using namespace dmrp::test;
@@ -29,7 +29,7 @@ bool have_conflict(const std::vector<Location>& a, const std::vector<Location>& 
   return false;
 }
 
-// A grid and robots that walk about on it without conflicts: where they go becomes their tour.
+// A grid and robots that walk on it at random without conflicts. Their walks become their tours.
 struct Walks {
   PlanningCase grid;
   Problem problem;
@@ -62,12 +62,7 @@ struct Walks {
       }
     return c;
   }
-  static Problem problem_of(const PlanningCase& c) {
-    const CProblem host(c);
-    return make_problem(dmrp::PlanningProblem(host.problem()), true);
-  }
-
-  // Robots before i have taken theirs already.
+  // Robots before i have already taken theirs.
   void take_step(Random& random, std::size_t i, int t) {
     std::vector<Location>& path = paths[i];
     const auto now = static_cast<std::size_t>(t);
@@ -117,7 +112,7 @@ struct Walks {
   }
 };
 
-// Whether a path makes the tour and ends no sooner than at its last step.
+// Whether a path makes the tour and does not reach its end before its last step.
 bool makes_tour(const Agent& agent, const std::vector<Location>& path) {
   if (path[0] != agent.start || path.back() != agent.last_goal()) return false;
   std::int32_t leg = 0;
@@ -131,7 +126,7 @@ bool makes_tour(const Agent& agent, const std::vector<Location>& path) {
   return !waits_at_end || leg_before != leg;
 }
 
-// The fewest turns of robot i while the others do what they do, by trying everything.
+// The fewest turns of robot i with the others' paths fixed, by trying all paths.
 class AllPaths {
  public:
   AllPaths(const Walks& walks, std::size_t i) : walks_(walks), i_(i) {
@@ -211,7 +206,7 @@ TEST_CASE("straightening leaves no robot a path with fewer turns among the other
   CHECK(tours > 300);
 }
 
-TEST_CASE("straightening robots that pay no heed to each other") {
+TEST_CASE("straightening robots that ignore each other") {
   int saved = 0;
   for (uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
@@ -250,7 +245,7 @@ TEST_CASE("straightening large plans keeps costs, tours and freedom from conflic
   }
 }
 
-TEST_CASE("straightening does nothing without work or when told to stop") {
+TEST_CASE("straightening does nothing without a work limit or when it is stopped") {
   Random random(7);
   Walks walks(random, 10, 10, 8, 30);
   const Paths paths = walks.paths;
@@ -264,7 +259,7 @@ TEST_CASE("straightening does nothing without work or when told to stop") {
 TEST_CASE("straightening a staircase") {
   const PlanningCase grid(std::vector<std::string>(4, "...."));
   StopSignal never([] { return false; });
-  Problem problem = Walks::problem_of(grid);
+  Problem problem = problem_of(grid);
   problem.agents = {{0, 0, {15}, 0}};
   Paths paths = {{0, 1, 5, 6, 10, 11, 15}};
   SECTION("alone") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prioritized SIPP, against joint search where that can be done, and by the plan check alone where it cannot.
+// Prioritized SIPP, against joint search on small problems, and by the plan check alone on large ones.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -9,6 +9,7 @@
 #include "tests/unit/planners/movingai.hpp"
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/random_case.hpp"
+#include "tests/unit/planners/stopping.hpp"
 
 using namespace dmrp::test;
 using dmrp::planners::Location;
@@ -19,7 +20,7 @@ namespace {
 const char* const library = "libdmrp_planners.so";
 const char* const sipp = "dmrp.planner.sipp";
 
-// Robots with distinct starts and distinct goals on free cells, all over the grid.
+// Robots with distinct starts and distinct goals on free cells of the whole grid.
 void scatter(PlanningCase& c, Random& random, int robots) {
   const auto draw = [&](auto is_taken) {
     for (;;) {
@@ -58,7 +59,7 @@ PlanningCase large_case(uint64_t seed, int robots) {
   return c;
 }
 
-// Steps from one cell to another, alone among those that rest; nothing if it is cut off.
+// Steps from one cell to another among resting robots only; nothing if it is cut off.
 std::optional<int> steps_between(const PlanningCase& c, CellXY from, CellXY to) {
   std::vector<int> steps(c.free.size(), -1);
   for (const CaseRobot& robot : c.robots)
@@ -78,7 +79,7 @@ std::optional<int> steps_between(const PlanningCase& c, CellXY from, CellXY to) 
   return std::nullopt;
 }
 
-// The sum of the robots' costs if each were alone among those that rest; nothing if one is cut off.
+// The sum of the robots' costs, each among resting robots only; nothing if one is cut off.
 std::optional<int> sum_alone(const PlanningCase& c) {
   int sum = 0;
   for (const CaseRobot& robot : c.robots) {
@@ -96,7 +97,7 @@ std::optional<int> sum_alone(const PlanningCase& c) {
 
 }  // namespace
 
-TEST_CASE("SIPP is described") {
+TEST_CASE("SIPP describes itself") {
   const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(sipp);
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
@@ -104,7 +105,7 @@ TEST_CASE("SIPP is described") {
   CHECK(descriptor->planner_flags == 0);
 }
 
-TEST_CASE("SIPP solves nearly all random small problems, and proves only what is so") {
+TEST_CASE("SIPP solves nearly all random small problems, and its proofs are right") {
   PluginUnderTest planner(library, sipp, {{"restarts", 100}});
   const struct {
     int most_robots;
@@ -139,7 +140,7 @@ TEST_CASE("SIPP solves nearly all random small problems, and proves only what is
       REQUIRE(plan.statistics.at("cost") == plan.cost());
       dearer += plan.cost() > *optimum;
     }
-  // Two robots that have to yield to each other on the way are beyond any order; few problems are of that kind.
+  // No order solves problems in which two robots have to give way to each other. Few problems are of that kind.
   CHECK(solvable > 2500);
   CHECK(solved >= solvable - solvable / 400);
   CHECK(unsolvable > 100);
@@ -165,31 +166,31 @@ TEST_CASE("SIPP plans have no conflicts on large and crowded grids") {
   CHECK(solved > 20);
 }
 
-TEST_CASE("SIPP sees what the robots before do") {
+TEST_CASE("SIPP avoids the robots planned before") {
   const auto solve = [](const PlanningCase& c, int cost) {
     const Plan plan = run_planner(sipp, c);
     REQUIRE(plan.status == DMRP_OK);
     REQUIRE(check_plan(c, plan) == "");
     CHECK(plan.cost() == cost);
   };
-  SECTION("one that is parked on the shortest way: round it") {
+  SECTION("a parked robot on the shortest way: around it") {
     PlanningCase c({".....", "....."});
     solve(c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 6);
   }
-  SECTION("one that parks in the only way: it comes late") {
+  SECTION("a robot that parks in the only way: it comes late") {
     PlanningCase c({".....", "##.##"});
     solve(c.robot({2, 1}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 3 + 4);
   }
-  SECTION("one that is parked in the only way: it makes way") {
+  SECTION("a robot that is parked in the only way: it gives way") {
     PlanningCase c({".....", "##.##"});
     solve(c.robot({2, 0}, {{2, 0}}).robot({0, 0}, {{4, 0}}), 4 + 3);
   }
-  SECTION("one that waits: nobody runs into it") {
-    // The first in line waits for the one that crosses; the second has to wait behind it.
+  SECTION("a waiting robot: no collision") {
+    // The first robot waits for the crossing one; the second has to wait behind it.
     PlanningCase c({"#.##", "....", "#.##", "#.##", "#.##"});
     solve(c.robot({1, 0}, {{1, 3}}).robot({0, 1}, {{3, 1}}).robot({1, 1}, {{1, 4}}), 3 + 4 + 3);
   }
-  SECTION("one that comes the other way: no swap") {
+  SECTION("a robot that comes the other way: no swap") {
     PlanningCase c({"...."});
     c.robot({1, 0}, {{2, 0}}).robot({2, 0}, {{1, 0}});
     CHECK(run_planner(sipp, c).status == DMRP_NO_SOLUTION);
@@ -217,7 +218,7 @@ TEST_CASE("SIPP sees what the robots before do") {
     solve(c.robot({0, 1}, {{2, 1}}).robot({1, 1}, {}, DMRP_ROBOT_FINISHED), 4);
   }
   SECTION("a start that others cross before its robot is planned") {
-    // The one at the dead end is the farthest from its goal, so it comes last; all the others go through its start.
+    // The robot at the dead end has the farthest goal, so it comes last; all others pass through its start.
     PlanningCase c({"........", ".#######", ".......#"});
     solve(c.robot({1, 0}, {{3, 2}}).robot({2, 0}, {{2, 2}}).robot({0, 0}, {{6, 2}}), 6 + 6 + 8);
   }
@@ -254,7 +255,7 @@ TEST_CASE("SIPP plans tours") {
     CHECK(check_plan(c, plan) == "");
     CHECK(plan.cost() == 8 + 7);
   }
-  SECTION("nobody to plan for") {
+  SECTION("no active robot") {
     PlanningCase c({"..."});
     CHECK(run_planner(sipp, c).status == DMRP_OK);
     const Plan plan = run_planner(sipp, c.robot({1, 0}, {}, DMRP_ROBOT_FINISHED));
@@ -263,7 +264,7 @@ TEST_CASE("SIPP plans tours") {
   }
 }
 
-TEST_CASE("SIPP takes a way with fewest turns where it is free") {
+TEST_CASE("SIPP takes a path with fewest turns where it is free") {
   for (int x = 0; x < 9; x += 2)
     for (int y = 0; y < 7; y += 3) {
       CAPTURE(x, y);
@@ -275,7 +276,7 @@ TEST_CASE("SIPP takes a way with fewest turns where it is free") {
     }
 }
 
-TEST_CASE("SIPP proves or gives up") {
+TEST_CASE("SIPP without a plan: a proof or an end") {
   SECTION("a goal that is cut off, by walls or by a robot that rests") {
     PlanningCase c({"..#.", "..#."});
     CHECK(run_planner(sipp, c.robot({0, 0}, {{3, 0}})).status == DMRP_NO_SOLUTION);
@@ -283,38 +284,26 @@ TEST_CASE("SIPP proves or gives up") {
     resting.robot({0, 0}, {{4, 0}}).robot({2, 0}, {}, DMRP_ROBOT_FAILED);
     CHECK(run_planner(sipp, resting).status == DMRP_NO_SOLUTION);
   }
-  SECTION("two of three in a ring would have to change places: all joint positions are tried") {
+  SECTION("two of three in a ring would have to swap: all joint positions are tried") {
     PlanningCase c({"..", ".."});
     c.robot({0, 0}, {{1, 0}}).robot({1, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
     const Plan plan = run_planner(sipp, c);
     CHECK(plan.status == DMRP_NO_SOLUTION);
     CHECK(plan.statistics.at("restarts") == 0);
   }
-  // Nobody can pass, but the part is too large for a proof.
-  std::vector<std::string> rows(2, std::string(120, '.'));
-  rows[1].assign(120, '#');
-  rows[1][60] = '.';
-  PlanningCase jam(rows);
-  for (int i = 0; i < 4; ++i) jam.robot({i, 0}, {{119 - i, 0}}).robot({119 - i, 0}, {{i, 0}});
   SECTION("by its own limit") {
-    const Plan plan = run_planner(sipp, jam, {{"restarts", 3}});
+    const Plan plan = run_planner(sipp, jammed_case(), {{"restarts", 3}});
     CHECK(plan.status == DMRP_TIMEOUT);
     CHECK(plan.statistics.at("restarts") == 3);
     CHECK(plan.statistics.at("lower_bound") == 8 * 119 - 2 * (0 + 2 + 4 + 6));
   }
   SECTION("by the host") {
     PluginUnderTest planner(library, sipp, {{"restarts", 100'000'000}});
-    int asked = 0;
-    planner.host().should_stop = [&] { return ++asked > 100; };
-    CHECK(run_planner(planner, jam).status == DMRP_TIMEOUT);
-    CHECK(asked == 101);
-    planner.host().should_stop = nullptr;
-    PlanningCase easy({"..."});
-    CHECK(run_planner(planner, easy.robot({0, 0}, {{2, 0}})).status == DMRP_OK);
+    check_stop_and_go(planner);
   }
 }
 
-TEST_CASE("SIPP gives the same bits for the same seed, whatever came before, and others for others") {
+TEST_CASE("SIPP gives the same bits for the same seed, whatever was planned before, and others for other seeds") {
   PluginUnderTest used(library, sipp);
   int differ = 0;
   for (uint64_t seed = 300; seed < 330; ++seed) {
@@ -327,13 +316,13 @@ TEST_CASE("SIPP gives the same bits for the same seed, whatever came before, and
   CHECK(differ > 3);
 }
 
-TEST_CASE("occupations follow the paths put in and taken out") {
+TEST_CASE("occupations follow the paths added and removed") {
   Random random(5);
   const PlanningCase grid(std::vector<std::string>(3, "..."));
   const CProblem host(grid);
   const auto problem = dmrp::planners::make_problem(dmrp::PlanningProblem(host.problem()), true);
   SafeIntervals table(problem.graph);
-  std::vector<std::vector<Location>> paths(4);  // none: not in the table
+  std::vector<std::vector<Location>> paths(4);  // empty: not in the table
   const auto where = [&](std::size_t agent, int t) {
     const auto& path = paths[agent];
     return path.empty() ? dmrp::planners::nowhere : path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
@@ -387,9 +376,7 @@ void check_movingai(const std::string& map, int robots) {
   }
   PluginUnderTest planner(library, sipp);
   for (int i = 1; i <= 5; ++i) {
-    PlanningCase c = read_map(*data / "movingai" / "maps" / (map + ".map"));
-    add_robots(c, *data / "movingai" / "scens" / (map + "-random-" + std::to_string(i) + ".scen"), robots);
-    REQUIRE(c.robots.size() == static_cast<std::size_t>(robots));
+    const PlanningCase c = read_instance(*data, map, robots, i);
     CAPTURE(map, i);
     const Plan plan = run_planner(planner, c);
     REQUIRE(plan.status == DMRP_OK);
@@ -401,15 +388,15 @@ void check_movingai(const std::string& map, int robots) {
 
 }  // namespace
 
-TEST_CASE("SIPP solves 200 robots on random-32-32-20") {
+TEST_CASE("SIPP solves 200 robots on random-32-32-20", "[data]") {
   check_movingai("random-32-32-20", 200);
 }
 
-TEST_CASE("SIPP solves 400 robots on empty-32-32") {
+TEST_CASE("SIPP solves 400 robots on empty-32-32", "[data]") {
   check_movingai("empty-32-32", 400);
 }
 
-TEST_CASE("SIPP solves 80 robots in a maze and in rooms") {
+TEST_CASE("SIPP solves 80 robots in a maze and in rooms", "[data]") {
   check_movingai("maze-32-32-2", 80);
   check_movingai("room-32-32-4", 80);
 }

@@ -295,7 +295,7 @@ TEST_CASE("a navigation field reaches what can be reached, by no longer way than
   }
 }
 
-TEST_CASE("following a navigation field arrives by about the way that it promised", "[toolkit]") {
+TEST_CASE("following a navigation field takes about the length that it gives", "[toolkit]") {
   Stream stream(4, "walks");
   NavigationField field;
   int walks = 0;
@@ -349,7 +349,7 @@ TEST_CASE("a wall between two free cells cuts a navigation field", "[toolkit]") 
   CHECK_FALSE(field.reachable(3));
 }
 
-TEST_CASE("a navigation field without a way says so", "[toolkit]") {
+TEST_CASE("a navigation field without a way is unreachable", "[toolkit]") {
   const TestGrid grid({"..#.",  //
                        "..#."});
   NavigationField field;
@@ -383,7 +383,7 @@ TEST_CASE("navigation fields of mirrored grids mirror each other, to the bit", "
               mirror_field.value(mirror.view().index({19 - column, row})));
 }
 
-TEST_CASE("wall costs keep ways off the walls", "[toolkit]") {
+TEST_CASE("wall costs keep ways away from walls", "[toolkit]") {
   // A block in the middle: the shortest way grazes it, the comfortable one keeps off.
   std::vector<std::string> rows = empty_rows(41, 41);
   for (std::size_t row = 10; row < 31; ++row) rows[row].replace(18, 5, "#####");
@@ -449,7 +449,7 @@ TEST_CASE("snapping respects walls, and a robot that touches one can still leave
   CHECK(*snapped({{1.45, 0.5}, no_cell}) == Cells{4});
 }
 
-TEST_CASE("SVG numbers are short and never odd", "[toolkit]") {
+TEST_CASE("SVG numbers are short and well-formed", "[toolkit]") {
   CHECK(format_svg_number(0.0) == "0");
   CHECK(format_svg_number(-0.001) == "0");
   CHECK(format_svg_number(12.0) == "12");

@@ -61,7 +61,7 @@ TEST_CASE("a key chain steps by SplitMix64's finaliser", "[toolkit]") {
   CHECK(chain.value() == 0xe220a8397b1dcdafu);
 }
 
-TEST_CASE("a stream is what its name says, to the bit", "[toolkit]") {
+TEST_CASE("a stream depends on its name alone, to the bit", "[toolkit]") {
   Stream stream(1, "pedestrian.speed", 2, 3);
   std::vector<std::uint64_t> drawn;
   for (int i = 0; i < 4; ++i) drawn.push_back(stream.next_u64());

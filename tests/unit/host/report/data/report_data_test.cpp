@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::vector<std::string> about_failing{"done"};
+const std::vector<std::string> failure_metrics{"done"};
 
 ReportLayouts example_layouts() {
   const std::string summary = R"({"columns": [{"metric": "time"}], "arrived": "done", "counts_failures": ["done"]})";
@@ -103,7 +103,7 @@ TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
   trials.push_back(fault_of(example_trial(7, "B", 2, 50.0, 0.5)));
   const json data = data_of(trials);
   const auto metrics = example_metrics();
-  std::istringstream csv(summary_csv(metrics, summarise(metrics, trials, about_failing)));
+  std::istringstream csv(summary_csv(metrics, summarise(metrics, trials, failure_metrics)));
   std::string line;
   std::getline(csv, line);
   for (const json& of_combination : data["summaries"])
@@ -123,7 +123,7 @@ TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
   CHECK(data["values"]["cpu"][0].is_null());
 }
 
-TEST_CASE("a report says what was run", "[report]") {
+TEST_CASE("a report describes the run", "[report]") {
   const json data = data_of(trials_of({{"A", {40.0, 43.0}}, {"B", {50.0}}}));
   CHECK(data["format"] == 1);
   CHECK(data["run"]["name"] == "example");
@@ -139,7 +139,7 @@ TEST_CASE("a report says what was run", "[report]") {
   CHECK(data["layouts"]["report"]["completion"]["metric"] == "time");
 }
 
-TEST_CASE("faults and skipped trials are told of", "[report]") {
+TEST_CASE("a report lists faults and counts skipped trials", "[report]") {
   std::vector<TrialRecord> trials = trials_of({{"A", {40.0}}});
   trials.push_back(fault_of(example_trial(1, "A", 1, 50.0, 0.5)));
   trials.push_back(example_trial(2, "C", 0, 50.0, 0.5));
@@ -286,7 +286,7 @@ TEST_CASE("curves have a point for each threshold", "[report]") {
   CHECK_FALSE(data["values"].contains("curve"));
 }
 
-TEST_CASE("people are delayed by what they lose against the same crowd alone", "[report]") {
+TEST_CASE("the delay of people is the progress lost against the same crowd without robots", "[report]") {
   std::vector<TrialRecord> trials;
   const auto add = [&](std::uint32_t robots, std::uint32_t repetition, double speed, int seconds) {
     TrialRecord trial = example_trial(trials.size(), robots == 0 ? "" : "A", repetition, 40.0, 0.5);
@@ -326,7 +326,7 @@ TEST_CASE("layouts of reports are checked", "[report]") {
   CHECK_THROWS_WITH(
       parse_report_layout("{\"comparisons\": [{\"metric\": \"x\", \"censored\": true, \"both_succeeded\": true}]}",
                           "a.json"),
-      "a.json: a comparison is either 'censored' or of those that 'both_succeeded'");
+      "a.json: a comparison cannot be both 'censored' and 'both_succeeded'");
   const ReportLayout shipped = read_report_layout(DMRP_REPORT_LAYOUT);
   CHECK(shipped.comparisons.size() >= 3);
   CHECK(shipped.diagnosis.y.size() == 4);

@@ -30,7 +30,7 @@ json replay_of(const core::TraceBytes& bytes, const TrialRecord& trial = {}) {
   return json::parse(replay_json(trace, trial));
 }
 
-TEST_CASE("A replay holds ten samples a second and the last, to half a millimetre", "[report]") {
+TEST_CASE("a replay has ten samples a second and the last, to half a millimetre", "[report]") {
   const core::TraceBytes bytes = test::example_trace(23);  // 50 Hz: 0 to 440 ms
   const json replay = replay_of(bytes);
   const std::vector<std::int64_t> times = summed(replay["times"]);
@@ -53,7 +53,7 @@ TEST_CASE("A replay holds ten samples a second and the last, to half a millimetr
   CHECK(kept == times.size());
 }
 
-TEST_CASE("A replay tells the plan in force, the states, and the curves up to the end of a robot's task", "[report]") {
+TEST_CASE("a replay has the current plan, the states, and the curves up to the end of a robot's task", "[report]") {
   const json replay = replay_of(test::example_trace(20));  // the second plan is in force from sample 10, 200 ms
   CHECK(replay["plan"] == json{0, 0, 2, 2});               // the second of three records gave no plan
   CHECK(replay["plans"].size() == 3);
@@ -81,7 +81,7 @@ TEST_CASE("A replay tells the plan in force, the states, and the curves up to th
   CHECK(replay["end"]["reason"] == "time limit");
 }
 
-TEST_CASE("Without a plan there are no samples: the robots stand at their starts", "[report]") {
+TEST_CASE("without a plan the robots stand at their starts", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   const json replay = replay_of(trace.bytes());
@@ -93,7 +93,7 @@ TEST_CASE("Without a plan there are no samples: the robots stand at their starts
   CHECK(replay["robots"][1]["state"] == json{0, DMRP_ROBOT_FAILED});
 }
 
-TEST_CASE("People have a track each from entering to leaving", "[report]") {
+TEST_CASE("each person has a track from entering to leaving", "[report]") {
   const json replay = replay_of(test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
   const json& people = replay["people"];
   REQUIRE(people.size() == 4);  // one stays; the other place is somebody else's at each sample
@@ -105,7 +105,7 @@ TEST_CASE("People have a track each from entering to leaving", "[report]") {
   CHECK(people[2]["x"].size() == 1);
 }
 
-TEST_CASE("Headings go on past pi, the shorter way round", "[report]") {
+TEST_CASE("headings are unwrapped", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 4; ++k) {
@@ -121,7 +121,7 @@ TEST_CASE("Headings go on past pi, the shorter way round", "[report]") {
   CHECK_FALSE(replay.contains("end"));
 }
 
-TEST_CASE("Scans come along in centimetres, at most 180 beams each", "[report]") {
+TEST_CASE("scans are in centimetres, with at most 180 beams", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
@@ -156,7 +156,7 @@ TEST_CASE("Scans come along in centimetres, at most 180 beams each", "[report]")
   CHECK(scans["ranges"][180] == 200);  // begins anew
 }
 
-TEST_CASE("Contacts are events with fault and depth; metrics' events come along", "[report]") {
+TEST_CASE("contacts are events with fault and depth, besides metric events", "[report]") {
   TrialRecord trial;
   trial.id = 5;
   trial.events = {{"blocking", 1'500'000'000, 2'250'000'000, {0, 1}, "they block each other"}};
@@ -183,7 +183,7 @@ TEST_CASE("Contacts are events with fault and depth; metrics' events come along"
                                           {"text", "they block each other"}}}));
 }
 
-TEST_CASE("A contact that lasts is one event", "[report]") {
+TEST_CASE("a lasting contact is one event", "[report]") {
   const test::ExampleWorld world;
   test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 5; ++k) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "host/commands/command_output.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
+#include "host/files/atomic_file.hpp"
+
+namespace dmrp::host {
+
+namespace fs = std::filesystem;
+
+std::string plural(std::uint64_t n, const std::string& noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+void warn(const std::string& text) {
+  fmt::print(stderr, "warning: {}\n", text);
+}
+
+void check_output_file(const char* option, const fs::path& file) {
+  if (file.empty()) return;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw InputError(fmt::format("{} {}: there is no folder {}", option, file.string(), folder.string()));
+  if (fs::is_directory(file, ignored)) throw InputError(fmt::format("{} {}: is a folder", option, file.string()));
+}
+
+void write_output(const char* option, const fs::path& file, std::string_view content) {
+  if (file.empty()) {
+    if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size())
+      throw MachineError("standard output", errno);
+    return;
+  }
+  try {
+    write_file_atomically(file, content);
+  } catch (const std::system_error& error) {
+    throw_path_error(fmt::format("{} {}", option, file.string()), error.code());
+  }
+}
+
+}  // namespace dmrp::host

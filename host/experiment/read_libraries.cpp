@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "host/experiment/read_libraries.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "host/files/read_file.hpp"
+#include "host/toml/nearest_name.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_missing(const TomlValue& value, const std::string& name, const fs::path& base) {
+  if (name.empty()) value.fail("a library's name must not be empty");
+  if (name.find('/') != std::string::npos)
+    value.fail(fmt::format("no library '{}' (there is no file {})", name, shown((base / name).lexically_normal())));
+  if (std::error_code ignored; fs::is_regular_file(base / name, ignored))
+    value.fail(fmt::format("no library '{0}' in the plugin path (did you mean './{0}'?)", name));
+  std::vector<std::string> known;
+  std::string folders;
+  for (const fs::path& folder : plugin_path()) {
+    folders += (folders.empty() ? "" : ", ") + shown(folder.lexically_normal());
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) known.push_back(entry.path().filename());
+  }
+  std::sort(known.begin(), known.end());
+  value.fail(fmt::format("no library '{}' (searched: {}){}", name, folders, did_you_mean(name, known)));
+}
+
+Probe probe_for(const TomlValue& value, const std::string& name, const fs::path& file, const PluginSource& source) {
+  Probe probe;
+  try {
+    probe = source(file);
+  } catch (const std::runtime_error& error) {  // a failure of the machine is none
+    value.fail(fmt::format("{}: {}", name, error.what()));
+  }
+  if (!probe.init_error.empty()) value.fail(fmt::format("{}: {}", name, probe.init_error));
+  return probe;
+}
+
+// Fails if the plugin `index` of the last library is not the first with its id.
+void check_new_id(const TomlValue& value, const std::vector<LibraryUse>& libraries, std::size_t index) {
+  const std::string& name = libraries.back().written;
+  const std::string& id = libraries.back().plugins[index].id;
+  for (const LibraryUse& other : libraries) {
+    const bool is_last = &other == &libraries.back();
+    for (std::size_t i = 0; i < (is_last ? index : other.plugins.size()); ++i)
+      if (other.plugins[i].id == id)
+        value.fail(is_last ? fmt::format("{}: has {} twice", name, id)
+                           : fmt::format("{}: has {}, which is in {} already", name, id, other.written));
+  }
+}
+
+}  // namespace
+
+void read_libraries(const TomlDocument& document, const TomlValue& plugins, const PluginSource& source,
+                    Experiment& experiment) {
+  const fs::path base = experiment.file.parent_path();
+  for (const TomlValue& value : plugins.array()) {
+    const std::string name = value.text();
+    const fs::path file = find_library(name, base);
+    if (file.empty()) fail_missing(value, name, base);
+    for (const LibraryUse& other : experiment.libraries)
+      if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
+    const Probe probe = probe_for(value, name, file, source);
+    if (!probe.warning.empty())
+      experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + probe.warning);
+    experiment.libraries.push_back({name, file, probe.plugins});
+    for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
+  }
+  if (experiment.libraries.empty()) plugins.fail("'plugins' must name at least one library");
+}
+
+}  // namespace dmrp::host

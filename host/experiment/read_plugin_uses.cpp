@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "host/experiment/read_plugin_uses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/experiment/read_parameters.hpp"
+#include "host/plugins/offered_extensions.hpp"
+#include "host/toml/nearest_name.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+bool label_taken(const std::vector<PluginUse>& uses, const std::string& label) {
+  return std::any_of(uses.begin(), uses.end(), [&](const PluginUse& use) { return use.label == label; });
+}
+
+// The results identify values by their names.
+void check_value_names(const TomlValue& at, const std::vector<PluginUse>& others, const PluginUse& metric) {
+  for (const PluginUse& other : others)
+    for (const MetricValueSpec& known : other.info.values)
+      for (const MetricValueSpec& value : metric.info.values)
+        if (known.name == value.name)
+          at.fail(fmt::format("two metrics give a value '{}': {} and {}", value.name,
+                              other.info.id == metric.info.id ? other.label : other.info.id,
+                              other.info.id == metric.info.id ? metric.label : metric.info.id));
+}
+
+// The library and the plugin of that id.
+std::pair<std::uint32_t, const PluginInfo*> find_plugin(const TomlValue& use, std::uint32_t kind,
+                                                        const std::vector<LibraryUse>& libraries) {
+  const std::string id = use.text();
+  std::vector<std::string> same_kind;
+  for (std::uint32_t i = 0; i < libraries.size(); ++i)
+    for (const PluginInfo& info : libraries[i].plugins) {
+      if (info.id == id && info.kind != kind)
+        use.fail(fmt::format("{} is a {}, not a {}", id, kind_name(info.kind), kind_name(kind)));
+      if (info.id == id) return {i, &info};
+      if (info.kind == kind) same_kind.push_back(info.id);
+    }
+  use.fail(fmt::format("no {} '{}' in the loaded libraries (there: {}){}", kind_name(kind), id, join_names(same_kind),
+                       did_you_mean(id, same_kind)));
+}
+
+void check_extensions(const TomlValue& use, const PluginInfo& info) {
+  const std::vector<std::string> offered = offered_extensions(info.kind);
+  for (const std::string& id : info.needs)
+    if (std::find(offered.begin(), offered.end(), id) == offered.end())
+      use.fail(fmt::format("{} needs the extension {}, which this host does not offer to a {} (offered: {})", info.id,
+                           id, kind_name(info.kind), join_names(offered)));
+}
+
+}  // namespace
+
+void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experiment& experiment,
+                      std::vector<PluginUse>& uses) {
+  const std::filesystem::path base = experiment.file.parent_path();
+  for (const TomlTable& table : root.tables(kind_name(kind))) {
+    table.allow_only(plugin_use_keys);
+    const TomlValue use = table.need("use");
+    const auto [library, info] = find_plugin(use, kind, experiment.libraries);
+    check_extensions(use, *info);
+    const auto label = table.find("label");
+    const std::string name = label ? label->line() : info->name;
+    const std::filesystem::path file = find_parameter_file(table, base);
+    for (ParameterVariant& variant : read_parameters(table, *info, base, file)) {
+      PluginUse made;
+      made.library = library;
+      made.info = *info;
+      made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
+      made.parameters = std::move(variant.values);
+      made.parameter_file = file;
+      if (label_taken(uses, made.label))
+        (label ? *label : use)
+            .fail(fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));
+      if (kind == DMRP_KIND_METRIC) check_value_names(use, uses, made);
+      uses.push_back(std::move(made));
+    }
+  }
+}
+
+void use_every_metric(const TomlValue& at, Experiment& experiment) {
+  for (std::uint32_t i = 0; i < experiment.libraries.size(); ++i)
+    for (const PluginInfo& info : experiment.libraries[i].plugins) {
+      if (info.kind != DMRP_KIND_METRIC) continue;
+      check_extensions(at, info);
+      PluginUse use;
+      use.library = i;
+      use.info = info;
+      use.label = label_taken(experiment.metrics, info.name) ? info.id : info.name;
+      for (const ParameterSpec& spec : info.parameters) use.parameters.push_back(spec.fallback);
+      check_value_names(at, experiment.metrics, use);
+      experiment.metrics.push_back(std::move(use));
+    }
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// read_plugin_uses.hpp: the tables [[global_planner]], [[local_controller]], [[pedestrian_model]] and [[metric]] of an
+// experiment file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/experiment/experiment.hpp"
+#include "host/toml/toml_document.hpp"
+
+namespace dmrp::host {
+
+// The keys of each of these tables.
+inline const std::vector<std::string> plugin_use_keys = {"use", "label", "params_file", "params", "sweep"};
+
+// Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment, whose libraries must be known: one
+// use for each variant of a sweep. Throws InputError.
+void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experiment& experiment,
+                      std::vector<PluginUse>& uses);
+
+// Uses every metric of the experiment's libraries with its defaults. `at`: the place for errors. Throws InputError.
+void use_every_metric(const TomlValue& at, Experiment& experiment);
+
+}  // namespace dmrp::host

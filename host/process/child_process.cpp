@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "host/process/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "host/errors/machine_error.hpp"
+#include "host/process/resource_limits.hpp"
+#include "host/program/executable.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr int start_failed_exit = 127;  // as a shell's
+
+// In the child.
+[[noreturn]] void run_child(pid_t parent, int output, const std::function<void()>& function) noexcept {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  try {
+    function();
+  } catch (const std::bad_alloc&) {
+    _exit(out_of_memory_exit);
+  }
+  std::fflush(stderr);
+  _exit(0);  // not exit(): that would run destructors of static objects in plugin libraries
+}
+
+// Between fork and exec: only async-signal-safe functions.
+void execute_program(const char* const* arguments, const ChildProcess::Program& program) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (program.ignores_terminal)
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(number, SIG_IGN);
+  signal(SIGPIPE, SIG_DFL);
+  close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
+  for (const int descriptor : program.inherited) fcntl(descriptor, F_SETFD, 0);
+  execv(arguments[0], const_cast<char* const*>(arguments));
+  _exit(start_failed_exit);
+}
+
+}  // namespace
+
+const char* ProcessEnding::fault_kind() const {
+  if (signal != 0) return fault_kind::crash;
+  return exit_status == out_of_memory_exit ? fault_kind::out_of_memory : fault_kind::exit;
+}
+
+std::string ProcessEnding::explain(std::int64_t memory_mb) const {
+  if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
+  if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
+  return fmt::format("ended the process with status {}", exit_status);
+}
+
+ChildProcess ChildProcess::execute(const Program& program) {
+  const std::string executable = executable_path().string();
+  std::vector<const char*> arguments = {executable.c_str()};
+  for (const std::string& argument : program.arguments) arguments.push_back(argument.c_str());
+  arguments.push_back(nullptr);
+  return ChildProcess(program.output, [&] { execute_program(arguments.data(), program); });
+}
+
+ChildProcess ChildProcess::fork(std::int64_t memory_mb, const std::function<void()>& function) {
+  return ChildProcess(STDERR_FILENO, [&] {
+    set_resource_limits(memory_mb);
+    function();
+  });
+}
+
+ChildProcess::ChildProcess(int output, const std::function<void()>& function) {
+  std::fflush(nullptr);  // buffered output would be written twice
+  const pid_t parent = getpid();
+  pid_ = ::fork();
+  if (pid_ < 0) throw MachineError("fork", errno);
+  if (pid_ == 0) run_child(parent, output, function);
+  ended_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
+}
+
+ChildProcess::~ChildProcess() {
+  kill();
+  wait();
+}
+
+// The number stays the child's until it has been waited for.
+void ChildProcess::kill() const {
+  if (pid_ > 0) ::kill(pid_, SIGKILL);
+}
+
+const ProcessEnding& ChildProcess::wait() {
+  if (pid_ < 0) return ending_;
+  int status = 0;
+  rusage used{};
+  while (wait4(pid_, &status, 0, &used) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  if (WIFSIGNALED(status))
+    ending_.signal = WTERMSIG(status);
+  else
+    ending_.exit_status = WEXITSTATUS(status);
+  ending_.peak_rss_mb = static_cast<double>(used.ru_maxrss) / 1024.0;
+  return ending_;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// child_process.hpp: starts, stops and explains the processes that run plugins.
+//
+// A child reads from /dev/null, and is killed when its parent ends. A plugin that crashes, hangs or takes all memory
+// ends its child only.
+#pragma once
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/process/descriptor.hpp"
+#include "host/process/fault_kind.hpp"
+
+namespace dmrp::host {
+
+// Exit status of a child that ran out of memory outside a plugin call.
+inline constexpr int out_of_memory_exit = 86;
+
+// How a child ended.
+struct ProcessEnding {
+  int signal = 0;       // that killed it; 0: it exited
+  int exit_status = 0;  // if it exited
+  double peak_rss_mb = 0.0;
+
+  bool succeeded() const { return signal == 0 && exit_status == 0; }
+
+  // Of the plugin that ended the process: crash, out_of_memory or exit.
+  const char* fault_kind() const;
+
+  // "crashed (signal 11, Segmentation fault)", "needs more than 400 MB of memory" or "ended the process with status 0".
+  std::string explain(std::int64_t memory_mb) const;
+};
+
+class ChildProcess {
+ public:
+  struct Program {
+    std::vector<std::string> arguments;  // of dmrp-host
+    std::vector<int> inherited;          // descriptors that the program keeps; it inherits no other
+    int output = STDERR_FILENO;          // for its standard output and standard error
+    bool ignores_terminal = false;       // Ctrl-C and the like, which reach all processes of a terminal
+  };
+
+  // Starts dmrp-host again. Throws MachineError.
+  static ChildProcess execute(const Program& program);
+
+  // Calls `function` in a copy of this process, under set_resource_limits(memory_mb), with standard output redirected
+  // to standard error. The copy never returns to the caller and runs no destructors of static objects. Its exit status
+  // is 0, or out_of_memory_exit if the function throws std::bad_alloc. Throws MachineError.
+  static ChildProcess fork(std::int64_t memory_mb, const std::function<void()>& function);
+
+  ~ChildProcess();  // kills it
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Readable once the process has ended. Not open on kernels older than 5.3.
+  const Descriptor& ended() const { return ended_; }
+
+  void kill() const;
+
+  // Waits for its end. Call it as often as you like.
+  const ProcessEnding& wait();
+
+ private:
+  ChildProcess(int output, const std::function<void()>& function);
+
+  pid_t pid_ = -1;  // -1: it has been waited for
+  Descriptor ended_;
+  ProcessEnding ending_;
+};
+
+}  // namespace dmrp::host

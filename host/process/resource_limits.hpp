@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// resource_limits.hpp: limits of a process that runs plugins.
+#pragma once
+
+#include <cstdint>
+
+namespace dmrp::host {
+
+// Limits the address space of this process to `memory_mb` (0: no limit; never under sanitizers) and disables core
+// dumps. A lower limit that is already set stays.
+void set_resource_limits(std::int64_t memory_mb);
+
+}  // namespace dmrp::host

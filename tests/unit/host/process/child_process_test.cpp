@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "host/process/child_process.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "host/process/line_channel.hpp"
+#include "host/process/watchdog.hpp"
+
+using namespace dmrp::host;
+
+namespace {
+
+constexpr std::int64_t no_limit_mb = 0;
+
+ProcessEnding ending_of(const std::function<void()>& function) {
+  return ChildProcess::fork(no_limit_mb, function).wait();
+}
+
+}  // namespace
+
+TEST_CASE("the end of a child is explained") {
+  const ProcessEnding good = ending_of([] {});
+  CHECK(good.succeeded());
+  CHECK(good.explain(400) == "ended the process with status 0");
+  CHECK(good.peak_rss_mb > 0.0);
+
+  const ProcessEnding exited = ending_of([] { _exit(3); });
+  CHECK_FALSE(exited.succeeded());
+  CHECK(exited.fault_kind() == std::string(fault_kind::exit));
+  CHECK(exited.explain(400) == "ended the process with status 3");
+
+  const ProcessEnding crashed = ending_of([] {
+    signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would exit
+    raise(SIGSEGV);
+  });
+  CHECK_FALSE(crashed.succeeded());
+  CHECK(crashed.fault_kind() == std::string(fault_kind::crash));
+  CHECK(crashed.explain(400) == "crashed (signal 11, Segmentation fault)");
+
+  const ProcessEnding full = ending_of([] { throw std::bad_alloc(); });
+  CHECK(full.fault_kind() == std::string(fault_kind::out_of_memory));
+  CHECK(full.explain(400) == "needs more than 400 MB of memory");
+}
+
+TEST_CASE("a child is killed, and waited for once") {
+  ChildProcess child = ChildProcess::fork(no_limit_mb, [] { pause(); });
+  child.kill();
+  CHECK(child.wait().signal == SIGKILL);
+  child.kill();  // not another process that has its number now
+  CHECK(child.wait().signal == SIGKILL);
+}
+
+TEST_CASE("a child reads nothing and sends messages until it ends") {
+  Pipe pipe = make_pipe();
+  ChildProcess child = ChildProcess::fork(no_limit_mb, [&] {
+    char byte;
+    LineChannel channel(Descriptor(), std::move(pipe.write_end));
+    channel.send({{"read", read(STDIN_FILENO, &byte, 1)}});
+  });
+  pipe.write_end.close();
+  LineChannel channel(std::move(pipe.read_end), Descriptor());
+  CHECK(channel.receive().value().at("read") == 0);
+  CHECK_FALSE(channel.receive());
+  CHECK(child.wait().succeeded());
+}
+
+TEST_CASE("the parent sees the call that its child has noted") {
+  const SharedCallNote note(make_call_note());
+  CHECK_FALSE(note.read().inside);
+  ChildProcess::fork(no_limit_mb, [&] {
+    note.note().function = {'p', 'l', 'a', 'n'};
+    note.note().call_number = 1;
+  }).wait();
+  CHECK(note.read().inside);
+  CHECK(note.read().function == "plan");
+}
+
+TEST_CASE("a watchdog waits for the end of a child, or until it is late") {
+  ChildProcess sleeper = ChildProcess::fork(no_limit_mb, [] { pause(); });
+  REQUIRE(sleeper.ended().is_open());
+  Watchdog watchdog;
+  int asked = 0;
+  CHECK_FALSE(watchdog.wait(sleeper.ended().number(), [&] { return ++asked == 2; }));
+  CHECK(asked == 2);
+  sleeper.kill();
+  CHECK(watchdog.wait(sleeper.ended().number(), [] { return false; }));
+}
+
+TEST_CASE("only calls that began in time and run too long are overdue") {
+  const Watchdog watchdog;
+  const std::int64_t now_ns = monotonic_ns();
+  NotedCall call;
+  call.start_ns = now_ns - 1000;
+  CHECK_FALSE(watchdog.is_overdue(call, now_ns - 2000, 500));  // it has returned
+  call.inside = true;
+  CHECK(watchdog.is_overdue(call, now_ns - 2000, 500));
+  CHECK_FALSE(watchdog.is_overdue(call, now_ns - 2000, 60'000'000'000));
+  CHECK_FALSE(watchdog.is_overdue(call, now_ns - 500, 500));  // the plugin has changed its note
+  call.start_ns = now_ns + 60'000'000'000;
+  CHECK_FALSE(watchdog.is_overdue(call, now_ns - 2000, 500));
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The graph of a grid, and the proofs that a problem on it has no plan.
+#include "planners/mapf/grid_graph.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "planners/mapf/solvability.hpp"
+#include "tests/unit/planners/mapf/problem_case.hpp"
+
+using namespace dmrp::test;
+using namespace dmrp::planners;
+
+TEST_CASE("a graph follows the edge mask both ways") {
+  PlanningCase c({"...", "..."});
+  c.close_one_way({0, 0}, {1, 0});
+  c.robot({0, 0}, {{2, 1}}).robot({2, 0}, {}, DMRP_ROBOT_FINISHED);
+  const Problem problem = problem_of(c);
+  const GridGraph& graph = problem.graph;
+  CHECK(graph.neighbor(0, 0) == nowhere);
+  CHECK(graph.predecessor(1, 0) == nowhere);
+  CHECK(graph.neighbor(1, 2) == 0);
+  CHECK(graph.predecessor(0, 2) == 1);
+  CHECK(graph.neighbor(1, 1) == 4);
+  CHECK(graph.neighbor(0, 2) == nowhere);
+  CHECK_FALSE(graph.is_open(2));  // a robot rests there
+  CHECK(graph.neighbor(1, 0) == nowhere);
+  CHECK(graph.neighbor(5, 3) == nowhere);
+  CHECK(problem.agents.size() == 1);
+}
+
+TEST_CASE("joint positions prove that there is no plan, up to their limit") {
+  // A T: three robots cannot all exchange their places around one branch of one cell.
+  PlanningCase c({"...", "#.#"});
+  c.robot({0, 0}, {{2, 0}}).robot({2, 0}, {{0, 0}}).robot({1, 1}, {{1, 1}});
+  const Problem problem = problem_of(c);
+  CHECK_FALSE(find_obvious_obstruction(problem));
+  CHECK(find_joint_obstruction(problem, 64, never()));
+  CHECK_FALSE(find_joint_obstruction(problem, 63, never()));
+
+  PlanningCase solvable({"...", "#.#"});
+  solvable.robot({0, 0}, {{2, 0}}).robot({2, 0}, {{0, 0}});
+  CHECK_FALSE(find_joint_obstruction(problem_of(solvable), 1000, never()));
+}
