@@ -3,6 +3,7 @@
 
 #include <time.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -15,14 +16,21 @@ namespace dmrp::bench {
 
 namespace {
 
+// Counts exactly, measured values with six digits.
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, value == std::floor(value) && std::fabs(value) < 1e15 ? "%.0f" : "%.6g", value);
+  return buffer;
+}
+
 void print_rows(const std::vector<Row>& rows, bool json) {
   if (json) std::printf("[");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (json) {
-      std::printf("%s\n  {\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\"}", i == 0 ? "" : ",",
-                  rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
+      std::printf("%s\n  {\"name\": \"%s\", \"value\": %s, \"unit\": \"%s\"}", i == 0 ? "" : ",", rows[i].name.c_str(),
+                  text(rows[i].value).c_str(), rows[i].unit.c_str());
     } else {
-      std::printf("%-55s %12.6g %s\n", rows[i].name.c_str(), rows[i].value, rows[i].unit.c_str());
+      std::printf("%-55s %12s %s\n", rows[i].name.c_str(), text(rows[i].value).c_str(), rows[i].unit.c_str());
     }
   }
   if (json) std::printf("\n]\n");
@@ -43,9 +51,9 @@ std::string date() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
-  char text[20];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%MZ", &utc);
-  return text;
+  char buffer[20];
+  std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%MZ", &utc);
+  return buffer;
 }
 
 std::string cpu() {
@@ -56,10 +64,10 @@ std::string cpu() {
   return "unknown";
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+std::string csv_field(const std::string& field) {
+  if (field.find_first_of(",\"\n") == std::string::npos) return field;
   std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
 
@@ -86,11 +94,8 @@ void append_csv(const std::vector<Row>& rows, const std::string& file) {
   std::ofstream out(file, std::ios::app);
   if (is_new) out << "commit,date,cpu,name,value,unit\n";
   const std::string common = csv_field(commit()) + "," + date() + "," + csv_field(cpu()) + ",";
-  for (const Row& row : rows) {
-    char value[32];
-    std::snprintf(value, sizeof value, "%.6g", row.value);
-    out << common << csv_field(row.name) << "," << value << "," << csv_field(row.unit) << "\n";
-  }
+  for (const Row& row : rows)
+    out << common << csv_field(row.name) << "," << text(row.value) << "," << csv_field(row.unit) << "\n";
   if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
 }
 

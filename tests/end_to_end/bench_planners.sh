@@ -29,6 +29,13 @@ done
   FROM json_each(CAST(readfile('$scratch/stdout') AS TEXT)) GROUP BY name HAVING count(*) > 1") ]] ||
   fail "a name occurs twice"
 
+# two runs into one CSV file: one head, then rows of a commit, a date, a CPU and the values
+for _ in 1 2; do run 0 --planner cbs --on rooms:2 --csv "$scratch/rows.csv"; done
+[[ $(head -n 1 "$scratch/rows.csv") == commit,date,cpu,name,value,unit &&
+  $(grep -c '^commit,' "$scratch/rows.csv") == 1 &&
+  $(grep -cE '^[^,]+,20[0-9T:-]+Z,.+,planner/dmrp.planner.cbs/rooms/2/solved,2,1$' "$scratch/rows.csv") == 2 ]] ||
+  fail "$(cat "$scratch/rows.csv")"
+
 # variants of one planner have separate rows
 run 0 --planner "cbs node_limit=100000" --planner cbs --on rooms:2
 [[ $(value "planner/dmrp.planner.cbs node_limit=100000/rooms/2/solved") == 2 ]] || fail "$(cat "$scratch/stdout")"
@@ -37,7 +44,7 @@ run 0 --planner "cbs node_limit=100000" --planner cbs --on rooms:2
 # a planner that crashes solves nothing, and is reported
 run 1 --planner "test.planner.faulty fault=crash" --plugin "$faults" --on rooms:2
 [[ $(value "planner/test.planner.faulty/rooms/2/solved") == 0 ]] || fail "$(cat "$scratch/stdout")"
-[[ $(value "planner/test.planner.faulty/rooms/2/median_ms") == 10000.0 ]] || fail "unsolved counts as the time limit"
+[[ $(value "planner/test.planner.faulty/rooms/2/median_ms") == 10000 ]] || fail "unsolved counts as the time limit"
 run 2 --planner "cbs node_limits=1" --on rooms:2
 grep -q "did you mean 'node_limit'" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by the end-to-end tests, which are called as: TEST.sh DMRP_HOST. Gives them
 #   host, here, scratch   the executable, this folder, a folder that is deleted when the test ends
 #   fail, expect_status, query, values_of

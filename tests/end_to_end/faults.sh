@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by faulty_*.sh, which are called as: TEST.sh DMRP_HOST LIBRARY_OF_FAULTS [SANITIZERS]. Gives them
 #   run_with_faults NAME STATUS   runs $scratch/NAME.toml
 #   expect_fault ...              looks for a row of the table `fault`

@@ -62,7 +62,7 @@ END
   run=$scratch/$traces
   expect_status 0 "$host" "$scratch/$traces.toml" --quiet --out "$run"
   [[ $(query "$run" "SELECT group_concat(outcome) FROM trial") == succeeded ]] || fail "the trial should finish"
-  ls "$run" | grep -q scratch && fail "a scratch file was left: $(ls "$run")"
+  ! compgen -G "$run/*scratch*" >/dev/null || fail "a scratch file was left: $(ls "$run")"
 done
 cmp -s <(values_of "$scratch/all") <(values_of "$scratch/none") || fail "values depend on whether a trace is recorded"
 [[ $(query "$scratch/all" "SELECT count(*) FROM value WHERE metric = 'pedestrian_progress'") == 31 ]] ||

@@ -19,7 +19,7 @@ rm -f "$folder/done"
 cp "$here/package.json" "$here/package-lock.json" "$folder"
 cd "$folder" || exit 1
 if timeout 90 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error >npm.log 2>&1; then
-  touch done
+  touch "done"
   exit 0
 fi
 cat npm.log
