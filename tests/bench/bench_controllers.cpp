@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// bench_controllers: what a control cycle costs. Drives trials in closed loop, keeps all that each controller was told,
-// and tells it again to fresh instances, each call timed alone; the answers must be the same to the bit.
+// bench_controllers: measures the time of a control cycle. Drives trials in closed loop, records the input of each
+// controller, and replays it to fresh instances, timing each call alone; the commands must be the same to the bit.
 //
 //   controller/ID/cycle/median, /p99     ms of one step() on the mall with its people, CBS plans, agents tracked
 //   controller/ID/crowd/median, /p99     the same for a robot among 20 people and boxes in a hall of 12 m
-//   controller/ID/allocations            blocks allocated a cycle on the mall, after the first second
+//   controller/ID/allocations            blocks allocated per cycle on the mall, after the first second
 //   controller/ID/iterations             a cycle on the mall, where the controller notes "iterations N" for the trace
 //
-// Sensors are not part of it: what the controller reads was made before.
+// The sensors are not measured: their output is recorded.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -47,8 +47,8 @@ struct Measured {
   std::vector<double> call_ms;
   std::uint64_t calls = 0;        // after warming up ...
   std::uint64_t allocations = 0;  // ... and what these allocated
-  double iterations = 0.0;        // summed up ...
-  std::uint64_t telling = 0;      // ... over the calls that told of them
+  double iterations = 0.0;        // the sum ...
+  std::uint64_t annotated = 0;    // ... over the calls that annotated them
   std::uint32_t robots = 0;
   std::uint32_t arrived = 0;
 };
@@ -59,7 +59,7 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-// A value as TOML has it: what is no number or truth value is a string.
+// A value in TOML's syntax: everything except numbers, booleans and arrays is a string.
 std::string toml_value(const std::string& text) {
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
@@ -112,7 +112,7 @@ void add_trial(const bench::TrialUnderTest& trial, host::InstancePool& pool, int
   measured.arrived += recorded.arrived;
   for (std::uint32_t robot = 0; robot < recorded.tapes.size(); ++robot) {
     const bench::Tape& tape = recorded.tapes[robot];
-    // the least time of each call: the work is the same every time, only what disturbs it is not
+    // the minimum time of each call: the work is the same in every replay, only disturbances differ
     std::vector<double> least_ms(tape.size(), 1e9);
     for (int i = 0; i < replays; ++i) {
       const bench::Replay replay = bench::replay(trial, pool, robot, tape, false);
@@ -125,7 +125,7 @@ void add_trial(const bench::TrialUnderTest& trial, host::InstancePool& pool, int
     measured.call_ms.insert(measured.call_ms.end(), least_ms.begin(), least_ms.end());
     const bench::Replay told = bench::replay(trial, pool, robot, tape, true);
     measured.iterations = std::accumulate(told.iterations.begin(), told.iterations.end(), measured.iterations);
-    measured.telling += told.iterations.size();
+    measured.annotated += told.iterations.size();
   }
 }
 
@@ -159,14 +159,14 @@ std::vector<bench::Row> rows_of(const Options& options, const std::string& contr
   add_rows(name + "/crowd", crowd, rows);
   rows.push_back({name + "/allocations",
                   static_cast<double>(mall.allocations) / std::max(1.0, static_cast<double>(mall.calls)), "1"});
-  if (mall.telling > 0)
-    rows.push_back({name + "/iterations", mall.iterations / static_cast<double>(mall.telling), "1"});
+  if (mall.annotated > 0)
+    rows.push_back({name + "/iterations", mall.iterations / static_cast<double>(mall.annotated), "1"});
   std::fprintf(stderr, "%s: mall %u of %u home, %zu cycles; crowd %u of %u, %zu cycles\n", controller.c_str(),
                mall.arrived, mall.robots, mall.call_ms.size(), crowd.arrived, crowd.robots, crowd.call_ms.size());
   return rows;
 }
 
-// All controllers of the library, where none is chosen.
+// All controllers of the library; used if none is chosen.
 std::vector<std::string> known_controllers() {
   std::vector<std::string> ids;
   const host::Library library(host::find_library("libdmrp_controllers.so", ""));

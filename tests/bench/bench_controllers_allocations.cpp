@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-// The C library's own, under the names that it keeps for programs that put themselves before malloc. What an executable
+// The C library's functions under the names that it exports for programs that replace malloc. What an executable
 // defines comes before every shared library's, so plugins allocate here too.
 extern "C" {
 void* __libc_malloc(std::size_t size);

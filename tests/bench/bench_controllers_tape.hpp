@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench_controllers_tape.hpp: what a controller was told and what it answered, kept so that it can be told again.
+// bench_controllers_tape.hpp: records the input and output of a controller and replays the input.
 #pragma once
 
 #include <dmrp/ext/annotate.h>
@@ -17,9 +17,9 @@
 
 namespace dmrp::bench {
 
-// One call of step(). Of the extensions it holds what the controller asked for.
+// One call of step(), with the data of those extensions that the controller read.
 struct Frame {
-  std::vector<dmrp_waypoint> path;  // not empty: set_path() came first
+  std::vector<dmrp_waypoint> path;  // if not empty: set_path() was called before
   dmrp_observation observation{};
   std::vector<dmrp_agent> agents;
 
@@ -37,9 +37,9 @@ struct Frame {
   dmrp_command command{};
 };
 
-using Tape = std::vector<Frame>;  // one robot's way through one trial
+using Tape = std::vector<Frame>;  // of one robot in one trial
 
-// Extensions that a controller is offered; each answers from where a derived class has it.
+// The extensions offered to a controller; derived classes provide the data.
 class Perception {
  public:
   Perception();
@@ -47,7 +47,7 @@ class Perception {
   Perception& operator=(const Perception&) = delete;
   virtual ~Perception() = default;
 
-  // nullptr for what it does not offer.
+  // nullptr if it does not offer the extension.
   virtual const void* extension(const std::string& id) = 0;
 
  protected:
@@ -66,14 +66,14 @@ class Perception {
   dmrp_obstacle_clusters obstacle_clusters_{};
 };
 
-// Passes on what a robot's real sensors say, and writes it down.
+// Forwards the data of a robot's sensors and records it.
 class Recorder final : public Perception {
  public:
   // The extension behind an id, as the host offers it.
   using Source = std::function<const void*(const std::string& id)>;
   explicit Recorder(Source source) : source_(std::move(source)) {}
 
-  // What is read from now on belongs to this frame.
+  // Sets the frame into which all data read from now on is recorded.
   void write_to(Frame& frame) { frame_ = &frame; }
 
   const void* extension(const std::string& id) override;
@@ -88,7 +88,7 @@ class Recorder final : public Perception {
   Frame* frame_ = nullptr;
 };
 
-// Says what was written down. Offers dmrp.annotate/1 besides, if told to listen.
+// Replays recorded data. Also offers dmrp.annotate/1 if `listens`.
 class Player final : public Perception {
  public:
   explicit Player(bool listens);
@@ -96,7 +96,7 @@ class Player final : public Perception {
   void read_from(const Frame& frame) { frame_ = &frame; }
   const void* extension(const std::string& id) override;
 
-  // The number of the last note "iterations N", and forgets it; negative if there was none.
+  // Returns and clears the number of the last note "iterations N"; negative if there was none.
   double take_iterations();
 
  private:

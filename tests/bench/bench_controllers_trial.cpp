@@ -227,7 +227,7 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
                                            1e-9 * static_cast<double>(frame.observation.t_ns)));
     if (const double iterations = player.take_iterations(); iterations >= 0.0) replay.iterations.push_back(iterations);
   }
-  pool.clear();  // before what it was offered goes
+  pool.clear();  // before the objects offered to it are destroyed
   return replay;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bench_controllers_trial.hpp: drives a trial in closed loop and keeps what every controller was told; tells it to
-// fresh instances, call by call.
+// bench_controllers_trial.hpp: drives a trial in closed loop and records the input of every controller; replays it to
+// fresh instances call by call.
 #pragma once
 
 #include <cstdint>
@@ -26,17 +26,18 @@ struct RecordedTrial {
   double sim_time_s = 0.0;
 };
 
-// Sensors look as the host's do, people walk, robots run into each other. Throws std::runtime_error without a plan.
+// Sensors, people and contacts between robots as in the host. Throws std::runtime_error if there is no plan.
 RecordedTrial record(const TrialUnderTest& trial, host::InstancePool& pool);
 
-// Of the calls of one tape.
+// The measurements of the calls of one tape.
 struct Replay {
   std::vector<double> call_ms;  // processor time
   std::vector<std::uint64_t> allocations;
-  std::vector<double> iterations;  // of the calls that told of them; only if `listens`
+  std::vector<double> iterations;  // of the calls that annotated them; only if `listens`
 };
 
-// A fresh instance for one robot. Throws std::runtime_error where it answers otherwise than the recorded one did.
+// Replays a tape to a fresh instance for one robot. Throws std::runtime_error if a command differs from the recorded
+// one.
 Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t robot, const Tape& tape,
               bool listens);
 

@@ -23,7 +23,7 @@ expect_status 0 "$host" plan --scenario mall --agents 6 --seed 3 --planner dmrp.
   "$(awk -F, '$2 == 0 { print $3 "," $4 }' "$scratch/six.csv" | relative 1)" ]] || # 20 px a cell of 1 m
   fail "plan should draw the same robots: $(starts "$scratch/six.svg") $(grep ',0,' "$scratch/six.csv")"
 expect_status 2 "$host" draw mall --agents 5000
-[[ $(cat "$scratch/stderr") == "--agents 5000: scenario 'mall' holds at most "* ]] || fail "$(cat "$scratch/stderr")"
+[[ $(cat "$scratch/stderr") == "--agents 5000: scenario 'mall' has room for "* ]] || fail "$(cat "$scratch/stderr")"
 
 expect_status 2 "$host" draw mal
 [[ $(cat "$scratch/stderr") == *"no scenario 'mal'"*"did you mean 'mall'?"* ]] || fail "$(cat "$scratch/stderr")"

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
 namespace dmrp::controllers::dwa {
 
 namespace {
 
-// The highest footprint cost along the arc, or in_collision; `at` becomes the arc's end. The footprint grows with
-// speed: what the robot could hit within its braking time is kept further away.
+// The highest footprint cost along the arc, or in_collision; `at` becomes the arc's end. The footprint grows with the
+// speed, so that fast arcs keep a larger clearance.
 int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint,
-                  ArcState& at) {
+                  DirectedPoint& at) {
   const double fast = std::max(scene.v_max - tuning.scaling_speed, 1e-9);
   const double share = std::clamp((std::abs(sample.v) - tuning.scaling_speed) / fast, 0.0, 1.0);
   footprint.scale(1.0 + tuning.max_scaling_factor * share);
@@ -28,14 +29,13 @@ int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning
   return highest;
 }
 
-// From the nose to the front's seeds, in cells. A nose over an obstacle or off the window is measured from where, going
-// back to the centre, the front begins, plus the way back.
-double nose_cells(const WaveFront& front, const Scene& scene, const ArcState& at, std::int32_t center,
+// The distance in cells from the nose to the front's seeds. If the nose is over an obstacle or outside the window,
+// takes the first point toward the centre that the front reached, and adds the distance to it.
+double nose_cells(const WaveFront& front, const Scene& scene, const DirectedPoint& at, std::int32_t center,
                   double nose_length_m) {
   const double cell_m = scene.map.resolution_m();
   for (double length_m = nose_length_m; length_m > 0.0; length_m -= cell_m) {
-    const std::int32_t index =
-        scene.terrain.index_of(scene.map, at.x + length_m * at.cos_theta, at.y + length_m * at.sin_theta);
+    const std::int32_t index = scene.terrain.index_of(scene.map, at.at + length_m * at.heading);
     if (front.reached(index)) return front.cells(index) + (nose_length_m - length_m) / cell_m;
   }
   return front.cells(center) + nose_length_m / cell_m;
@@ -43,7 +43,7 @@ double nose_cells(const WaveFront& front, const Scene& scene, const ArcState& at
 
 }  // namespace
 
-Scene seen_along(const Scene& scene, double heading, const OscillationGuard& oscillation) {
+Scene with_heading(const Scene& scene, double heading, const OscillationGuard& oscillation) {
   return {{scene.pose.x, scene.pose.y, heading},
           scene.v_max,
           scene.map,
@@ -67,17 +67,16 @@ int simulation_steps(const Sample& sample, const Tuning& tuning) {
 double score(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint, double best) {
   if (!scene.oscillation.allows(sample.v, sample.omega)) return rejected;
 
-  ArcState end = arc_state(scene.pose);
+  DirectedPoint end = directed(scene.pose);
   const int obstacle = obstacle_cost(sample, scene, tuning, footprint, end);
   if (obstacle == in_collision) return rejected;
   double sum = tuning.occdist_scale * obstacle;
   if (sum > best) return sum;
 
-  // the four grid critics: at the robot's nose, then at its centre
+  // the four grid critics, first at the robot's nose, then at its centre
   const double resolution_m = scene.map.resolution_m();
-  // (a robot that gets away from something too near may still be on a blocked cell)
-  const std::int32_t center =
-      scene.terrain.nearest_free(scene.terrain.index_of(scene.map, end.x, end.y), escape_reach_cells);
+  // a robot that moves away from an obstacle may still be on a blocked cell
+  const std::int32_t center = scene.terrain.nearest_free(scene.terrain.index_of(scene.map, end.at), escape_reach_cells);
   if (!scene.path.reached(center) || !scene.goal.reached(center)) return rejected;
   const double goal_scale = tuning.goal_distance_bias * resolution_m;
   const double path_scale = tuning.path_distance_bias * resolution_m;

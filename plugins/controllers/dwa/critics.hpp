@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// critics.hpp: what an arc costs, and the search for the cheapest one.
-#ifndef DMRP_CONTROLLERS_DWA_CRITICS_HPP
-#define DMRP_CONTROLLERS_DWA_CRITICS_HPP
+// critics.hpp: the cost of an arc, and the search for the arc of lowest cost.
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -13,21 +12,21 @@
 
 namespace dmrp::controllers::dwa {
 
-// One constant velocity, kept over the time simulated.
+// A velocity, constant over the simulated time.
 struct Sample {
   double v = 0.0;
   double omega = 0.0;
 };
 
-// The robot's velocity now and its accelerations: where samples lie beyond one control period (use_dwa off), arcs begin
-// with the change to them.
+// The robot's current velocity and its acceleration limits. Samples that the robot cannot reach within one control
+// period (use_dwa off) begin with an acceleration phase.
 struct Ramp {
   Sample now;
   double a_max = 0.0;      // m/s^2
   double alpha_max = 0.0;  // rad/s^2
 };
 
-// Named and defaulted as upstream; dwa.hpp documents them.
+// Names and defaults as upstream; dwa.hpp documents them.
 struct Tuning {
   double sim_time = 1.7;
   double sim_granularity = 0.025;
@@ -41,28 +40,28 @@ struct Tuning {
   double max_scaling_factor = 0.2;
 };
 
-// What the critics of one control period look at. The referenced objects outlive it.
+// The input of the critics in one control period. Does not own what it refers to.
 struct Scene {
   Pose pose;
   double v_max = 0.0;
   const CostmapView& map;
   const Terrain& terrain;
   const WaveFront& path;        // from the path in the window
-  const WaveFront& goal;        // from the last point of it
-  const WaveFront& goal_front;  // from a point in front of that ...
-  double front_length_m = 0.0;  // ... by this: the nose's length, or less where that is not free
-  bool follow = true;           // whether the path critics count
-  bool align = true;            // whether the nose shall be on the path
+  const WaveFront& goal;        // from the local goal
+  const WaveFront& goal_front;  // from a point in front of the local goal ...
+  double front_length_m = 0.0;  // ... at this distance: the nose's length, or less if that is not free
+  bool follow = true;           // whether to apply the path critics
+  bool align = true;            // whether to apply the alignment critic
   const OscillationGuard& oscillation;
   const Ramp* ramp = nullptr;  // NULL: velocities are constant along arcs
 };
 
-// The same scene with the robot turned to another heading, and another memory of turning back and forth.
-Scene seen_along(const Scene& scene, double heading, const OscillationGuard& oscillation);
+// The same scene with another heading of the robot and another oscillation history.
+Scene with_heading(const Scene& scene, double heading, const OscillationGuard& oscillation);
 
 inline constexpr double rejected = -1.0;
 
-// How far from the free cells a robot may be that gets away from something that came too near.
+// A robot that moves away from an obstacle which came too close may be this far from the free cells.
 inline constexpr std::int32_t escape_reach_cells = 8;
 
 // Equal steps along the arc of a sample.
@@ -75,7 +74,7 @@ class Rollout {
         dt_s_(duration_s / steps),
         constant_(sample.v, sample.omega, dt_s_) {}
 
-  void step(ArcState& at) {
+  void step(DirectedPoint& at) {
     if (!ramp_) return constant_.step(at);
     now_.v = toward(now_.v, sample_.v, ramp_->a_max * dt_s_);
     now_.omega = toward(now_.omega, sample_.omega, ramp_->alpha_max * dt_s_);
@@ -90,16 +89,14 @@ class Rollout {
   ArcStepper constant_;
 };
 
-// The steps in which an arc is checked.
+// The number of poses checked along an arc.
 int simulation_steps(const Sample& sample, const Tuning& tuning);
 
-// The sum of all critics, or `rejected`. Gives up, with a sum so far, once that is above `best`.
+// The sum of all critics, or `rejected`. Once the partial sum exceeds `best`, returns the partial sum.
 double score(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint, double best);
 
-// The cheapest sample of the window, the first of several; nothing where all are rejected.
+// The sample of lowest cost, the first of several; nothing if all are rejected.
 std::optional<Sample> cheapest(const VelocityWindow& window, const Scene& scene, const Tuning& tuning,
                                FootprintCheck& footprint);
 
 }  // namespace dmrp::controllers::dwa
-
-#endif

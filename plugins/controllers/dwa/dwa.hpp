@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// dwa.hpp: the dynamic window approach, as ROS's dwa_local_planner does it.
+// dwa.hpp: the dynamic window approach with the critics of ROS's dwa_local_planner.
 //
 // Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4
 // (1997).
-#ifndef DMRP_CONTROLLERS_DWA_DWA_HPP
-#define DMRP_CONTROLLERS_DWA_DWA_HPP
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 
+#include <array>
 #include <dmrp/plugin.hpp>
+#include <optional>
 
 #include "controllers/dwa/critics.hpp"
+#include "controllers/dwa/path_fronts.hpp"
 #include "controllers/motion/path_tracker.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 
@@ -28,8 +30,9 @@ class Dwa final : public LocalController {
                                               .unit("rad")
                                               .range(0.001, 1.0)
                                               .doc("step of the collision check along a turn");
-  Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("speeds tried");
-  Param<std::int64_t> vth_samples = param("vth_samples", 20).unit("1").range(2, 200).doc("turning rates tried");
+  Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("number of speeds sampled");
+  Param<std::int64_t> vth_samples =
+      param("vth_samples", 20).unit("1").range(2, 200).doc("number of turning rates sampled");
   Param<double> path_distance_bias =
       param("path_distance_bias", 0.6).unit("1/m").range(0.0, 100.0).doc("weight of the distance from the path");
   Param<double> goal_distance_bias = param("goal_distance_bias", 0.8)
@@ -49,19 +52,19 @@ class Dwa final : public LocalController {
   Param<double> oscillation_reset_dist = param("oscillation_reset_dist", 0.05)
                                              .unit("m")
                                              .range(0.0, 10.0)
-                                             .doc("having moved this far, the robot may reverse again");
+                                             .doc("after moving this far, the robot may reverse again");
   Param<double> oscillation_reset_angle = param("oscillation_reset_angle", 0.2)
                                               .unit("rad")
                                               .range(0.0, 3.2)
-                                              .doc("having turned this far, the robot may reverse again");
+                                              .doc("after turning this far, the robot may reverse again");
   Param<bool> use_dwa =
-      param("use_dwa", true).doc("try what can be reached within a control period; off: within the time simulated");
+      param("use_dwa", true).doc("sample the velocities reachable within a control period; off: within sim_time");
   Param<double> footprint_padding =
       param("footprint_padding", 0.01).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 100.0)
                                                      .unit("m")
                                                      .range(0.5, 100.0)
-                                                     .doc("length of the path that is looked at, inside the window");
+                                                     .doc("length of the path considered, inside the window");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;
@@ -69,43 +72,28 @@ class Dwa final : public LocalController {
 
  private:
   Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
+  void sample_window(const Observation& now);
+  std::array<dwa::Box, 2> reachable_boxes(const Observation& now) const;
+  void update_oscillation(const Observation& now);
+  std::optional<double> better_heading(const dwa::Scene& scene, FootprintCheck& footprint) const;
+  Command turn(const Observation& now, double heading, FootprintCheck& footprint) const;
+  Command approach(const Observation& now, const dwa::Sample& choice) const;
   void annotate(const dwa::Scene& scene, const dwa::Sample& choice) const;
-  void want_reach(const Observation& now, const CostmapView& map);
-  void lay_out_plan(const CostmapView& map);
-  bool has_stalled(const Observation& now);
-  void seed_beyond_end(const CostmapView& map);
-  void spread_fronts(const Observation& now, const CostmapView& map);
-  std::int32_t choose_goal(std::int32_t home);
-  std::int32_t point_in_front(const CostmapView& map, const Pose& from);
-  bool begin_turn(const dwa::Scene& scene, FootprintCheck& footprint);
-  Command turn(const Observation& now, FootprintCheck& footprint) const;
-
-  struct PlanPoint {
-    Vec2 at;
-    std::int32_t index;  // on the terrain
-  };
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_annotate* annotate_ = nullptr;
+  dwa::Tuning tuning_;
+
+  // state from one control cycle to the next
   PathTracker tracker_;
   StopAndRotate at_goal_;
-  dwa::Tuning tuning_;
-  dwa::VelocityWindow window_;
-  dwa::Ramp ramp_;
   dwa::OscillationGuard oscillation_;
-  dwa::Terrain terrain_;
-  dwa::WaveFront path_front_;
-  dwa::WaveFront goal_front_;
-  dwa::WaveFront nose_front_;
-  std::vector<PlanPoint> plan_;
-  Vec2 goal_ = {0.0, 0.0};       // the point of the plan that the robot goes for now
-  bool goal_is_cut_ = false;     // something stands across the whole way to the path's end in the window
-  double front_length_m_ = 0.0;  // from there to the seed of nose_front_
   std::int64_t standing_ns_ = 0;
-  bool turning_ = false;  // in place ...
-  double turn_to_ = 0.0;  // ... to this heading
+  std::optional<double> turn_to_;  // the heading of a turn in place
+
+  // buffers, filled anew in every cycle
+  dwa::VelocityWindow window_;
+  dwa::PathFronts fronts_;
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -9,10 +9,10 @@ namespace dmrp::controllers::dwa {
 
 namespace {
 
-// Slower than this a turn counts as a turn in place (min_vel_trans upstream).
+// Below this speed a turn counts as a turn in place (min_vel_trans upstream).
 constexpr double hardly_driving_m_s = 0.1;
 
-// Takes the sign of `value` as the direction; whether that reverses an earlier one.
+// Sets `direction` to the sign of `value`; true if that reverses the earlier direction.
 bool reverses(double value, int& direction) {
   if (value == 0.0) return false;
   const int now = value > 0.0 ? 1 : -1;
@@ -23,13 +23,13 @@ bool reverses(double value, int& direction) {
 
 }  // namespace
 
-void OscillationGuard::release(const dmrp_pose& now, double reset_distance_m, double reset_angle_rad) {
+void OscillationGuard::release(const Pose& now, double reset_distance_m, double reset_angle_rad) {
   if (only_drive_ == 0 && only_turn_ == 0) return;
   const double moved_m = toolkit::distance(toolkit::position(since_), toolkit::position(now));
   if (moved_m > reset_distance_m || std::abs(toolkit::difference(since_.theta, now.theta)) > reset_angle_rad) reset();
 }
 
-void OscillationGuard::note(const dmrp_pose& now, double v, double omega) {
+void OscillationGuard::record(const Pose& now, double v, double omega) {
   bool reversed = false;
   if (reverses(v, drive_)) {
     only_drive_ = drive_;

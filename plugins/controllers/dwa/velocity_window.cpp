@@ -22,7 +22,7 @@ void sample_range(double lowest, double highest, std::size_t count, std::vector<
 void VelocityWindow::sample(const Observation& now, double reach_s, double v_most, std::size_t v_count,
                             std::size_t omega_count) {
   const Limits& limits = now.limits;
-  // a velocity outside the limits (measured with noise, say) is brought back as fast as the accelerations allow
+  // a measured velocity outside the limits (noise) gives a window at the limit
   const auto window = [](double current, double step, double lower, double upper, std::size_t count,
                          std::vector<double>& values) {
     sample_range(std::clamp(current - step, lower, upper), std::clamp(current + step, lower, upper), count, values);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// velocity_window.hpp: the velocities that a robot can reach within a while.
-#ifndef DMRP_CONTROLLERS_DWA_VELOCITY_WINDOW_HPP
-#define DMRP_CONTROLLERS_DWA_VELOCITY_WINDOW_HPP
+// velocity_window.hpp: samples of the velocities that a robot can reach within a given time.
+#pragma once
 
 #include <cstddef>
 #include <dmrp/cpp/local_controller.hpp>
@@ -9,19 +8,17 @@
 
 namespace dmrp::controllers::dwa {
 
-// `count` values (two at least) evenly from the lowest to the highest, ascending; zero among them where it is between.
+// `count` (at least two) evenly spaced values from the lowest to the highest, and 0 if it lies between them. Ascending.
 void sample_range(double lowest, double highest, std::size_t count, std::vector<double>& values);
 
-// The dynamic window: v and omega that the accelerations allow after `reach_s` (one control period, for the approach
-// that bears the name), inside the limits.
+// The dynamic window: the values of v and omega within the limits that the accelerations allow after `reach_s`. (One
+// control period in the dynamic window approach.)
 struct VelocityWindow {
   std::vector<double> v;      // m/s
   std::vector<double> omega;  // rad/s
 
-  // v at most `v_most`.
+  // `v_most` bounds v in addition to the limits.
   void sample(const Observation& now, double reach_s, double v_most, std::size_t v_count, std::size_t omega_count);
 };
 
 }  // namespace dmrp::controllers::dwa
-
-#endif

@@ -24,20 +24,21 @@ void Terrain::read(const CostmapView& map, std::uint8_t highest_free_cost, std::
     marks[stride_ - 1] = blocked;
   }
   std::fill_n(marks_.end() - stride_, stride_, blocked);
-  wanted_count_ = 0;
+  requested_count_ = 0;
 }
 
-void Terrain::want(std::int32_t first_column, std::int32_t last_column, std::int32_t first_row, std::int32_t last_row) {
+void Terrain::request(std::int32_t first_column, std::int32_t last_column, std::int32_t first_row,
+                      std::int32_t last_row) {
   const std::int32_t rows = static_cast<std::int32_t>(marks_.size()) / stride_;
-  // marks have a frame of one cell
+  // marks_ has a border of one cell
   const std::int32_t first = std::max(1, first_column + 1);
   const std::int32_t last = std::min(stride_ - 2, last_column + 1);
   for (std::int32_t row = std::max(1, first_row + 1); row <= std::min(rows - 2, last_row + 1); ++row) {
     std::uint16_t* marks = marks_.data() + row * stride_;
     for (std::int32_t column = first; column <= last; ++column) {
       if (marks[column] != unreached) continue;
-      marks[column] = wanted;
-      ++wanted_count_;
+      marks[column] = requested;
+      ++requested_count_;
     }
   }
 }
@@ -66,13 +67,13 @@ void WaveFront::begin(const Terrain& terrain, bool everywhere) {
   distances_ = terrain.marks();
   queue_.resize(distances_.size());
   queued_ = 0;
-  missing_ = everywhere || terrain.wanted_count() == 0 ? -1 : terrain.wanted_count();
+  missing_ = everywhere || terrain.requested_count() == 0 ? -1 : terrain.requested_count();
 }
 
 void WaveFront::seed(std::int32_t index) {
   const std::uint16_t mark = cells(index);
   if (mark <= Terrain::blocked) return;
-  missing_ -= mark == Terrain::wanted;
+  missing_ -= mark == Terrain::requested;
   distances_[static_cast<std::size_t>(index)] = 0;
   queue_[queued_++] = index;
 }
@@ -89,7 +90,7 @@ void WaveFront::spread() {
     for (const std::int32_t offset : offsets) {
       const std::uint16_t mark = distances[from + offset];
       if (mark <= Terrain::blocked) continue;
-      missing -= mark == Terrain::wanted;
+      missing -= mark == Terrain::requested;
       distances[from + offset] = distance;
       queue[queued++] = from + offset;
     }
@@ -98,7 +99,8 @@ void WaveFront::spread() {
   missing_ = missing;
 }
 
-// The effort belongs to the cell stepped onto, so the first to reach a cell, in order of distance, reaches it best.
+// A step costs the effort of the cell it enters, whatever the cell it leaves; so the first step into a cell, in order
+// of distance, is the cheapest one.
 void WaveFront::spread_by_effort(const Terrain& terrain) {
   const std::uint8_t* efforts = terrain.efforts().data();
   std::uint16_t* distances = distances_.data();
@@ -118,7 +120,7 @@ void WaveFront::spread_by_effort(const Terrain& terrain) {
         const std::int32_t to = ring[i] + offset;
         const std::uint16_t mark = distances[to];
         if (mark <= Terrain::blocked) continue;
-        missing -= mark == Terrain::wanted;
+        missing -= mark == Terrain::requested;
         distances[to] = static_cast<std::uint16_t>(distance + efforts[to]);
         const std::uint16_t there = distances[to] % ring_count;
         rings_[there][counts[there]++] = to;

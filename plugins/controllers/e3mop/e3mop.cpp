@@ -16,37 +16,62 @@ using namespace e3mop;
 
 namespace {
 
+// The outermost part of the costmap's window that is not planned in.
 constexpr double window_margin_m = 0.15;
 
-// Turning in place begins when the path leaves further aside than the first, and ends below the second.
+// A turn in place begins if the path starts at a larger angle than the first, and ends below the second.
 constexpr double turn_begin_rad = 0.7;
 constexpr double turn_end_rad = 0.15;
 
-// The path's direction at its start is looked for this far ahead.
+// The path's direction at its start is that to the point at this distance.
 constexpr double lead_m = 0.25;
 
-// So near to where the way is cut off, the robot waits.
+// The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.2;
 
-// The path of the cycle before is kept for so long and at least so far ahead of the robot: what the robot is about to
-// do does not change with every cycle.
+// The last cycle's path is kept for this time and at least this distance ahead of the robot, so that its next motion
+// does not change in every cycle.
 constexpr double kept_s = 0.3;
 constexpr double kept_m = 0.2;
 
-// A robot farther off its path than this starts a new one.
+// A robot with a larger tracking error starts a new path.
 constexpr double lost_m = 0.12;
 constexpr double lost_rad = 0.6;
 
-// A robot slower than this may leave in another direction than it heads for.
-constexpr double slow_m_s = 0.1;
+// The step of the collision check of a command.
+constexpr double check_step_m = 0.05;
 
-constexpr double sample_step_m = 0.05;
+// At a turning point of the path, the robot has to come this close before the way back counts.
+constexpr double tip_reached_m = 0.25;
 
-// So near to the goal the path is straight.
-constexpr double last_leg_m = 0.5;
+// Brakes and turns in place, as far as the outline has room.
+Command turn(const Observation& now, double angle, const FreeSpace& free_space) {
+  Command command = braking(now);
+  const double omega = turning_rate(angle, now);
+  const double turned = omega * (seconds(now.dt_ns) + 0.5 * std::abs(omega) / now.limits.alpha_max);
+  for (const double share : {0.5, 1.0})
+    if (!free_space.is_free(directed(toolkit::position(now.pose), now.pose.theta + share * turned))) return command;
+  command.omega = omega;
+  return command;
+}
 
-// A smoothed path that collides no farther ahead than this and what braking takes is no use.
-constexpr double least_way_m = 0.3;
+// Brakes if the arc of the command collides within the braking distance.
+Command checked(const Observation& now, const Command& command, const FreeSpace& free_space) {
+  const double period_s = seconds(now.dt_ns);
+  const double braking_s = command.v_x / now.limits.a_max + period_s;
+  const int steps = 1 + static_cast<int>(command.v_x * braking_s / check_step_m);
+  DirectedPoint at = directed(now.pose);
+  // braking from v covers the same distance as driving at v for half the time
+  const ArcStepper stepper(command.v_x, command.omega, 0.5 * (braking_s + period_s) / steps);
+  for (int i = 0; i < steps; ++i) {
+    stepper.step(at);
+    if (free_space.is_free(at)) continue;
+    Command slower = braking(now);
+    slower.omega = command.omega;
+    return slower;
+  }
+  return command;
+}
 
 }  // namespace
 
@@ -91,146 +116,94 @@ Status E3mop::step(const Observation& now, Command& command) {
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
-  if (limits_.v_max != now.limits.v_max || limits_.omega_max != now.limits.omega_max) {
-    limits_ = now.limits;
-    read_field(now);
-    plan_.prepare(limits_, lattice_resolution, foreseen_);
-    warm_up(now);
-  }
-  read_field(now);
-  const CostmapView map(*costmap_->costmap(costmap_));
-  const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
-  FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
-  const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
-  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
-  lay_out_global_path();
-  const Pose from = keep_path(now, foreseen);
-  bool planned = plan(now, from, foreseen);
-  if (!(planned && plan_.found().found) && foresees_) {
-    // between people who step to and fro, what they may do leaves no way: where they are now counts
-    foreseen_ = field_;
-    foreseen = FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
-    raw_points_.resize(kept_);
-    planned = plan(now, from, foreseen);
-  }
-  if (!planned) {
-    path_.clear();
-    return Status::ok;
-  }
-
-  // what leads aside or back is turned to in place; the path in hand is given up for that
-  const bool free_to_turn = kept_ == 1 && now.velocity.v_x < slow_m_s;
-  bool shaped = free_to_turn && shape_path(now, foreseen);
-  const Vec2 lead = shaped ? lead_of_path() : raw_points_[std::min(raw_points_.size(), kept_ + lead_steps()) - 1];
-  const double aside = toolkit::difference(from.theta, toolkit::bearing(from, lead));
-  if (std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad)) {
-    turning_ = true;
-    path_.clear();
-    command = turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
-    return Status::ok;
-  }
-  turning_ = false;
-  if (!shaped && !shape_path(now, foreseen)) {
-    path_.clear();
-    return Status::ok;
-  }
-  command = safe(now, follow(path_, now), seen);
-  annotate();
+  if (limits_.v_max != now.limits.v_max || limits_.omega_max != now.limits.omega_max) prepare(now);
+  command = drive(now);
   return Status::ok;
 }
 
-// Lets all buffers grow to what the longest path can need: later cycles allocate nothing.
-void E3mop::warm_up(const Observation& now) {
-  const FreeSpace anywhere(foreseen_, now.footprint, footprint_padding, now.pose);
+// Builds the lattice for the robot's limits and lets all buffers grow to the size of the longest path, so that later
+// cycles do not allocate.
+void E3mop::prepare(const Observation& now) {
+  limits_ = now.limits;
+  read_fields(now);
+  local_plan_.prepare(limits_, lattice_resolution, foreseen_);
+  global_path_.reserve(static_cast<std::size_t>(max_global_plan_lookahead_dist / PathAhead::spacing_m) + 3);
+  // a zigzag path, so that the smoothing iterates
   const double longest_m = smoothing_length + std::max(kept_m, kept_s * now.limits.v_max) + 3.0 * point_spacing;
   const auto count = static_cast<std::size_t>(longest_m / point_spacing) + 2;
-  global_path_.reserve(static_cast<std::size_t>(max_global_plan_lookahead_dist / PathAhead::spacing_m) + 3);
-  // wavering, so that it takes steps and samples
-  raw_points_.clear();
+  rough_ = {};
   for (std::size_t i = 0; i < count; ++i)
-    raw_points_.push_back(toolkit::position(now.pose) +
-                          point_spacing * Vec2{static_cast<double>(i), i % 2 ? 0.7 : 0.0});
-  kept_ = 1;
-  shape_path(now, anywhere);
+    rough_.points.push_back(toolkit::position(now.pose) +
+                            point_spacing * Vec2{static_cast<double>(i), i % 2 ? 0.7 : 0.0});
+  shape_path(now, FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose));
   path_.reserve(2 * path_.size());
   path_.clear();
   intended_.reserve(64);
 }
 
-std::size_t E3mop::lead_steps() const {
-  return static_cast<std::size_t>(std::ceil(lead_m / point_spacing));
-}
-
-Vec2 E3mop::lead_of_path() const {
-  const auto beyond =
-      std::find_if(path_.begin(), path_.end(), [](const PathPoint& point) { return point.arc_m >= lead_m; });
-  return beyond == path_.end() ? path_.back().at : beyond->at;
-}
-
-// The part of the last path that the robot is about to drive goes into raw_points_; returns where it ends, which is the
-// robot's own place where there is none.
-Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
-  raw_points_.clear();
-  raw_points_.push_back(toolkit::position(now.pose));
-  kept_ = 1;
-  start_theta_ = now.pose.theta;
-  if (path_.empty()) return now.pose;
-  const TrackingError error = tracking_error(path_, now.pose);
-  if (std::abs(error.cross_m) > lost_m || std::abs(error.aside_rad) > lost_rad) return now.pose;
-  const double reach_m = std::max(kept_m, kept_s * now.velocity.v_x);
-  const double first_m = path_[error.index].arc_m;
-  std::size_t last = error.index;
-  raw_points_[0] = path_[last].at;
-  for (std::size_t i = error.index + 1; i < path_.size() && path_[i].arc_m < first_m + reach_m + 1e-6; ++i) {
-    const PathPoint& point = path_[i];
-    if (!free_space.is_free(arc_state({point.at.x, point.at.y, point.theta}))) break;
-    if (point.arc_m - path_[last].arc_m < point_spacing - 1e-6) continue;
-    raw_points_.push_back(point.at);
-    last = i;
+// Plans a path on the lattice, shapes it and follows it; turns in place if the path leads aside.
+Command E3mop::drive(const Observation& now) {
+  const CostmapView map(*costmap_->costmap(costmap_));
+  const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
+  const auto space_of = [&](const ClearanceField& field) {
+    return FreeSpace(field, now.footprint, footprint_padding, now.pose, &outline);
+  };
+  const bool has_agents = read_fields(now);
+  const FreeSpace seen = space_of(field_);
+  FreeSpace foreseen = space_of(foreseen_);
+  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
+  lay_out_global_path();
+  const Pose from = keep_path(now, foreseen);
+  std::optional<Plan> plan = this->plan(now, from, foreseen);
+  if (!(plan && plan->found->found) && has_agents) {
+    // the predicted motion of agents may block every path: plan with their current positions
+    foreseen_ = field_;
+    foreseen = space_of(foreseen_);
+    rough_.points.resize(rough_.kept);
+    plan = this->plan(now, from, foreseen);
   }
-  kept_ = raw_points_.size();
-  if (kept_ == 1) {
-    raw_points_[0] = toolkit::position(now.pose);
-    return now.pose;
+  if (!plan) {
+    path_.clear();
+    return braking(now);
   }
-  start_theta_ = path_[error.index].theta;
-  return {path_[last].at.x, path_[last].at.y, path_[last].theta};
+
+  // turns in place to a path that leads aside or back, and gives up the kept path for that
+  const bool is_shaped = rough_.kept == 1 && now.velocity.v_x < slow_m_s && shape_path(now, foreseen);
+  const Vec2 lead = lead_point(is_shaped);
+  const double aside = toolkit::difference(from.theta, toolkit::bearing(from, lead));
+  turning_ = std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad);
+  if (turning_) {
+    path_.clear();
+    return turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
+  }
+  if (!is_shaped && !shape_path(now, foreseen)) {
+    path_.clear();
+    return braking(now);
+  }
+  const Command command = checked(now, follow(path_, now), seen);
+  annotate(plan->found->poses);
+  return command;
 }
 
-// The lattice path from there on. False where there is nowhere to go.
-bool E3mop::plan(const Observation& now, const Pose& from, const FreeSpace& free_space) {
-  plan_.look(from, foreseen_, free_space, now.footprint.inscribed_radius_m);
-  if (!plan_.choose_goal(global_path_)) return false;
-  const double to_goal_m = toolkit::distance(toolkit::position(now.pose), plan_.goal());
-  if (plan_.is_cut() && to_goal_m < wait_within_m) return false;
-  SearchSettings settings;
-  settings.v_max = now.limits.v_max;
-  settings.omega_max = now.limits.omega_max;
-  settings.pruning = pruning;
-  settings.first_turn_s = std::abs(now.velocity.v_x) / now.limits.a_max;
-  plan_.search(from, settings);
-  lay_points();
-  return raw_points_.size() > 1;
-}
-
-void E3mop::read_field(const Observation& now) {
+// Whether there are agents whose motion is foreseen.
+bool E3mop::read_fields(const Observation& now) {
   const dmrp_field& field = *distance_field_->field(distance_field_);
   field_.read(field);
   foreseen_.read(field);
-  foresees_ = false;
+  bool has_agents = false;
   for (const Agent& agent : now.agents) {
     if (agent.state != DMRP_ROBOT_ACTIVE && agent.kind == DMRP_AGENT_ROBOT) continue;
     const Vec2 from = toolkit::position(agent.pose);
     foreseen_.add_swept_disc(from, from + prediction_time * agent.velocity, agent.radius_m);
-    foresees_ = true;
+    has_agents = true;
   }
+  return has_agents;
 }
 
-// As far as the path does not turn back on itself: the tip of an excursion is to be reached before the way back counts.
+// The path ahead up to a turning point: the robot has to reach the tip of an excursion before the way back counts.
 void E3mop::lay_out_global_path() {
   global_path_.clear();
   const std::vector<Vec2>& points = ahead_.points();
-  constexpr double tip_reached_m = 0.25;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i >= 2) {
       const Vec2 before = points[i - 1] - points[i - 2];
@@ -242,9 +215,54 @@ void E3mop::lay_out_global_path() {
   }
 }
 
-// The lattice path, equally spaced; its end is the goal itself where it was reached.
-void E3mop::lay_points() {
-  Vec2 last = raw_points_.back();
+// Begins rough_ with the part of the last path that the robot is about to drive, or with the robot's position if there
+// is none. Returns the pose at its end.
+Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
+  std::vector<Vec2>& points = rough_.points;
+  points.assign(1, toolkit::position(now.pose));
+  rough_.kept = 1;
+  rough_.start_theta = now.pose.theta;
+  if (path_.empty()) return now.pose;
+  const TrackingError error = tracking_error(path_, now.pose);
+  if (std::abs(error.cross_m) > lost_m || std::abs(error.heading_rad) > lost_rad) return now.pose;
+  const double reach_m = std::max(kept_m, kept_s * now.velocity.v_x);
+  const double first_m = path_[error.index].arc_m;
+  std::size_t last = error.index;
+  for (std::size_t i = error.index + 1; i < path_.size() && path_[i].arc_m < first_m + reach_m + 1e-6; ++i) {
+    const PathPoint& point = path_[i];
+    if (!free_space.is_free(directed(point.at, point.theta))) break;
+    if (point.arc_m - path_[last].arc_m < point_spacing - 1e-6) continue;
+    points.push_back(point.at);
+    last = i;
+  }
+  if (points.size() == 1) return now.pose;
+  points[0] = path_[error.index].at;
+  rough_.kept = points.size();
+  rough_.start_theta = path_[error.index].theta;
+  return {path_[last].at.x, path_[last].at.y, path_[last].theta};
+}
+
+// Appends the lattice path from a pose to rough_. Nothing if the robot has to wait.
+std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const Pose& from, const FreeSpace& free_space) {
+  const std::optional<LatticeGoal> goal = local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space,
+                                                                  now.footprint.inscribed_radius_m, global_path_);
+  if (!goal) return {};
+  if (goal->is_cut && toolkit::distance(toolkit::position(now.pose), goal->at) < wait_within_m) return {};
+  SearchSettings settings;
+  settings.v_max = now.limits.v_max;
+  settings.omega_max = now.limits.omega_max;
+  settings.pruning = pruning;
+  settings.first_turn_s = std::abs(now.velocity.v_x) / now.limits.a_max;
+  const Plan plan = {*goal, &local_plan_.search(from, free_space, settings)};
+  append_points(plan);
+  if (rough_.points.size() <= 1) return {};
+  return plan;
+}
+
+// Samples the lattice path at equal distances; ends at the goal itself if the search reached it.
+void E3mop::append_points(const Plan& plan) {
+  std::vector<Vec2>& points = rough_.points;
+  Vec2 last = points.back();
   double length_m = 0.0;
   const auto walk = [&](Vec2 to) {
     double left_m = toolkit::distance(last, to);
@@ -252,105 +270,48 @@ void E3mop::lay_points() {
       last = toolkit::lerp(last, to, point_spacing / left_m);
       left_m -= point_spacing;
       length_m += point_spacing;
-      raw_points_.push_back(last);
+      points.push_back(last);
     }
   };
-  for (const Pose& pose : plan_.found().poses) walk(toolkit::position(pose));
-  if (!plan_.found().found || length_m >= smoothing_length) return;
-  walk(plan_.goal());
-  if (raw_points_.size() > 1 && toolkit::distance(raw_points_.back(), plan_.goal()) < 0.5 * point_spacing)
-    raw_points_.back() = plan_.goal();
-  else if (toolkit::distance(raw_points_.back(), plan_.goal()) > 1e-3)
-    raw_points_.push_back(plan_.goal());
+  for (const Pose& pose : plan.found->poses) walk(toolkit::position(pose));
+  rough_.path_end.reset();
+  if (!plan.found->found) return;
+  if (plan.goal.is_path_end) rough_.path_end = plan.goal.at;
+  if (length_m >= smoothing_length) return;
+  walk(plan.goal.at);
+  if (points.size() > 1 && toolkit::distance(points.back(), plan.goal.at) < 0.5 * point_spacing)
+    points.back() = plan.goal.at;
+  else if (toolkit::distance(points.back(), plan.goal.at) > 1e-3)
+    points.push_back(plan.goal.at);
 }
 
 bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
-  if (lay_last_leg() && fit(now, free_space, {}, 2.0 * last_leg_m)) return true;
-  points_ = raw_points_;
-  SmoothingSettings settings;
-  settings.weight_smoothness = weight_smoothness;
-  settings.weight_obstacle = weight_obstacle;
-  settings.safe_distance_m = safe_distance;
-  settings.iterations = static_cast<int>(max_iterations);
-  settings.needed_m = free_space.needed_m();
-  std::size_t fixed = kept_;
-  std::optional<double> start_theta = start_theta_;
-  if (kept_ == 1 && now.velocity.v_x < slow_m_s) {
-    start_theta.reset();
-  } else if (kept_ == 1 && points_.size() > 3) {
-    points_[1] = points_[0] + point_spacing * toolkit::from_angle(start_theta_);
-    fixed = 2;
+  ShapeSettings settings;
+  settings.smoothing.weight_smoothness = weight_smoothness;
+  settings.smoothing.weight_obstacle = weight_obstacle;
+  settings.smoothing.safe_distance_m = safe_distance;
+  settings.smoothing.iterations = static_cast<int>(max_iterations);
+  settings.point_spacing_m = point_spacing;
+  return shaper_.shape(rough_, now, foreseen_, free_space, settings, path_);
+}
+
+// The point that gives the path's direction at its start: of the shaped path, otherwise of the rough one.
+Vec2 E3mop::lead_point(bool is_shaped) const {
+  if (!is_shaped) {
+    const auto steps = static_cast<std::size_t>(std::ceil(lead_m / point_spacing));
+    return rough_.points[std::min(rough_.points.size(), rough_.kept + steps) - 1];
   }
-  smoother_.smooth(points_, fixed, foreseen_, settings);
-  const double needed_m = now.velocity.v_x * now.velocity.v_x / (2.0 * now.limits.a_max) + least_way_m;
-  if (fit(now, free_space, start_theta, needed_m)) return true;
-  points_ = raw_points_;
-  return fit(now, free_space, start_theta, 0.0);
+  const auto beyond =
+      std::find_if(path_.begin(), path_.end(), [](const PathPoint& point) { return point.arc_m >= lead_m; });
+  return beyond == path_.end() ? path_.back().at : beyond->at;
 }
 
-// The last bit of the way straight to the goal: too short for smoothing, which would bend it off what stands beside.
-bool E3mop::lay_last_leg() {
-  const Vec2 from = raw_points_[kept_ - 1];
-  const double left_m = toolkit::distance(from, plan_.goal());
-  if (!plan_.found().found || !plan_.is_path_end() || left_m > last_leg_m || left_m < 1e-3) return false;
-  points_.assign(raw_points_.begin(), raw_points_.begin() + static_cast<std::ptrdiff_t>(kept_));
-  const auto steps = std::max(1, static_cast<int>(left_m / point_spacing));
-  for (int i = 1; i <= steps; ++i) points_.push_back(toolkit::lerp(from, plan_.goal(), static_cast<double>(i) / steps));
-  return true;
-}
-
-// The spline and its speeds; ends where it would collide. False where that is nearer than `needed_m`.
-bool E3mop::fit(const Observation& now, const FreeSpace& free_space, std::optional<double> start_theta,
-                double needed_m) {
-  spline_.fit(points_, start_theta, sample_step_m, path_);
-  for (std::size_t i = 1; i < path_.size(); ++i) {
-    const PathPoint& point = path_[i];
-    if (free_space.is_free(arc_state({point.at.x, point.at.y, point.theta}))) continue;
-    if (point.arc_m < needed_m) return false;
-    path_.resize(i);
-    break;
-  }
-  if (path_.size() < 2) return false;
-  plan_speeds(path_, now.velocity.v_x, 0.0, now.limits);
-  return true;
-}
-
-// Brakes and turns in place, as long as the outline has the room for it.
-Command E3mop::turn(const Observation& now, double angle, const FreeSpace& free_space) {
-  Command command = braking(now);
-  const double omega = turning_rate(angle, now);
-  const double turned = omega * (seconds(now.dt_ns) + 0.5 * std::abs(omega) / now.limits.alpha_max);
-  for (const double share : {0.5, 1.0})
-    if (!free_space.is_free(arc_state({now.pose.x, now.pose.y, now.pose.theta + share * turned}))) return command;
-  command.omega = omega;
-  return command;
-}
-
-// The command, slower where its arc would run into something before the robot could stop.
-Command E3mop::safe(const Observation& now, Command command, const FreeSpace& free_space) {
-  const double period_s = seconds(now.dt_ns);
-  const double braking_s = command.v_x / now.limits.a_max + period_s;
-  const int steps = 1 + static_cast<int>(command.v_x * braking_s / sample_step_m);
-  ArcState at = arc_state(now.pose);
-  // braking from v takes as long as the half of it at v
-  const ArcStepper stepper(command.v_x, command.omega, 0.5 * (braking_s + period_s) / steps);
-  for (int i = 0; i < steps; ++i) {
-    stepper.step(at);
-    if (free_space.is_free(at)) continue;
-    Command slower = braking(now);
-    slower.omega = command.omega;
-    return slower;
-  }
-  return command;
-}
-
-// The lattice path as what was considered, the profile as what is intended.
-void E3mop::annotate() {
+// The lattice path as the candidate, the velocity profile as the prediction.
+void E3mop::annotate(const std::vector<Pose>& lattice_path) {
   if (!annotate_ || !annotate_->wanted(annotate_)) return;
   constexpr double step_s = 0.1;
   constexpr int steps = 30;
   constexpr auto step_ns = static_cast<std::int64_t>(step_s * 1e9);
-  const std::vector<Pose>& lattice_path = plan_.found().poses;
   if (lattice_path.size() > 1)
     annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, lattice_path.data(),
                           static_cast<std::uint32_t>(lattice_path.size()), step_ns);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// e3mop.hpp: state lattice search with pruned motion primitives, path optimisation with a banded structure, and
-// time-optimal speeds.
+// e3mop.hpp: state lattice search with pruned motion primitives, path optimisation with a banded structure, and a
+// time-optimal velocity profile.
 //
 // Wen, Zhang, Gao, Yuan, Fang: E3MoP: Efficient motion planning based on heuristic-guided motion primitives pruning and
 // path optimization with sparse-banded structure, IEEE Transactions on Automation Science and Engineering 19 (2022).
-#ifndef DMRP_CONTROLLERS_E3MOP_E3MOP_HPP
-#define DMRP_CONTROLLERS_E3MOP_E3MOP_HPP
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/distance_field.h>
@@ -15,8 +14,7 @@
 #include <optional>
 
 #include "controllers/e3mop/local_plan.hpp"
-#include "controllers/e3mop/path_smoother.hpp"
-#include "controllers/e3mop/spline_path.hpp"
+#include "controllers/e3mop/path_shaper.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 
@@ -27,13 +25,13 @@ class E3mop final : public LocalController {
   static Descriptor describe();
 
   Param<bool> pruning =
-      param("pruning", true).doc("drop motion primitives that lead away from the heuristic's way to the goal");
+      param("pruning", true).doc("drop motion primitives that lead away from the heuristic's path to the goal");
   Param<double> lattice_resolution =
       param("lattice_resolution", 0.1).unit("m").range(0.05, 0.5).doc("cell of the state lattice");
   Param<double> max_global_plan_lookahead_dist = param("max_global_plan_lookahead_dist", 3.0)
                                                      .unit("m")
                                                      .range(0.5, 100.0)
-                                                     .doc("length of the path that is planned to, inside the window");
+                                                     .doc("length of the path planned along, inside the window");
   Param<double> weight_smoothness = param("weight_smoothness", 1.0)
                                         .unit("1/m^2")
                                         .range(1e-6, 1e6)
@@ -41,7 +39,7 @@ class E3mop final : public LocalController {
   Param<double> weight_obstacle = param("weight_obstacle", 10.0)
                                       .unit("1/m^2")
                                       .range(0.0, 1e7)
-                                      .doc("w_o: weight of being nearer to obstacles than safe_distance");
+                                      .doc("w_o: weight of being closer to obstacles than safe_distance");
   Param<double> safe_distance = param("safe_distance", 0.5)
                                     .unit("m")
                                     .range(0.0, 5.0)
@@ -51,58 +49,56 @@ class E3mop final : public LocalController {
   Param<double> smoothing_length =
       param("smoothing_length", 3.0).unit("m").range(0.3, 20.0).doc("length of the path that is optimised");
   Param<std::int64_t> max_iterations =
-      param("max_iterations", 100).unit("1").range(0, 1000).doc("of Levenberg-Marquardt, at most");
+      param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<double> prediction_time = param("prediction_time", 1.0)
                                       .unit("s")
                                       .range(0.0, 10.0)
-                                      .doc("the way of visible agents that counts as occupied ahead of them");
+                                      .doc("time for which the predicted motion of visible agents counts as occupied");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
  private:
-  void read_field(const Observation& now);
-  void warm_up(const Observation& now);
-  Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
-  bool plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
+  // The result of one lattice search.
+  struct Plan {
+    e3mop::LatticeGoal goal;
+    const e3mop::SearchResult* found;
+  };
+
+  void prepare(const Observation& now);
+  Command drive(const Observation& now);
+  bool read_fields(const Observation& now);
   void lay_out_global_path();
-  void lay_points();
-  std::size_t lead_steps() const;
-  Vec2 lead_of_path() const;
-  bool lay_last_leg();
+  Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
+  std::optional<Plan> plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
+  void append_points(const Plan& plan);
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
-  bool fit(const Observation& now, const e3mop::FreeSpace& free_space, std::optional<double> start_theta,
-           double needed_m);
-  static Command turn(const Observation& now, double angle, const e3mop::FreeSpace& free_space);
-  static Command safe(const Observation& now, Command command, const e3mop::FreeSpace& free_space);
-  void annotate();
+  Vec2 lead_point(bool is_shaped) const;
+  void annotate(const std::vector<Pose>& lattice_path);
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_distance_field* distance_field_ = nullptr;
   const dmrp_annotate* annotate_ = nullptr;
+
+  // state from one control cycle to the next
   PathTracker tracker_;
-  PathAhead ahead_;
   StopAndRotate at_goal_;
-  e3mop::ClearanceField field_;     // what the sensors see now
-  e3mop::ClearanceField foreseen_;  // with the ways of visible agents
-  bool foresees_ = false;           // there are any
-  e3mop::LocalPlan plan_;
-  e3mop::PathSmoother smoother_;
-  e3mop::SplinePath spline_;
-  std::vector<Vec2> global_path_;  // what of the path ahead is planned to
-  std::vector<Vec2> raw_points_;   // the lattice path, equally spaced
-  std::vector<Vec2> points_;       // optimised
-  std::size_t kept_ = 1;           // of them stay where they are: the last cycle's path
-  double start_theta_ = 0.0;       // in which the path leaves
-  std::vector<e3mop::PathPoint> path_;
-  std::vector<Pose> intended_;  // of the annotation
-  dmrp_limits limits_{};        // that the lattice was made for
-  bool turning_ = false;
+  std::vector<e3mop::PathPoint> path_;  // the path in use; empty if there is none
+  bool turning_ = false;                // in place
+  Limits limits_{};                     // for which the lattice was built
+
+  // buffers, filled anew in every cycle
+  e3mop::ClearanceField field_;     // the obstacles now
+  e3mop::ClearanceField foreseen_;  // with the predicted motion of visible agents
+  PathAhead ahead_;
+  std::vector<Vec2> global_path_;  // the part of the path ahead that is planned to
+  e3mop::LocalPlan local_plan_;
+  e3mop::RoughPath rough_;
+  e3mop::PathShaper shaper_;
+  std::vector<Pose> intended_;  // for the annotation
 };
 
 }  // namespace dmrp::controllers
-
-#endif

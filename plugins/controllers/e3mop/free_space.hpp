@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// free_space.hpp: where the robot can stand, by the distance field.
-#ifndef DMRP_CONTROLLERS_E3MOP_FREE_SPACE_HPP
-#define DMRP_CONTROLLERS_E3MOP_FREE_SPACE_HPP
+// free_space.hpp: the collision check of a robot against the distance field.
+#pragma once
 
 #include <dmrp/cpp/local_controller.hpp>
 
@@ -10,13 +9,14 @@
 
 namespace dmrp::controllers::e3mop {
 
-// A disc stands where the distance is its radius and the padding. A polygon stands where that holds for the circle
-// about it, never where the one inside it fails, and in between where its outline meets no lethal cell.
+// A disc is free if the distance to the nearest obstacle is at least its radius and the padding. A polygon is free if
+// that holds for its circumscribed circle, and in collision if it fails for its inscribed circle; in between, its
+// outline decides.
 //
-// A robot that stands too near to something already may move about its place as long as it comes no nearer.
+// A robot that already stands too close to an obstacle may move near its position as long as it comes no closer.
 class FreeSpace {
  public:
-  // `outline` is for polygons; NULL makes a polygon count as the circle about it.
+  // `outline` checks polygons; if it is NULL, a polygon counts as its circumscribed circle.
   FreeSpace(const ClearanceField& field, const Footprint& footprint, double padding_m, const Pose& now,
             const FootprintCheck* outline = nullptr)
       : field_(&field), outline_(footprint.vertex_count > 0 ? outline : nullptr), start_(toolkit::position(now)) {
@@ -25,46 +25,42 @@ class FreeSpace {
     needed_m_ = static_cast<float>(radius_m + padding_m);
     const double start_clearance_m = field.at(start_).distance_m;
     escapes_ = start_clearance_m < needed_m_ + 0.7 * field.resolution_m();
-    // not period after period: a robot that would then touch comes no nearer at all
+    // the tolerance must not add up from period to period: near contact the robot may come no closer
     const double nearest_m = radius_m + 0.85 * field.resolution_m();
-    tolerated_m_ = std::max(std::min<double>(start_clearance_m, needed_m_) - waver_m,
-                            std::min(start_clearance_m, nearest_m) - least_waver_m);
+    tolerated_m_ = std::max(std::min<double>(start_clearance_m, needed_m_) - variation_m,
+                            std::min(start_clearance_m, nearest_m) - least_variation_m);
   }
 
-  // How far a place must be from every obstacle, whatever the heading.
+  // The clearance that the robot's centre needs at any heading.
   double needed_m() const { return needed_m_; }
 
-  bool is_free(const ArcState& at) const {
-    const float clearance_m = field_->of_cell(at.x, at.y);
+  bool is_free(const DirectedPoint& robot) const {
+    const float clearance_m = field_->of_cell(robot.at);
     if (clearance_m >= surely_m_) return true;
-    if (clearance_m < needed_m_) return tolerated(at);
-    return !outline_ || outline_->cost(at) != in_collision;
+    if (clearance_m < needed_m_) return tolerated(robot.at);
+    return !outline_ || outline_->cost(robot) != in_collision;
   }
 
-  // Whether a robot that stands too near to something may be at this place, whose cell is too near too.
-  bool tolerated(const ArcState& at) const {
-    if (!escapes_) return false;
-    const double dx = at.x - start_.x;
-    const double dy = at.y - start_.y;
-    return dx * dx + dy * dy < escape_reach_m * escape_reach_m && field_->at({at.x, at.y}).distance_m >= tolerated_m_;
+  // Whether a robot that already stands too close to an obstacle may be at a point that is too close as well.
+  bool tolerated(Vec2 at) const {
+    return escapes_ && toolkit::squared_distance(start_, at) < escape_reach_m * escape_reach_m &&
+           field_->at(at).distance_m >= tolerated_m_;
   }
 
  private:
-  // How far an escape may lead through places that are too near.
+  // The longest distance that an escape may lead through points that are too close.
   static constexpr double escape_reach_m = 0.6;
-  // Along a wall the distance wavers by so much.
-  static constexpr double waver_m = 0.01;
-  static constexpr double least_waver_m = 1e-4;
+  // The interpolated distance varies by this much along a wall.
+  static constexpr double variation_m = 0.01;
+  static constexpr double least_variation_m = 1e-4;
 
   const ClearanceField* field_;
   const FootprintCheck* outline_;
   Vec2 start_;
-  bool escapes_ = false;  // the robot's own place is too near to something, or nearly so
+  bool escapes_ = false;  // the robot stands too close to an obstacle, or nearly so
   double tolerated_m_ = 0.0;
   float surely_m_;
   float needed_m_;
 };
 
 }  // namespace dmrp::controllers::e3mop
-
-#endif

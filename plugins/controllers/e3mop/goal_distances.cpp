@@ -7,14 +7,14 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// Cells of one bucket in any window that was seen, with room to spare: the buckets trade places, so each needs it.
+// More cells than one bucket held in any window observed. Buckets are swapped, so each of them reserves this.
 constexpr std::size_t bucket_reserve = 2048;
 
 }  // namespace
 
 void GoalDistances::reserve(const LatticeFrame& frame) {
   labels_.reserve(static_cast<std::size_t>(frame.cell_count()));
-  way_out_.reserve(static_cast<std::size_t>(frame.cell_count()));
+  exits_.reserve(static_cast<std::size_t>(frame.cell_count()));
   for (std::vector<std::int32_t>& bucket : buckets_) bucket.reserve(bucket_reserve);
   settling_.reserve(bucket_reserve);
 }
@@ -23,14 +23,14 @@ void GoalDistances::begin(const LatticeFrame& frame, const std::vector<std::uint
   free_ = &free;
   const auto cells = static_cast<std::size_t>(frame.cell_count());
   labels_.assign(cells, infinite);
-  way_out_.assign(cells, -1);
+  exits_.assign(cells, -1);
   for (std::vector<std::int32_t>& bucket : buckets_) bucket.clear();
   queued_ = 0;
   settled_below_ = 0;
   for (std::size_t k = 0; k < direction_count; ++k) {
     const Direction& along = directions()[k];
     back_[k] = -(along.dy * frame.stride() + along.dx);
-    // rounded down: the heuristic stays below the truth
+    // rounded down: the heuristic must not exceed the true cost
     edge_[k] = static_cast<std::int32_t>(std::floor(unit * std::hypot(along.dx, along.dy)));
   }
 }
@@ -39,11 +39,11 @@ void GoalDistances::seed(std::int32_t cell) {
   if ((*free_)[static_cast<std::size_t>(cell)]) relax(cell, 0, -1);
 }
 
-void GoalDistances::relax(std::int32_t cell, std::int32_t label, std::int32_t way_out) {
+void GoalDistances::relax(std::int32_t cell, std::int32_t label, std::int32_t exit) {
   const auto c = static_cast<std::size_t>(cell);
   if (label >= labels_[c]) return;
   labels_[c] = label;
-  way_out_[c] = static_cast<std::int8_t>(way_out);
+  exits_[c] = static_cast<std::int8_t>(exit);
   buckets_[static_cast<std::size_t>(label / unit) % bucket_count].push_back(cell);
   ++queued_;
 }
@@ -56,7 +56,7 @@ void GoalDistances::settle_bucket() {
   for (const std::int32_t cell : settling_) {
     const auto c = static_cast<std::size_t>(cell);
     const std::int32_t label = labels_[c];
-    if (label < lowest) continue;  // reached by a shorter way since
+    if (label < lowest) continue;  // reached by a shorter path since
     for (std::size_t k = 0; k < direction_count; ++k) {
       const std::int32_t from = cell + back_[k];
       if ((*free_)[static_cast<std::size_t>(from)]) relax(from, label + edge_[k], static_cast<std::int32_t>(k));

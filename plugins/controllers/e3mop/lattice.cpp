@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
 namespace dmrp::controllers::e3mop {
@@ -12,20 +13,20 @@ namespace {
 
 constexpr double sample_step_m = 0.05;
 
-// Long steps ahead are about this long.
+// The approximate length of long forward motions.
 constexpr double long_step_m = 0.45;
 
-// Wide arcs have this many times the radius of the tightest that is driven at full speed.
+// Wide arcs have this multiple of the smallest radius that can be driven at full speed.
 constexpr double wide = 1.5;
 
-// Arcs are looked for among lattice vectors of so many cells.
+// Arcs are searched among lattice vectors with components up to this many cells.
 constexpr int arc_reach = 12;
 
-// Arcs tighter than this are no better than turning in place.
+// Tighter arcs have no advantage over turning in place.
 constexpr double radius_min_m = 0.25;
 
-// Cost is travel time times these, as SBPL weighs its primitives: turning in place means stopping, and chains of short
-// steps are no way to travel.
+// Factors on the travel time, as in SBPL's primitives: a turn in place requires stopping, and chains of short steps are
+// to be avoided.
 constexpr double turn_weight = 2.0;
 constexpr double short_step_weight = 2.0;
 
@@ -43,7 +44,7 @@ std::array<Direction, direction_count> make_directions() {
       dy = old_dx;
     }
     const double length = std::hypot(dx, dy);
-    all[static_cast<std::size_t>(i)] = {dx, dy, toolkit::wrap(std::atan2(dy, dx)), dx / length, dy / length};
+    all[static_cast<std::size_t>(i)] = {dx, dy, toolkit::wrap(std::atan2(dy, dx)), {dx / length, dy / length}};
   }
   return all;
 }
@@ -72,7 +73,7 @@ int nearest_direction(double theta) {
   return nearest;
 }
 
-void MotionSet::build(const dmrp_limits& limits, double resolution_m) {
+void MotionSet::build(const Limits& limits, double resolution_m) {
   resolution_m_ = resolution_m;
   v_max_ = limits.v_max;
   omega_max_ = limits.omega_max;
@@ -114,22 +115,23 @@ void MotionSet::add_turn(int heading, int to_heading) {
   add(heading, motion, 0.0, 0.0);
 }
 
-// With u and w the two headings, a vector d = p u + q w with p, q > 0 is reached by an arc whose tangents, of length
-// min(p, q) each, meet where u and w do; what is left of p or q is straight. Takes the shortest such vector whose arc
-// has a radius within the bounds; none where there is no such vector.
+// Let u and w be the unit vectors of the two headings. A lattice vector d = p u + q w with p, q > 0 is reached by an
+// arc with two tangents of length min(p, q); the rest of p or q is straight. Takes the shortest such motion with a
+// radius within the bounds, if there is one.
 void MotionSet::add_arc(int heading, int to_heading, double radius_min, double radius_max) {
   const Direction& u = direction(heading);
   const Direction& w = direction(to_heading);
   const double turn = std::abs(toolkit::difference(u.theta, w.theta));
-  const double cross = u.cos_theta * w.sin_theta - u.sin_theta * w.cos_theta;
+  const double cross = toolkit::cross(u.unit, w.unit);
   Motion best{};
   double best_length_m = infinity;
   double before_m = 0.0;
   double after_m = 0.0;
   for (int dy = -arc_reach; dy <= arc_reach; ++dy) {
     for (int dx = -arc_reach; dx <= arc_reach; ++dx) {
-      const double p_m = resolution_m_ * (dx * w.sin_theta - dy * w.cos_theta) / cross;
-      const double q_m = resolution_m_ * (u.cos_theta * dy - u.sin_theta * dx) / cross;
+      const Vec2 d = {static_cast<double>(dx), static_cast<double>(dy)};
+      const double p_m = resolution_m_ * toolkit::cross(d, w.unit) / cross;
+      const double q_m = resolution_m_ * toolkit::cross(u.unit, d) / cross;
       const double tangent_m = std::min(p_m, q_m);
       if (tangent_m < 1e-9) continue;
       const double radius_m = tangent_m / std::tan(0.5 * turn);
@@ -149,8 +151,8 @@ void MotionSet::add_arc(int heading, int to_heading, double radius_min, double r
   add(heading, best, before_m, after_m);
 }
 
-// The travel time, weighted. An arc counts no less than the way of the heuristic's grid along its two tangents, which
-// is up to 2 % longer than the arc: so the heuristic never exceeds the cost.
+// The weighted travel time. An arc costs at least as much as its two tangents, which are up to 2 % longer than the arc:
+// the heuristic's grid measures along them, and must never exceed the cost.
 double MotionSet::cost_s(const Motion& motion, double turn, double straight_m) const {
   switch (motion.kind) {
     case MotionKind::short_forward:
@@ -173,7 +175,7 @@ void MotionSet::add(int heading, Motion motion, double before_m, double after_m)
   motion.length_m = before_m + arc_m + after_m;
   motion.cost = static_cast<Ticks>(std::ceil(cost_s(motion, std::abs(turn), before_m + after_m) * ticks_per_s));
 
-  // a turn is sampled half-way too
+  // a turn is sampled half-way and at its end
   motion.first_sample = static_cast<std::uint32_t>(samples_.size());
   const int steps = motion.kind == MotionKind::turn ? 2 : static_cast<int>(std::ceil(motion.length_m / sample_step_m));
   const double side = turn < 0.0 ? -1.0 : 1.0;
@@ -190,8 +192,8 @@ void MotionSet::add(int heading, Motion motion, double before_m, double after_m)
       left_m += side * motion.radius_m * (1.0 - std::cos(turned)) + beyond_m * std::sin(turned);
     }
     const double theta = from.theta + turned;
-    samples_.push_back({from.cos_theta * ahead_m - from.sin_theta * left_m,
-                        from.sin_theta * ahead_m + from.cos_theta * left_m, std::cos(theta), std::sin(theta)});
+    const auto [c, s] = from.unit;
+    samples_.push_back(directed({c * ahead_m - s * left_m, s * ahead_m + c * left_m}, theta));
   }
   motion.sample_count = static_cast<std::uint32_t>(steps);
 

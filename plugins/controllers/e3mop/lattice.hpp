@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: MIT
-// lattice.hpp: the state lattice (x, y, heading) and the unicycle motions that join its states.
+// lattice.hpp: the state lattice (x, y, heading) and the unicycle motion primitives between its states.
 //
-// Headings are the 16 directions of the lattice vectors (1,0), (2,1), (1,1), (1,2), ... and not multiples of 22.5
-// degrees: straight motions then follow their heading exactly, and a curve that is one straight piece and one arc ends
-// exactly on a lattice state, without the distortion that tables of motion primitives (SBPL) have to accept.
-#ifndef DMRP_CONTROLLERS_E3MOP_LATTICE_HPP
-#define DMRP_CONTROLLERS_E3MOP_LATTICE_HPP
-
-#include <dmrp/robot.h>
+// Headings are the 16 directions of the lattice vectors (1,0), (2,1), (1,1), (1,2), ..., not multiples of 22.5 degrees.
+// Straight motions then follow their heading exactly, and a motion of one straight piece and one arc ends exactly on a
+// lattice state. Tables of motion primitives with equal angles (SBPL) are distorted to achieve this.
+#pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "controllers/motion/unicycle.hpp"
+
 namespace dmrp::controllers::e3mop {
 
 inline constexpr int direction_count = 16;
 
-// One of the lattice's directions: that of the vector (dx, dy), counted counter-clockwise from +x.
+// The direction of the lattice vector (dx, dy); numbered counter-clockwise from +x.
 struct Direction {
   int dx;
   int dy;
   double theta;
-  double cos_theta;
-  double sin_theta;
+  Vec2 unit;
 };
 
 const std::array<Direction, direction_count>& directions();
@@ -34,42 +32,34 @@ int nearest_direction(double theta);
 
 enum class MotionKind : std::uint8_t { short_forward, long_forward, arc, turn };
 
-// Costs, which are times, in units of 0.1 ms, so that sums and comparisons are exact.
+// Costs are times in units of 0.1 ms: sums and comparisons of integers are exact.
 using Ticks = std::int32_t;
 inline constexpr double ticks_per_s = 1e4;
 
-// A place on the way of a motion, relative to the motion's start, in metres.
-struct MotionSample {
-  double x;
-  double y;
-  double cos_theta;
-  double sin_theta;
-};
-
-// A motion primitive: from a heading at (0, 0) to another one at (dx, dy), in cells: straight, then an arc, then
-// straight; or a turn in place. `cost` is its travel time at the limits, weighted by its kind.
+// A motion primitive from one heading at (0, 0) to another at (dx, dy), in cells: a straight piece, an arc, a straight
+// piece; or a turn in place. `cost` is the travel time at the robot's limits, weighted by the kind of motion.
 struct Motion {
   MotionKind kind;
   std::int32_t dx;
   std::int32_t dy;
   std::int32_t to_heading;
   double length_m;
-  double radius_m;  // of the arc; infinite where there is none
+  double radius_m;  // of the arc; infinite if there is none
   Ticks cost;
   std::uint32_t first_sample;
   std::uint32_t sample_count;
-  // Bit k: dropped where the way to the goal leaves the cell in direction k. |(alpha - theta) - (beta - theta)| > pi/4
-  // with alpha that direction, beta the one of (dx, dy), theta the heading; never set for the shortest step ahead and
-  // for turns, which keep the search complete.
+  // Bit k: the search drops the motion if the shortest path to the goal leaves the cell in direction k. Set if
+  // |(alpha - theta) - (beta - theta)| > pi/4 for this direction alpha, the direction beta of (dx, dy) and the heading
+  // theta. Never set for short forward motions and turns: they keep the search complete.
   std::uint16_t dropped_for;
 };
 
-// All motions of a robot. Forward only: what turns in place needs no reverse.
+// All motions of a robot. Forward only: a robot that turns in place needs no reverse.
 class MotionSet {
  public:
-  // Full-speed arcs have a radius of v_max / omega_max at least; tighter ones are driven as fast as omega_max lets
-  // them.
-  void build(const dmrp_limits& limits, double resolution_m);
+  // Arcs at full speed have a radius of at least v_max / omega_max; tighter arcs are driven at the speed that omega_max
+  // allows.
+  void build(const Limits& limits, double resolution_m);
 
   struct Range {
     const Motion* first;
@@ -83,7 +73,8 @@ class MotionSet {
   }
   const Motion& at(std::size_t index) const { return motions_[index]; }
   std::size_t index_of(const Motion& motion) const { return static_cast<std::size_t>(&motion - motions_.data()); }
-  const std::vector<MotionSample>& samples() const { return samples_; }  // the start is none; the end is the last one
+  // Poses along the motions, relative to the motion's start; without the start, with the end.
+  const std::vector<DirectedPoint>& samples() const { return samples_; }
   double resolution_m() const { return resolution_m_; }
 
  private:
@@ -98,9 +89,7 @@ class MotionSet {
   double omega_max_ = 0.0;
   std::vector<Motion> motions_;  // by heading
   std::array<std::size_t, direction_count + 1> begins_{};
-  std::vector<MotionSample> samples_;
+  std::vector<DirectedPoint> samples_;
 };
 
 }  // namespace dmrp::controllers::e3mop
-
-#endif

@@ -9,7 +9,7 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// Of open states and of places on a path: more than any window was seen to need.
+// Initial sizes: more open states and path poses than any window observed needed.
 constexpr std::size_t open_reserve = 16384;
 constexpr std::size_t path_reserve = 1024;
 
@@ -23,14 +23,14 @@ void LatticeSearch::reserve(const LatticeFrame& frame, SearchResult& result) {
   const std::size_t count = static_cast<std::size_t>(frame.cell_count()) * direction_count;
   if (nodes_.size() < count) nodes_.resize(count, Node{0, 0, -1, -1, false});
   open_.reserve(open_reserve);
-  way_.reserve(path_reserve);
+  path_.reserve(path_reserve);
   result.poses.reserve(path_reserve);
 }
 
 void LatticeSearch::begin(const LatticeFrame& frame) {
   const std::size_t count = static_cast<std::size_t>(frame.cell_count()) * direction_count;
   if (nodes_.size() < count) nodes_.resize(count, Node{0, 0, -1, -1, false});
-  if (++search_ == 0) {  // the numbers are used up
+  if (++search_ == 0) {  // the counter has wrapped around
     std::fill(nodes_.begin(), nodes_.end(), Node{0, 0, -1, -1, false});
     search_ = 1;
   }
@@ -47,7 +47,7 @@ void LatticeSearch::offer(std::int32_t node, Ticks cost, Ticks to_go, std::int32
   });
 }
 
-void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const SearchSettings& settings,
+void LatticeSearch::find(const Pose& start, const SearchSpace& space, const SearchSettings& settings,
                          SearchResult& result) {
   result.found = false;
   result.expanded = 0;
@@ -58,7 +58,7 @@ void LatticeSearch::find(const dmrp_pose& start, const SearchSpace& space, const
   const std::int32_t distance = space.goal.distance(center);
   if (distance == GoalDistances::infinite) return;
 
-  // the heading lies between two of the lattice: either may be turned to
+  // the robot's heading lies between two lattice headings: it may turn to either
   const int nearest = nearest_direction(start.theta);
   for (const int aside : {0, 1, -1}) {
     const int heading = (nearest + aside + direction_count) % direction_count;
@@ -97,12 +97,12 @@ void LatticeSearch::expand(std::int32_t node, const SearchSpace& space, const Se
   const std::int32_t cell = node / direction_count;
   const std::int32_t column = space.frame.column_of(cell);
   const std::int32_t row = space.frame.row_of(cell);
-  const std::int32_t way_out = space.goal.way_out(cell);
+  const std::int32_t exit = space.goal.exit_direction(cell);
   const Ticks cost = nodes_[static_cast<std::size_t>(node)].cost;
   const bool is_start = nodes_[static_cast<std::size_t>(node)].parent < 0;
-  const dmrp_vec2 from = space.frame.point_of(cell);
+  const Vec2 from = space.frame.point_of(cell);
   for (const Motion& motion : space.motions.from(node % direction_count)) {
-    if (settings.pruning && way_out >= 0 && (motion.dropped_for >> way_out & 1)) continue;
+    if (settings.pruning && exit >= 0 && (motion.dropped_for >> exit & 1)) continue;
     if (!space.frame.inside(column + motion.dx, row + motion.dy)) continue;
     const std::int32_t to_cell = space.frame.cell_at(column + motion.dx, row + motion.dy);
     const std::int32_t to = to_cell * direction_count + motion.to_heading;
@@ -117,26 +117,26 @@ void LatticeSearch::expand(std::int32_t node, const SearchSpace& space, const Se
   }
 }
 
-bool LatticeSearch::is_clear(dmrp_vec2 from, const Motion& motion, const SearchSpace& space) {
-  const MotionSample* sample = space.motions.samples().data() + motion.first_sample;
+bool LatticeSearch::is_clear(Vec2 from, const Motion& motion, const SearchSpace& space) {
+  const DirectedPoint* sample = space.motions.samples().data() + motion.first_sample;
   for (std::uint32_t i = 0; i < motion.sample_count; ++i, ++sample)
-    if (!space.free_space.is_free({from.x + sample->x, from.y + sample->y, sample->cos_theta, sample->sin_theta}))
-      return false;
+    if (!space.free_space.is_free({from + sample->at, sample->heading})) return false;
   return true;
 }
 
 void LatticeSearch::trace(std::int32_t node, const SearchSpace& space, SearchResult& result) {
-  way_.clear();
-  for (std::int32_t at = node; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) way_.push_back(at);
-  std::reverse(way_.begin(), way_.end());
+  path_.clear();
+  for (std::int32_t at = node; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) path_.push_back(at);
+  std::reverse(path_.begin(), path_.end());
   result.poses.push_back({space.frame.center.x, space.frame.center.y,
-                          directions()[static_cast<std::size_t>(way_.front() % direction_count)].theta});
-  for (std::size_t i = 1; i < way_.size(); ++i) {
-    const dmrp_vec2 from = space.frame.point_of(way_[i - 1] / direction_count);
-    const Motion& motion = space.motions.at(static_cast<std::size_t>(nodes_[static_cast<std::size_t>(way_[i])].motion));
+                          directions()[static_cast<std::size_t>(path_.front() % direction_count)].theta});
+  for (std::size_t i = 1; i < path_.size(); ++i) {
+    const Vec2 from = space.frame.point_of(path_[i - 1] / direction_count);
+    const Motion& motion =
+        space.motions.at(static_cast<std::size_t>(nodes_[static_cast<std::size_t>(path_[i])].motion));
     for (std::uint32_t k = 0; k < motion.sample_count; ++k) {
-      const MotionSample& sample = space.motions.samples()[motion.first_sample + k];
-      result.poses.push_back({from.x + sample.x, from.y + sample.y, std::atan2(sample.sin_theta, sample.cos_theta)});
+      const DirectedPoint& sample = space.motions.samples()[motion.first_sample + k];
+      result.poses.push_back(pose_of({from + sample.at, sample.heading}));
     }
   }
 }

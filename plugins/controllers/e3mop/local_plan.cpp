@@ -6,7 +6,14 @@
 
 namespace dmrp::controllers::e3mop {
 
-void LocalPlan::prepare(const dmrp_limits& limits, double resolution_m, const ClearanceField& field) {
+namespace {
+
+// Points are checked with any heading; this one stands for all.
+constexpr Vec2 any_heading = {1.0, 0.0};
+
+}  // namespace
+
+void LocalPlan::prepare(const Limits& limits, double resolution_m, const ClearanceField& field) {
   motions_.build(limits, resolution_m);
   frame_.resolution_m = resolution_m;
   const Vec2 size = field.upper() - field.lower();
@@ -17,13 +24,12 @@ void LocalPlan::prepare(const dmrp_limits& limits, double resolution_m, const Cl
   search_.reserve(frame_, found_);
 }
 
-void LocalPlan::look(const Pose& robot, const ClearanceField& field, const FreeSpace& free_space,
-                     double inscribed_radius_m) {
-  free_space_ = &free_space;
-  frame_.center = toolkit::position(robot);
+void LocalPlan::lay_lattice(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
+                            double inscribed_radius_m) {
+  frame_.center = robot;
   frame_.resolution_m = motions_.resolution_m();
-  const Vec2 below = frame_.center - field.lower();
-  const Vec2 above = field.upper() - frame_.center;
+  const Vec2 below = robot - field.lower();
+  const Vec2 above = field.upper() - robot;
   const double room_m = std::min(std::min(below.x, below.y), std::min(above.x, above.y)) - field.resolution_m();
   frame_.half_cells = std::max(0, static_cast<std::int32_t>(room_m / frame_.resolution_m));
   open_cells_.assign(static_cast<std::size_t>(frame_.cell_count()), 0);
@@ -31,18 +37,15 @@ void LocalPlan::look(const Pose& robot, const ClearanceField& field, const FreeS
     for (std::int32_t column = -frame_.half_cells; column <= frame_.half_cells; ++column) {
       const std::int32_t cell = frame_.cell_at(column, row);
       const Vec2 at = frame_.point_of(cell);
-      const double clearance_m = field.of_cell(at.x, at.y);
-      open_cells_[static_cast<std::size_t>(cell)] =
-          clearance_m >= inscribed_radius_m || free_space.tolerated({at.x, at.y, 1.0, 0.0});
+      const double clearance_m = field.of_cell(at);
+      open_cells_[static_cast<std::size_t>(cell)] = clearance_m >= inscribed_radius_m || free_space.tolerated(at);
     }
   }
 }
 
-// Any of the cells about the point will do as the goal.
-bool LocalPlan::head_for(const std::vector<Vec2>& path, std::size_t index) {
-  goal_ = path[index];
-  is_path_end_ = index + 1 == path.size();
-  const std::int32_t cell = frame_.cell_of(goal_);
+// Seeds the heuristic with the goal's cell and its eight neighbours: the search may end in any of them.
+bool LocalPlan::can_reach(Vec2 goal) {
+  const std::int32_t cell = frame_.cell_of(goal);
   if (cell < 0) return false;
   to_goal_.begin(frame_, open_cells_);
   for (const std::int32_t row : {-1, 0, 1})
@@ -50,30 +53,32 @@ bool LocalPlan::head_for(const std::vector<Vec2>& path, std::size_t index) {
   return to_goal_.distance(frame_.center_cell()) != GoalDistances::infinite;
 }
 
-bool LocalPlan::choose_goal(const std::vector<Vec2>& path) {
-  is_cut_ = false;
+std::optional<LatticeGoal> LocalPlan::choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
+                                                  double inscribed_radius_m, const std::vector<Vec2>& path) {
+  lay_lattice(robot, field, free_space, inscribed_radius_m);
+  const auto can_stand = [&](Vec2 point) { return free_space.is_free({point, any_heading}); };
+  const auto goal_at = [&](std::size_t i, bool is_cut) -> std::optional<LatticeGoal> {
+    if (!can_reach(path[i])) return {};
+    return LatticeGoal{path[i], is_cut, i + 1 == path.size()};
+  };
   std::size_t last = path.size();
-  while (last > 0) {
-    --last;
-    const std::int32_t cell = frame_.cell_of(path[last]);
-    if (cell >= 0 && free_space_->is_free({path[last].x, path[last].y, 1.0, 0.0})) break;
-    if (last == 0) return false;
-  }
-  if (head_for(path, last)) return true;
-  is_cut_ = true;
+  while (last > 0 && !(frame_.cell_of(path[last - 1]) >= 0 && can_stand(path[last - 1]))) --last;
+  if (last == 0) return {};
+  --last;
+  if (const auto goal = goal_at(last, false)) return goal;
   from_robot_.begin(frame_, open_cells_);
   from_robot_.seed(frame_.center_cell());
   for (std::size_t i = last; i-- > 0;) {
     const std::int32_t cell = frame_.cell_of(path[i]);
-    if (cell < 0 || from_robot_.distance(cell) == GoalDistances::infinite) continue;
-    if (!free_space_->is_free({path[i].x, path[i].y, 1.0, 0.0})) continue;
-    return head_for(path, i);
+    if (cell < 0 || from_robot_.distance(cell) == GoalDistances::infinite || !can_stand(path[i])) continue;
+    return goal_at(i, true);
   }
-  return false;
+  return {};
 }
 
-void LocalPlan::search(const Pose& robot, const SearchSettings& settings) {
-  search_.find(robot, {frame_, motions_, *free_space_, to_goal_}, settings, found_);
+const SearchResult& LocalPlan::search(const Pose& robot, const FreeSpace& free_space, const SearchSettings& settings) {
+  search_.find(robot, {frame_, motions_, free_space, to_goal_}, settings, found_);
+  return found_;
 }
 
 }  // namespace dmrp::controllers::e3mop

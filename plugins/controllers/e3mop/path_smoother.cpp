@@ -5,7 +5,7 @@
 
 namespace dmrp::controllers::e3mop {
 
-void SmoothingProblem::set(const std::vector<dmrp_vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
+void SmoothingProblem::set(const std::vector<Vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
                            const SmoothingSettings& settings) {
   points_ = points;
   kept_ = points;
@@ -34,7 +34,7 @@ double SmoothingProblem::linearise(BandedMatrix<smoothing_bandwidth>& hessian, s
   double smoothness = 0.0;
   double obstacles = 0.0;
   for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
-    const dmrp_vec2 bend = points_[i + 1] - 2.0 * points_[i] + points_[i - 1];
+    const Vec2 bend = points_[i + 1] - 2.0 * points_[i] + points_[i - 1];
     smoothness += toolkit::squared_norm(bend);
     for (std::size_t a = 0; a < 3; ++a) {
       if (!is_free(i + a - 1)) continue;
@@ -55,7 +55,7 @@ double SmoothingProblem::linearise(BandedMatrix<smoothing_bandwidth>& hessian, s
     if (lack_m <= 0.0) continue;
     obstacles += lack_m * lack_m;
     const std::size_t row = 2 * (i - fixed_begin_);
-    const dmrp_vec2 slope = clearance.gradient;
+    const Vec2 slope = clearance.gradient;
     gradient[row] -= settings_.weight_obstacle * lack_m * slope.x;
     gradient[row + 1] -= settings_.weight_obstacle * lack_m * slope.y;
     hessian.at(row, row) += settings_.weight_obstacle * slope.x * slope.x;
@@ -68,13 +68,13 @@ double SmoothingProblem::linearise(BandedMatrix<smoothing_bandwidth>& hessian, s
 double SmoothingProblem::try_step(const std::vector<double>& step) {
   for (std::size_t i = fixed_begin_; i + 1 < points_.size(); ++i) {
     const std::size_t row = 2 * (i - fixed_begin_);
-    points_[i] = kept_[i] + dmrp_vec2{step[row], step[row + 1]};
+    points_[i] = kept_[i] + Vec2{step[row], step[row + 1]};
   }
   return cost();
 }
 
-SmoothingResult PathSmoother::smooth(std::vector<dmrp_vec2>& points, std::size_t fixed_begin,
-                                     const ClearanceField& field, const SmoothingSettings& settings) {
+SmoothingResult PathSmoother::smooth(std::vector<Vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
+                                     const SmoothingSettings& settings) {
   SmoothingResult result;
   if (points.size() < fixed_begin + 2) return result;
   problem_.set(points, fixed_begin, field, settings);

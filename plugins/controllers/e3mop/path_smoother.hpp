@@ -3,12 +3,12 @@
 //
 //   f = w_s sum |x_{i+1} - 2 x_i + x_{i-1}|^2 + w_o sum max(0, d_s - tau(x_i))^2
 //
-// with tau the Euclidean distance field, by Levenberg-Marquardt. With x and y of the points interleaved, the normal
-// matrix couples a point with the two before and behind it: bandwidth 5 as rows of one triangle, 4 beside the diagonal.
-#ifndef DMRP_CONTROLLERS_E3MOP_PATH_SMOOTHER_HPP
-#define DMRP_CONTROLLERS_E3MOP_PATH_SMOOTHER_HPP
+// with the Euclidean distance field tau, by Levenberg-Marquardt. With interleaved x and y, the normal matrix couples
+// each point with the two before and after it: one triangle has 5 bands, the diagonal and 4 beside it.
+#pragma once
 
 #include <cstddef>
+#include <dmrp/cpp/local_controller.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
@@ -22,17 +22,17 @@ struct SmoothingSettings {
   double weight_obstacle = 10.0;   // w_o, 1/m^2
   double safe_distance_m = 0.5;    // d_s
   int iterations = 100;
-  double needed_m = 0.0;  // nearer to obstacles than this is collision
+  double needed_m = 0.0;  // the least clearance; points closer to obstacles collide
 };
 
 inline constexpr std::size_t smoothing_bandwidth = 4;
 
-// The objective over the points of a path whose first `fixed_begin` and last points stay. A problem of
-// LevenbergMarquardt; its cost is f / 2.
+// The objective over the points of a path; the first `fixed_begin` points and the last one stay fixed. A problem for
+// LevenbergMarquardt with the cost f / 2.
 class SmoothingProblem {
  public:
-  // Keeps its own copy of the points. At least one more than `fixed_begin` + 1.
-  void set(const std::vector<dmrp_vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
+  // Copies the points, at least `fixed_begin` + 2 of them.
+  void set(const std::vector<Vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
            const SmoothingSettings& settings);
 
   double cost() const;
@@ -41,13 +41,13 @@ class SmoothingProblem {
   void keep() { kept_ = points_; }
   void restore() { points_ = kept_; }
 
-  std::vector<dmrp_vec2>& points() { return points_; }
+  std::vector<Vec2>& points() { return points_; }
 
  private:
   bool is_free(std::size_t i) const { return i >= fixed_begin_ && i + 1 < points_.size(); }
 
-  std::vector<dmrp_vec2> points_;
-  std::vector<dmrp_vec2> kept_;
+  std::vector<Vec2> points_;
+  std::vector<Vec2> kept_;
   std::size_t fixed_begin_ = 1;
   const ClearanceField* field_ = nullptr;
   SmoothingSettings settings_;
@@ -56,14 +56,14 @@ class SmoothingProblem {
 struct SmoothingResult {
   int iterations = 0;
   double first_cost = 0.0;  // f / 2
-  double cost = 0.0;        // after the optimisation, before points are put back
-  int put_back = 0;         // points that keep their unsmoothed place, since the new one would be in collision
+  double cost = 0.0;        // after the optimisation, before points are reset
+  int put_back = 0;         // points reset to their original position, because the new one collides
 };
 
 class PathSmoother {
  public:
   // Moves the points in place.
-  SmoothingResult smooth(std::vector<dmrp_vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
+  SmoothingResult smooth(std::vector<Vec2>& points, std::size_t fixed_begin, const ClearanceField& field,
                          const SmoothingSettings& settings);
 
  private:
@@ -72,5 +72,3 @@ class PathSmoother {
 };
 
 }  // namespace dmrp::controllers::e3mop
-
-#endif

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What alpha_max leaves of the acceleration `side` (1: speeding up, -1: braking) at a speed.
-double acceleration(const dmrp_limits& limits, double curvature, double curvature_change, double speed, double side) {
+// The acceleration limit at a speed, reduced by alpha_max; `side` is 1 for accelerating, -1 for braking.
+double acceleration(const Limits& limits, double curvature, double curvature_change, double speed, double side) {
   const double bend = std::abs(curvature);
   if (bend < 1e-6) return limits.a_max;
   const double sign = curvature < 0.0 ? -side : side;
@@ -27,7 +27,7 @@ double change_of_curvature(const std::vector<PathPoint>& path, std::size_t i) {
 
 }  // namespace
 
-void plan_speeds(std::vector<PathPoint>& path, double start_speed, double end_speed, const dmrp_limits& limits) {
+void plan_speeds(std::vector<PathPoint>& path, double start_speed, double end_speed, const Limits& limits) {
   const std::size_t count = path.size();
   // the maximum-velocity curve
   for (std::size_t i = 0; i < count; ++i) {

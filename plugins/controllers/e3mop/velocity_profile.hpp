@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
 // velocity_profile.hpp: time-optimal speeds along a path (section V of the paper): forward and backward integration
 // under the maximum-velocity curve.
-#ifndef DMRP_CONTROLLERS_E3MOP_VELOCITY_PROFILE_HPP
-#define DMRP_CONTROLLERS_E3MOP_VELOCITY_PROFILE_HPP
+#pragma once
 
-#include <dmrp/robot.h>
-
+#include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
 #include "controllers/e3mop/spline_path.hpp"
 
 namespace dmrp::controllers::e3mop {
 
-// Fills in speed and time_s. The maximum-velocity curve at a point is the least of v_max, omega_max / |k| and, with k'
-// the change of the curvature k along the path, sqrt(alpha_max / |k'|). Below it the speed changes by a_max at most,
-// and by what alpha_max leaves of that: omega' = k v' + k' v^2.
+// Sets speed and time_s of the path's points. With the curvature k and its derivative k' along the path, the
+// maximum-velocity curve is the minimum of v_max, omega_max / |k| and sqrt(alpha_max / |k'|). Below it, a_max bounds
+// the acceleration, and alpha_max bounds omega' = k v' + k' v^2.
 //
-// A start that is too fast for the path's beginning stays as it is: what the robot does about that is the tracker's.
-void plan_speeds(std::vector<PathPoint>& path, double start_speed, double end_speed, const dmrp_limits& limits);
+// A start speed above the maximum-velocity curve stays as it is; the tracking controller handles it.
+void plan_speeds(std::vector<PathPoint>& path, double start_speed, double end_speed, const Limits& limits);
 
-// The speed `ahead_s` after the path's start.
+// The speed at the time `ahead_s` after the path's start.
 double speed_after(const std::vector<PathPoint>& path, double ahead_s);
 
 }  // namespace dmrp::controllers::e3mop
-
-#endif

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// banded_ldlt.hpp: symmetric banded systems: the factorisation A = L D L' of a fixed bandwidth.
+// banded_ldlt.hpp: symmetric banded linear systems by the factorisation A = L D L'.
 //
-// Golub, Van Loan: Matrix Computations (4th edition), sections 4.1.2 and 4.3.5. No pivoting: for positive definite and
-// for quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)), whose
-// pivots may be negative. Time grows with size x Bandwidth^2. Nothing allocates once the buffers have grown.
-#ifndef DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
-#define DMRP_CONTROLLERS_MOTION_BANDED_LDLT_HPP
+// Golub, Van Loan: Matrix Computations (4th edition), sections 4.1.2 and 4.3.5. Without pivoting: for positive definite
+// and quasi-definite matrices (Vanderbei: Symmetric quasidefinite matrices, SIAM J. Optimization 5 (1995)); pivots of
+// the latter may be negative. Time is O(size Bandwidth^2). Does not allocate once the buffers have grown.
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -24,7 +23,7 @@ class BandedMatrix {
 
   void reserve(std::size_t size) { entries_.reserve(size * stride); }
 
-  // All zero.
+  // Sets all entries to zero.
   void resize(std::size_t size) {
     size_ = size;
     entries_.assign(size * stride, 0.0);
@@ -36,10 +35,10 @@ class BandedMatrix {
   double& at(std::size_t row, std::size_t column) { return entries_[row * stride + Bandwidth + column - row]; }
   double at(std::size_t row, std::size_t column) const { return entries_[row * stride + Bandwidth + column - row]; }
 
-  // The entry of the symmetric matrix, in either order.
+  // The entry (i, j) or (j, i), whichever is stored.
   double& symmetric(std::size_t i, std::size_t j) { return i >= j ? at(i, j) : at(j, i); }
 
-  // The Bandwidth + 1 entries of a row, the diagonal last; the first rows' begin with unused zeros.
+  // The Bandwidth + 1 entries of a row, the diagonal last. The first rows begin with unused zeros.
   double* row(std::size_t i) { return entries_.data() + i * stride; }
   const double* row(std::size_t i) const { return entries_.data() + i * stride; }
 
@@ -69,14 +68,13 @@ class BandedLdlt {
     inverse_pivots_.reserve(size);
   }
 
-  // Factors A + shift I. False where a pivot is no finite number or too small to divide by; the factors are then of no
-  // use.
+  // Factors A + shift I. False if a pivot is not finite or too small to divide by; solve() must not be called then.
   bool factor(const BandedMatrix<Bandwidth>& a, double shift = 0.0) {
     factor_ = a;
     negative_pivots_ = 0;
     const std::size_t size = a.size();
     inverse_pivots_.resize(size);
-    std::array<double, Bandwidth> column;  // of the step under way, below the diagonal, not yet divided
+    std::array<double, Bandwidth> column;  // column k below the diagonal, before the division by the pivot
     for (std::size_t k = 0; k < size; ++k) {
       const double pivot = factor_.at(k, k) + shift;
       if (!(std::abs(pivot) > smallest_pivot) || !std::isfinite(pivot)) return false;
@@ -85,7 +83,7 @@ class BandedLdlt {
       inverse_pivots_[k] = inverse;
       const std::size_t rows = std::min(Bandwidth, size - 1 - k);
       for (std::size_t r = 0; r < rows; ++r) column[r] = factor_.at(k + 1 + r, k);
-      // what is left: row i loses l(i, k) times the column, up to its own diagonal
+      // updates the trailing rows: row i minus l(i, k) times the column, up to the diagonal
       for (std::size_t r = 0; r < rows; ++r) {
         if (column[r] == 0.0) continue;
         const double l = column[r] * inverse;
@@ -100,7 +98,7 @@ class BandedLdlt {
   std::size_t size() const { return factor_.size(); }
   std::size_t negative_pivots() const { return negative_pivots_; }
 
-  // Replaces the right-hand side, size() numbers, by the solution.
+  // Replaces the right-hand side of size() numbers by the solution.
   void solve(double* x) const {
     const std::size_t size = factor_.size();
     for (std::size_t i = 0; i < size; ++i) {
@@ -126,5 +124,3 @@ class BandedLdlt {
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -2,6 +2,7 @@
 #include "controllers/motion/costmap_view.hpp"
 
 #include <algorithm>
+#include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers {
 
@@ -27,7 +28,7 @@ double CostmapView::distance_of(std::uint8_t cost) const {
                   map_->inscribed_radius_m - std::log(cost / highest_decaying_cost) / map_->cost_scaling);
 }
 
-double CostmapView::distance_to_lethal(dmrp_vec2 point, double limit_m) const {
+double CostmapView::distance_to_lethal(Vec2 point, double limit_m) const {
   const std::int32_t first_column = std::max(0, column_of(point.x - limit_m));
   const std::int32_t last_column = std::min(width_ - 1, column_of(point.x + limit_m));
   const std::int32_t first_row = std::max(0, row_of(point.y - limit_m));
@@ -36,10 +37,7 @@ double CostmapView::distance_to_lethal(dmrp_vec2 point, double limit_m) const {
   for (std::int32_t row = first_row; row <= last_row; ++row) {
     for (std::int32_t column = first_column; column <= last_column; ++column) {
       if (map_->costs[row * width_ + column] < DMRP_COST_LETHAL) continue;
-      const dmrp_vec2 lethal = center(column, row);
-      const double dx = lethal.x - point.x;
-      const double dy = lethal.y - point.y;
-      nearest_squared = std::min(nearest_squared, dx * dx + dy * dy);
+      nearest_squared = std::min(nearest_squared, toolkit::squared_distance(point, center(column, row)));
     }
   }
   return std::sqrt(nearest_squared);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// footprint_check.hpp: what a robot's outline costs where it would stand on the costmap.
-#ifndef DMRP_CONTROLLERS_MOTION_FOOTPRINT_CHECK_HPP
-#define DMRP_CONTROLLERS_MOTION_FOOTPRINT_CHECK_HPP
+// footprint_check.hpp: the cost of a robot's footprint at a pose on the costmap.
+#pragma once
 
 #include <dmrp/cpp/local_controller.hpp>
 
@@ -12,43 +11,42 @@ namespace dmrp::controllers {
 
 inline constexpr int in_collision = -1;
 
-// Of one footprint, grown by a factor and then by a padding. A disc costs what its centre's cell costs; a polygon the
-// most of its centre and its outline.
+// Checks one footprint, scaled by a factor and then enlarged by a padding. A disc costs as much as the cell of its
+// centre; a polygon costs the maximum of its centre and its outline.
 //
-// A robot that already stands too near to something (a person stepped up to it) may move as long as it comes no
-// nearer: else it would be caught until the other one leaves.
+// A robot that already stands too close to an obstacle (a person stepped up to it) may move as long as it comes no
+// closer. Otherwise it could not move until the obstacle leaves.
 class FootprintCheck {
  public:
   FootprintCheck(const CostmapView& map, const Footprint& footprint, double padding_m, const Pose& now);
 
-  // For the costs that follow. 1 is the footprint itself.
+  // Sets the scale of all later costs; 1 is the footprint itself.
   void scale(double factor);
 
   // 0 to 252, or in_collision.
-  int cost(const ArcState& at) const {
-    if (footprint_->vertex_count > 0) return polygon_cost(at);
-    const int cost = map_.cost(at.x, at.y);
-    return cost <= highest_ ? cost : tolerated(at, cost);
+  int cost(const DirectedPoint& robot) const {
+    if (footprint_->vertex_count > 0) return polygon_cost(robot);
+    const int cost = map_.cost(robot.at);
+    return cost <= highest_ ? cost : tolerated(robot.at, cost);
   }
 
-  // The same over the arc of a constant (v, omega): the most of its places, `steps` of them, without the first one.
+  // The maximum cost over the arc of a constant (v, omega), at `steps` poses after the first one; in_collision if one
+  // of them is.
   int arc_cost(const Pose& from, double v, double omega, double duration_s, int steps) const;
 
  private:
-  int polygon_cost(const ArcState& at) const;
-  int tolerated(const ArcState& at, int cost) const;
+  int polygon_cost(const DirectedPoint& robot) const;
+  int tolerated(Vec2 center, int cost) const;
   bool edge_is_clear(Vec2 from, Vec2 to) const;
 
   CostmapView map_;
   const Footprint* footprint_;
   double padding_m_;
   double factor_ = 1.0;
-  int highest_ = 0;  // cost of the centre
+  int highest_ = 0;  // allowed cost of the centre
   Vec2 start_;
-  bool start_collides_ = false;    // the robot's own place is too near to something ...
-  double start_distance_m_ = 0.0;  // ... and this is how near
+  bool start_collides_ = false;    // the robot already stands too close to an obstacle ...
+  double start_distance_m_ = 0.0;  // ... at this distance
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -13,7 +13,7 @@ constexpr std::uint8_t easy_effort = 1;
 constexpr std::uint8_t close_effort = 2;
 constexpr std::uint8_t escape_effort = 6;
 
-// Within this about the robot, cells that are too near to an obstacle can be left.
+// Within this distance of the robot, cells too close to an obstacle are passable.
 constexpr double escape_m = 0.4;
 
 constexpr std::int32_t straight_cost = 5;
@@ -33,12 +33,12 @@ constexpr std::array<Step, 8> steps = {{{1, 0, straight_cost},
                                         {-1, -1, diagonal_cost},
                                         {1, -1, diagonal_cost}}};
 
-// Every so many cells of the way become a point.
-constexpr std::size_t cells_a_point = 4;
+// The path keeps one point per this many cells.
+constexpr std::size_t cells_per_point = 4;
 
 }  // namespace
 
-void Guide::read(const CostmapView& map, dmrp_vec2 robot, double needed_m, double easy_m) {
+void Guide::read(const CostmapView& map, Vec2 robot, double needed_m, double easy_m) {
   const std::uint8_t highest = map.highest_cost_at(needed_m);
   const std::uint8_t highest_easy = map.highest_cost_at(easy_m);
   const auto cells = static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height());
@@ -59,12 +59,12 @@ void Guide::read(const CostmapView& map, dmrp_vec2 robot, double needed_m, doubl
   }
 }
 
-void Guide::spread(const CostmapView& map, dmrp_vec2 robot, double needed_m, double easy_m) {
+void Guide::spread(const CostmapView& map, Vec2 robot, double needed_m, double easy_m) {
   read(map, robot, needed_m, easy_m);
   costs_.assign(efforts_.size(), unreached);
   from_.assign(efforts_.size(), -1);
   for (std::vector<std::int32_t>& bucket : buckets_) bucket.clear();
-  const std::int32_t start = map.index_of(robot.x, robot.y);
+  const std::int32_t start = map.index_of(robot);
   if (start < 0) return;
   costs_[static_cast<std::size_t>(start)] = 0;
   buckets_[0].push_back(start);
@@ -72,7 +72,7 @@ void Guide::spread(const CostmapView& map, dmrp_vec2 robot, double needed_m, dou
   for (std::int32_t now = 0; queued > 0; ++now) {
     std::vector<std::int32_t>& bucket = buckets_[static_cast<std::size_t>(now) % bucket_count];
     for (const std::int32_t cell : bucket) {
-      if (costs_[static_cast<std::size_t>(cell)] != now) continue;  // found a cheaper way since
+      if (costs_[static_cast<std::size_t>(cell)] != now) continue;  // reached at a lower cost since
       const std::int32_t column = cell % map.width();
       const std::int32_t row = cell / map.width();
       for (const Step& step : steps) {
@@ -93,22 +93,22 @@ void Guide::spread(const CostmapView& map, dmrp_vec2 robot, double needed_m, dou
   }
 }
 
-bool Guide::reaches(const CostmapView& map, dmrp_vec2 point) const {
-  const std::int32_t index = map.index_of(point.x, point.y);
+bool Guide::reaches(const CostmapView& map, Vec2 point) const {
+  const std::int32_t index = map.index_of(point);
   return index >= 0 && costs_[static_cast<std::size_t>(index)] != unreached &&
          efforts_[static_cast<std::size_t>(index)] != escape_effort;
 }
 
-void Guide::way_to(const CostmapView& map, dmrp_vec2 point, std::vector<dmrp_vec2>& points) const {
+void Guide::path_to(const CostmapView& map, Vec2 point, std::vector<Vec2>& points) const {
   points.clear();
   points.push_back(point);
-  std::int32_t cell = from_[static_cast<std::size_t>(map.index_of(point.x, point.y))];
+  std::int32_t cell = from_[static_cast<std::size_t>(map.index_of(point))];
   for (std::size_t i = 1; cell >= 0; ++i) {
-    if (i % cells_a_point == 0) points.push_back(map.center(cell % map.width(), cell / map.width()));
+    if (i % cells_per_point == 0) points.push_back(map.center(cell % map.width(), cell / map.width()));
     cell = from_[static_cast<std::size_t>(cell)];
   }
   std::reverse(points.begin(), points.end());
-  // less of the grid's eight directions
+  // smooths the grid's eight directions
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
       points[i] = 0.25 * points[i - 1] + 0.5 * points[i] + 0.25 * points[i + 1];

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// levenberg_marquardt.hpp: least squares by damped Gauss-Newton steps on banded normal equations.
+// levenberg_marquardt.hpp: nonlinear least squares by damped Gauss-Newton steps on banded normal equations.
 //
-// Damping by Nielsen: Damping parameter in Marquardt's method, IMM-REP-1999-05; as g2o does it.
-#ifndef DMRP_CONTROLLERS_MOTION_LEVENBERG_MARQUARDT_HPP
-#define DMRP_CONTROLLERS_MOTION_LEVENBERG_MARQUARDT_HPP
+// Damping by Nielsen: Damping parameter in Marquardt's method, IMM-REP-1999-05, as in g2o.
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -15,33 +14,33 @@
 namespace dmrp::controllers {
 
 struct LevenbergMarquardtSettings {
-  int iterations = 5;            // at most; each ends in a step that lowers the cost, or ends the whole
-  int trials = 10;               // of ever greater damping within an iteration
-  double first_damping = 1e-5;   // times the largest entry of the diagonal
-  double least_decrease = 0.0;   // ends where an iteration lowers the cost by a smaller share than this
-  double least_gradient = 1e-9;  // ends where no entry of the gradient is larger
+  int iterations = 5;            // maximum; an iteration that finds no step that lowers the cost ends the solution
+  int trials = 10;               // maximum number of damping values per iteration
+  double first_damping = 1e-5;   // relative to the largest diagonal entry
+  double least_decrease = 0.0;   // stops when an iteration lowers the cost by a smaller fraction
+  double least_gradient = 1e-9;  // stops when no entry of the gradient is larger
 };
 
 struct LevenbergMarquardtResult {
   int iterations = 0;
   double first_cost = 0.0;
-  double cost = 0.0;      // never above first_cost
-  bool is_finite = true;  // false: the cost or a step was no number; the estimate is the last sound one
+  double cost = 0.0;      // at most first_cost
+  bool is_finite = true;  // false: the cost was not finite; the estimate is the last finite one
 };
 
-// Keeps its buffers from one problem to the next.
+// Reuses its buffers from one problem to the next.
 //
 // A Problem has
 //   double linearise(BandedMatrix<B>& hessian, std::vector<double>& gradient)
-//       at its estimate: H = J'J and g = J'r, to be resized and filled, and returns the cost r'r / 2
+//       resizes and fills H = J'J and g = J'r at the current estimate; returns the cost r'r / 2
 //   double try_step(const std::vector<double>& step)
-//       goes to the estimate kept last plus the step, and returns the cost there
-//   void keep()     keeps the estimate tried last
-//   void restore()  goes back to the one kept
+//       sets the estimate to the saved one plus the step; returns the cost there
+//   void keep()     saves the current estimate
+//   void restore()  returns to the saved estimate
 template <std::size_t Bandwidth>
 class LevenbergMarquardt {
  public:
-  // For problems of so many variables.
+  // Allocates for problems of `size` variables.
   void reserve(std::size_t size) {
     hessian_.reserve(size);
     ldlt_.reserve(size);
@@ -75,7 +74,7 @@ class LevenbergMarquardt {
   }
 
  private:
-  // Raises the damping until a step lowers the cost; returns the cost then, the same cost where no step did.
+  // Raises the damping until a step lowers the cost. Returns the lower cost, or `cost` if no step lowers it.
   template <class Problem>
   double descend(Problem& problem, int trials, double cost, double& damping, double& growth) {
     for (int trial = 0; trial < trials; ++trial) {
@@ -101,7 +100,7 @@ class LevenbergMarquardt {
     return cost;
   }
 
-  // Of the quadratic model: step' (damping step - gradient) / 2.
+  // The decrease that the quadratic model predicts: step' (damping step - gradient) / 2.
   double expected_decrease(double damping) const {
     double twice = 0.0;
     for (std::size_t i = 0; i < step_.size(); ++i) twice += step_[i] * (damping * step_[i] - gradient_[i]);
@@ -126,5 +125,3 @@ class LevenbergMarquardt {
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -18,8 +18,8 @@ using toolkit::PolygonView;
 
 struct Witness {
   double distance_m = 0.0;      // negative inside
-  Vec2 normal = {1.0, 0.0};     // unit, from the obstacle to the robot
-  Vec2 lever_end = {0.0, 0.0};  // the distance changes with the robot's turn as if it were fixed to the robot here
+  Vec2 normal = {1.0, 0.0};     // unit vector from the obstacle to the robot
+  Vec2 lever_end = {0.0, 0.0};  // the point whose motion gives the derivative by the robot's heading
 };
 
 void bound(Obstacle& obstacle) {
@@ -35,11 +35,11 @@ void bound(Obstacle& obstacle) {
     obstacle.reach_m = std::max(obstacle.reach_m, toolkit::distance(obstacle.center, obstacle.vertices[i]));
 }
 
-// From the shape's vertices to a point, in the shape's own place.
+// From a shape without its radius to a point.
 Witness to_point(const Vec2* vertices, std::uint32_t count, Vec2 point) {
   Vec2 nearest = vertices[0];
   bool inside = false;
-  if (count == 2) nearest = toolkit::closest_point(dmrp_segment{vertices[0], vertices[1]}, point);
+  if (count == 2) nearest = toolkit::closest_point(Segment{vertices[0], vertices[1]}, point);
   if (count > 2) {
     const PolygonView polygon(vertices, count);
     nearest = toolkit::closest_border_point(polygon, point);
@@ -66,17 +66,18 @@ Vec2 vertex_lowest_along(PolygonView polygon, Vec2 direction) {
   });
 }
 
-// The least overlap along any side's normal, for two convex shapes that overlap; positive where a side parts them.
+// The largest gap along the normal of any side of two convex shapes: positive if a side separates them, otherwise minus
+// the depth of their overlap.
 Witness across_sides(PolygonView robot, PolygonView obstacle) {
   Witness deepest;
   deepest.distance_m = -std::numeric_limits<double>::infinity();
   const auto try_normal = [&](Vec2 normal, bool of_robot) {  // from the obstacle to the robot
     const double gap_m = lowest_along(robot, normal) + lowest_along(obstacle, -normal);
     if (!(gap_m > deepest.distance_m)) return;
-    // a side of the robot turns about the obstacle's corner, a corner of it about the robot's place
+    // contact of a robot side with an obstacle corner, or of a robot corner with an obstacle side
     deepest = {gap_m, normal, of_robot ? vertex_lowest_along(obstacle, -normal) : vertex_lowest_along(robot, normal)};
   };
-  const auto outward = [](const dmrp_segment& edge) {
+  const auto outward = [](const Segment& edge) {
     return toolkit::normalized(-toolkit::perpendicular(edge.to - edge.from));
   };
   for (std::size_t i = 0; i < robot.size(); ++i) try_normal(-outward(robot.edge(i)), true);
@@ -85,12 +86,12 @@ Witness across_sides(PolygonView robot, PolygonView obstacle) {
   return deepest;
 }
 
-// Between two convex shapes, the robot's in the world frame.
+// Between two convex shapes, both in the world frame.
 Witness to_polygon(PolygonView robot, const Vec2* vertices, std::uint32_t count) {
   const PolygonView obstacle(vertices, count);
   const Witness sides = across_sides(robot, obstacle);
   if (sides.distance_m <= 0.0) return sides;
-  // apart: some corner of one is nearest to the other
+  // separated: a corner of one shape is closest to the other
   Witness nearest;
   nearest.distance_m = std::numeric_limits<double>::infinity();
   for (const Vec2 corner : robot) {
@@ -106,7 +107,7 @@ Witness to_polygon(PolygonView robot, const Vec2* vertices, std::uint32_t count)
   return nearest;
 }
 
-// A footprint with more corners than this is measured as the circle that holds it.
+// A footprint with more corners counts as its circumscribed circle.
 constexpr std::size_t most_corners = 32;
 
 }  // namespace
@@ -137,7 +138,7 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
     obstacle.is_agent = true;
     if (toolkit::norm(agent.velocity) >= standing_m_s) obstacle.velocity = agent.velocity;
   }
-  // only now do the vertices stay where they are
+  // vertices_ no longer reallocates: set the pointers
   const Vec2* next = vertices_.data();
   for (Obstacle& obstacle : obstacles_) {
     obstacle.vertices = next;
@@ -152,7 +153,7 @@ double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& ob
 }
 
 Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s) {
-  // in the frame that moves with the obstacle
+  // in the obstacle's moving frame
   const Vec2 at = toolkit::position(robot) - ahead_s * obstacle.velocity;
   if (footprint.vertex_count == 0 || footprint.vertex_count > most_corners) {
     const Witness witness = to_point(obstacle.vertices, obstacle.vertex_count, at);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// obstacles.hpp: what stands or moves about the robot, as shapes to measure distances to.
-#ifndef DMRP_CONTROLLERS_MOTION_OBSTACLES_HPP
-#define DMRP_CONTROLLERS_MOTION_OBSTACLES_HPP
+// obstacles.hpp: the obstacles about the robot as convex shapes, and distances to them.
+#pragma once
 
 #include <dmrp/ext/obstacle_clusters.h>
 
@@ -11,28 +10,28 @@
 
 namespace dmrp::controllers {
 
-// A point, a segment or a convex polygon, grown by a radius. Moves at constant velocity.
+// A point, a segment or a convex polygon, enlarged by a radius. Moves at constant velocity.
 struct Obstacle {
-  const Vec2* vertices = nullptr;  // counter-clockwise; of an ObstacleSet
+  const Vec2* vertices = nullptr;  // counter-clockwise; owned by an ObstacleSet
   std::uint32_t vertex_count = 0;  // 1: a point; 2: a segment
   double radius_m = 0.0;
   Vec2 velocity = {0.0, 0.0};  // m/s
-  Vec2 center = {0.0, 0.0};    // of a circle that holds the vertices ...
+  Vec2 center = {0.0, 0.0};    // of a circle that contains the vertices ...
   double reach_m = 0.0;        // ... of this radius
-  bool is_agent = false;       // a robot or a person, told of by tracking
+  bool is_agent = false;       // a tracked robot or person
 };
 
-// Where the outlines come nearest.
+// The signed distance between two outlines and its derivatives.
 struct Separation {
-  double distance_m = 0.0;     // between the outlines; negative where they overlap, by how deep
-  Vec2 gradient = {0.0, 0.0};  // of the distance, with respect to the robot's position: away from the obstacle
+  double distance_m = 0.0;     // negative: the depth of the overlap
+  Vec2 gradient = {0.0, 0.0};  // with respect to the robot's position; points away from the obstacle
   double gradient_theta = 0.0;
 };
 
 class ObstacleSet {
  public:
-  // The clusters (`clusters` may be NULL) and then the agents of the observation, in their order. Agents slower than
-  // `standing_m_s` stand. Valid until the next gather().
+  // Collects the clusters (`clusters` may be NULL), then the agents of the observation, each in their order. Agents
+  // slower than `standing_m_s` get velocity 0. Valid until the next gather().
   void gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double standing_m_s = 0.05);
   void clear();
 
@@ -43,12 +42,10 @@ class ObstacleSet {
   std::vector<Obstacle> obstacles_;
 };
 
-// A lower bound of what separation() gives, for a robot of this footprint anywhere in its turn: cheap, for choosing.
+// A cheap lower bound of separation().distance_m over all headings of the robot.
 double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s);
 
-// Between a robot of this footprint, where it would stand `ahead_s` from now, and the obstacle moved there by then.
+// Between the robot at a pose `ahead_s` from now and the obstacle moved to that time.
 Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s);
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -8,32 +8,32 @@ namespace dmrp::controllers {
 
 void OscillationDetector::reset(std::size_t length) {
   ring_.assign(std::max<std::size_t>(length, 2), {0.0, 0.0});
-  noted_ = 0;
+  recorded_ = 0;
 }
 
-void OscillationDetector::note(const Command& command, const Limits& limits) {
+void OscillationDetector::record(const Command& command, const Limits& limits) {
   const double v_limit = command.v_x >= 0.0 ? limits.v_max : -limits.v_min;
-  const auto share = [](double value, double limit) { return limit > 0.0 ? value / limit : 0.0; };
-  ring_[noted_ % ring_.size()] = {share(command.v_x, v_limit), share(command.omega, limits.omega_max)};
-  ++noted_;
+  const auto fraction = [](double value, double limit) { return limit > 0.0 ? value / limit : 0.0; };
+  ring_[recorded_ % ring_.size()] = {fraction(command.v_x, v_limit), fraction(command.omega, limits.omega_max)};
+  ++recorded_;
 }
 
-bool OscillationDetector::is_oscillating(double v_share, double omega_share) const {
-  const std::size_t count = std::min(noted_, ring_.size());
+bool OscillationDetector::is_oscillating(double v_fraction, double omega_fraction) const {
+  const std::size_t count = std::min(recorded_, ring_.size());
   if (2 * count < ring_.size()) return false;
   double v_sum = 0.0;
   double omega_sum = 0.0;
   int sign_changes = 0;
   double last_omega = 0.0;
-  for (std::size_t age = noted_ - count; age < noted_; ++age) {
-    const Share& share = ring_[age % ring_.size()];
-    v_sum += share.v;
-    omega_sum += share.omega;
-    if (share.omega * last_omega < 0.0) ++sign_changes;
-    if (share.omega != 0.0) last_omega = share.omega;
+  for (std::size_t k = recorded_ - count; k < recorded_; ++k) {
+    const Fraction& command = ring_[k % ring_.size()];
+    v_sum += command.v;
+    omega_sum += command.omega;
+    if (command.omega * last_omega < 0.0) ++sign_changes;
+    if (command.omega != 0.0) last_omega = command.omega;
   }
   const double n = static_cast<double>(count);
-  return std::abs(v_sum) / n < v_share && std::abs(omega_sum) / n < omega_share && sign_changes > 1;
+  return std::abs(v_sum) / n < v_fraction && std::abs(omega_sum) / n < omega_fraction && sign_changes > 1;
 }
 
 }  // namespace dmrp::controllers

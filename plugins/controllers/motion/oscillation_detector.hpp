@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: MIT
-// oscillation_detector.hpp: notices a robot that turns to and fro and gets nowhere, as teb_local_planner's failure
-// detector does.
-#ifndef DMRP_CONTROLLERS_MOTION_OSCILLATION_DETECTOR_HPP
-#define DMRP_CONTROLLERS_MOTION_OSCILLATION_DETECTOR_HPP
+// oscillation_detector.hpp: detects a robot that turns back and forth without making progress, as teb_local_planner's
+// FailureDetector does.
+#pragma once
 
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
 namespace dmrp::controllers {
 
-// Over the last commands: their mean speed and mean turning rate, each as a share of the limit, are small, and the
-// turning rate has changed its sign more than once.
+// A robot oscillates if over its last commands the mean speed and the mean turning rate, each relative to its limit,
+// are small and the turning rate changed its sign more than once.
 class OscillationDetector {
  public:
-  // `length`: how many control periods are looked at; half of them must be there.
+  // `length`: the number of control periods considered; nothing is detected before half of them are recorded.
   void reset(std::size_t length);
 
-  // Once a control period: what has been commanded.
-  void note(const Command& command, const Limits& limits);
+  // Once per control period, with the command given.
+  void record(const Command& command, const Limits& limits);
 
-  bool is_oscillating(double v_share, double omega_share) const;
+  // The thresholds are fractions of the limits.
+  bool is_oscillating(double v_fraction, double omega_fraction) const;
 
  private:
-  struct Share {
+  struct Fraction {  // of the limits
     double v;
     double omega;
   };
-  std::vector<Share> ring_;  // by age modulo its size
-  std::size_t noted_ = 0;
+  std::vector<Fraction> ring_;  // command k at index k modulo the size
+  std::size_t recorded_ = 0;
 };
 
 }  // namespace dmrp::controllers
-
-#endif

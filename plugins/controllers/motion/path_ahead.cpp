@@ -9,17 +9,17 @@ namespace dmrp::controllers {
 
 namespace {
 
-// The path's direction at a point is taken from as far before to as far behind it: bends are cut, not met head-on.
+// The path's direction at a point is that of the chord from this far before the point to this far after it.
 constexpr double direction_reach_m = 0.3;
 
 bool is_inside(const CostmapView& map, Vec2 point, double margin_m) {
-  return map.index_of(point.x - margin_m, point.y - margin_m) >= 0 &&
-         map.index_of(point.x + margin_m, point.y + margin_m) >= 0;
+  const Vec2 margin = {margin_m, margin_m};
+  return map.index_of(point - margin) >= 0 && map.index_of(point + margin) >= 0;
 }
 
 double direction(Vec2 from, Vec2 to, double fallback) {
-  const Vec2 way = to - from;
-  return toolkit::norm(way) > 1e-6 ? std::atan2(way.y, way.x) : fallback;
+  const Vec2 chord = to - from;
+  return toolkit::norm(chord) > 1e-6 ? std::atan2(chord.y, chord.x) : fallback;
 }
 
 }  // namespace
@@ -50,12 +50,12 @@ void PathAhead::look(const PathTracker& tracker, const Observation& now, const C
 }
 
 bool PathAhead::retreat(FootprintCheck& footprint) {
-  const auto stands_free = [&footprint](Vec2 at, double theta) {
-    return footprint.cost(arc_state({at.x, at.y, theta})) != in_collision;
+  const auto is_free = [&footprint](Vec2 at, double theta) {
+    return footprint.cost(directed(at, theta)) != in_collision;
   };
   std::size_t last = points_.size() - 1;
-  while (last > 0 && !stands_free(points_[last], goal_.theta)) --last;
-  if (!stands_free(points_[last], goal_.theta)) return false;
+  while (last > 0 && !is_free(points_[last], goal_.theta)) --last;
+  if (!is_free(points_[last], goal_.theta)) return false;
   if (last + 1 == points_.size()) return true;
   points_.resize(last + 1);
   ends_at_stop_ = has_heading_ = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// path_ahead.hpp: the part of the path that a local planner works on, and the pose it plans to.
-#ifndef DMRP_CONTROLLERS_MOTION_PATH_AHEAD_HPP
-#define DMRP_CONTROLLERS_MOTION_PATH_AHEAD_HPP
+// path_ahead.hpp: the part of the path that a local planner works on, and its local goal.
+#pragma once
 
 #include <vector>
 
@@ -10,29 +9,28 @@
 
 namespace dmrp::controllers {
 
-// From the robot's place on the path to a look-ahead along it, cut where it leaves the costmap's window and at the
-// tracker's stop point. What teb_local_planner and mpc_local_planner call the transformed plan and the local goal.
+// The path from the robot's position on it up to a look-ahead distance, clipped to the costmap's window and to the
+// tracker's stop point. teb_local_planner and mpc_local_planner call these the transformed plan and the local goal.
 class PathAhead {
  public:
-  // `look_ahead_m` is measured along the path; the window's outer `window_margin_m` counts as outside. After the
-  // tracker's update().
+  // `look_ahead_m` is measured along the path; the outermost `window_margin_m` of the window counts as outside. After
+  // the tracker's update().
   void look(const PathTracker& tracker, const Observation& now, const CostmapView& map, double look_ahead_m,
             double window_margin_m = 0.4);
 
-  // Where the robot could not stand at the goal (somebody is there): takes the last point before that where it could.
-  // False where there is none; the goal stays then.
+  // If the footprint collides at the goal, moves the goal back to the last point where it does not. False if there is
+  // no such point; the goal stays then.
   bool retreat(FootprintCheck& footprint);
 
-  // Points `spacing_m` apart along the path, the last two less; the first is the robot's place on it, the last the
-  // goal's.
+  // Points `spacing_m` apart along the path, from the robot's position on the path to the goal; the last interval may
+  // be shorter.
   static constexpr double spacing_m = 0.1;
   const std::vector<Vec2>& points() const { return points_; }
 
-  // The last point. Its heading: the one asked for where the goal has one and ends_at_stop(), else the path's
-  // direction there.
+  // The last point, with the stop point's heading if has_heading(), otherwise the path's direction there.
   const Pose& goal() const { return goal_; }
-  bool ends_at_stop() const { return ends_at_stop_; }  // the robot comes to rest there
-  bool has_heading() const { return has_heading_; }    // the goal's heading was asked for
+  bool ends_at_stop() const { return ends_at_stop_; }  // the robot has to stop there
+  bool has_heading() const { return has_heading_; }    // ends_at_stop(), and the stop point has a heading
 
  private:
   std::vector<Vec2> points_;
@@ -42,5 +40,3 @@ class PathAhead {
 };
 
 }  // namespace dmrp::controllers
-
-#endif

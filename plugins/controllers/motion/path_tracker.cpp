@@ -10,11 +10,12 @@ namespace dmrp::controllers {
 
 namespace {
 
-// How much farther than the place reached a waypoint may be from the robot for the search to go on past it. Less than
-// a planning cell, so that an excursion of one cell is not skipped; enough for a robot on its way round a person.
+// The search continues past a waypoint if its distance from the robot exceeds that of the position reached by no more
+// than this. Less than a planning cell, so that an excursion of one cell is not skipped; enough for a robot that passes
+// a person.
 constexpr double climb_m = 0.5;
 
-// How far ahead of the place reached the search goes.
+// The search covers this length of the path ahead of the position reached.
 constexpr double search_m = 3.0;
 
 }  // namespace
@@ -48,7 +49,7 @@ void PathTracker::update(const Observation& now) {
   find_end(now);
 }
 
-// A path of one waypoint says where to go, not how: straight there.
+// A path of one waypoint: prepend the robot's position, so that the path is the straight line to the waypoint.
 void PathTracker::lead_in(const Observation& now) {
   if (points_.size() != 1) return;
   points_.insert(points_.begin(), toolkit::position(now.pose));
@@ -62,7 +63,7 @@ void PathTracker::advance(Vec2 robot) {
   double best_distance_m = toolkit::distance(best.point, robot);
   const double last_m = progress_m_ + search_m;
   for (std::size_t i = best.segment; i + 1 < points_.size() && arcs_[i] <= last_m; ++i) {
-    // distance to a segment is convex: its ends are the farthest points of what lies between
+    // the distance from a point is convex along a segment, so its maximum is at a waypoint
     if (arcs_[i] > progress_m_ && toolkit::distance(points_[i], robot) > best_distance_m + climb_m) break;
     const double from_m = std::max(progress_m_, arcs_[i]);
     const toolkit::PathPlace place = toolkit::project(points_, arcs_, robot, from_m, arcs_[i + 1]);
@@ -76,7 +77,7 @@ void PathTracker::advance(Vec2 robot) {
 
 void PathTracker::find_end(const Observation& now) {
   const std::size_t last = points_.size() - 1;
-  // the current goal's last waypoint: a tour goes on behind it
+  // the last waypoint of the current goal; the path of a tour continues after it
   std::size_t goal_end = last;
   if (goal_of_point_[0] <= now.goal_index) {
     const auto beyond = std::upper_bound(goal_of_point_.begin(), goal_of_point_.end(), now.goal_index);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// path_tracker.hpp: where a robot is on its timed path, and how far along it may go.
-#ifndef DMRP_CONTROLLERS_MOTION_PATH_TRACKER_HPP
-#define DMRP_CONTROLLERS_MOTION_PATH_TRACKER_HPP
+// path_tracker.hpp: the robot's position on its timed path, and the point where it has to stop.
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -10,30 +9,30 @@
 
 namespace dmrp::controllers {
 
-// Where the robot has to come to rest for now.
+// Where the robot has to stop next.
 struct StopPoint {
   Vec2 position = {0.0, 0.0};
   double heading = 0.0;      // NaN: any
-  double tolerance_m = 0.2;  // the robot counts as there within this
+  double tolerance_m = 0.2;  // the robot has arrived within this distance
   double tolerance_rad = 0.0;
-  bool is_goal = false;  // false: the last released waypoint, to be passed later
+  bool is_goal = false;  // false: the last released waypoint, which the robot passes once more are released
 };
 
-// Follows the robot along the path. The place on the path moves forward only, and never jumps to a later part of the
-// path that merely comes near (an out-and-back, a hairpin): between the old place and the new one, no waypoint may be
-// much farther from the robot than both.
+// Tracks the robot's progress along the path. Progress never decreases and never jumps to a later part of the path that
+// passes nearby (an out-and-back, a hairpin): no waypoint between the old position and the new one may be much farther
+// from the robot than both.
 class PathTracker {
  public:
-  // Copies the path; the place starts anew.
+  // Copies the path and resets the progress.
   void set_path(Path path);
   void clear();
 
-  // Once a control period, before the questions below.
+  // Once per control period, before the queries below.
   void update(const Observation& now);
 
   bool empty() const { return points_.empty(); }
 
-  // Arc lengths in metres from the first waypoint: of the place reached, and of where the robot must stop.
+  // Arc lengths from the first waypoint: of the position reached, and of the stop point.
   double progress_m() const { return progress_m_; }
   double end_m() const { return end_m_; }
   double remaining_m() const { return end_m_ - progress_m_; }
@@ -42,7 +41,8 @@ class PathTracker {
   Vec2 point_at(double arc_m) const;
   double heading_at(double arc_m, double fallback) const;
 
-  // The first point ahead on the path that is `distance_m` from `from` as the crow flies; the end where all are nearer.
+  // The first point ahead on the path at the straight-line distance `distance_m` from `from`; the end if all are
+  // closer.
   Vec2 point_at_distance(Vec2 from, double distance_m) const;
 
  private:
@@ -53,13 +53,11 @@ class PathTracker {
   std::vector<Vec2> points_;
   std::vector<std::uint32_t> goal_of_point_;
   std::vector<double> arcs_;
-  bool fresh_ = false;   // no update since set_path()
-  bool led_in_ = false;  // the robot's own position was put before a path of one waypoint
+  bool fresh_ = false;   // no update() since set_path()
+  bool led_in_ = false;  // the robot's position was prepended to a path of one waypoint
   double progress_m_ = 0.0;
   double end_m_ = 0.0;
   StopPoint stop_;
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -11,11 +11,12 @@ namespace dmrp::controllers {
 
 namespace {
 
-// The latch closes at this share of the goal's tolerance, so that the robot rests well inside it.
-constexpr double closing_share = 0.5;
-constexpr double settling_share = 0.9;
+// The robot latches within this fraction of the goal's tolerance, so that it stops well inside; the second fraction is
+// for a robot that cannot come closer.
+constexpr double reached_fraction = 0.5;
+constexpr double settled_fraction = 0.9;
 
-// Below these the robot counts as standing (trans_stopped_vel and rot_stopped_vel upstream).
+// Below these the robot counts as stopped (trans_stopped_vel and rot_stopped_vel upstream).
 constexpr double standing_m_s = 0.02;
 constexpr double standing_rad_s = 0.02;
 
@@ -40,22 +41,22 @@ Command braking(const Observation& now) {
 bool StopAndRotate::reached(const StopPoint& stop, const Observation& now) {
   const double distance_m = toolkit::distance(toolkit::position(now.pose), stop.position);
   if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_m > stop.tolerance_m)) reset();
-  return latched_ || close(stop, now, closing_share);
+  return latched_ || latch(stop, now, reached_fraction);
 }
 
 bool StopAndRotate::settles(const StopPoint& stop, const Observation& now) {
-  return close(stop, now, settling_share);
+  return latch(stop, now, settled_fraction);
 }
 
-bool StopAndRotate::close(const StopPoint& stop, const Observation& now, double share) {
-  latched_ = toolkit::distance(toolkit::position(now.pose), stop.position) <= share * stop.tolerance_m;
+bool StopAndRotate::latch(const StopPoint& stop, const Observation& now, double fraction) {
+  latched_ = toolkit::distance(toolkit::position(now.pose), stop.position) <= fraction * stop.tolerance_m;
   latched_at_ = stop.position;
   return latched_;
 }
 
 Command StopAndRotate::command(const StopPoint& stop, const Observation& now) {
   const double angle = std::isnan(stop.heading) ? 0.0 : toolkit::difference(now.pose.theta, stop.heading);
-  // half the tolerance, so that the last degrees do not depend on rounding; then turning stays off
+  // stops turning at half the tolerance and starts again only above three quarters of it
   if (std::abs(angle) <= 0.5 * stop.tolerance_rad || std::isnan(stop.heading))
     turning_ = false;
   else if (std::abs(now.velocity.v_x) <= standing_m_s && std::abs(now.velocity.omega) <= standing_rad_s)

@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: MIT
-// stop_and_rotate.hpp: the end of the way: brake, then turn to the heading asked for.
-#ifndef DMRP_CONTROLLERS_MOTION_STOP_AND_ROTATE_HPP
-#define DMRP_CONTROLLERS_MOTION_STOP_AND_ROTATE_HPP
+// stop_and_rotate.hpp: stopping at the goal: brake, then turn in place to its heading.
+#pragma once
 
 #include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
 
-// Turns in place toward `angle` (how far, signed): omega within the limits, the acceleration, and what can be stopped
-// in time, omega <= sqrt(2 alpha |angle|).
+// The turning rate that turns the robot in place by the signed `angle`: within the limits of omega and its
+// acceleration, and slow enough to stop in time, omega <= sqrt(2 alpha |angle|).
 double turning_rate(double angle, const Observation& now);
 
-// The command that brakes as hard as the limits allow.
+// The command that brakes at the maximum deceleration.
 Command braking(const Observation& now);
 
-// A latch on the stop point: once the robot is near, it stays in the hands of command() until the stop point moves or
-// the robot is pushed out of the tolerance. A replan that ends at the same place does not open the latch.
+// A latch on the stop point: once the robot is close, command() controls it until the stop point moves or the robot is
+// pushed out of the tolerance. A replan to the same stop point does not release the latch.
 class StopAndRotate {
  public:
   void reset() { latched_ = false, turning_ = false; }
 
-  // Whether the robot has reached the stop point, now or since the latch closed.
+  // Whether the robot has reached the stop point now, or reached it before and the latch holds.
   bool reached(const StopPoint& stop, const Observation& now);
 
-  // For a robot that comes no nearer: closes the latch if it is within the tolerance, with a little to spare.
+  // For a robot that cannot come closer: latches if it is within the tolerance, with a small margin.
   bool settles(const StopPoint& stop, const Observation& now);
 
-  // Brakes to rest, then turns to the stop's heading if it has one.
+  // Brakes to a stop, then turns to the stop point's heading if it has one.
   Command command(const StopPoint& stop, const Observation& now);
 
  private:
-  bool close(const StopPoint& stop, const Observation& now, double share);
+  bool latch(const StopPoint& stop, const Observation& now, double share);
 
   bool latched_ = false;
   bool turning_ = false;
@@ -38,5 +37,3 @@ class StopAndRotate {
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: MIT
-// unicycle.hpp: what (v, omega) does to a differential drive, exactly: arcs, braking, reachable speeds.
-#ifndef DMRP_CONTROLLERS_MOTION_UNICYCLE_HPP
-#define DMRP_CONTROLLERS_MOTION_UNICYCLE_HPP
-
-#include <dmrp/values.h>
+// unicycle.hpp: exact motion of a differential drive under (v, omega), and the speeds it can reach and brake from.
+#pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/cpp/local_controller.hpp>
 
 namespace dmrp::controllers {
 
-// A pose whose heading is kept as a direction: stepping along an arc then needs no sine.
-struct ArcState {
-  double x = 0.0;
-  double y = 0.0;
-  double cos_theta = 1.0;
-  double sin_theta = 0.0;
+// A position and a unit vector for the heading: stepping along an arc and transforming points need no sine.
+struct DirectedPoint {
+  Vec2 at = {0.0, 0.0};
+  Vec2 heading = {1.0, 0.0};
 };
 
-inline ArcState arc_state(const dmrp_pose& pose) {
-  return {pose.x, pose.y, std::cos(pose.theta), std::sin(pose.theta)};
+inline DirectedPoint directed(Vec2 at, double theta) {
+  return {at, {std::cos(theta), std::sin(theta)}};
+}
+inline DirectedPoint directed(const Pose& pose) {
+  return directed({pose.x, pose.y}, pose.theta);
+}
+inline Pose pose_of(const DirectedPoint& point) {
+  return {point.at.x, point.at.y, std::atan2(point.heading.y, point.heading.x)};
 }
 
-// Equal steps along the arc of a constant (v, omega): each turns by omega dt and moves by the chord.
+// Steps of equal duration along the arc of a constant (v, omega): each moves along the chord and turns by omega dt.
 class ArcStepper {
  public:
   ArcStepper(double v, double omega, double dt) {
     const double half_turn = 0.5 * omega * dt;
-    // sin(x)/x by its series where the quotient would lose digits
+    // sin(x)/x; the series avoids the quotient of two small numbers
     const double sinc =
         std::abs(half_turn) > 1e-4 ? std::sin(half_turn) / half_turn : 1.0 - half_turn * half_turn / 6.0;
     const double chord = v * dt * sinc;
@@ -37,13 +39,11 @@ class ArcStepper {
     sin_turn_ = std::sin(omega * dt);
   }
 
-  void step(ArcState& state) const {
-    const double c = state.cos_theta;
-    const double s = state.sin_theta;
-    state.x += c * ahead_ - s * left_;
-    state.y += s * ahead_ + c * left_;
-    state.cos_theta = c * cos_turn_ - s * sin_turn_;
-    state.sin_theta = s * cos_turn_ + c * sin_turn_;
+  void step(DirectedPoint& point) const {
+    const auto [c, s] = point.heading;
+    point.at.x += c * ahead_ - s * left_;
+    point.at.y += s * ahead_ + c * left_;
+    point.heading = {c * cos_turn_ - s * sin_turn_, s * cos_turn_ + c * sin_turn_};
   }
 
  private:
@@ -53,13 +53,13 @@ class ArcStepper {
   double sin_turn_;
 };
 
-// The value nearest to `target` that `current` can be changed to by at most `step`.
+// Moves `current` toward `target` by at most `step`.
 inline double toward(double current, double target, double step) {
   return std::clamp(target, current - step, current + step);
 }
 
-// The greatest speed that, kept for one control period and then braked at `deceleration`, ends within `distance`
-// (metres or radians). Below sqrt(2 deceleration distance) by what happens before the next command.
+// The highest speed at which the robot still stops within `distance` (metres or radians) if it keeps that speed for one
+// control period and then brakes at `deceleration`.
 inline double stopping_speed(double distance, double deceleration, double period_s) {
   if (distance <= 0.0) return 0.0;
   const double a = deceleration;
@@ -67,5 +67,3 @@ inline double stopping_speed(double distance, double deceleration, double period
 }
 
 }  // namespace dmrp::controllers
-
-#endif

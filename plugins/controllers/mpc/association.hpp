@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
-// association.hpp: which obstacles each state of the trajectory has to keep away from.
-#ifndef DMRP_CONTROLLERS_MPC_ASSOCIATION_HPP
-#define DMRP_CONTROLLERS_MPC_ASSOCIATION_HPP
+// association.hpp: assigns to each state of a trajectory the obstacles that constrain it.
+#pragma once
 
 #include "controllers/mpc/problem.hpp"
 
 namespace dmrp::controllers::mpc {
 
 struct AssociationRule {
-  double force_inclusion_m = 0.5;  // every obstacle nearer than this counts ...
-  double cutoff_m = 2.5;           // ... none beyond this, and in between the nearest on the left and on the right
+  double force_inclusion_m = 0.5;  // every obstacle closer than this constrains the state
+  double cutoff_m = 2.5;           // and the closest one on the left and on the right, up to this distance
 };
 
-// More obstacles than this are not looked at in one state: the nearest are.
-inline constexpr std::size_t most_obstacles_a_state = 12;
+// At most this many obstacles are included by force in one state: the closest ones.
+inline constexpr std::size_t most_obstacles_per_state = 12;
 
 class Association {
  public:
   void reserve(std::size_t obstacles) { chosen_.reserve(obstacles); }
 
-  // Fills problem.obstacles for this trajectory. True where the lists differ from those there were.
+  // Fills problem.obstacles for a trajectory. True if the lists differ from the previous ones.
   bool associate(const Trajectory& trajectory, const std::vector<Obstacle>& obstacles, const AssociationRule& rule,
                  Problem& problem);
 
@@ -35,5 +34,3 @@ class Association {
 };
 
 }  // namespace dmrp::controllers::mpc
-
-#endif

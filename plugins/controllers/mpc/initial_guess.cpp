@@ -10,10 +10,10 @@ namespace dmrp::controllers::mpc {
 
 namespace {
 
-// Points nearer to the robot than this say nothing about its direction.
+// Skips points closer to the previous one or to the goal: their direction is unreliable.
 constexpr double near_m = 0.25;
 
-// Turns sharper than this are made on the spot.
+// Larger turns are made in place.
 constexpr double sharp_rad = 0.5;
 
 State between(const State& a, const State& b, double share) {
@@ -24,7 +24,7 @@ double distance(const State& a, const State& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
-// The nearest angle to `near_to` that has the direction `angle`.
+// The angle closest to `near_to` with the direction `angle`.
 double unwrapped(double angle, double near_to) {
   return near_to + toolkit::difference(near_to, angle);
 }
@@ -35,8 +35,7 @@ void InitialGuess::reserve(std::size_t points) {
   nodes_.reserve(2 * points);
 }
 
-void InitialGuess::along(const Problem& problem, const std::vector<dmrp_vec2>& points, std::size_t states,
-                         Trajectory& out) {
+void InitialGuess::along(const Problem& problem, const std::vector<Vec2>& points, std::size_t states, Trajectory& out) {
   nodes_.clear();
   nodes_.push_back({problem.start, 0.0});
   const auto turn_to = [&](double theta) {
@@ -78,7 +77,7 @@ void InitialGuess::shifted(const Problem& problem, double elapsed_s, Trajectory&
   const double whole_turns = 2.0 * toolkit::pi * std::round(turns / (2.0 * toolkit::pi));
   for (std::size_t k = 1; k < states; ++k) {
     const double t_s = static_cast<double>(k) * trajectory.dt_s - elapsed_s;
-    // what comes too soon would tie the start to a pose that it is off by some error of the prediction
+    // a state right after the start would force the prediction error to vanish within that short time
     if (t_s < 0.5 * trajectory.dt_s && k + 1 < states) continue;
     State state = trajectory.states[k];
     state.theta += whole_turns;
@@ -99,7 +98,7 @@ void InitialGuess::resized(const Problem& problem, std::size_t states, Trajector
   sample(problem, states, trajectory);
 }
 
-// Equal steps over the nodes' time, and the controls that lead from each to the next at best.
+// Samples the nodes at equal time steps; the controls lead from each state to the next as closely as the limits allow.
 void InitialGuess::sample(const Problem& problem, std::size_t states, Trajectory& out) const {
   const double whole_s = std::max(nodes_.back().t_s, 1e-2 * static_cast<double>(states - 1));
   out.dt_s = std::clamp(whole_s / static_cast<double>(states - 1), problem.dt_min_s, problem.dt_max_s);

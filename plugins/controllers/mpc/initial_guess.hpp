@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
-// initial_guess.hpp: trajectories to start the solver from.
-#ifndef DMRP_CONTROLLERS_MPC_INITIAL_GUESS_HPP
-#define DMRP_CONTROLLERS_MPC_INITIAL_GUESS_HPP
+// initial_guess.hpp: trajectories at which the solver starts.
+#pragma once
 
-#include <dmrp/values.h>
+#include <dmrp/cpp/local_controller.hpp>
 
 #include "controllers/mpc/problem.hpp"
 
 namespace dmrp::controllers::mpc {
 
-// Poses with the times at which they are passed; nothing allocates once the buffers have grown.
+// Builds trajectories from states with times, sampled at equal steps. Reuses its buffers.
 class InitialGuess {
  public:
   void reserve(std::size_t points);
 
-  // From the problem's start along the points (the first is the robot's place on the path) to its goal, each leg as
-  // fast as the limits of speed allow; turns on the spot where the way does not begin or end in the robot's heading.
-  void along(const Problem& problem, const std::vector<dmrp_vec2>& points, std::size_t states, Trajectory& out);
+  // From the problem's start along the points (the first one is the robot's position on the path) to its goal, at the
+  // speed limits. Turns in place at the start and at the goal if the headings differ much from the path's direction.
+  void along(const Problem& problem, const std::vector<Vec2>& points, std::size_t states, Trajectory& out);
 
-  // What is left of a trajectory `elapsed_s` later, from the problem's start to its goal: the old end is tied to the
-  // new one by a straight leg.
+  // What is left of a trajectory after `elapsed_s`, from the problem's start to its goal: a straight leg joins the old
+  // end to the new one.
   void shifted(const Problem& problem, double elapsed_s, Trajectory& trajectory);
 
-  // The same trajectory on another number of states.
+  // The same trajectory with another number of states.
   void resized(const Problem& problem, std::size_t states, Trajectory& trajectory);
 
  private:
@@ -37,5 +36,3 @@ class InitialGuess {
 };
 
 }  // namespace dmrp::controllers::mpc
-
-#endif

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
+#include <limits>
 
 #include "controllers/motion/unicycle.hpp"
 
@@ -13,32 +14,28 @@ namespace dmrp::controllers {
 
 namespace {
 
-// Where the solver's barrier begins: far from a solution, near one, and at one whose surroundings changed a little.
+// The first barrier of a solution: for a start far from a solution, and for one near a solution.
 constexpr double barrier_cold = 1e-1;
 constexpr double barrier_warm = 1e-2;
-constexpr double barrier_again = 1e-3;
 
-// Ways over the costmap ask for so much beyond the inscribed radius, and prefer more.
+// The guide needs this clearance beyond the inscribed radius, and prefers the second one.
 constexpr double needed_beyond_m = 0.02;
 constexpr double easy_beyond_m = 0.15;
 
-// A predicted pose nearer to an obstacle than this is no way to go (unless the robot stands as near already).
-constexpr double least_gap_m = 0.02;
-
-// How far the dynamics may be off.
+// The largest residual of the constraints at which a solution is used.
 constexpr double most_infeasible = 0.05;
 
-// Below this the robot counts as standing.
+// Below this speed the robot counts as standing.
 constexpr double standing_m_s = 0.05;
 
-// So near to where the way is cut off, the robot waits.
+// The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
-// Steps shorter than both are waiting.
+// Below both, the states of a trajectory count as waiting at its start.
 constexpr double idle_m = 0.01;
 constexpr double idle_rad = 0.02;
 
-// Room for this many obstacles before anything grows.
+// Initial sizes of buffers.
 constexpr std::size_t usual_obstacles = 256;
 constexpr std::size_t usual_bucket = 512;
 
@@ -75,20 +72,18 @@ Status Mpc::start(const World&, std::uint64_t) {
   annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
   tracker_.clear();
   at_goal_.reset();
-  has_trajectory_ = false;
   const auto states = static_cast<std::size_t>(std::max<std::int64_t>(max_grid_size, grid_size_ref));
-  constexpr std::size_t bounds_a_state = 10;
-  solver_.reserve(states, states * (bounds_a_state + mpc::most_obstacles_a_state + 2));
-  association_.reserve(usual_obstacles);
+  constexpr std::size_t bounds_per_state = 10;
+  constexpr std::size_t obstacles_per_state = mpc::most_obstacles_per_state + 2;
+  optimizer_.reserve(states, states * (bounds_per_state + obstacles_per_state), usual_obstacles);
   guide_.reserve(usual_bucket);
   problem_ = {};
   problem_.obstacles.resize(states);
-  for (auto& list : problem_.obstacles) list.reserve(mpc::most_obstacles_a_state + 2);
-  seen_.reserve(usual_obstacles);
-  guess_.reserve(usual_obstacles);
-  way_.reserve(usual_obstacles);
+  for (auto& list : problem_.obstacles) list.reserve(obstacles_per_state);
+  obstacles_.reserve(usual_obstacles);
+  route_.reserve(usual_obstacles);
   trajectory_.reserve(states);
-  waiting_.reserve(states);
+  trajectory_.clear();
   return Status::ok;
 }
 
@@ -101,49 +96,99 @@ Status Mpc::step(const Observation& now, Command& command) {
   tracker_.update(now);
   if (tracker_.empty()) return Status::ok;
   if (at_goal_.reached(tracker_.stop(), now)) {
-    has_trajectory_ = false;
+    trajectory_.clear();
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
   const CostmapView map(*costmap_->costmap(costmap_));
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
-  pose_problem(now, map);
+  const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
   const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
-  if (!choose_goal(now, map, footprint)) {
-    // as near as it gets to something that stands across the whole way: wait
-    has_trajectory_ = false;
+  const std::optional<Target> target = choose_target(now, map, footprint);
+  if (!target) {
+    // an obstacle cuts off the way and the robot is as close to it as it can come: wait
+    trajectory_.clear();
     if (is_standing && at_goal_.settles(tracker_.stop(), now)) command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
-  has_trajectory_ = plan(now, map, footprint);
-  if (!has_trajectory_) {
+  pose_problem(now, *target);
+  const Cycle cycle = {{now, obstacles, footprint}, map};
+  const std::optional<int> solver_iterations = plan(cycle, *target);
+  if (!solver_iterations) {
+    trajectory_.clear();
     if (is_standing) return Status::ok;
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
-  if (is_standing) skip_waiting(now, footprint);
+  if (is_standing) skip_waiting(cycle.around);
   const double period_s = seconds(now.dt_ns);
   const mpc::Control& control = trajectory_.controls[0];
   command.v_x =
       std::clamp(toward(now.velocity.v_x, control.v, now.limits.a_max * period_s), now.limits.v_min, now.limits.v_max);
   command.omega = std::clamp(toward(now.velocity.omega, control.omega, now.limits.alpha_max * period_s),
                              -now.limits.omega_max, now.limits.omega_max);
-  annotate();
+  annotate(*solver_iterations);
   return Status::ok;
 }
 
-void Mpc::pose_problem(const Observation& now, const CostmapView& map) {
-  obstacles_.gather(now, clusters_->clusters(clusters_));
-  seen_ = obstacles_.all();
-  // what a lethal cell stands for may lie beyond its centre, and a cluster within some tolerance of that
-  for (Obstacle& obstacle : seen_)
+const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const CostmapView& map) {
+  obstacle_set_.gather(now, clusters_->clusters(clusters_));
+  obstacles_ = obstacle_set_.all();
+  for (Obstacle& obstacle : obstacles_) {
+    // an obstacle may extend beyond the centres of its lethal cells, and a cluster is simplified with a tolerance
     if (!obstacle.is_agent) obstacle.radius_m += map.resolution_m();
-  if (!enable_dynamic_obstacles)
-    for (Obstacle& obstacle : seen_) obstacle.velocity = {0.0, 0.0};
+    if (!enable_dynamic_obstacles) obstacle.velocity = {0.0, 0.0};
+  }
+  return obstacles_;
+}
+
+// The end of the path ahead; if the path is blocked, its last point that can be reached. Nothing if the robot already
+// stands there. Sets route_.
+std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const CostmapView& map,
+                                              FootprintCheck& footprint) {
+  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist);
+  const std::vector<Vec2>& points = ahead_.points();
+  Target target;
+  target.goal = ahead_.goal();
+  target.ends_at_rest = ahead_.ends_at_stop();
+  target.fixes_heading = !ahead_.ends_at_stop() || ahead_.has_heading();
+  route_ = points;
+  const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
+    return footprint.cost(directed(point, target.goal.theta)) != in_collision;
+  });
+  if (is_free) return target;
+
+  spread_guide(now, map);
+  target.is_guided = true;
+  std::size_t last = points.size() - 1;
+  while (last > 0 && !guide_.reaches(map, points[last])) --last;
+  const bool is_cut = last + 1 < points.size();
+  if (!guide_.reaches(map, points[last]) ||
+      (is_cut && toolkit::distance(toolkit::position(now.pose), points[last]) < wait_within_m))
+    return {};
+  if (is_cut) {
+    target.goal.x = points[last].x;
+    target.goal.y = points[last].y;
+    target.ends_at_rest = true;
+    target.fixes_heading = false;
+  }
+  guide_.path_to(map, points[last], route_);
+  return target;
+}
+
+void Mpc::spread_guide(const Observation& now, const CostmapView& map) {
+  const double radius_m = now.footprint.inscribed_radius_m;
+  guide_.spread(map, toolkit::position(now.pose), radius_m + needed_beyond_m, radius_m + easy_beyond_m);
+}
+
+void Mpc::pose_problem(const Observation& now, const Target& target) {
   const Limits& limits = now.limits;
-  problem_.start = {now.pose.x, now.pose.y, now.pose.theta};
+  problem_.start = now.pose;
   problem_.before = {std::clamp(now.applied.v_x, limits.v_min, limits.v_max),
                      std::clamp(now.applied.omega, -limits.omega_max, limits.omega_max)};
+  problem_.goal = target.goal;
+  problem_.ends_at_rest = target.ends_at_rest;
+  problem_.fixes_heading = target.fixes_heading;
   problem_.v_min = limits.v_min;
   problem_.v_max = limits.v_max;
   problem_.omega_max = limits.omega_max;
@@ -153,127 +198,71 @@ void Mpc::pose_problem(const Observation& now, const CostmapView& map) {
   problem_.dt_max_s = max_dt;
   problem_.min_obstacle_dist_m = min_obstacle_dist;
   problem_.footprint = &now.footprint;
-  guide_spread_ = false;
-  iterations_now_ = 0;
 }
 
-// The end of the path ahead; where something stands on the path, the last point that there is a way to. False where
-// that is where the robot stands.
-bool Mpc::choose_goal(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist);
-  const std::vector<Vec2>& points = ahead_.points();
-  problem_.goal = {ahead_.goal().x, ahead_.goal().y, ahead_.goal().theta};
-  problem_.ends_at_rest = ahead_.ends_at_stop();
-  problem_.fixes_heading = !ahead_.ends_at_stop() || ahead_.has_heading();
-  way_ = points;
-  const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
-    return footprint.cost(arc_state({point.x, point.y, problem_.goal.theta})) != in_collision;
-  });
-  if (is_free) return true;
+mpc::OptimizerSettings Mpc::optimizer_settings() const {
+  mpc::OptimizerSettings settings;
+  settings.outer_iterations = static_cast<int>(*outer_ocp_iterations);
+  settings.grid = {dt_ref, dt_hyst_ratio, static_cast<std::size_t>(*min_grid_size),
+                   static_cast<std::size_t>(*max_grid_size)};
+  settings.association = {force_inclusion_dist, cutoff_dist};
+  settings.solver.iterations = static_cast<int>(*iterations);
+  settings.solver.tolerance = tol;
+  return settings;
+}
 
-  spread_guide(now, map);
-  std::size_t last = points.size() - 1;
-  while (last > 0 && !guide_.reaches(map, points[last])) --last;
-  const Vec2 robot = toolkit::position(now.pose);
-  if (!guide_.reaches(map, points[last]) ||
-      (last + 1 < points.size() && toolkit::distance(robot, points[last]) < wait_within_m))
-    return false;
-  if (last + 1 < points.size()) {
-    problem_.goal.x = points[last].x;
-    problem_.goal.y = points[last].y;
-    problem_.ends_at_rest = true;
-    problem_.fixes_heading = false;
+// Optimises what is left of the last trajectory; if the result is not feasible, a trajectory along route_, then one
+// along the guide. Returns the number of solver iterations, or nothing if no result is feasible.
+std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
+  const Observation& now = cycle.around.now;
+  const mpc::OptimizerSettings settings = optimizer_settings();
+  int solver_iterations = 0;
+  const auto is_solved = [&](double barrier_start) {
+    const mpc::OptimizerReport report =
+        optimizer_.optimise(settings, barrier_start, cycle.around.obstacles, problem_, trajectory_);
+    solver_iterations += report.iterations;
+    return report.infeasibility < most_infeasible && is_collision_free(0, cycle.around);
+  };
+  const auto is_solved_along_route = [&] {
+    optimizer_.guess().along(problem_, route_, static_cast<std::size_t>(*grid_size_ref), trajectory_);
+    return is_solved(barrier_cold);
+  };
+
+  if (can_continue()) {
+    optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
+    if (is_solved(barrier_warm)) return solver_iterations;
   }
-  guide_.way_to(map, points[last], way_);
-  return true;
+  if (is_solved_along_route()) return solver_iterations;
+  if (target.is_guided) return {};  // route_ was the guide's already
+  spread_guide(now, cycle.map);
+  const Vec2 goal = toolkit::position(target.goal);
+  if (!guide_.reaches(cycle.map, goal)) return {};
+  guide_.path_to(cycle.map, goal, route_);
+  if (is_solved_along_route()) return solver_iterations;
+  return {};
 }
 
-void Mpc::spread_guide(const Observation& now, const CostmapView& map) {
-  if (guide_spread_) return;
-  const double radius_m = now.footprint.inscribed_radius_m;
-  guide_.spread(map, toolkit::position(now.pose), radius_m + needed_beyond_m, radius_m + easy_beyond_m);
-  guide_spread_ = true;
-}
-
-// From what is left of the last trajectory; where that leads nowhere, from anew.
-bool Mpc::plan(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  if (continue_last(now) && is_feasible(now, footprint)) return true;
-  if (plan_along(now, footprint)) return true;
-  return plan_by_guide(now, map, footprint);
-}
-
-bool Mpc::continue_last(const Observation& now) {
-  if (!has_trajectory_ || !warm_start) return false;
+// Whether the last trajectory leads near the new goal.
+bool Mpc::can_continue() const {
+  if (trajectory_.empty() || !warm_start) return false;
   const mpc::State& end = trajectory_.states.back();
-  if (std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > force_reinit_new_goal_dist) return false;
-  if (problem_.fixes_heading &&
-      std::abs(toolkit::difference(end.theta, problem_.goal.theta)) > force_reinit_new_goal_angular)
-    return false;
-  guess_.shifted(problem_, seconds(now.dt_ns), trajectory_);
-  optimise(barrier_warm);
-  return true;
+  const mpc::State& goal = problem_.goal;
+  if (std::hypot(goal.x - end.x, goal.y - end.y) > force_reinit_new_goal_dist) return false;
+  return !problem_.fixes_heading ||
+         std::abs(toolkit::difference(end.theta, goal.theta)) <= force_reinit_new_goal_angular;
 }
 
-bool Mpc::plan_along(const Observation& now, FootprintCheck& footprint) {
-  guess_.along(problem_, way_, static_cast<std::size_t>(*grid_size_ref), trajectory_);
-  optimise(barrier_cold);
-  return is_feasible(now, footprint);
+// Of trajectory_ from its state `first` on.
+bool Mpc::is_collision_free(std::size_t first, const mpc::Surroundings& around) const {
+  const std::size_t most_states = collision_check_no_poses < 0 ? std::numeric_limits<std::size_t>::max()
+                                                               : static_cast<std::size_t>(*collision_check_no_poses);
+  return mpc::is_collision_free(trajectory_, first, most_states, around);
 }
 
-bool Mpc::plan_by_guide(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  if (guide_spread_) return false;  // that is the way tried already
-  spread_guide(now, map);
-  const Vec2 goal = {problem_.goal.x, problem_.goal.y};
-  if (!guide_.reaches(map, goal)) return false;
-  guide_.way_to(map, goal, way_);
-  return plan_along(now, footprint);
-}
-
-void Mpc::optimise(double barrier_start) {
-  mpc::SolverSettings settings;
-  settings.iterations = static_cast<int>(*iterations);
-  settings.tolerance = tol;
-  settings.barrier_start = barrier_start;
-  const mpc::AssociationRule rule = {force_inclusion_dist, cutoff_dist};
-  for (std::int64_t i = 0; i < outer_ocp_iterations; ++i) {
-    const std::size_t size = adapted_size();
-    const bool is_resized = size != trajectory_.size();
-    if (is_resized) guess_.resized(problem_, size, trajectory_);
-    const bool differs = association_.associate(trajectory_, seen_, rule, problem_);
-    if (i > 0 && !is_resized && !differs) break;
-    report_ = solver_.solve(problem_, settings, trajectory_);
-    iterations_now_ += report_.iterations;
-    settings.barrier_start = barrier_again;
-  }
-}
-
-std::size_t Mpc::adapted_size() const {
-  const std::size_t size = trajectory_.size();
-  const auto least = static_cast<std::size_t>(*min_grid_size);
-  const auto most = static_cast<std::size_t>(*max_grid_size);
-  if (trajectory_.dt_s > dt_ref * (1.0 + dt_hyst_ratio) && size < most) return size + 1;
-  if (trajectory_.dt_s < dt_ref * (1.0 - dt_hyst_ratio) && size > least) return size - 1;
-  return size;
-}
-
-bool Mpc::is_feasible(const Observation& now, FootprintCheck& footprint) const {
-  if (!(report_.infeasibility < most_infeasible)) return false;
-  double least_m = least_gap_m;
-  for (const Obstacle& obstacle : seen_)
-    least_m = std::min(least_m, separation(now.footprint, now.pose, obstacle, 0.0).distance_m - 0.005);
-  const std::size_t states = trajectory_.size();
-  const std::size_t checked =
-      collision_check_no_poses < 0 ? states : std::min(states, static_cast<std::size_t>(*collision_check_no_poses) + 1);
-  for (std::size_t k = 1; k < checked; ++k)
-    if (!is_free(now, trajectory_.states[k], static_cast<double>(k) * trajectory_.dt_s, least_m, footprint))
-      return false;
-  return true;
-}
-
-// A trajectory may begin by standing: the time step is one for all, and a shorter one can be worse before it is better.
-// Every period anew, that is standing for ever. What follows the wait is as good from now on, unless somebody has to be
-// let past.
-void Mpc::skip_waiting(const Observation& now, FootprintCheck& footprint) {
+// A trajectory may begin with states at rest: all intervals have the same time step, so driving off earlier can cost
+// more before it costs less. Planned anew in every period, the robot would wait for ever. Drops the wait, unless the
+// rest of the trajectory is feasible only after it.
+void Mpc::skip_waiting(const mpc::Surroundings& around) {
   const mpc::State& start = trajectory_.states.front();
   std::size_t waits = 0;
   while (waits + 2 < trajectory_.size()) {
@@ -281,42 +270,22 @@ void Mpc::skip_waiting(const Observation& now, FootprintCheck& footprint) {
     if (std::hypot(next.x - start.x, next.y - start.y) > idle_m || std::abs(next.theta - start.theta) > idle_rad) break;
     ++waits;
   }
-  if (waits == 0) return;
-  waiting_ = trajectory_;
-  trajectory_.states.erase(trajectory_.states.begin(), trajectory_.states.begin() + static_cast<std::ptrdiff_t>(waits));
-  trajectory_.controls.erase(trajectory_.controls.begin(),
-                             trajectory_.controls.begin() + static_cast<std::ptrdiff_t>(waits));
-  if (!is_feasible(now, footprint)) std::swap(trajectory_, waiting_);
+  if (waits > 0 && is_collision_free(waits, around)) trajectory_.drop_front(waits);
 }
 
-// Against obstacles where they will be, and on the costmap, but for where the agents are that it shows as of now.
-bool Mpc::is_free(const Observation& now, const mpc::State& state, double ahead_s, double least_m,
-                  FootprintCheck& footprint) const {
-  const Pose pose = {state.x, state.y, state.theta};
-  bool beside_agent = false;
-  for (const Obstacle& obstacle : seen_) {
-    if (least_distance(now.footprint, {state.x, state.y}, obstacle, ahead_s) < least_m &&
-        separation(now.footprint, pose, obstacle, ahead_s).distance_m < least_m)
-      return false;
-    beside_agent =
-        beside_agent || (obstacle.is_agent && least_distance(now.footprint, {state.x, state.y}, obstacle, 0.0) < 0.15);
-  }
-  return beside_agent || footprint.cost(arc_state(pose)) != in_collision;
-}
-
-void Mpc::annotate() const {
+void Mpc::annotate(int solver_iterations) const {
   if (!annotate_ || !annotate_->wanted(annotate_)) return;
   constexpr std::size_t most = 200;
   std::array<Pose, most> poses;
   const std::size_t count = std::min(most, trajectory_.size());
   for (std::size_t k = 0; k < count; ++k) {
-    const mpc::State& state = trajectory_.states[k];
-    poses[k] = {state.x, state.y, toolkit::wrap(state.theta)};
+    poses[k] = trajectory_.states[k];
+    poses[k].theta = toolkit::wrap(poses[k].theta);
   }
   annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, poses.data(), static_cast<std::uint32_t>(count),
                         static_cast<std::int64_t>(trajectory_.dt_s * 1e9));
   std::array<char, 32> note;
-  std::snprintf(note.data(), note.size(), "iterations %d", iterations_now_);
+  std::snprintf(note.data(), note.size(), "iterations %d", solver_iterations);
   annotate_->note(annotate_, note.data());
 }
 

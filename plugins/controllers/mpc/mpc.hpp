@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// mpc.hpp: minimum-time model predictive control, as ROS's mpc_local_planner does it.
+// mpc.hpp: minimum-time model predictive control after ROS's mpc_local_planner.
 //
 // Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with Non-Euclidean
-// Rotation Groups, European Control Conference 2021. Parameters are named as there; what is a limit of the robot there
-// comes from the observation here.
-#ifndef DMRP_CONTROLLERS_MPC_MPC_HPP
-#define DMRP_CONTROLLERS_MPC_MPC_HPP
+// Rotation Groups, European Control Conference 2021. Parameters have the names of mpc_local_planner; the
+// robot's limits come from the observation.
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <dmrp/plugin.hpp>
+#include <optional>
 
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
-#include "controllers/mpc/association.hpp"
-#include "controllers/mpc/initial_guess.hpp"
-#include "controllers/mpc/interior_point.hpp"
+#include "controllers/mpc/feasibility.hpp"
+#include "controllers/mpc/trajectory_optimizer.hpp"
 
 namespace dmrp::controllers {
 
@@ -27,94 +26,102 @@ class Mpc final : public LocalController {
   static Descriptor describe();
 
   Param<std::int64_t> grid_size_ref =
-      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a trajectory that starts anew");
-  Param<double> dt_ref = param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid is adapted to");
+      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a new trajectory");
+  Param<double> dt_ref =
+      param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
-  Param<double> dt_hyst_ratio =
-      param("dt_hyst_ratio", 0.1).unit("1").range(0.0, 1.0).doc("share of dt_ref that the time step may be off by");
+  Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
+                                    .unit("1")
+                                    .range(0.0, 1.0)
+                                    .doc("tolerated deviation of the time step, relative to dt_ref");
   Param<std::int64_t> min_grid_size = param("min_grid_size", 2).unit("1").range(2, 200).doc("least number of states");
   Param<std::int64_t> max_grid_size =
       param("max_grid_size", 50).unit("1").range(2, 200).doc("greatest number of states");
-  Param<bool> warm_start = param("warm_start", true).doc("start from what is left of the last trajectory");
+  Param<bool> warm_start = param("warm_start", true).doc("start from the rest of the last trajectory");
   Param<std::int64_t> outer_ocp_iterations =
       param("outer_ocp_iterations", 5)
           .unit("1")
           .range(1, 100)
-          .doc("solutions a period, each with grid and obstacles adapted to the one before");
+          .doc("maximum solutions per period; each begins by adapting the grid and the obstacles");
   Param<std::int64_t> iterations =
-      param("iterations", 100).unit("1").range(1, 1000).doc("of the solver, for each solution");
-  Param<double> tol = param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("of the solver's optimality conditions");
+      param("iterations", 100).unit("1").range(1, 1000).doc("maximum solver iterations per solution");
+  Param<double> tol =
+      param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("tolerance of the solver's optimality conditions");
   Param<double> min_obstacle_dist =
       param("min_obstacle_dist", 0.2).unit("m").range(0.0, 10.0).doc("kept free between the outlines");
   Param<double> force_inclusion_dist = param("force_inclusion_dist", 0.5)
                                            .unit("m")
                                            .range(0.0, 10.0)
-                                           .doc("every obstacle nearer to a state than this is kept away from");
+                                           .doc("every obstacle closer to a state than this constrains it");
   Param<double> cutoff_dist = param("cutoff_dist", 2.5)
                                   .unit("m")
                                   .range(0.0, 100.0)
-                                  .doc("beyond force_inclusion_dist and up to this, the nearest on either side");
+                                  .doc("beyond force_inclusion_dist and up to this, the closest obstacle on each side");
   Param<bool> enable_dynamic_obstacles =
-      param("enable_dynamic_obstacles", true).doc("agents are where their velocity will have taken them");
+      param("enable_dynamic_obstacles", true).doc("predicts the motion of agents at constant velocity");
   Param<std::int64_t> collision_check_no_poses =
       param("collision_check_no_poses", -1)
           .unit("1")
           .range(-1, 200)
           .doc("states whose footprint must be free on the costmap; -1: all");
   Param<double> max_global_plan_lookahead_dist =
-      param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("of the path, to plan to");
+      param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("length of the path planned along");
   Param<double> force_reinit_new_goal_dist = param("force_reinit_new_goal_dist", 1.0)
                                                  .unit("m")
                                                  .range(0.0, 100.0)
-                                                 .doc("starts anew where the end of the plan jumps farther than this");
+                                                 .doc("restarts if the end of the plan jumps farther");
   Param<double> force_reinit_new_goal_angular = param("force_reinit_new_goal_angular", 1.57)
                                                     .unit("rad")
                                                     .range(0.0, 3.2)
-                                                    .doc("starts anew where the end of the plan turns more than this");
+                                                    .doc("restarts if the end of the plan turns farther");
 
   Status start(const World& world, std::uint64_t seed) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
  private:
-  void pose_problem(const Observation& now, const CostmapView& map);
-  bool choose_goal(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool plan(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool continue_last(const Observation& now);
-  bool plan_along(const Observation& now, FootprintCheck& footprint);
-  bool plan_by_guide(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  // Where this cycle's trajectory ends.
+  struct Target {
+    mpc::State goal = {0.0, 0.0, 0.0};
+    bool ends_at_rest = false;
+    bool fixes_heading = true;
+    bool is_guided = false;  // route_ comes from guide_, not from the path
+  };
+  // The input of one control cycle.
+  struct Cycle {
+    mpc::Surroundings around;
+    const CostmapView& map;
+  };
+
+  const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
+  std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void spread_guide(const Observation& now, const CostmapView& map);
-  void optimise(double barrier_start);
-  std::size_t adapted_size() const;
-  bool is_feasible(const Observation& now, FootprintCheck& footprint) const;
-  void skip_waiting(const Observation& now, FootprintCheck& footprint);
-  bool is_free(const Observation& now, const mpc::State& state, double ahead_s, double least_m,
-               FootprintCheck& footprint) const;
-  void annotate() const;
+  void pose_problem(const Observation& now, const Target& target);
+  mpc::OptimizerSettings optimizer_settings() const;
+  std::optional<int> plan(const Cycle& cycle, const Target& target);
+  bool can_continue() const;
+  bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
+  void skip_waiting(const mpc::Surroundings& around);
+  void annotate(int solver_iterations) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
   const dmrp_annotate* annotate_ = nullptr;
+
+  // state from one control cycle to the next
   PathTracker tracker_;
-  PathAhead ahead_;
   StopAndRotate at_goal_;
-  ObstacleSet obstacles_;
-  std::vector<Obstacle> seen_;  // of obstacles_, as this controller takes them
-  mpc::Association association_;
+  mpc::Trajectory trajectory_;  // the warm start; empty if there is none
+
+  // buffers, filled anew in every cycle
+  PathAhead ahead_;
+  ObstacleSet obstacle_set_;
+  std::vector<Obstacle> obstacles_;
   Guide guide_;
-  bool guide_spread_ = false;  // this period
-  std::vector<Vec2> way_;      // to start from
-  mpc::InitialGuess guess_;
-  mpc::InteriorPoint solver_;
+  std::vector<Vec2> route_;  // to start a trajectory along
   mpc::Problem problem_;
-  mpc::SolverReport report_;
-  int iterations_now_ = 0;  // of all solutions of this period
-  mpc::Trajectory trajectory_;
-  mpc::Trajectory waiting_;  // a copy to go back to
-  bool has_trajectory_ = false;
+  mpc::TrajectoryOptimizer optimizer_;
 };
 
 }  // namespace dmrp::controllers
-
-#endif

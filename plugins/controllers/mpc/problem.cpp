@@ -14,7 +14,7 @@ constexpr std::size_t bounds_count = 4;  // of a control
 constexpr std::size_t rates_count = 4;   // of a control after another
 constexpr std::size_t step_count = 2;    // of dt
 
-// Writes sign * w[entry] + offset <= 0.
+// sign * w[entry] + offset <= 0
 Constraint bound(double sign, StageEntry entry, const StageVector& w, double offset) {
   Constraint c;
   c.value = sign * w[entry] + offset;
@@ -32,8 +32,8 @@ Constraint rate_bound(double sign, StageEntry to, StageEntry from, const StageVe
   return c;
 }
 
-// The reciprocal of the distance between a disc's centre and the obstacle's corner that it is nearest to; 0 where it is
-// nearest to a side. Polygons count as nearest by a side: their curvature is left out.
+// The curvature of the distance: the reciprocal of the distance between a disc's centre and the closest corner of the
+// obstacle; 0 if a side is closest. Polygonal footprints count as closest by a side: their curvature is neglected.
 double corner_curvature(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, const Separation& apart) {
   if (footprint.vertex_count > 0) return 0.0;
   const double to_center_m = apart.distance_m + footprint.radius_m + obstacle.radius_m;
@@ -129,8 +129,8 @@ Transition Problem::transition(const StageVector& w, const State& next) const {
 void Problem::add_transition_curvature(const StageVector& w, const double* multipliers, StageMatrix& hessian) const {
   const double c = std::cos(w[at_theta]);
   const double s = std::sin(w[at_theta]);
-  const double along = multipliers[0] * c + multipliers[1] * s;    // the multiplier's part ahead ...
-  const double across = -multipliers[0] * s + multipliers[1] * c;  // ... and to the left
+  const double along = multipliers[0] * c + multipliers[1] * s;    // the multiplier along the heading ...
+  const double across = -multipliers[0] * s + multipliers[1] * c;  // ... and across it
   hessian[at_theta][at_theta] -= along * w[at_dt] * w[at_v];
   hessian[at_theta][at_dt] += across * w[at_v];
   hessian[at_theta][at_v] += across * w[at_dt];

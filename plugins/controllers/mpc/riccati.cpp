@@ -7,10 +7,10 @@ namespace dmrp::controllers::mpc {
 
 namespace {
 
-// Below this a pivot counts as not positive.
+// Pivots below this count as not positive.
 constexpr double least_pivot = 1e-10;
 
-// Transition' x: what a linear function of the next state is as one of this stage.
+// Transition' x: a linear function of the next state, expressed in this stage's entries.
 template <class Vector>
 StageVector pull_back(const Transition& t, const Vector& next) {
   StageVector w;
@@ -36,7 +36,7 @@ StateVector push_forward(const Transition& t, const StageVector& w) {
   return next;
 }
 
-// dt is one variable: it gets its shift at the end only.
+// dt is one variable of the whole problem: it gets the shift at the last stage only.
 bool takes_shift(std::size_t entry) {
   return entry == at_x || entry == at_y || entry == at_theta || entry == at_v || entry == at_omega;
 }
@@ -79,7 +79,7 @@ bool RiccatiRecursion::step_back(const QuadraticStage& stage, double shift, cons
   StageVector q = pull_back(t, ahead);
   for (std::size_t i = 0; i < stage_size; ++i) q[i] += stage.gradient[i];
 
-  // the control that is best for every state
+  // the optimal control as a function of the state
   const double a = q_matrix[at_v][at_v];
   const double b = q_matrix[at_v][at_omega];
   const double c = q_matrix[at_omega][at_omega];
@@ -109,7 +109,7 @@ bool RiccatiRecursion::factor(double shift) {
   end_at(stages_.back(), shift, cost_to_go_.back());
   for (std::size_t k = stages_.size() - 1; k-- > 0;)
     if (!step_back(stages_[k], shift, cost_to_go_[k + 1], cost_to_go_[k])) return false;
-  // the start is given but for dt
+  // at the start only dt is free
   const double pivot = cost_to_go_[0].hessian[at_dt][at_dt];
   start_dt_ = -cost_to_go_[0].gradient[at_dt] / pivot;
   return pivot > least_pivot && std::isfinite(start_dt_);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// riccati.hpp: the quadratic problem of one Newton step, solved stage by stage.
+// riccati.hpp: solves the quadratic problem of one Newton step stage by stage.
 //
-// The Karush-Kuhn-Tucker system is banded but for dt, which every stage shares. Here dt and the control before travel
-// along as parts of the state (dt stays, the control before is the last control), so that the Riccati recursion of
-// linear-quadratic control solves it in one sweep back and one forth: Rao, Wright, Rawlings: Application of
-// interior-point methods to model predictive control, J. Optimization Theory and Applications 99 (1998). The reduced
-// Hessian is positive definite if and only if the control blocks of all stages are, and dt's own entry at the start.
-#ifndef DMRP_CONTROLLERS_MPC_RICCATI_HPP
-#define DMRP_CONTROLLERS_MPC_RICCATI_HPP
+// The Karush-Kuhn-Tucker system is banded except for dt, which all stages share. Here dt and the previous control are
+// components of the state (dt stays constant; the previous control is the last control), so that the Riccati recursion
+// of linear-quadratic control solves the system in one backward and one forward sweep: Rao, Wright, Rawlings:
+// Application of interior-point methods to model predictive control, J. Optimization Theory and Applications 99 (1998).
+// The reduced Hessian is positive definite if and only if the control blocks of all stages and the entry of dt at the
+// start are.
+#pragma once
 
 #include "controllers/mpc/problem.hpp"
 
@@ -16,8 +16,8 @@ namespace dmrp::controllers::mpc {
 using StateVector = std::array<double, state_size>;
 using StateMatrix = std::array<std::array<double, state_size>, state_size>;  // symmetric, both halves filled
 
-// Of the quadratic problem: 1/2 w' hessian w + gradient' w, and where w leads. At the last stage the control's entries
-// are ignored.
+// One stage of the quadratic problem: 1/2 w' hessian w + gradient' w, and the transition to the next stage. At the last
+// stage the control's entries are ignored.
 struct QuadraticStage {
   StageMatrix hessian;
   StageVector gradient;
@@ -26,15 +26,14 @@ struct QuadraticStage {
 
 class RiccatiRecursion {
  public:
-  // The problem's stages, to be filled in.
+  // The stages, for the caller to fill in.
   std::vector<QuadraticStage>& stages() { return stages_; }
 
-  // Backward sweep with `shift` added to the Hessian's diagonal. False where the reduced Hessian is not positive
+  // The backward sweep, with `shift` added to the Hessian's diagonal. False if the reduced Hessian is not positive
   // definite; solve() must not be called then.
   bool factor(double shift);
 
-  // Forward sweep: the step of every stage, and the multipliers of the transition that leads to it (of the state's
-  // entries, given values at stage 0).
+  // The forward sweep: computes the step of every stage and the multipliers of the transition into it.
   void solve();
   const std::vector<StageVector>& steps() const { return steps_; }
   const std::vector<StateVector>& multipliers() const { return multipliers_; }
@@ -42,7 +41,8 @@ class RiccatiRecursion {
   void reserve(std::size_t stages);
 
  private:
-  // What is left to pay from a state on: 1/2 z' hessian z + gradient' z, and the control that pays it.
+  // The optimal cost from a state z on, 1/2 z' hessian z + gradient' z, and the optimal control feedback z +
+  // feedforward.
   struct CostToGo {
     StateMatrix hessian;
     StateVector gradient;
@@ -60,5 +60,3 @@ class RiccatiRecursion {
 };
 
 }  // namespace dmrp::controllers::mpc
-
-#endif

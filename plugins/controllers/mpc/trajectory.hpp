@@ -1,38 +1,43 @@
 // SPDX-License-Identifier: MIT
-// trajectory.hpp: poses and controls of a unicycle on a grid of equal time steps.
-#ifndef DMRP_CONTROLLERS_MPC_TRAJECTORY_HPP
-#define DMRP_CONTROLLERS_MPC_TRAJECTORY_HPP
+// trajectory.hpp: states and controls of a unicycle on a grid of equal time steps.
+#pragma once
 
 #include <cstddef>
+#include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
 namespace dmrp::controllers::mpc {
 
-struct State {
-  double x = 0.0;
-  double y = 0.0;
-  double theta = 0.0;  // not wrapped: neighbours on a trajectory differ by less than a turn
-};
+// theta is not wrapped: consecutive states of a trajectory differ by less than a full turn.
+using State = Pose;
 
 struct Control {
   double v = 0.0;      // m/s
   double omega = 0.0;  // rad/s
 };
 
-// controls[k] holds from states[k] to states[k + 1], for dt_s.
+// controls[k] leads from states[k] to states[k + 1] in dt_s.
 struct Trajectory {
-  std::vector<State> states;      // two or more
+  std::vector<State> states;      // two or more, or none
   std::vector<Control> controls;  // one less
   double dt_s = 0.0;
 
   std::size_t size() const { return states.size(); }
+  bool empty() const { return states.empty(); }
   double duration_s() const { return static_cast<double>(controls.size()) * dt_s; }
-  void reserve(std::size_t states_at_most) {
-    states.reserve(states_at_most);
-    controls.reserve(states_at_most);
+  void reserve(std::size_t most_states) {
+    states.reserve(most_states);
+    controls.reserve(most_states);
+  }
+  void clear() {
+    states.clear();
+    controls.clear();
+  }
+  // Drops the first `count` states and their controls.
+  void drop_front(std::size_t count) {
+    states.erase(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count));
+    controls.erase(controls.begin(), controls.begin() + static_cast<std::ptrdiff_t>(count));
   }
 };
 
 }  // namespace dmrp::controllers::mpc
-
-#endif

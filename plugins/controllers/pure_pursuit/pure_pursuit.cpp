@@ -44,7 +44,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
   command = pursue(now, look_ahead(now), map);
   bool blocked = use_collision_detection && map && is_blocked(now, command, map);
   if (blocked) {
-    // a shorter look-ahead cuts the corner less; the published controller would stand here for good
+    // a shorter look-ahead cuts the corner less; the published controller would stop here for good
     command = pursue(now, min_lookahead_dist, map);
     blocked = is_blocked(now, command, map);
   }
@@ -53,7 +53,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
     return Status::ok;
   }
   command = braking(now);
-  // standing before what blocks the way is waiting, not a failure to find a command
+  // a robot that stands before an obstacle waits: that is not a failure to find a command
   if (now.velocity.v_x == 0.0 && now.velocity.omega == 0.0) return Status::ok;
   set_error("the arc to the look-ahead point runs into an obstacle");
   return Status::no_solution;
@@ -95,7 +95,7 @@ double PurePursuit::regulated_speed(const Observation& now, double curvature, co
   }
   if (use_cost_regulated_linear_velocity_scaling && map) {
     const CostmapView view(*map);
-    const std::uint8_t cost = view.cost(now.pose.x, now.pose.y);
+    const std::uint8_t cost = view.cost(toolkit::position(now.pose));
     const double distance_m = view.distance_of(cost);
     if (cost != DMRP_COST_FREE && distance_m < cost_scaling_dist)
       speed = std::min(speed, now.limits.v_max * cost_scaling_gain * distance_m / cost_scaling_dist);
@@ -114,7 +114,7 @@ double PurePursuit::approach_speed(const Observation& now) const {
   return std::min(std::max<double>(scaled, min_approach_linear_velocity), in_time);
 }
 
-// Along the arc as far as the look-ahead point, no longer than the time allowed, and never less than it takes to brake.
+// Checks the arc up to the look-ahead point, bounded by the time allowed, and at least for the braking time.
 bool PurePursuit::is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const {
   const CostmapView view(*map);
   const FootprintCheck check(view, now.footprint, footprint_padding, now.pose);

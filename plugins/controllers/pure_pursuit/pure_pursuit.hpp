@@ -2,9 +2,8 @@
 // pure_pursuit.hpp: regulated pure pursuit.
 //
 // Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 (2023).
-// Parameters are named as in nav2; what is a limit there (speeds, accelerations) comes from the robot here.
-#ifndef DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
-#define DMRP_CONTROLLERS_PURE_PURSUIT_PURE_PURSUIT_HPP
+// Parameters have the names of nav2; the limits of speeds and accelerations come from the robot.
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
@@ -22,7 +21,7 @@ class PurePursuit final : public LocalController {
   static Descriptor describe();
 
   Param<double> lookahead_dist =
-      param("lookahead_dist", 0.6).unit("m").range(0.05, 10.0).doc("look-ahead where it does not scale with speed");
+      param("lookahead_dist", 0.6).unit("m").range(0.05, 10.0).doc("look-ahead if it does not scale with speed");
   Param<bool> use_velocity_scaled_lookahead_dist =
       param("use_velocity_scaled_lookahead_dist", true).doc("look ahead by speed times lookahead_time");
   Param<double> min_lookahead_dist =
@@ -52,13 +51,12 @@ class PurePursuit final : public LocalController {
   Param<double> cost_scaling_gain =
       param("cost_scaling_gain", 1.0).unit("1").range(0.01, 1.0).doc("factor on the speed near obstacles");
   Param<bool> use_rotate_to_heading =
-      param("use_rotate_to_heading", true).doc("turn in place where the path leads aside or back");
+      param("use_rotate_to_heading", true).doc("turn in place if the path leads aside or back");
   Param<double> rotate_to_heading_min_angle = param("rotate_to_heading_min_angle", 0.785)
                                                   .unit("rad")
                                                   .range(0.05, 3.2)
-                                                  .doc("turn in place when the look-ahead point is further aside");
-  Param<bool> use_collision_detection =
-      param("use_collision_detection", true).doc("stop where the arc ahead runs into an obstacle");
+                                                  .doc("turn in place if the look-ahead point is farther aside");
+  Param<bool> use_collision_detection = param("use_collision_detection", true).doc("stop if the arc ahead collides");
   Param<double> max_allowed_time_to_collision_up_to_carrot = param("max_allowed_time_to_collision_up_to_carrot", 1.5)
                                                                  .unit("s")
                                                                  .range(0.1, 10.0)
@@ -84,5 +82,3 @@ class PurePursuit final : public LocalController {
 };
 
 }  // namespace dmrp::controllers
-
-#endif

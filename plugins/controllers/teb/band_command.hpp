@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// band_command.hpp: from a band to the command of one control period, and to a trajectory of equal steps.
-#ifndef DMRP_CONTROLLERS_TEB_BAND_COMMAND_HPP
-#define DMRP_CONTROLLERS_TEB_BAND_COMMAND_HPP
+// band_command.hpp: the command of one control period from a band, and the band's pose at a given time.
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +12,15 @@
 
 namespace dmrp::controllers::teb {
 
-// The mean velocity from the first pose to the one `poses` on, within what the robot can do and can reach by then.
+// The mean velocity from the first pose to pose `poses`, bounded by the limits and by what the robot can reach within
+// one control period.
 inline Command first_command(const TimedElasticBand& band, std::size_t poses, const Observation& now) {
   const std::size_t last = std::min(poses, band.size() - 1);
   double duration_s = 0.0;
   for (std::size_t i = 0; i < last; ++i) duration_s += band.dt[i];
-  const Vec2 way = band.position(last) - band.position(0);
-  const double distance_m = toolkit::norm(way);
-  const double ahead = toolkit::dot(way, toolkit::from_angle(band.theta[0]));
+  const Vec2 chord = band.position(last) - band.position(0);
+  const double distance_m = toolkit::norm(chord);
+  const double ahead = toolkit::dot(chord, toolkit::from_angle(band.theta[0]));
   const double v = std::copysign(distance_m, ahead) / duration_s;
   const double omega = toolkit::difference(band.theta[0], band.theta[last]) / duration_s;
 
@@ -35,7 +35,7 @@ inline Command first_command(const TimedElasticBand& band, std::size_t poses, co
   return command;
 }
 
-// Where the band is at a time: between two poses by shares. The last pose from then on.
+// The pose at a time, interpolated linearly between two poses; the last pose after the end.
 inline Pose pose_at(const TimedElasticBand& band, double time_s) {
   for (std::size_t i = 0; i < band.dt.size(); ++i) {
     if (time_s < band.dt[i]) {
@@ -49,5 +49,3 @@ inline Pose pose_at(const TimedElasticBand& band, double time_s) {
 }
 
 }  // namespace dmrp::controllers::teb
-
-#endif

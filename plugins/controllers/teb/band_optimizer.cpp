@@ -7,7 +7,7 @@ namespace dmrp::controllers::teb {
 
 namespace {
 
-// An outer iteration ends early where its iterations gain less than this share of the cost.
+// An outer iteration ends early once an inner iteration lowers the cost by less than this fraction.
 constexpr double least_decrease = 1e-3;
 
 }  // namespace
@@ -17,25 +17,25 @@ void BandOptimizer::reserve(std::size_t poses) {
   solver_.reserve(4 * poses);
 }
 
-bool BandOptimizer::optimise(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning) {
+bool BandOptimizer::optimise(TimedElasticBand& band, const Scene& scene, const Parameters& parameters) {
   LevenbergMarquardtSettings settings;
-  settings.iterations = tuning.no_inner_iterations;
+  settings.iterations = static_cast<int>(parameters.no_inner_iterations);
   settings.least_decrease = least_decrease;
   double obstacle_factor = 1.0;
-  for (int outer = 0; outer < tuning.no_outer_iterations; ++outer) {
-    resize(band, tuning);
-    problem_.begin(band, scene, tuning, obstacle_factor);
+  for (std::size_t outer = 0; outer < parameters.no_outer_iterations; ++outer) {
+    resize(band, parameters);
+    problem_.begin(band, scene, parameters, obstacle_factor);
     const LevenbergMarquardtResult result = solver_.minimise(problem_, settings);
     iterations_ += result.iterations;
     if (!result.is_finite) return false;
-    obstacle_factor *= tuning.weight_adapt_factor;
+    obstacle_factor *= parameters.weight_adapt_factor;
   }
   return true;
 }
 
-double BandOptimizer::cost(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning,
+double BandOptimizer::cost(TimedElasticBand& band, const Scene& scene, const Parameters& parameters,
                            const CostScales& scales) {
-  problem_.begin(band, scene, tuning, 1.0);
+  problem_.begin(band, scene, parameters, 1.0);
   return problem_.cost(scales);
 }
 

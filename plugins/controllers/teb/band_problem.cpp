@@ -11,13 +11,13 @@ namespace {
 
 constexpr double shortest_dt_s = 0.01;
 
-// A turn is preferred over the first intervals only.
+// The preferred turning direction applies to this many intervals at the start.
 constexpr std::size_t turned_intervals = 3;
 
-// Of driving forward, where the limits forbid driving backward: it is not to be bought.
+// The least weight of driving forward if the limits forbid driving backward.
 constexpr double forbidding_weight = 1000.0;
 
-// Places looked at between two poses.
+// The maximum number of intervals that the check between two poses divides their distance into.
 constexpr int most_pieces = 20;
 
 constexpr std::size_t first_of(std::size_t pose) {
@@ -34,12 +34,13 @@ void BandProblem::reserve(std::size_t poses) {
   via_links_.reserve(poses);
 }
 
-void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning, double obstacle_factor) {
+void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const Parameters& parameters,
+                        double obstacle_factor) {
   band_ = &band;
   scene_ = &scene;
-  tuning_ = &tuning;
+  parameters_ = &parameters;
   obstacle_factor_ = obstacle_factor;
-  linker_.link(band, *scene.footprint, *scene.obstacles, tuning, links_);
+  linker_.link(band, *scene.footprint, *scene.obstacles, parameters, links_);
   link_via_points(band, *scene.via_points, via_links_);
 }
 
@@ -85,11 +86,11 @@ double BandProblem::cost_of_jumps() const {
       const Vec2 at = toolkit::lerp(from, to, share);
       for (const Obstacle& obstacle : *scene_->obstacles) {
         const double ahead_s = time_s + share * band_->dt[i];
-        if (least_distance(*scene_->footprint, at, obstacle, ahead_s) > tuning_->min_obstacle_dist) continue;
+        if (least_distance(*scene_->footprint, at, obstacle, ahead_s) > parameters_->min_obstacle_dist) continue;
         const double distance_m =
             separation(*scene_->footprint, {at.x, at.y, band_->theta[i]}, obstacle, ahead_s).distance_m;
-        const double error = above(distance_m, tuning_->min_obstacle_dist, 0.0).error;
-        cost += tuning_->weight_obstacle * error * error;
+        const double error = above(distance_m, parameters_->min_obstacle_dist, 0.0).error;
+        cost += parameters_->weight_obstacle * error * error;
       }
     }
   }
@@ -102,9 +103,9 @@ double BandProblem::evaluate(const NormalEquations& normal, const CostScales& sc
   poses_.resize(band.size());
   motions_.resize(band.dt.size());
   for (std::size_t i = 0; i < band.size(); ++i)
-    poses_[i] = {band.x[i], band.y[i], band.theta[i], std::cos(band.theta[i]), std::sin(band.theta[i])};
+    poses_[i] = {band.position(i), band.theta[i], toolkit::from_angle(band.theta[i])};
   for (std::size_t i = 0; i < band.dt.size(); ++i)
-    move_between<with_derivatives>(poses_[i], poses_[i + 1], band.dt[i], motions_[i]);
+    motion_between<with_derivatives>(poses_[i], poses_[i + 1], band.dt[i], motions_[i]);
 
   WeightedSquares<with_derivatives> squares = {normal};
   add_intervals(squares, !scales.whole_duration);
@@ -123,38 +124,38 @@ double BandProblem::evaluate(const NormalEquations& normal, const CostScales& sc
 // Time, speed, kinematics and length.
 template <bool with_derivatives>
 void BandProblem::add_intervals(WeightedSquares<with_derivatives>& squares, bool count_time) const {
-  const BandTuning& tuning = *tuning_;
+  const Parameters& parameters = *parameters_;
   const Limits& limits = *scene_->limits;
-  const double margin = tuning.penalty_epsilon;
+  const double margin = parameters.penalty_epsilon;
   const double forward_weight = limits.v_min < 0.0
-                                    ? tuning.weight_kinematics_forward_drive
-                                    : std::max(tuning.weight_kinematics_forward_drive, forbidding_weight);
+                                    ? parameters.weight_kinematics_forward_drive
+                                    : std::max(parameters.weight_kinematics_forward_drive, forbidding_weight);
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const std::size_t first = first_of(i);
     const Motion& motion = motions_[i];
-    if (count_time) squares.add(first + 3, Residual<1>{band_->dt[i], {1.0}}, tuning.weight_optimaltime);
-    squares.add(first, within(motion.v, limits.v_min, limits.v_max, margin), motion.v_by, tuning.weight_max_vel_x);
+    if (count_time) squares.add(first + 3, Residual<1>{band_->dt[i], {1.0}}, parameters.weight_optimaltime);
+    squares.add(first, within(motion.v, limits.v_min, limits.v_max, margin), motion.v_by, parameters.weight_max_vel_x);
     squares.add(first, within(motion.omega, -limits.omega_max, limits.omega_max, margin), motion.omega_by,
-                tuning.weight_max_vel_theta);
-    squares.add(first, non_holonomic(poses_[i], poses_[i + 1]), tuning.weight_kinematics_nh);
+                parameters.weight_max_vel_theta);
+    squares.add(first, non_holonomic(poses_[i], poses_[i + 1]), parameters.weight_kinematics_nh);
     const Residual<pair_block> ahead = forward(poses_[i], poses_[i + 1]);
     squares.add(first, above(ahead.error, 0.0, 0.0), ahead.by, forward_weight);
-    if (tuning.weight_shortest_path > 0.0)
-      squares.add(first, length(poses_[i], poses_[i + 1]), tuning.weight_shortest_path);
+    if (parameters.weight_shortest_path > 0.0)
+      squares.add(first, length(poses_[i], poses_[i + 1]), parameters.weight_shortest_path);
   }
 }
 
 template <bool with_derivatives>
 void BandProblem::add_accelerations(WeightedSquares<with_derivatives>& squares) const {
-  const BandTuning& tuning = *tuning_;
+  const Parameters& parameters = *parameters_;
   const Limits& limits = *scene_->limits;
   const std::vector<double>& dt = band_->dt;
   const auto penalise = [&](std::size_t interval, const auto& v, const auto& omega) {
     const std::size_t first = first_of(interval);
-    const double margin = tuning.penalty_epsilon;
-    squares.add(first, within(v.error, -limits.a_max, limits.a_max, margin), v.by, tuning.weight_acc_lim_x);
+    const double margin = parameters.penalty_epsilon;
+    squares.add(first, within(v.error, -limits.a_max, limits.a_max, margin), v.by, parameters.weight_acc_lim_x);
     squares.add(first, within(omega.error, -limits.alpha_max, limits.alpha_max, margin), omega.by,
-                tuning.weight_acc_lim_theta);
+                parameters.weight_acc_lim_theta);
   };
   const Twist& start = scene_->start_velocity;
   const Motion& begin = motions_.front();
@@ -174,26 +175,25 @@ void BandProblem::add_accelerations(WeightedSquares<with_derivatives>& squares) 
 
 template <bool with_derivatives>
 void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) const {
-  const BandTuning& tuning = *tuning_;
+  const Parameters& parameters = *parameters_;
   for (const ObstacleLink& link : links_) {
-    const DirectedPose& at = poses_[link.pose];
     const Separation apart =
-        separation(*scene_->footprint, {at.x, at.y, at.theta}, (*scene_->obstacles)[link.obstacle], link.ahead_s);
+        separation(*scene_->footprint, band_->pose(link.pose), (*scene_->obstacles)[link.obstacle], link.ahead_s);
     const std::array<double, 3> by = {apart.gradient.x, apart.gradient.y, apart.gradient_theta};
     add_closeness(squares, link, apart.distance_m, by);
-    const double inflation_m = link.is_dynamic ? tuning.dynamic_obstacle_inflation_dist : tuning.inflation_dist;
-    if (inflation_m <= tuning.min_obstacle_dist) continue;
+    const double inflation_m = link.is_dynamic ? parameters.dynamic_obstacle_inflation_dist : parameters.inflation_dist;
+    if (inflation_m <= parameters.min_obstacle_dist) continue;
     squares.add(first_of(link.pose), above(apart.distance_m, inflation_m, 0.0), by,
-                link.is_dynamic ? tuning.weight_dynamic_obstacle_inflation : tuning.weight_inflation);
+                link.is_dynamic ? parameters.weight_dynamic_obstacle_inflation : parameters.weight_inflation);
   }
 }
 
-// What is nearer than min_obstacle_dist; than a little less about a robot that is already nearer itself.
+// The penalty below min_obstacle_dist; a smaller distance near a robot that is already closer.
 template <bool with_derivatives>
 void BandProblem::add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
                                 std::array<double, 3> by) const {
-  const BandTuning& tuning = *tuning_;
-  double wanted_m = tuning.min_obstacle_dist + tuning.penalty_epsilon;
+  const Parameters& parameters = *parameters_;
+  double wanted_m = parameters.min_obstacle_dist + parameters.penalty_epsilon;
   if (link.start_m < wanted_m) {
     const Vec2 from_start = band_->position(link.pose) - band_->position(0);
     const double from_start_m = toolkit::norm(from_start);
@@ -206,10 +206,10 @@ void BandProblem::add_closeness(WeightedSquares<with_derivatives>& squares, cons
   }
   const Penalty close = above(distance_m, wanted_m, 0.0);
   if (link.is_dynamic) {
-    squares.add(first_of(link.pose), close, by, obstacle_factor_ * tuning.weight_dynamic_obstacle);
+    squares.add(first_of(link.pose), close, by, obstacle_factor_ * parameters.weight_dynamic_obstacle);
   } else {
-    squares.add(first_of(link.pose), raised(close, tuning.obstacle_cost_exponent, tuning.min_obstacle_dist), by,
-                obstacle_factor_ * tuning.weight_obstacle);
+    squares.add(first_of(link.pose), raised(close, parameters.obstacle_cost_exponent, parameters.min_obstacle_dist), by,
+                obstacle_factor_ * parameters.weight_obstacle);
   }
 }
 
@@ -218,8 +218,8 @@ void BandProblem::add_via_points(WeightedSquares<with_derivatives>& squares) con
   for (const ViaPointLink& link : via_links_) {
     const Vec2 aside = band_->position(link.pose) - (*scene_->via_points)[link.point];
     // the square of the distance is the sum of these two
-    squares.add(first_of(link.pose), Residual<1>{aside.x, {1.0}}, tuning_->weight_viapoint);
-    squares.add(first_of(link.pose) + 1, Residual<1>{aside.y, {1.0}}, tuning_->weight_viapoint);
+    squares.add(first_of(link.pose), Residual<1>{aside.x, {1.0}}, parameters_->weight_viapoint);
+    squares.add(first_of(link.pose) + 1, Residual<1>{aside.y, {1.0}}, parameters_->weight_viapoint);
   }
 }
 
@@ -230,7 +230,7 @@ void BandProblem::add_preferred_turn(WeightedSquares<with_derivatives>& squares)
   for (std::size_t i = 0; i < std::min(turned_intervals, motions_.size()); ++i) {
     const double turned = direction * toolkit::difference(poses_[i].theta, poses_[i + 1].theta);
     const std::array<double, pair_block> by = {0.0, 0.0, -direction, 0.0, 0.0, 0.0, direction};
-    squares.add(first_of(i), above(turned, 0.0, 0.0), by, tuning_->weight_prefer_rotdir);
+    squares.add(first_of(i), above(turned, 0.0, 0.0), by, parameters_->weight_prefer_rotdir);
   }
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// band_problem.hpp: a band's residuals as one least-squares problem with banded normal equations.
+// band_problem.hpp: the residuals of a band as a least-squares problem with banded normal equations.
 //
-// The variables run pose by pose, x, y, theta, dt, so that no residual spans more than 11 of them in a row: the normal
-// matrix has 10 entries beside its diagonal. The first and the last pose are held.
-#ifndef DMRP_CONTROLLERS_TEB_BAND_PROBLEM_HPP
-#define DMRP_CONTROLLERS_TEB_BAND_PROBLEM_HPP
+// The variables are ordered pose by pose (x, y, theta, dt), so that each residual depends on at most 11 consecutive
+// variables and the normal matrix has 10 bands beside its diagonal. The first and the last pose are fixed.
+#pragma once
 
 #include <array>
 #include <vector>
@@ -16,41 +15,41 @@
 
 namespace dmrp::controllers::teb {
 
-// What a band is optimised in: one control cycle's.
+// The input of the optimisation in one control cycle. Does not own what it refers to.
 struct Scene {
   const Limits* limits = nullptr;
   const Footprint* footprint = nullptr;
   const std::vector<Obstacle>* obstacles = nullptr;
   const std::vector<Vec2>* via_points = nullptr;
   Twist start_velocity = {0.0, 0.0, 0.0};
-  bool stops_at_goal = false;  // else the velocity there is free
+  bool stops_at_goal = false;  // otherwise the velocity at the goal is free
   Turn preferred_turn = Turn::any;
 };
 
-// How much the parts of a cost count when bands are compared.
+// The weights of the parts of the cost when bands are compared.
 struct CostScales {
   double obstacles = 1.0;
   double via_points = 1.0;
-  bool whole_duration = false;  // the time it takes, instead of the sum of squared intervals
+  bool whole_duration = false;  // use the duration instead of the sum of squared intervals
 };
 
-// A Problem for LevenbergMarquardt; see there for linearise(), try_step(), keep() and restore(). Works on a band of
-// somebody else's.
+// A Problem for LevenbergMarquardt, which documents linearise(), try_step(), keep() and restore(). Changes the band
+// given to begin().
 class BandProblem {
  public:
   void reserve(std::size_t poses);
 
-  // The band to work on until the next begin(). Links it to the obstacles and via-points as it lies now.
-  // `obstacle_factor`: of the obstacles' weights.
-  void begin(TimedElasticBand& band, const Scene& scene, const BandTuning& tuning, double obstacle_factor);
+  // Sets the band until the next begin() and associates its current poses with obstacles and via-points.
+  // `obstacle_factor` scales the weights of the obstacles.
+  void begin(TimedElasticBand& band, const Scene& scene, const Parameters& parameters, double obstacle_factor);
 
   double linearise(BandedMatrix<band_width>& hessian, std::vector<double>& gradient);
   double try_step(const std::vector<double>& step);
   void keep() { kept_ = *band_; }
   void restore() { *band_ = kept_; }
 
-  // The sum of weighted squares. Where two poses lie farther apart than the footprint reaches, the obstacles' part also
-  // counts places between them: no band is cheap for having jumped over something.
+  // The sum of weighted squares. If two consecutive poses are farther apart than the footprint's diameter, the
+  // obstacles' part includes points between them, so that a band cannot lower its cost by jumping over an obstacle.
   double cost(const CostScales& scales = {});
 
  private:
@@ -72,7 +71,7 @@ class BandProblem {
   void add_preferred_turn(WeightedSquares<with_derivatives>& squares) const;
 
   const Scene* scene_ = nullptr;
-  const BandTuning* tuning_ = nullptr;
+  const Parameters* parameters_ = nullptr;
   TimedElasticBand* band_ = nullptr;
   TimedElasticBand kept_;
   double obstacle_factor_ = 1.0;
@@ -84,5 +83,3 @@ class BandProblem {
 };
 
 }  // namespace dmrp::controllers::teb
-
-#endif

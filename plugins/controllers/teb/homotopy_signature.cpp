@@ -7,11 +7,12 @@ namespace dmrp::controllers::teb {
 
 namespace {
 
-// Of everything that stands. Along no axis: walls often are, and ways along them.
+// The ray of standing marks. Not parallel to an axis, because walls and the paths along them often are.
 constexpr Vec2 standing_ray = {0.6, 0.8};
 
-// The marks of a disc stand so far to its sides, in radii: bands that graze it are pushed out to that side.
-constexpr double disc_share = 0.5;
+// The distance of a disc's marks from its centre, in radii: a band through the rim counts as passing on that side, to
+// which the optimisation pushes it.
+constexpr double disc_mark = 0.5;
 
 Signature times(int crossings, std::size_t mark) {
   return static_cast<Signature>(static_cast<std::int64_t>(crossings)) * signature_weight(mark);
@@ -26,16 +27,16 @@ void set_marks(const std::vector<Obstacle>& obstacles, Vec2 along, std::vector<M
     const auto is_right_of = [along](Vec2 a, Vec2 b) { return toolkit::cross(along, a) < toolkit::cross(along, b); };
     const Vec2* const end = obstacle.vertices + obstacle.vertex_count;
     const auto [right, left] = std::minmax_element(obstacle.vertices, end, is_right_of);
-    const Vec2 aside = disc_share * obstacle.radius_m * toolkit::perpendicular(toolkit::normalized(along));
+    const Vec2 aside = disc_mark * obstacle.radius_m * toolkit::perpendicular(toolkit::normalized(along));
     marks.push_back({*left + aside, obstacle.velocity, k});
     if (left != right || obstacle.radius_m > 0.0) marks.push_back({*right - aside, obstacle.velocity, k});
   }
 }
 
-Signature step_signature(Vec2 from, Vec2 to, const std::vector<Vec2>& places) {
+Signature step_signature(Vec2 from, Vec2 to, const std::vector<Vec2>& marks) {
   Signature signature = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const int crossing = ray_crossing(from - places[k], to - places[k], standing_ray);
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const int crossing = ray_crossing(from - marks[k], to - marks[k], standing_ray);
     if (crossing != 0) signature += times(crossing, k);
   }
   return signature;

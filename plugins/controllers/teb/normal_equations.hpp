@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// normal_equations.hpp: adds up weighted squares and, where asked to, the normal equations of their linearisation.
-#ifndef DMRP_CONTROLLERS_TEB_NORMAL_EQUATIONS_HPP
-#define DMRP_CONTROLLERS_TEB_NORMAL_EQUATIONS_HPP
+// normal_equations.hpp: sums weighted squares and, optionally, the normal equations of their linearisation.
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -19,7 +18,7 @@ struct NormalEquations {
   BandedMatrix<band_width>* hessian = nullptr;  // J'J
   std::vector<double>* gradient = nullptr;      // J'r
 
-  // Of a residual over the variables from `first` on.
+  // Adds a residual that depends on the variables from `first` on.
   template <std::size_t size>
   void add(std::size_t first, const std::array<double, size>& by, double error, double weight) const {
     double* const g = gradient->data() + first;
@@ -31,7 +30,7 @@ struct NormalEquations {
     }
   }
 
-  // Keeps the three variables from `first` on where they are.
+  // Fixes the three variables from `first` on.
   void hold(std::size_t first) const {
     const std::size_t size = hessian->size();
     for (std::size_t i = first; i < first + 3; ++i) {
@@ -54,7 +53,7 @@ struct WeightedSquares {
     if constexpr (with_derivatives) normal.add(first, residual.by, residual.error, weight);
   }
 
-  // Of a penalty on a quantity with the derivatives `by`.
+  // Adds a penalty on a quantity with the derivatives `by`.
   template <std::size_t size>
   void add(std::size_t first, Penalty penalty, const std::array<double, size>& by, double weight) {
     if (penalty.error == 0.0) return;
@@ -66,5 +65,3 @@ struct WeightedSquares {
 };
 
 }  // namespace dmrp::controllers::teb
-
-#endif

@@ -9,12 +9,13 @@ namespace dmrp::controllers::teb {
 
 namespace {
 
-// A pose may move by so much before obstacles are linked anew.
+// A pose may move by this much before the next association.
 constexpr double slack_m = 0.5;
 
-constexpr double no_concern_m = 1e9;
+// Obstacle links with this start distance ignore the start.
+constexpr double ignored_m = 1e9;
 
-// The nearest obstacle on one side of a pose.
+// The closest obstacle on one side of a pose.
 struct Nearest {
   double distance_m = std::numeric_limits<double>::infinity();
   std::uint32_t obstacle = 0;
@@ -26,24 +27,24 @@ bool is_farther(Vec2 from, const Obstacle& obstacle, double ahead_s, double reac
   return toolkit::squared_distance(from, obstacle.center + ahead_s * obstacle.velocity) > all_m * all_m;
 }
 
-bool is_dynamic(const Obstacle& obstacle, const BandTuning& tuning) {
-  return tuning.include_dynamic_obstacles && obstacle.velocity != Vec2{0.0, 0.0};
+bool is_dynamic(const Obstacle& obstacle, const Parameters& parameters) {
+  return parameters.include_dynamic_obstacles && obstacle.velocity != Vec2{0.0, 0.0};
 }
 
 }  // namespace
 
 void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footprint,
-                          const std::vector<Obstacle>& obstacles, const BandTuning& tuning,
+                          const std::vector<Obstacle>& obstacles, const Parameters& parameters,
                           std::vector<ObstacleLink>& links) {
   links.clear();
-  start_m_.assign(obstacles.size(), no_concern_m);
-  const double wanted_m = tuning.min_obstacle_dist + tuning.penalty_epsilon;
+  start_m_.assign(obstacles.size(), ignored_m);
+  const double wanted_m = parameters.min_obstacle_dist + parameters.penalty_epsilon;
   for (std::size_t k = 0; k < obstacles.size(); ++k)
     if (!is_farther(band.position(0), obstacles[k], 0.0, footprint.radius_m + wanted_m))
       start_m_[k] = separation(footprint, band.pose(0), obstacles[k], 0.0).distance_m;
-  const double forced_m = tuning.min_obstacle_dist * tuning.obstacle_association_force_inclusion_factor;
-  const double cutoff_m = tuning.min_obstacle_dist * tuning.obstacle_association_cutoff_factor;
-  const double dynamic_m = std::max(tuning.min_obstacle_dist, tuning.dynamic_obstacle_inflation_dist) + slack_m;
+  const double forced_m = parameters.min_obstacle_dist * parameters.obstacle_association_force_inclusion_factor;
+  const double cutoff_m = parameters.min_obstacle_dist * parameters.obstacle_association_cutoff_factor;
+  const double dynamic_m = std::max(parameters.min_obstacle_dist, parameters.dynamic_obstacle_inflation_dist) + slack_m;
   double ahead_s = 0.0;
   for (std::uint32_t i = 1; i + 1 < band.size(); ++i) {
     ahead_s += band.dt[i - 1];
@@ -54,9 +55,9 @@ void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footpri
     Nearest right;
     for (std::uint32_t k = 0; k < obstacles.size(); ++k) {
       const Obstacle& obstacle = obstacles[k];
-      if (is_dynamic(obstacle, tuning)) {
+      if (is_dynamic(obstacle, parameters)) {
         if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m))
-          links.push_back({i, k, ahead_s, true, no_concern_m});
+          links.push_back({i, k, ahead_s, true, ignored_m});
         continue;
       }
       if (is_farther(at, obstacle, 0.0, footprint.radius_m + cutoff_m)) continue;
@@ -64,7 +65,7 @@ void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footpri
       if (apart.distance_m < forced_m) {
         links.push_back({i, k, 0.0, false, start_m_[k]});
       } else if (apart.distance_m < cutoff_m) {
-        // away from the obstacle to the right: it lies on the left
+        // the gradient points away from the obstacle: to the right if the obstacle is on the left
         Nearest& side = toolkit::cross(heading, apart.gradient) < 0.0 ? left : right;
         if (apart.distance_m < side.distance_m) side = {apart.distance_m, k};
       }

@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: MIT
-// residuals.hpp: what a band is judged by, each residual with its derivatives.
+// residuals.hpp: the residuals of a band's cost and their derivatives.
 //
-// Formulas as teb_local_planner's edges have them; derivatives are analytic. A block of variables is a run of the
-// band's: x, y, theta, dt of one pose, then of the next. So between two poses: 7 variables, among three: 11.
-#ifndef DMRP_CONTROLLERS_TEB_RESIDUALS_HPP
-#define DMRP_CONTROLLERS_TEB_RESIDUALS_HPP
+// The formulas are those of teb_local_planner's edges; the derivatives are analytic. A residual depends on a block of
+// consecutive variables (x, y, theta, dt of one pose, then of the next): 7 between two poses, 11 among three.
+#pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <dmrp/cpp/local_controller.hpp>
 #include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers::teb {
 
 inline constexpr std::size_t pair_block = 7;     // pose, dt, pose
 inline constexpr std::size_t triple_block = 11;  // pose, dt, pose, dt, pose
 
-// A penalty and its derivative, linear outside the bounds, nothing inside them.
+// A penalty and its derivative: linear outside the bounds, zero inside.
 struct Penalty {
   double error = 0.0;
   double slope = 0.0;
 };
 
-// Of what should stay above low + margin.
+// Penalises values below low + margin.
 inline Penalty above(double value, double low, double margin) {
   return value < low + margin ? Penalty{low + margin - value, -1.0} : Penalty{};
 }
 
-// The same penalty to a power: scale (error / scale)^exponent.
+// Raises a penalty to a power: scale (error / scale)^exponent.
 inline Penalty raised(Penalty penalty, double exponent, double scale) {
   if (exponent == 1.0 || !(penalty.error > 0.0) || !(scale > 0.0)) return penalty;
   const double error = scale * std::pow(penalty.error / scale, exponent);
   return {error, penalty.slope * exponent * error / penalty.error};
 }
 
-// Of what should stay between low + margin and high - margin. A lower bound of 0 has no margin: standing is no offence.
+// Penalises values outside [low + margin, high - margin]. A lower bound of 0 has no margin: standing costs nothing.
 inline Penalty within(double value, double low, double high, double margin) {
   const double floor = low < 0.0 ? std::min(low + margin, 0.0) : low;
   if (value < floor) return {floor - value, -1.0};
@@ -44,81 +44,80 @@ inline Penalty within(double value, double low, double high, double margin) {
   return {};
 }
 
-// A pose with its direction, computed once per evaluation.
+// A pose and the unit vector of its heading, computed once per evaluation.
 struct DirectedPose {
-  double x;
-  double y;
+  Vec2 at;
   double theta;
-  double cos_theta;
-  double sin_theta;
+  Vec2 heading;
 };
+
+// The length of a vector, differentiable at zero.
+inline double smooth_norm(Vec2 a) {
+  return std::sqrt(toolkit::squared_norm(a) + 1e-12);
+}
 
 // The mean velocity between two poses dt apart, and its derivatives with respect to their 7 variables.
 struct Motion {
-  double v = 0.0;      // m/s; its sign that of the way's projection on the first heading, blurred over a centimetre
+  double v = 0.0;      // m/s; the sign of the chord's projection on the first heading, smoothed over a centimetre
   double omega = 0.0;  // rad/s
   std::array<double, pair_block> v_by = {};
   std::array<double, pair_block> omega_by = {};
 };
 
 template <bool with_derivatives>
-inline void move_between(const DirectedPose& a, const DirectedPose& b, double dt_s, Motion& motion) {
+inline void motion_between(const DirectedPose& a, const DirectedPose& b, double dt_s, Motion& motion) {
   constexpr double sharpness = 100.0;  // 1/m
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
+  const Vec2 chord = b.at - a.at;
   const double inverse_dt = 1.0 / dt_s;
-  const double distance = std::sqrt(dx * dx + dy * dy + 1e-12);
-  const double ahead = sharpness * (dx * a.cos_theta + dy * a.sin_theta);
-  const double blur = 1.0 / (1.0 + std::abs(ahead));
-  const double sign = ahead * blur;
+  const double distance = smooth_norm(chord);
+  const double ahead = sharpness * toolkit::dot(chord, a.heading);
+  const double smoothing = 1.0 / (1.0 + std::abs(ahead));
+  const double sign = ahead * smoothing;
   motion.v = distance * sign * inverse_dt;
   motion.omega = toolkit::wrap(b.theta - a.theta) * inverse_dt;
   if constexpr (with_derivatives) {
     const double by_distance = sign * inverse_dt / distance;
-    const double by_ahead = distance * sharpness * blur * blur * inverse_dt;
-    const double by_x = by_distance * dx + by_ahead * a.cos_theta;
-    const double by_y = by_distance * dy + by_ahead * a.sin_theta;
-    motion.v_by = {-by_x, -by_y, by_ahead * (dy * a.cos_theta - dx * a.sin_theta), -motion.v * inverse_dt, by_x,
-                   by_y,  0.0};
+    const double by_ahead = distance * sharpness * smoothing * smoothing * inverse_dt;
+    const Vec2 by = by_distance * chord + by_ahead * a.heading;
+    const double by_theta = by_ahead * toolkit::cross(a.heading, chord);
+    motion.v_by = {-by.x, -by.y, by_theta, -motion.v * inverse_dt, by.x, by.y, 0.0};
     motion.omega_by = {0.0, 0.0, -inverse_dt, -motion.omega * inverse_dt, 0.0, 0.0, inverse_dt};
   }
 }
 
-// A residual over a block of variables.
+// A residual and its derivatives by a block of variables.
 template <std::size_t size>
 struct Residual {
   double error = 0.0;
   std::array<double, size> by = {};
 };
 
-// Both poses lie on one arc: the chord is in the direction of the mean heading.
+// Zero if both poses lie on one arc: the chord then has the direction of the mean heading.
 inline Residual<pair_block> non_holonomic(const DirectedPose& a, const DirectedPose& b) {
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  const double c = a.cos_theta + b.cos_theta;
-  const double s = a.sin_theta + b.sin_theta;
-  return {c * dy - s * dx,
-          {s, -c, -a.sin_theta * dy - a.cos_theta * dx, 0.0, -s, c, -b.sin_theta * dy - b.cos_theta * dx}};
+  const Vec2 chord = b.at - a.at;
+  const Vec2 mean = a.heading + b.heading;
+  const auto by_theta = [chord](Vec2 heading) { return -heading.y * chord.y - heading.x * chord.x; };
+  return {toolkit::cross(mean, chord),
+          {mean.y, -mean.x, by_theta(a.heading), 0.0, -mean.y, mean.x, by_theta(b.heading)}};
 }
 
-// Positive for a way that leads forward as seen from the first pose: the projection, to be kept above 0.
+// The chord's projection on the first heading: positive for driving forward.
 inline Residual<pair_block> forward(const DirectedPose& a, const DirectedPose& b) {
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  return {dx * a.cos_theta + dy * a.sin_theta,
-          {-a.cos_theta, -a.sin_theta, dy * a.cos_theta - dx * a.sin_theta, 0.0, a.cos_theta, a.sin_theta, 0.0}};
+  const Vec2 chord = b.at - a.at;
+  const Vec2 ahead = a.heading;
+  return {toolkit::dot(chord, ahead), {-ahead.x, -ahead.y, toolkit::cross(ahead, chord), 0.0, ahead.x, ahead.y, 0.0}};
 }
 
-// How far apart two poses lie.
+// The distance between two poses.
 inline Residual<pair_block> length(const DirectedPose& a, const DirectedPose& b) {
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  const double distance = std::sqrt(dx * dx + dy * dy + 1e-12);
-  return {distance, {-dx / distance, -dy / distance, 0.0, 0.0, dx / distance, dy / distance, 0.0}};
+  const Vec2 chord = b.at - a.at;
+  const double distance = smooth_norm(chord);
+  const Vec2 by = chord / distance;
+  return {distance, {-by.x, -by.y, 0.0, 0.0, by.x, by.y, 0.0}};
 }
 
-// The change from one interval's velocity to the next one's: 2 (second - first) / (dt_first + dt_second).
-// `first_by`, `second_by`: the velocities' own derivatives.
+// The acceleration from one interval to the next: 2 (second - first) / (dt_first + dt_second).
+// `first_by`, `second_by`: the derivatives of the velocities.
 inline Residual<triple_block> acceleration(double first, const std::array<double, pair_block>& first_by, double second,
                                            const std::array<double, pair_block>& second_by, double dt_first,
                                            double dt_second) {
@@ -135,8 +134,8 @@ inline Residual<triple_block> acceleration(double first, const std::array<double
   return result;
 }
 
-// The change from a velocity given at the start to the first interval's (or, with direction -1, from the last
-// interval's to one given at the goal), within that interval.
+// The acceleration within the first interval from a given start velocity; with direction -1, within the last interval
+// to a given velocity at the goal.
 inline Residual<pair_block> end_acceleration(double given, double velocity, const std::array<double, pair_block>& by,
                                              double dt_s, double direction) {
   Residual<pair_block> result;
@@ -147,5 +146,3 @@ inline Residual<pair_block> end_acceleration(double given, double velocity, cons
 }
 
 }  // namespace dmrp::controllers::teb
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// teb.hpp: the timed elastic band, as ROS's teb_local_planner does it.
-#ifndef DMRP_CONTROLLERS_TEB_TEB_HPP
-#define DMRP_CONTROLLERS_TEB_TEB_HPP
+// teb.hpp: the timed elastic band with homotopy classes, after ROS's teb_local_planner.
+#pragma once
 
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
@@ -15,11 +14,11 @@
 #include "controllers/motion/path_tracker.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 #include "controllers/teb/class_planner.hpp"
-#include "controllers/teb/parameters.hpp"
+#include "controllers/teb/declared_parameters.hpp"
 
 namespace dmrp::controllers {
 
-class Teb final : public teb::ParameterTable {
+class Teb final : public teb::DeclaredParameters {
  public:
   static Descriptor describe();
 
@@ -51,16 +50,15 @@ class Teb final : public teb::ParameterTable {
   StopAndRotate at_goal_;
   ObstacleSet obstacles_;
   OscillationDetector oscillation_;
+  teb::Parameters parameters_;
   teb::ClassPlanner planner_;
   std::vector<Vec2> via_points_;
   teb::Turn preferred_turn_ = teb::Turn::any;
-  std::int64_t oscillated_ns_ = 0;  // when it was last noticed
-  std::int64_t infeasible_ns_ = 0;  // when no feasible band was last found
+  std::int64_t oscillated_ns_ = 0;  // the last time an oscillation was detected
+  std::int64_t infeasible_ns_ = 0;  // the last time no band was feasible
   int infeasible_in_a_row_ = 0;
-  bool was_infeasible_ = false;  // at infeasible_ns_, in this trial
-  bool is_closed_ = false;       // something stands across the whole way
+  bool was_infeasible_ = false;  // infeasible_ns_ is set
+  bool is_cut_off_ = false;      // obstacles block every path to the end of the path ahead
 };
 
 }  // namespace dmrp::controllers
-
-#endif

@@ -10,46 +10,47 @@ namespace dmrp::controllers::teb {
 
 namespace {
 
-// A first band turns in place before it drives where the way begins farther aside than this.
+// A new band begins with a turn in place if the first leg deviates from the heading by more than this.
 constexpr double turn_first_rad = 0.25 * toolkit::pi;
 
-// How many poses may have been passed since the last cycle.
+// The maximum number of poses passed since the last cycle.
 constexpr std::size_t prune_ahead = 10;
 
-// Rounds of resizing: each halves what is far too long, so that ten part an interval a thousandfold.
+// Rounds of resizing. Each round halves intervals that are too long: ten rounds divide by up to a thousand.
 constexpr int resize_rounds = 10;
 
 double mean_heading(double from, double to) {
   return toolkit::wrap(from + 0.5 * toolkit::difference(from, to));
 }
 
-void append_turn(TimedElasticBand& band, double heading, const Limits& limits, const BandTuning& tuning, Turn turn) {
+void append_turn(TimedElasticBand& band, double heading, const Limits& limits, const Parameters& parameters,
+                 Turn turn) {
   const Pose from = band.pose(band.size() - 1);
   double angle = toolkit::difference(from.theta, heading);
-  // about to face away, both ways are as good: the one asked for
+  // turns in the requested direction, even if that is the longer one
   if (turn == Turn::left && angle < 0.0) angle += 2.0 * toolkit::pi;
   if (turn == Turn::right && angle > 0.0) angle -= 2.0 * toolkit::pi;
   if (std::abs(angle) < turn_first_rad) return;
   const double duration_s = std::abs(angle) / limits.omega_max;
-  const int steps = std::max(1, static_cast<int>(std::lround(duration_s / tuning.dt_ref)));
+  const int steps = std::max(1, static_cast<int>(std::lround(duration_s / parameters.dt_ref)));
   for (int i = 1; i <= steps; ++i) {
     const double theta = toolkit::wrap(from.theta + angle * i / steps);
     band.append({from.x, from.y, theta}, duration_s / steps);
   }
 }
 
-// Straight to a point, the heading along the way.
-void append_leg(TimedElasticBand& band, Vec2 to, const Limits& limits, const BandTuning& tuning) {
+// Appends a straight leg to a point, with the heading along the leg.
+void append_leg(TimedElasticBand& band, Vec2 to, const Limits& limits, const Parameters& parameters) {
   const Pose from = band.pose(band.size() - 1);
-  const Vec2 way = to - toolkit::position(from);
-  const double heading = std::atan2(way.y, way.x);
-  const double reach_m = limits.v_max * tuning.dt_ref;
-  const int steps = std::max(1, static_cast<int>(std::lround(toolkit::norm(way) / reach_m)));
+  const Vec2 leg = to - toolkit::position(from);
+  const double heading = std::atan2(leg.y, leg.x);
+  const double reach_m = limits.v_max * parameters.dt_ref;
+  const int steps = std::max(1, static_cast<int>(std::lround(toolkit::norm(leg) / reach_m)));
   for (int i = 1; i <= steps; ++i) {
-    if (band.size() + 2 > tuning.max_samples) break;
-    const Vec2 at = toolkit::position(from) + (static_cast<double>(i) / steps) * way;
+    if (band.size() + 2 > parameters.max_samples) break;
+    const Vec2 at = toolkit::position(from) + (static_cast<double>(i) / steps) * leg;
     const Pose last = band.pose(band.size() - 1);
-    const double drive_s = toolkit::norm(way) / steps / limits.v_max;
+    const double drive_s = toolkit::norm(leg) / steps / limits.v_max;
     const double turn_s = std::abs(toolkit::difference(last.theta, heading)) / limits.omega_max;
     band.append({at.x, at.y, heading}, std::max(drive_s, turn_s));
   }
@@ -113,8 +114,8 @@ void TimedElasticBand::remove(std::size_t i) {
 }
 
 void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const std::vector<Vec2>& points,
-             const Limits& limits, const BandTuning& tuning, Turn turn) {
-  const double reach_m = limits.v_max * tuning.dt_ref;
+             const Limits& limits, const Parameters& parameters, Turn turn) {
+  const double reach_m = limits.v_max * parameters.dt_ref;
   band.begin(start);
   Vec2 first = toolkit::position(goal);
   for (const Vec2 point : points) {
@@ -123,20 +124,20 @@ void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const 
     break;
   }
   if (toolkit::distance(toolkit::position(start), first) > 1e-6)
-    append_turn(band, toolkit::bearing(start, first), limits, tuning, turn);
+    append_turn(band, toolkit::bearing(start, first), limits, parameters, turn);
   for (const Vec2 point : points) {
     const Vec2 last = band.position(band.size() - 1);
     if (toolkit::distance(last, point) < reach_m) continue;
     if (toolkit::distance(point, toolkit::position(goal)) < reach_m) break;
-    append_leg(band, point, limits, tuning);
+    append_leg(band, point, limits, parameters);
   }
-  append_leg(band, toolkit::position(goal), limits, tuning);
-  // the last pose is the goal, whatever the way's direction
+  append_leg(band, toolkit::position(goal), limits, parameters);
+  // the last pose is the goal, with its own heading
   const std::size_t last = band.size() - 1;
   band.set_pose(last, goal);
   const double turn_s = std::abs(toolkit::difference(band.theta[last - 1], goal.theta)) / limits.omega_max;
   band.dt[last - 1] = std::max(band.dt[last - 1], turn_s);
-  while (band.size() < tuning.min_samples) {
+  while (band.size() < parameters.min_samples) {
     const auto longest = std::max_element(band.dt.begin(), band.dt.end()) - band.dt.begin();
     band.split(static_cast<std::size_t>(longest));
   }
@@ -162,24 +163,24 @@ void move_ends(TimedElasticBand& band, const Pose& start, const Pose& goal, std:
   band.set_pose(band.size() - 1, goal);
 }
 
-void resize(TimedElasticBand& band, const BandTuning& tuning) {
-  const double longest_s = tuning.dt_ref + tuning.dt_hysteresis;
-  const double shortest_s = tuning.dt_ref - tuning.dt_hysteresis;
+void resize(TimedElasticBand& band, const Parameters& parameters) {
+  const double longest_s = parameters.dt_ref + parameters.dt_hysteresis;
+  const double shortest_s = parameters.dt_ref - parameters.dt_hysteresis;
   bool changed = true;
   for (int round = 0; round < resize_rounds && changed; ++round) {
     changed = false;
     for (std::size_t i = 0; i < band.dt.size(); ++i) {
-      if (band.dt[i] > longest_s && band.size() < tuning.max_samples) {
-        if (band.dt[i] > 2.0 * tuning.dt_ref || i + 1 == band.dt.size()) {
+      if (band.dt[i] > longest_s && band.size() < parameters.max_samples) {
+        if (band.dt[i] > 2.0 * parameters.dt_ref || i + 1 == band.dt.size()) {
           band.split(i);
           ++i;
           changed = true;
         } else {
-          // the poses stay: what is too long goes on to the next interval
-          band.dt[i + 1] += band.dt[i] - tuning.dt_ref;
-          band.dt[i] = tuning.dt_ref;
+          // keeps the poses and moves the excess time to the next interval
+          band.dt[i + 1] += band.dt[i] - parameters.dt_ref;
+          band.dt[i] = parameters.dt_ref;
         }
-      } else if (band.dt[i] < shortest_s && band.size() > tuning.min_samples) {
+      } else if (band.dt[i] < shortest_s && band.size() > parameters.min_samples) {
         const bool is_last = i + 1 == band.dt.size();
         band.remove(is_last ? i : i + 1);
         changed = true;

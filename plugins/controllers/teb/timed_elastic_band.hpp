@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// timed_elastic_band.hpp: a trajectory as poses and the times between them.
+// timed_elastic_band.hpp: a trajectory as a sequence of poses and the time intervals between them.
 //
 // Roesmann, Feiten, Woesch, Hoffmann, Bertram: Trajectory modification considering dynamic constraints of autonomous
 // robots, ROBOTIK 2012; Efficient trajectory optimization using a sparse model, ECMR 2013.
-#ifndef DMRP_CONTROLLERS_TEB_TIMED_ELASTIC_BAND_HPP
-#define DMRP_CONTROLLERS_TEB_TIMED_ELASTIC_BAND_HPP
+#pragma once
 
 #include <cstddef>
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
-#include "controllers/teb/tuning.hpp"
+#include "controllers/teb/parameters.hpp"
 
 namespace dmrp::controllers::teb {
 
-// Which way to turn where both ways would do.
+// The turning direction if both are possible.
 enum class Turn { any, left, right };
 
-// size() poses, the first one the robot's and the last one the goal, and a time from each to the next. Copying between
-// two bands that have been reserved allocates nothing.
+// size() poses from the robot to the goal, and the time interval from each to the next. Copying between reserved bands
+// does not allocate.
 class TimedElasticBand {
  public:
   void reserve(std::size_t poses);
@@ -34,28 +33,26 @@ class TimedElasticBand {
   void begin(const Pose& start);
   void append(const Pose& pose, double dt_s);  // after begin()
 
-  // A new pose in the middle between pose i and the next.
+  // Inserts a pose half-way between pose i and the next.
   void split(std::size_t i);
-  // Removes pose i and adds the time to it to the interval that follows, or to the one before where there is none.
+  // Removes pose i; its interval is added to the following one, or to the previous one if there is none.
   void remove(std::size_t i);
 
   std::vector<double> x;      // m
   std::vector<double> y;      // m
   std::vector<double> theta;  // rad
-  std::vector<double> dt;     // s, one less
+  std::vector<double> dt;     // s; one fewer
 };
 
-// A first band from `start` along the points to `goal`, at full speed. A robot that faces away turns in place first,
-// the way `turn` says. `points` are any number in between; the goal's heading is taken as it is.
+// Creates a band from `start` along the points to `goal` at full speed. A robot that faces away turns in place first,
+// in the direction `turn`. `points` may be empty; the last pose is `goal`.
 void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const std::vector<Vec2>& points,
-             const Limits& limits, const BandTuning& tuning, Turn turn);
+             const Limits& limits, const Parameters& parameters, Turn turn);
 
-// Drops the poses that the robot has passed, then puts the ends to `start` and `goal`.
+// Drops the poses that the robot has passed, then moves the ends to `start` and `goal`.
 void move_ends(TimedElasticBand& band, const Pose& start, const Pose& goal, std::size_t min_samples);
 
-// Inserts and removes poses so that the times come near dt_ref, within its hysteresis.
-void resize(TimedElasticBand& band, const BandTuning& tuning);
+// Inserts and removes poses so that the intervals approach dt_ref, within the hysteresis.
+void resize(TimedElasticBand& band, const Parameters& parameters);
 
 }  // namespace dmrp::controllers::teb
-
-#endif

@@ -283,7 +283,7 @@ void drive_together(const std::vector<Trip*>& trips) {
 
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides) {
-  // the first looks for the second only once it drives
+  // the first reads the second's state only while it drives
   const Trip* second_trip = nullptr;
   one.walkers.push_back({0.25, [&](double, dmrp_vec2) { return toolkit::position(second_trip->pose()); },
                          DMRP_AGENT_ROBOT, [&] { return second_trip->velocity(); }});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// arena.hpp: a small world in which controllers drive robots, in closed loop through the C ABI.
+// arena.hpp: a small world in which controllers drive robots in closed loop through the C ABI.
 //
-// A unicycle with acceleration limits at 50 Hz, control at 10 Hz, progress and arrival as a host judges them, sensors
-// as arena_sensors.hpp has them. One robot a Trip; several Trips can share a world (drive_together).
+// A unicycle with acceleration limits at 50 Hz, control at 10 Hz, progress and arrival as in a host, the sensors of
+// arena_sensors.hpp. One robot per Trip; several Trips can share a world (drive_together).
 #pragma once
 
 #include <dmrp/local_controller.h>
@@ -20,19 +20,19 @@
 
 namespace dmrp::test {
 
-// A disc that is where `at` says; moves through everything.
+// A disc at the position that `at` returns; it moves through everything.
 struct Walker {
   double radius_m = 0.3;
   std::function<dmrp_vec2(double t_s, dmrp_vec2 robot)> at;
   std::uint32_t kind = DMRP_AGENT_PERSON;
-  std::function<dmrp_vec2()> velocity = nullptr;  // none: by differences of `at`
+  std::function<dmrp_vec2()> velocity = nullptr;  // if empty: from differences of `at`
 };
 
 Walker standing(dmrp_vec2 at);
 Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s = 0.0);  // then stands
 
 class Trip;
-Walker robot_of(const Trip& other);  // `other` must live as long
+Walker robot_of(const Trip& other);  // `other` must outlive it
 
 struct Course {
   std::vector<Box> boxes;
@@ -41,10 +41,10 @@ struct Course {
   dmrp_pose start = {0.0, 0.0, 0.0};
   double goal_heading = NAN;
   double time_limit_s = 120.0;
-  bool tracking = true;  // walkers are agents of the observation where the robot sees their centre within 10 m
+  bool tracking = true;  // walkers whose centres the robot sees within 10 m are agents of the observation
   Sight sight = Sight::everywhere;
   bool costmap = true;    // false: no lidar, costmap, field or clusters
-  bool annotate = false;  // true: what the controller says is kept in Trip::notes()
+  bool annotate = false;  // true: Trip::notes() keeps the annotations
   // Called before each control period: may add boxes or walkers, change the path (and then raise `revision`), set
   // `released`.
   std::function<void(Course&, double t_s, const dmrp_pose&)> change;
@@ -76,7 +76,7 @@ class Trip {
   Trip(const Trip&) = delete;
   Trip& operator=(const Trip&) = delete;
 
-  // Starts over on the same instance.
+  // Starts again with the same instance.
   void start();
   bool finished() const;
   void control_period();
@@ -85,7 +85,7 @@ class Trip {
   const dmrp_pose& pose() const { return pose_; }
   dmrp_vec2 velocity() const;  // world frame; zero once finished
 
-  // The two halves of control_period(), for several in one world: the command, then five steps of the physics.
+  // The two halves of control_period(), for several robots in one world: the command, then five steps of the physics.
   void decide();
   void drive_on();
 
@@ -126,14 +126,15 @@ class Trip {
 // Drives until the goal or the course's time limit.
 Drive run(const std::string& controller, const Course& course, const ParamOverrides& overrides = {});
 
-// Drives robots of one world until each has arrived or is out of time. Each must have the others among its walkers.
+// Drives the robots of one world until each has arrived or reached its time limit. Each must have the others among its
+// walkers.
 void drive_together(const std::vector<Trip*>& trips);
 
-// The same for two robots under one controller; neither course has the other among its walkers yet.
+// The same for two robots with one controller; adds each robot to the other's walkers.
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides = {});
 
-// Waypoints a metre apart along the corners, all but the first corner's own kept.
+// Waypoints one metre apart along the corners, all but the first corner's own kept.
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners);
 
 }  // namespace dmrp::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// arena_sensors.hpp: what a robot of the arena perceives, as the extensions of dmrp-host.
+// arena_sensors.hpp: the sensors of a robot in the arena, as the extensions of dmrp-host.
 #pragma once
 
 #include <dmrp/ext/annotate.h>
@@ -27,7 +27,7 @@ struct Box {
 };
 
 enum class Sight {
-  everywhere,  // the costmap holds the whole surface of all that lies in its window
+  everywhere,  // the costmap contains the complete surface of all bodies in its window
   scan,        // the costmap is built by marking and clearing, from the lidar
 };
 
@@ -40,17 +40,17 @@ class ArenaSensors {
 
   void offer(FakeHost& host) const;
 
-  // A trial begins: forgets everything.
+  // Resets all state at the start of a trial.
   void reset();
 
-  // What stands there now. Before look() and sees().
+  // Sets the static obstacles. Before look() and sees().
   void set_boxes(const std::vector<Box>& boxes);
 
-  // Once a control period. `agents`: those of the observation, which the clusters leave out.
+  // Once per control period. `agents`: those of the observation; the clusters omit them.
   void look(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies,
             const std::vector<dmrp_agent>& agents);
 
-  // Whether no box stands between.
+  // Whether no box is in between.
   bool sees(dmrp_vec2 from, dmrp_vec2 to) const { return geometry_->line_of_sight(from, to); }
 
  private:
@@ -77,7 +77,7 @@ class ArenaSensors {
   dmrp_obstacle_clusters clusters_extension_{};
 };
 
-// Keeps what a plugin says through dmrp.annotate/1.
+// Records the annotations of a plugin (dmrp.annotate/1).
 class ArenaNotes {
  public:
   struct Trajectory {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every expert expects of a local controller, in closed loop: arrives, touches nothing, keeps the limits.
+// Basic behaviour of all controllers in closed loop: the robot arrives, touches nothing and respects the limits.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
@@ -8,7 +8,7 @@
 
 using namespace dmrp::test;
 
-TEST_CASE("A straight corridor is driven straight and fast") {
+TEST_CASE("A straight corridor is driven straight and at full speed") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -49,7 +49,7 @@ TEST_CASE("A door of 1.2 m two metres behind a corner") {
   check_arrives(run(controller, course), 16.0);
 }
 
-TEST_CASE("A U-turn round the end of a wall") {
+TEST_CASE("A U-turn around the end of a wall") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -112,7 +112,7 @@ TEST_CASE("A path that an unseen wall cuts off ends before it") {
   CHECK(drive.end.x > 3.0);
   CHECK(drive.turned_rad < 1.0);  // waits, and does not swing about
 
-  // and goes on when the wall is gone
+  // and continues once the wall is gone
   course.change = [](Course& now, double t_s, const dmrp_pose&) {
     if (t_s >= 20.0 && now.boxes.size() == 3) now.boxes.pop_back();
   };
@@ -121,7 +121,7 @@ TEST_CASE("A path that an unseen wall cuts off ends before it") {
   check_arrives(drive, 35.0);
 }
 
-TEST_CASE("Something that no plan knew stands on the path, with room beside it") {
+TEST_CASE("An unplanned obstacle on the path, with room beside it") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
@@ -137,7 +137,7 @@ TEST_CASE("Something that no plan knew stands on the path, with room beside it")
   check_arrives(run(controller, course), 22.0);
 }
 
-TEST_CASE("A path replaced on the way") {
+TEST_CASE("A path replaced while driving") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -153,7 +153,7 @@ TEST_CASE("A path replaced on the way") {
   CHECK(drive.end.y == Approx(4.0).margin(0.2));
 }
 
-TEST_CASE("A replan to the same goal while turning there does not start the approach anew") {
+TEST_CASE("A replan to the same goal during the final turn does not restart the approach") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -194,7 +194,7 @@ TEST_CASE("The last released waypoint is not passed before it is released") {
 }
 
 TEST_CASE("An excursion of the path is not skipped") {
-  // out and back by one cell: under ordered execution others wait for the robot to come by
+  // out and back by one cell: under ordered execution, other robots wait until the robot has been there
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -216,8 +216,8 @@ TEST_CASE("A single waypoint, as waypoint dispatch sends it") {
   check_arrives(run(controller, course), 12.0);
 }
 
-TEST_CASE("DWA gets home with the weights of the paper and of its released code") {
-  // a path that weighs more than the goal: the nose, beyond the path's end, must not hold the robot back before it
+TEST_CASE("DWA reaches its goal with the weights of the paper and of its released code") {
+  // the path weighs more than the goal: the nose beyond the path's end must not stop the robot short of it
   const double goal_distance_bias = GENERATE(0.8, 1.0);
   const double y = GENERATE(0.0, 0.013, 0.025);  // where in a cell the path runs
   CAPTURE(goal_distance_bias, y);

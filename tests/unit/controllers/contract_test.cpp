@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the contract asks of the library and of an instance.
+// The contract for the library and for an instance.
 #include <malloc.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ TEST_CASE("The library describes its controllers") {
   }
 }
 
-TEST_CASE("A controller that requires an extension does not start without it, any other drives") {
+TEST_CASE("A controller without a required extension does not start, without an optional one it drives") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -72,7 +72,7 @@ TEST_CASE("A controller that requires an extension does not start without it, an
   }
 }
 
-TEST_CASE("The defaults drive too") {
+TEST_CASE("Controllers drive with their default parameters") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;
@@ -80,7 +80,7 @@ TEST_CASE("The defaults drive too") {
   check_arrives(run(controller.id, course), 20.0);
 }
 
-TEST_CASE("What is annotated changes nothing") {
+TEST_CASE("Annotations do not change the commands") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course = eventful();
@@ -100,7 +100,7 @@ TEST_CASE("What is annotated changes nothing") {
   }
 }
 
-TEST_CASE("DWA annotates all that it tries, what it chooses among it") {
+TEST_CASE("DWA annotates all samples, including the chosen one") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {2.0, 0.0}});
   course.annotate = true;
@@ -122,7 +122,7 @@ TEST_CASE("DWA annotates all that it tries, what it chooses among it") {
   }
 }
 
-TEST_CASE("DWA without the dynamic window tries all velocities within the time simulated") {
+TEST_CASE("DWA without the dynamic window samples all velocities reachable within the simulated time") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
   course.boxes = corridor(2.4, -2.0, 6.0);
@@ -138,7 +138,7 @@ TEST_CASE("The same course gives the same bits: fresh, started again, and interl
   CHECK(once.breaches == std::vector<std::string>{});
   CHECK(same_bits(once, run(controller, course)));
 
-  // an instance that has been through another trial, broken off in the middle
+  // an instance reused after an interrupted trial
   Trip again(controller.id, course, controller.tuned);
   for (int k = 0; k < 60; ++k) again.control_period();
   again.start();
@@ -177,8 +177,8 @@ TEST_CASE("Memory does not grow from trial to trial") {
   CHECK(bytes_after(12) < few + 65536.0);
 }
 
-TEST_CASE("A robot that is already too near to something gets away from it") {
-  // a person has stepped up to 0.02 m from the robot's side, and stays
+TEST_CASE("A robot that is already too close to an obstacle moves away from it") {
+  // a person stands 0.02 m beside the robot
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
   course.walkers = {standing({0.0, 0.57})};
@@ -190,7 +190,7 @@ TEST_CASE("A robot that is already too near to something gets away from it") {
   CHECK(drive.walker_clearance_m > 0.0);
 }
 
-TEST_CASE("A standing robot with an obstacle all around says so calmly") {
+TEST_CASE("A standing robot enclosed by obstacles waits without an error") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}});
   course.boxes = {{{0.35, -0.5}, {0.45, 0.5}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// controllers.hpp: the controllers that every behaviour test drives, with the parameters tuned for them (the one
-// list), and what is asked of all of them.
+// controllers.hpp: the only list of the controllers that every behaviour test drives, with their tuned parameters, and
+// the checks that all of them must pass.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace dmrp::test {
 
 struct Controller {
   std::string id;
-  bool evades = true;  // finds a way round what stands on the path; else waits for it to go
+  bool evades = true;  // drives around an obstacle on the path; otherwise waits until it leaves
   ParamOverrides tuned = tuned_parameters(id);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Local controllers among people and other robots, told of them by tracking or not.
+// Local controllers among people and other robots, with and without tracking.
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
@@ -7,7 +7,7 @@
 
 using namespace dmrp::test;
 
-TEST_CASE("A person who stands on the path is gone round") {
+TEST_CASE("Controllers drive around a person who stands on the path") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   const bool tracking = GENERATE(true, false);
   Course course;
@@ -33,7 +33,7 @@ TEST_CASE("A person who stands on the path is gone round") {
   CHECK(drive.walker_clearance_m > 0.0);
 }
 
-TEST_CASE("Pure pursuit waits for a person on the path and then goes on") {
+TEST_CASE("Pure pursuit waits for a person on the path and then continues") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   course.walkers = {walking({4.0, 0.0}, {4.0, 4.0}, 1.0, 15.0)};
@@ -57,7 +57,7 @@ TEST_CASE("A person crossing in front") {
   CHECK(drive.walker_clearance_m > 0.0);
 }
 
-TEST_CASE("Somebody comes, stands in the way for a while, and leaves") {
+TEST_CASE("A person blocks the path for a while and leaves") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   const bool tracking = GENERATE(true, false);
   CAPTURE(controller, tracking);
@@ -108,7 +108,7 @@ TEST_CASE("Two robots meet head-on in a corridor of 2 m") {
   }
 }
 
-TEST_CASE("Two robots whose ways cross") {
+TEST_CASE("Two robots whose paths cross") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   const bool tracking = GENERATE(true, false);
   CAPTURE(controller, tracking);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// fake_costmap.hpp: a costmap with lethal cells where a test puts them, inflated as the contract says.
+// fake_costmap.hpp: a costmap with lethal cells at given points, inflated according to the contract.
 #pragma once
 
 #include <dmrp/ext/local_costmap.h>
@@ -13,10 +13,10 @@ namespace dmrp::test {
 
 class FakeCostmap {
  public:
-  // From the world's origin, resolution 0.05 m, for a robot of 0.25 m.
+  // Starts at the world's origin; for a robot with a radius of 0.25 m.
   explicit FakeCostmap(std::uint32_t side_cells) : side_(side_cells), costs_(side_cells * side_cells, DMRP_COST_FREE) {}
 
-  // A lethal cell, and the costs about it.
+  // Marks a lethal cell and inflates it.
   void mark(double x, double y) {
     const int column = static_cast<int>(x / resolution_m);
     const int row = static_cast<int>(y / resolution_m);

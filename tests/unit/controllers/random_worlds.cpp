@@ -28,7 +28,7 @@ struct Block {
   dmrp_vec2 upper;
 };
 
-// A costmap of any size with all that stands in it, its distance field and its clusters.
+// A costmap of any size with obstacles, its distance field and its clusters.
 class Perception {
  public:
   Perception(Stream& random, double inscribed_radius_m) : inscribed_radius_m_(inscribed_radius_m) {
@@ -127,7 +127,7 @@ dmrp_limits random_limits(Stream& random) {
   return limits;
 }
 
-// A disc, or a convex polygon about the origin: corners of an ellipse that is not centred there.
+// A disc, or a convex polygon that contains the origin: points of an ellipse with another centre.
 dmrp_footprint random_footprint(Stream& random, std::vector<dmrp_vec2>& vertices) {
   vertices.clear();
   const double radius_m = random.uniform(0.1, 0.5);
@@ -154,7 +154,7 @@ dmrp_vec2 somewhere_near(Stream& random, dmrp_vec2 at, double reach_m) {
   return at + dmrp_vec2{random.uniform(-reach_m, reach_m), random.uniform(-reach_m, reach_m)};
 }
 
-// Up to thirty legs with waits, a tour of up to three goals; now and then a single waypoint, or all in one place.
+// Up to thirty legs with waits, a tour of up to three goals; sometimes a single waypoint, or all at one point.
 std::vector<dmrp_waypoint> random_path(Stream& random, dmrp_vec2 from, std::int64_t t_ns) {
   std::vector<dmrp_waypoint> path;
   const std::uint64_t count = random.chance(0.15) ? 1 : 1 + random.below(30);

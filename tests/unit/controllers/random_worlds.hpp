@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// random_worlds.hpp: every controller through its C interface in worlds, on paths, with limits, footprints and control
-// periods that nobody chose, judged by what the contract asks at every step.
+// random_worlds.hpp: drives a controller through its C interface with random worlds, paths, limits, footprints and
+// control periods, and checks the contract at every step.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 namespace dmrp::test {
 
 struct RandomDrive {
-  std::vector<dmrp_command> commands;  // zero where there was no solution
+  std::vector<dmrp_command> commands;  // zero if there was no solution
   std::vector<std::string> breaches;   // of limits, accelerations, finiteness, status
 };
 
-// Drives `steps` control periods in the world that `seed` names. A seed always gives the same drive.
+// Drives `steps` control periods in a world drawn from `seed`. Equal seeds give equal drives.
 RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int steps);
 
 }  // namespace dmrp::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What no world, path, limits, footprint or control period may bring a controller to.
+// Invariants of all controllers for any world, path, limits, footprint and control period.
 #include "tests/unit/controllers/random_worlds.hpp"
 
 #include <cstring>
@@ -18,7 +18,7 @@ bool same_bits(const std::vector<dmrp_command>& a, const std::vector<dmrp_comman
 
 }  // namespace
 
-TEST_CASE("In random worlds commands keep to the limits, and an instance that was used before gives the same bits") {
+TEST_CASE("In random worlds commands respect the limits, and a reused instance gives the same bits") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   PluginUnderTest used(library, controller.id);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -30,7 +30,7 @@ TEST_CASE("In random worlds commands keep to the limits, and an instance that wa
   }
 }
 
-TEST_CASE("MPC does not start with bounds that leave nothing between them") {
+TEST_CASE("MPC does not start with empty parameter intervals") {
   const ParamOverrides contradictory = GENERATE(ParamOverrides{{"min_dt", 0.5}, {"max_dt", 0.2}},
                                                 ParamOverrides{{"min_grid_size", 20}, {"max_grid_size", 10}});
   PluginUnderTest mpc(library, "dmrp.controller.mpc", contradictory);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tuned_parameters.hpp: the parameter sets that are shipped for the shared scenarios.
+// tuned_parameters.hpp: the shipped parameter sets for the shared scenarios.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace dmrp::test {
 
-// What the tuned set of a controller changes: of plugins/controllers/parameter_sets/tuned/dwa.toml for
-// dmrp.controller.dwa. Empty where there is none. Throws std::runtime_error for what is no set.
+// The parameters in the tuned set of a controller: plugins/controllers/parameter_sets/tuned/dwa.toml for
+// dmrp.controller.dwa. Empty if there is no such file. Throws std::runtime_error if the file is not a parameter set.
 ParamOverrides tuned_parameters(const std::string& controller);
 
 }  // namespace dmrp::test

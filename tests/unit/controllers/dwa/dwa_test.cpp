@@ -29,7 +29,7 @@ dmrp_observation moving(const dmrp_limits& limits, double v, double omega) {
   return c;
 }
 
-// A terrain, its fronts and a window, as a control period has them.
+// The terrain and the fronts of one control period.
 struct Bench {
   FakeCostmap fake{120};
   dmrp_costmap c{};
@@ -43,7 +43,7 @@ struct Bench {
     const CostmapView map(c);
     terrain.read(map, map.highest_cost_at(0.30), map.highest_cost_at(0.45));
   }
-  std::int32_t index(double x, double y) const { return terrain.index_of(CostmapView(c), x, y); }
+  std::int32_t index(double x, double y) const { return terrain.index_of(CostmapView(c), {x, y}); }
 
   void spread(const std::vector<dmrp_vec2>& path_points, dmrp_vec2 front_point) {
     path.begin(terrain), goal.begin(terrain), front.begin(terrain);
@@ -83,7 +83,7 @@ std::vector<int> reference_distances(const Terrain& terrain, const std::vector<s
 
 }  // namespace
 
-TEST_CASE("Samples cover the range, with zero where it lies between") {
+TEST_CASE("Samples cover the range and include zero if it lies inside") {
   std::vector<double> values;
   sample_range(-0.1, 0.1, 4, values);
   REQUIRE(values.size() == 5);
@@ -97,7 +97,7 @@ TEST_CASE("Samples cover the range, with zero where it lies between") {
   CHECK(values == std::vector<double>{0.2});
 }
 
-TEST_CASE("The window holds what the accelerations allow, inside the limits") {
+TEST_CASE("The window contains the velocities that the accelerations allow, within the limits") {
   const dmrp_limits limits = {sizeof(limits), 0, 0.0, 0.8, 0.0, 1.0, 0.5, 2.0};
   VelocityWindow window;
   window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 0.1, 0.8, 3, 4);
@@ -115,12 +115,12 @@ TEST_CASE("The window holds what the accelerations allow, inside the limits") {
   CHECK(window.omega.front() == -1.0);
 }
 
-TEST_CASE("Turning back and forth on the spot is forbidden until the robot has moved or turned") {
+TEST_CASE("Turning back and forth on the spot is prevented until the robot has moved or turned") {
   OscillationGuard guard;
   const dmrp_pose here = {0.0, 0.0, 0.0};
-  guard.note(here, 0.0, 0.3);
+  guard.record(here, 0.0, 0.3);
   CHECK(guard.allows(0.0, -0.3));
-  guard.note(here, 0.0, -0.1);  // reverses
+  guard.record(here, 0.0, -0.1);  // reverses
   CHECK_FALSE(guard.allows(0.0, 0.1));
   CHECK_FALSE(guard.allows(0.5, 0.1));
   CHECK(guard.allows(0.5, 0.0));
@@ -136,11 +136,11 @@ TEST_CASE("Turning back and forth on the spot is forbidden until the robot has m
   CHECK(guard.allows(0.0, 0.1));
   // turning either way while driving is steering
   guard.reset();
-  guard.note(here, 0.5, 0.3);
-  guard.note(here, 0.5, -0.3);
+  guard.record(here, 0.5, 0.3);
+  guard.record(here, 0.5, -0.3);
   CHECK(guard.allows(0.5, 0.3));
   // so is no going back and forth
-  guard.note(here, -0.1, 0.0);
+  guard.record(here, -0.1, 0.0);
   CHECK_FALSE(guard.allows(0.1, 0.0));
   CHECK(guard.allows(-0.1, 0.0));
 }
@@ -170,7 +170,7 @@ TEST_CASE("Fronts give the shortest distances") {
   }
 }
 
-TEST_CASE("Fronts that end early agree with whole ones on what is wanted") {
+TEST_CASE("Fronts that end early agree with complete ones on the requested cells") {
   dmrp::toolkit::Stream random(13, "early fronts");
   int cells_saved = 0;
   for (int round = 0; round < 30; ++round) {
@@ -179,12 +179,12 @@ TEST_CASE("Fronts that end early agree with whole ones on what is wanted") {
     bench.read();
     const std::int32_t seed = bench.index(random.uniform(0.0, 5.99), random.uniform(0.0, 5.99));
     Terrain narrowed = bench.terrain;
-    std::int32_t column[2], row[2];  // of the rectangle wanted; it may reach over the window's edges
+    std::int32_t column[2], row[2];  // of the requested rectangle; it may extend beyond the window
     for (int i = 0; i < 2; ++i) {
       column[i] = static_cast<std::int32_t>(random.uniform(-10.0, 100.0)) + 20 * i;
       row[i] = static_cast<std::int32_t>(random.uniform(-10.0, 100.0)) + 20 * i;
     }
-    narrowed.want(column[0], column[1], row[0], row[1]);
+    narrowed.request(column[0], column[1], row[0], row[1]);
     for (const bool by_effort : {false, true}) {
       WaveFront whole, early, everywhere;
       whole.begin(bench.terrain), early.begin(narrowed), everywhere.begin(narrowed, true);
@@ -197,11 +197,11 @@ TEST_CASE("Fronts that end early agree with whole ones on what is wanted") {
       for (std::int32_t i = 0; i < static_cast<std::int32_t>(narrowed.marks().size()); ++i) {
         const std::int32_t c = i % stride - 1;
         const std::int32_t r = i / stride - 1;
-        const bool is_wanted = column[0] <= c && c <= column[1] && row[0] <= r && r <= row[1];
+        const bool is_requested = column[0] <= c && c <= column[1] && row[0] <= r && r <= row[1];
         const auto differs = [&](const WaveFront& front) {
           return whole.reached(i) != front.reached(i) || (whole.reached(i) && whole.cells(i) != front.cells(i));
         };
-        differences += differs(everywhere) || (is_wanted && differs(early));
+        differences += differs(everywhere) || (is_requested && differs(early));
         cells_saved += whole.reached(i) && !early.reached(i);
       }
       REQUIRE(differences == 0);
@@ -210,30 +210,30 @@ TEST_CASE("Fronts that end early agree with whole ones on what is wanted") {
   CHECK(cells_saved > 10000);
 }
 
-TEST_CASE("An arc that begins with a change of velocity") {
+TEST_CASE("An arc that begins with an acceleration phase") {
   Bench bench;
   bench.read();
   const CostmapView map(bench.c);
   const dmrp_pose pose = {1.0, 2.0, 0.0};
   Scene scene = {pose,        0.8, map,  bench.terrain, bench.path,       bench.goal,
                  bench.front, 0.3, true, true,          bench.oscillation};
-  ArcState end = arc_state(pose);
+  DirectedPoint end = directed(pose);
   Rollout constant({0.5, 0.0}, scene, 1.0, 10);
   for (int i = 0; i < 10; ++i) constant.step(end);
-  CHECK(end.x == Approx(1.5));
+  CHECK(end.at.x == Approx(1.5));
   // from rest at 1 m/s^2 in steps of 0.1 s: 0.1, 0.2, 0.3, 0.4, then 0.5 m/s
   const Ramp ramp = {{0.0, 0.0}, 1.0, 1.0};
   scene.ramp = &ramp;
-  end = arc_state(pose);
+  end = directed(pose);
   Rollout ramped({0.5, 0.0}, scene, 1.0, 10);
   for (int i = 0; i < 10; ++i) ramped.step(end);
-  CHECK(end.x == Approx(1.0 + 0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
+  CHECK(end.at.x == Approx(1.0 + 0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
   // and a turn: 0.1 + 0.2 + ... + 0.5 rad/s, then 0.5, each for 0.1 s
-  end = arc_state(pose);
+  end = directed(pose);
   Rollout turned({0.0, 0.5}, scene, 1.0, 10);
   for (int i = 0; i < 10; ++i) turned.step(end);
-  CHECK(std::atan2(end.sin_theta, end.cos_theta) == Approx(0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
-  CHECK(end.x == 1.0);
+  CHECK(pose_of(end).theta == Approx(0.1 * (0.1 + 0.2 + 0.3 + 0.4 + 6 * 0.5)));
+  CHECK(end.at.x == 1.0);
 }
 
 TEST_CASE("The sum of the critics, by hand") {
@@ -252,7 +252,7 @@ TEST_CASE("The sum of the critics, by hand") {
 
   // 1.7 s at 0.5 m/s end at x = 2.875: 23 cells before the goal, the nose 23 before the front; on the path
   CHECK(score({0.5, 0.0}, scene, t, footprint, infinity) == Approx(0.05 * 0.8 * (23 + 23)));
-  // standing and turned away by 1.7 rad of turning: the nose 6 cells off the path to the left, 40 + 6 + 6 from the
+  // turning in place by 1.57 rad: the nose 6 cells off the path to the left, 40 + 6 + 6 from the
   // front
   const double turn = 1.5707963267948966 / t.sim_time;
   CHECK(score({0.0, turn}, scene, t, footprint, infinity) == Approx(0.05 * (0.8 * (40 + 52) + 0.6 * 6)));
@@ -260,11 +260,11 @@ TEST_CASE("The sum of the critics, by hand") {
   CHECK(score({0.0, turn}, scene, t, footprint, infinity) == Approx(0.05 * 0.8 * (40 + 52)));
   scene.follow = false;
   CHECK(score({0.5, 0.0}, scene, t, footprint, infinity) == Approx(0.05 * 0.8 * (23 + 23)));
-  // gives up above the best so far, and says no less than that
+  // stops above the best cost so far and returns at least that
   CHECK(score({0.0, turn}, scene, t, footprint, 1.0) > 1.0);
 }
 
-TEST_CASE("An arc into an obstacle is rejected, and a fast one keeps further away") {
+TEST_CASE("An arc into an obstacle is rejected, and a fast arc keeps a larger clearance") {
   Bench bench;
   for (double x = 0.0; x < 6.0; x += 0.05) bench.fake.mark(x + 0.01, 3.36);  // lethal centres at y = 3.375
   bench.read();
@@ -276,13 +276,13 @@ TEST_CASE("An arc into an obstacle is rejected, and a fast one keeps further awa
   FootprintCheck footprint(map, disc, 0.05, pose);
   CHECK(score({0.5, 0.5}, scene, bench.tuning, footprint, infinity) == rejected);
   const double beside = score({0.5, 0.0}, scene, bench.tuning, footprint, infinity);
-  CHECK(beside > bench.tuning.occdist_scale * map.cost(2.5, 3.025));
+  CHECK(beside > bench.tuning.occdist_scale * map.cost({2.5, 3.025}));
   bench.tuning.max_scaling_factor = 0.4;  // 0.25 * 1.4 + 0.05 = 0.40 at full speed
   CHECK(score({0.2, 0.0}, scene, bench.tuning, footprint, infinity) != rejected);
   CHECK(score({0.8, 0.0}, scene, bench.tuning, footprint, infinity) == rejected);
 }
 
-TEST_CASE("The choice equals an exhaustive search over its own samples") {
+TEST_CASE("The choice equals that of an exhaustive search over the samples") {
   dmrp::toolkit::Stream random(11, "choices");
   const dmrp_limits limits = {sizeof(limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
   int choices = 0;
@@ -299,8 +299,8 @@ TEST_CASE("The choice equals an exhaustive search over its own samples") {
     bench.spread(path, {5.3, 3.0 + 2.3 * slope});
     const dmrp_pose pose = {3.0, 3.0, random.uniform(-3.0, 3.0)};
     if (round % 3 == 0) {
-      bench.oscillation.note(pose, 0.0, 0.5);
-      bench.oscillation.note(pose, 0.0, -0.5);
+      bench.oscillation.record(pose, 0.0, 0.5);
+      bench.oscillation.record(pose, 0.0, -0.5);
     }
     const Scene scene = {pose,        0.8, map,  bench.terrain, bench.path,       bench.goal,
                          bench.front, 0.3, true, true,          bench.oscillation};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// E3MoP's path optimisation, spline, velocity profile and tracker.
+// E3MoP's path optimisation, spline, velocity profile and tracking controller.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
@@ -33,7 +33,7 @@ Points straight(dmrp_vec2 from, dmrp_vec2 to, int count) {
   return points;
 }
 
-// A path of free points among discs, wavering.
+// A zigzag path of free points among discs.
 Points wavering(Stream& random, const ClearanceField& field) {
   while (true) {
     Points points = straight({-1.5, random.uniform(-1.0, 1.0)}, {1.5, random.uniform(-1.0, 1.0)}, 31);
@@ -52,12 +52,12 @@ std::vector<PathPoint> spline_of(const Points& points, std::optional<double> sta
 
 }  // namespace
 
-TEST_CASE("The field is interpolated between the centres of cells, with the slope of just that") {
+TEST_CASE("The field is interpolated between the cells' centres, with the exact gradient of the interpolation") {
   const Window window = discs_window({{0.5, 0.4}, {-1.0, 0.3}}, 0.2);
   for (std::uint32_t i = 0; i < Window::cells * Window::cells; i += 97) {
     const dmrp_vec2 center = window.field.lower() + 0.05 * dmrp_vec2{i % Window::cells + 0.5, i / Window::cells + 0.5};
     REQUIRE(window.field.at(center).distance_m == Approx(window.distances[i]).margin(1e-6));
-    REQUIRE(window.field.of_cell(center.x, center.y) == window.distances[i]);
+    REQUIRE(window.field.of_cell(center) == window.distances[i]);
   }
   Stream random(1, "e3mop.slope");
   for (int k = 0; k < 500; ++k) {
@@ -73,7 +73,7 @@ TEST_CASE("The field is interpolated between the centres of cells, with the slop
   CHECK(window.field.at({100.0, 0.0}).distance_m == window.field.at({window.field.upper().x, 0.0}).distance_m);
 }
 
-TEST_CASE("What moves is in the field with its way ahead") {
+TEST_CASE("A moving disc occupies the area that it sweeps") {
   Window window = discs_window({{2.0, -2.0}}, 0.1);
   window.field.add_swept_disc({-1.0, 0.0}, {0.0, 0.0}, 0.3);
   CHECK(window.field.at({-0.5, 0.8}).distance_m == Approx(0.5).margin(0.01));
@@ -85,7 +85,7 @@ TEST_CASE("What moves is in the field with its way ahead") {
   CHECK(window.field.at({2.5, 1.7}).distance_m == Approx(0.5).margin(0.02));
 }
 
-TEST_CASE("A robot that stands too near may leave, and come no nearer") {
+TEST_CASE("A robot that stands too close to an obstacle may leave but come no closer") {
   const Window window = discs_window({{0.0, 0.55}}, 0.3);
   const FreeSpace from_afar(window.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, 0.0, 0.0});
   CHECK_FALSE(from_afar.is_free({0.0, 0.0, 1.0, 0.0}));
@@ -97,7 +97,7 @@ TEST_CASE("A robot that stands too near may leave, and come no nearer") {
   CHECK_FALSE(from_there.is_free({0.75, 0.55, 1.0, 0.0}) != from_afar.is_free({0.75, 0.55, 1.0, 0.0}));
 }
 
-TEST_CASE("The objective's slope is that of finite differences") {
+TEST_CASE("The objective's gradient agrees with finite differences") {
   Stream random(1, "e3mop.gradient");
   const Window window = discs_window({{0.0, 0.9}, {0.6, -0.8}, {-0.9, -0.7}}, 0.25);
   SmoothingSettings settings;
@@ -169,8 +169,8 @@ TEST_CASE("Smoothing lowers the objective, keeps the ends, and never moves a poi
   }
 }
 
-TEST_CASE("A point that smoothing would move into collision keeps its place") {
-  // round a post, with the pull of smoothness far above that of the post
+TEST_CASE("A point that smoothing would move into collision keeps its position") {
+  // around a post, with a smoothness weight far above the obstacle weight
   const Window window = discs_window({{0.0, 0.0}}, 0.3);
   Points before;
   for (int i = 0; i <= 20; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("A point that smoothing would move into collision keeps its place") {
   CHECK(kept == result.put_back);
 }
 
-TEST_CASE("A path beside a wall is pushed off it, a free one becomes straight") {
+TEST_CASE("A path beside a wall moves away from it, a free path becomes straight") {
   PathSmoother smoother;
   SmoothingSettings settings;
   settings.needed_m = 0.3;
@@ -209,7 +209,7 @@ TEST_CASE("A path beside a wall is pushed off it, a free one becomes straight") 
   for (const dmrp_vec2 point : bent) CHECK(std::abs(point.y) < 1e-3);
 }
 
-TEST_CASE("The spline goes through its points, starts as told, and bends as a circle does") {
+TEST_CASE("The spline interpolates its points, starts in the given direction, and has a circle's curvature") {
   Points circle;
   for (int i = 0; i <= 20; ++i) circle.push_back(1.5 * dmrp::toolkit::from_angle(0.06 * i));
   const std::vector<PathPoint> path = spline_of(circle, pi / 2);
@@ -244,7 +244,7 @@ TEST_CASE("On a straight line the profile is bang-bang") {
   if (length_m == 3.0) CHECK(speed_after(path, 0.1) == Approx(start_speed + 0.1).margin(0.01));
 }
 
-TEST_CASE("On a circle the profile turns as fast as it may") {
+TEST_CASE("On a circle the profile turns at the limit") {
   Points circle;
   for (int i = 0; i <= 60; ++i) circle.push_back(0.5 * dmrp::toolkit::from_angle(0.1 * i));
   std::vector<PathPoint> path = spline_of(circle, pi / 2);
@@ -253,10 +253,10 @@ TEST_CASE("On a circle the profile turns as fast as it may") {
     if (point.arc_m > 0.7 && point.arc_m < 2.3) CHECK(point.speed == Approx(0.5).margin(0.02));
 }
 
-TEST_CASE("Profiles keep all limits") {
+TEST_CASE("Profiles respect all limits") {
   Stream random(1, "e3mop.profile");
   for (int round = 0; round < 50; ++round) {
-    // a path that bends at random, smoothly
+    // a smooth random path
     Points points = {{0.0, 0.0}};
     double theta = 0.0;
     double bend = 0.0;
@@ -278,20 +278,20 @@ TEST_CASE("Profiles keep all limits") {
       REQUIRE(p.speed <= e3mop_limits.v_max + 1e-9);
       REQUIRE(p.speed * std::abs(p.curvature) <= e3mop_limits.omega_max + 1e-9);
       REQUIRE(std::abs(q.speed * q.speed - p.speed * p.speed) / (2.0 * ds) <= e3mop_limits.a_max + 1e-9);
-      // the turning rate changes within a step as linear interpolation has it
+      // the turning rate is interpolated linearly within a step
       REQUIRE(std::abs(q.curvature * q.speed - p.curvature * p.speed) / dt <= 1.3 * e3mop_limits.alpha_max);
     }
   }
 }
 
-TEST_CASE("A profile starts at the robot's speed and says when it stands") {
+TEST_CASE("A profile starts at the robot's speed and gives the time of the stop") {
   std::vector<PathPoint> path = spline_of(straight({0.0, 0.0}, {0.1, 0.0}, 3));
   plan_speeds(path, 0.8, 0.0, e3mop_limits);
   CHECK(path.front().speed == 0.8);  // too fast to stop in 0.1 m: the tracker brakes as hard as it may
   CHECK(speed_after(path, 10.0) == 0.0);
 }
 
-TEST_CASE("The tracker drives back onto its path") {
+TEST_CASE("The tracking controller returns to its path") {
   dmrp_observation c{};
   c.struct_size = sizeof(c);
   c.dt_ns = 100'000'000;
@@ -310,9 +310,9 @@ TEST_CASE("The tracker drives back onto its path") {
     REQUIRE(std::abs(command.omega - c.velocity.omega) <= 0.1 + 1e-9);
     REQUIRE((command.v_x >= 0.0 && command.v_x <= 0.8 && std::abs(command.omega) <= 1.0));
     c.velocity = {command.v_x, 0.0, command.omega};
-    ArcState at = arc_state(c.pose);
+    DirectedPoint at = directed(c.pose);
     ArcStepper(command.v_x, command.omega, 0.1).step(at);
-    c.pose = {at.x, at.y, std::atan2(at.sin_theta, at.cos_theta)};
+    c.pose = pose_of(at);
     REQUIRE(std::abs(c.pose.y) < 0.35);
   }
   CHECK(std::abs(c.pose.y) < 0.02);

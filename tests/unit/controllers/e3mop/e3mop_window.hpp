@@ -59,7 +59,7 @@ class LatticeProblem {
     for (std::int32_t cell = 0; cell < frame.cell_count(); ++cell) {
       const dmrp_vec2 at = frame.point_of(cell);
       open_cells[static_cast<std::size_t>(cell)] = frame.inside(frame.column_of(cell), frame.row_of(cell)) &&
-                                                   window.field.of_cell(at.x, at.y) >= e3mop_disc.inscribed_radius_m;
+                                                   window.field.of_cell(at) >= e3mop_disc.inscribed_radius_m;
     }
     goal_cell = frame.cell_of(goal_at);
     goal.begin(frame, open_cells);

@@ -8,6 +8,7 @@
 
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
 
+using namespace dmrp::controllers;
 using namespace dmrp::controllers::e3mop;
 using dmrp::test::e3mop_limits;
 using dmrp::test::LatticeProblem;
@@ -27,7 +28,7 @@ const Direction& direction(int index) {
   return directions()[static_cast<std::size_t>(index)];
 }
 
-// A window with discs strewn over it, none near its middle.
+// A window with random discs, none near its centre.
 Window strewn_window(Stream& random, int count) {
   std::vector<dmrp_vec2> discs;
   while (static_cast<int>(discs.size()) < count) {
@@ -43,21 +44,20 @@ Window strewn_window(Stream& random, int count) {
 bool is_clear(const LatticeProblem& problem, std::int32_t cell, const Motion& motion) {
   const dmrp_vec2 from = problem.frame.point_of(cell);
   for (std::uint32_t k = 0; k < motion.sample_count; ++k) {
-    const MotionSample& sample = problem.motions.samples()[motion.first_sample + k];
-    if (!problem.free_space.is_free({from.x + sample.x, from.y + sample.y, sample.cos_theta, sample.sin_theta}))
-      return false;
+    const DirectedPoint& sample = problem.motions.samples()[motion.first_sample + k];
+    if (!problem.free_space.is_free({from + sample.at, sample.heading})) return false;
   }
   return true;
 }
 
-// Calls `visit(node, motion, next node)` for every motion that the window lets pass.
+// Calls `visit(node, motion, next node)` for every free motion.
 void for_all_edges(LatticeProblem& problem,
                    const std::function<void(std::int32_t, const Motion&, std::int32_t)>& visit) {
   for (std::int32_t cell = 0; cell < problem.frame.cell_count(); ++cell) {
     const std::int32_t column = problem.frame.column_of(cell);
     const std::int32_t row = problem.frame.row_of(cell);
     const dmrp_vec2 at = problem.frame.point_of(cell);
-    if (!problem.frame.inside(column, row) || !problem.free_space.is_free({at.x, at.y, 1.0, 0.0})) continue;
+    if (!problem.frame.inside(column, row) || !problem.free_space.is_free({at, {1.0, 0.0}})) continue;
     for (int heading = 0; heading < direction_count; ++heading) {
       for (const Motion& motion : problem.motions.from(heading)) {
         if (!problem.frame.inside(column + motion.dx, row + motion.dy) || !is_clear(problem, cell, motion)) continue;
@@ -68,7 +68,8 @@ void for_all_edges(LatticeProblem& problem,
   }
 }
 
-// Least cost from the frame's centre at a heading to the goal's cells, without a heuristic; -1 where there is none.
+// The minimum cost from the frame's centre at a heading to the goal's cells, without a heuristic; -1 if there is no
+// path.
 Ticks least_cost(LatticeProblem& problem, int heading) {
   std::vector<std::vector<std::pair<std::int32_t, Ticks>>> edges(
       static_cast<std::size_t>(problem.frame.cell_count() * direction_count));
@@ -106,11 +107,11 @@ TEST_CASE("Motions end exactly on states of the lattice") {
     for (const Motion& motion : motions.from(heading)) {
       CAPTURE(heading, motion.dx, motion.dy, motion.to_heading);
       ++kinds[static_cast<int>(motion.kind)];
-      const MotionSample& end = motions.samples()[motion.first_sample + motion.sample_count - 1];
-      CHECK(end.x == Approx(0.1 * motion.dx).margin(1e-12));
-      CHECK(end.y == Approx(0.1 * motion.dy).margin(1e-12));
-      CHECK(end.cos_theta == Approx(direction(motion.to_heading).cos_theta).margin(1e-12));
-      CHECK(end.sin_theta == Approx(direction(motion.to_heading).sin_theta).margin(1e-12));
+      const DirectedPoint& end = motions.samples()[motion.first_sample + motion.sample_count - 1];
+      CHECK(end.at.x == Approx(0.1 * motion.dx).margin(1e-12));
+      CHECK(end.at.y == Approx(0.1 * motion.dy).margin(1e-12));
+      CHECK(end.heading.x == Approx(direction(motion.to_heading).unit.x).margin(1e-12));
+      CHECK(end.heading.y == Approx(direction(motion.to_heading).unit.y).margin(1e-12));
       // no faster than the limits
       const double turn =
           std::abs(dmrp::toolkit::difference(direction(heading).theta, direction(motion.to_heading).theta));
@@ -124,22 +125,22 @@ TEST_CASE("Motions end exactly on states of the lattice") {
   }
 }
 
-TEST_CASE("Motions are what a unicycle drives") {
+TEST_CASE("Motions are feasible for a unicycle") {
   const MotionSet motions = motions_of();
   for (int heading = 0; heading < direction_count; ++heading) {
     for (const Motion& motion : motions.from(heading)) {
       if (motion.kind == MotionKind::turn) continue;
       CAPTURE(heading, motion.dx, motion.dy);
-      MotionSample at = {0.0, 0.0, direction(heading).cos_theta, direction(heading).sin_theta};
+      DirectedPoint at = {{0.0, 0.0}, direction(heading).unit};
       double length_m = 0.0;
       for (std::uint32_t k = 0; k < motion.sample_count; ++k) {
-        const MotionSample& next = motions.samples()[motion.first_sample + k];
-        const double chord_m = std::hypot(next.x - at.x, next.y - at.y);
+        const DirectedPoint& next = motions.samples()[motion.first_sample + k];
+        const double chord_m = dmrp::toolkit::distance(at.at, next.at);
         REQUIRE(chord_m <= 0.05 + 1e-9);
         // forward, between the two headings
-        const double along = std::atan2(next.y - at.y, next.x - at.x);
-        const double before = dmrp::toolkit::difference(std::atan2(at.sin_theta, at.cos_theta), along);
-        const double after = dmrp::toolkit::difference(along, std::atan2(next.sin_theta, next.cos_theta));
+        const double along = dmrp::toolkit::bearing(at.at, next.at);
+        const double before = dmrp::toolkit::difference(pose_of(at).theta, along);
+        const double after = dmrp::toolkit::difference(along, pose_of(next).theta);
         REQUIRE(std::abs(before) + std::abs(after) == Approx(std::abs(before + after)).margin(1e-6));
         REQUIRE(std::abs(before + after) <= chord_m / motion.radius_m * 1.01 + 1e-9);
         length_m += chord_m;
@@ -150,7 +151,7 @@ TEST_CASE("Motions are what a unicycle drives") {
   }
 }
 
-TEST_CASE("Motions are dropped by the angle between the way to the goal and the way of the motion") {
+TEST_CASE("Motions are dropped by the angle between the direction to the goal and that of the motion") {
   const MotionSet motions = motions_of();
   for (int heading = 0; heading < direction_count; ++heading) {
     for (const Motion& motion : motions.from(heading)) {
@@ -168,7 +169,7 @@ TEST_CASE("Motions are dropped by the angle between the way to the goal and the 
   }
 }
 
-TEST_CASE("The heuristic's grid gives what plain relaxation gives") {
+TEST_CASE("The heuristic's distances agree with plain relaxation") {
   Stream random(1, "e3mop.grid");
   const MotionSet motions = motions_of();
   for (int round = 0; round < 5; ++round) {
@@ -195,14 +196,14 @@ TEST_CASE("The heuristic's grid gives what plain relaxation gives") {
         }
       }
     }
-    // asked in any order
+    // queried in any order
     const std::int32_t count = problem.frame.cell_count();
     for (std::int32_t k = 0; k < count; ++k) {
       const std::int32_t cell = static_cast<std::int32_t>((static_cast<std::int64_t>(k) * 1009) % count);
       const std::int32_t distance = problem.goal.distance(cell);
       REQUIRE(distance == plain[static_cast<std::size_t>(cell)]);
       if (distance == GoalDistances::infinite || distance == 0) continue;
-      const Direction& out = direction(problem.goal.way_out(cell));
+      const Direction& out = direction(problem.goal.exit_direction(cell));
       const std::int32_t next = cell + out.dy * problem.frame.stride() + out.dx;
       REQUIRE(problem.goal.distance(next) + static_cast<std::int32_t>(1000.0 * std::hypot(out.dx, out.dy)) == distance);
     }
@@ -230,7 +231,7 @@ TEST_CASE("The heuristic never exceeds the cost, motion by motion") {
   }
 }
 
-TEST_CASE("Without pruning the search finds the least cost") {
+TEST_CASE("Without pruning the search finds the minimum cost") {
   Stream random(1, "e3mop.optimal");
   const MotionSet motions = motions_of();
   int solved = 0;
@@ -239,7 +240,7 @@ TEST_CASE("Without pruning the search finds the least cost") {
     LatticeProblem problem(window, motions, {random.uniform(-2.5, 2.5), random.uniform(-2.5, 2.5)});
     const int heading = static_cast<int>(random.below(direction_count));
     const SearchResult result = problem.search({0.0, 0.0, direction(heading).theta}, false);
-    // its start may turn to a neighbouring heading at its plain time; from there on it is the lattice's
+    // the search may first turn to a neighbouring heading, at the unweighted time of the turn
     const Ticks least = least_cost(problem, heading);
     REQUIRE(result.found == (least >= 0));
     if (!result.found) continue;
@@ -251,7 +252,7 @@ TEST_CASE("Without pruning the search finds the least cost") {
   CHECK(solved >= 4);
 }
 
-TEST_CASE("A path found is free, leads from the start to the goal, and bends no tighter than the motions") {
+TEST_CASE("A path is free, leads from the start to the goal, and bends no tighter than the motions") {
   Stream random(1, "e3mop.path");
   const MotionSet motions = motions_of();
   const bool pruning = GENERATE(true, false);
@@ -273,8 +274,8 @@ TEST_CASE("A path found is free, leads from the start to the goal, and bends no 
   }
 }
 
-TEST_CASE("A search that finds no way leads toward the goal") {
-  // a wall right across
+TEST_CASE("A search that finds no path leads toward the goal") {
+  // a wall across the whole window
   const Window window({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return std::abs(point.x - 1.5) < 0.05; });
   const MotionSet motions = motions_of();
   LatticeProblem problem(window, motions, {2.5, 0.0});
@@ -282,7 +283,7 @@ TEST_CASE("A search that finds no way leads toward the goal") {
   CHECK_FALSE(result.found);
   CHECK(result.expanded == 0);  // the grid knows
 
-  // a gap that the grid lets pass and the disc with its padding does not
+  // a gap wide enough for the heuristic's grid but not for the padded disc
   const Window gap({0.0, 0.0, 0.0},
                    [](dmrp_vec2 point) { return std::abs(point.x - 1.5) < 0.05 && std::abs(point.y - 0.025) > 0.24; });
   LatticeProblem narrow(gap, motions, {2.5, 0.0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The banded solvers against dense ones by Eigen, and least squares with known answers.
+// The banded solvers against dense ones from Eigen, and least-squares problems with known solutions.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,8 +18,8 @@ struct Random {
   double operator()() { return 2.0 * stream.uniform() - 1.0; }
 };
 
-// Diagonally dominant, with the signs given to the diagonal: positive definite, or quasi-definite where rows of either
-// sign couple at will and rows of one sign are dominant among themselves.
+// Diagonally dominant with given signs of the diagonal: positive definite, or quasi-definite if the signs differ; then
+// only rows of equal sign need to be dominant among themselves.
 BandedMatrix<bandwidth> random_matrix(std::size_t size, Random& random, bool quasi_definite) {
   BandedMatrix<bandwidth> a;
   a.resize(size);
@@ -57,7 +57,7 @@ double largest_difference(const std::vector<double>& ours, const Eigen::VectorXd
 
 }  // namespace
 
-TEST_CASE("A banded system is solved as a dense one") {
+TEST_CASE("The solution of a banded system agrees with a dense one") {
   const std::size_t size = GENERATE(1, 2, 5, 6, 7, 40, 123);
   const bool quasi_definite = GENERATE(false, true);
   const double shift = GENERATE(0.0, 0.7);
@@ -83,7 +83,7 @@ TEST_CASE("A banded system is solved as a dense one") {
   CHECK(largest_difference(product, dense(a) * eigen(x)) < 1e-12);
 }
 
-TEST_CASE("A singular matrix and one that is no number are refused") {
+TEST_CASE("Singular matrices and matrices that are not finite are refused") {
   BandedMatrix<bandwidth> a;
   a.resize(3);
   BandedLdlt<bandwidth> ldlt;
@@ -95,7 +95,7 @@ TEST_CASE("A singular matrix and one that is no number are refused") {
 
 namespace {
 
-// Rosenbrock's valley as a chain: r = 10 (x_{i+1} - x_i^2), 1 - x_i. Least, zero, at ones.
+// Rosenbrock's valley as a chain: r = 10 (x_{i+1} - x_i^2), 1 - x_i. The minimum is 0 at ones.
 struct Valley {
   std::vector<double> x;
   std::vector<double> kept = x;
@@ -134,7 +134,7 @@ struct Valley {
 
 }  // namespace
 
-TEST_CASE("Levenberg-Marquardt finds the least of a curved valley") {
+TEST_CASE("Levenberg-Marquardt finds the minimum of a curved valley") {
   Valley valley{{-1.2, 1.0}};
   LevenbergMarquardt<1> solver;
   const LevenbergMarquardtResult result = solver.minimise(valley, {200, 10, 1e-5, 0.0, 1e-12});
@@ -144,7 +144,7 @@ TEST_CASE("Levenberg-Marquardt finds the least of a curved valley") {
   for (const double x : valley.x) CHECK(x == Approx(1.0));
 }
 
-TEST_CASE("Levenberg-Marquardt never raises the cost and keeps to its iterations") {
+TEST_CASE("Levenberg-Marquardt never raises the cost and respects the iteration limit") {
   Valley valley{{-1.2, 1.0}};
   LevenbergMarquardt<1> solver;
   double cost = valley.cost();
@@ -160,8 +160,8 @@ TEST_CASE("Levenberg-Marquardt never raises the cost and keeps to its iterations
   CHECK(cost < 1e-3);
 }
 
-TEST_CASE("A straight line is fitted in one step and a half") {
-  // linear least squares: the first step is all but exact, the second ends it
+TEST_CASE("Levenberg-Marquardt fits a straight line in at most two iterations") {
+  // linear least squares: the first step is nearly exact, the second ends the iteration
   struct Line {
     double x = 5.0, kept = 5.0;
     double linearise(BandedMatrix<1>& h, std::vector<double>& g) {

@@ -61,12 +61,12 @@ void send(PathTracker& tracker, const std::vector<Point>& points) {
 
 }  // namespace
 
-TEST_CASE("Steps along an arc end where the circle is") {
+TEST_CASE("Steps along an arc end on the circle") {
   const double v = 0.6;
   const double omega = GENERATE(-1.0, -1e-6, 0.0, 0.3, 1.0);
   const double duration_s = 1.7;
   CAPTURE(omega);
-  ArcState at = arc_state({1.0, 2.0, 0.5});
+  DirectedPoint at = directed({1.0, 2.0, 0.5});
   const ArcStepper stepper(v, omega, duration_s / 20);
   for (int i = 0; i < 20; ++i) stepper.step(at);
   double x = 1.0 + v * duration_s * std::cos(0.5);
@@ -76,9 +76,9 @@ TEST_CASE("Steps along an arc end where the circle is") {
     x = 1.0 + radius * (std::sin(0.5 + omega * duration_s) - std::sin(0.5));
     y = 2.0 - radius * (std::cos(0.5 + omega * duration_s) - std::cos(0.5));
   }
-  CHECK(at.x == Approx(x).margin(1e-6));
-  CHECK(at.y == Approx(y).margin(1e-6));
-  CHECK(std::atan2(at.sin_theta, at.cos_theta) == Approx(0.5 + omega * duration_s).margin(1e-9));
+  CHECK(at.at.x == Approx(x).margin(1e-6));
+  CHECK(at.at.y == Approx(y).margin(1e-6));
+  CHECK(pose_of(at).theta == Approx(0.5 + omega * duration_s).margin(1e-9));
 }
 
 TEST_CASE("The stopping speed, kept for a period and then braked, stops in time") {
@@ -91,7 +91,7 @@ TEST_CASE("The stopping speed, kept for a period and then braked, stops in time"
   CHECK(stopping_speed(-1.0, a, 0.1) == 0.0);
 }
 
-TEST_CASE("The tracker follows forward, skips no excursion, and stops where it must") {
+TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop point") {
   PathTracker tracker;
   Now now;
   SECTION("progress never falls") {
@@ -187,17 +187,17 @@ TEST_CASE("The latch at the goal") {
   }
 }
 
-TEST_CASE("Costs are read as distances") {
+TEST_CASE("Costs convert to distances") {
   FakeCostmap fake(120);
   fake.mark(3.0, 3.0);  // the cell of [3.00, 3.05), its centre at 3.025
   const dmrp_costmap c = fake.c();
   const CostmapView map(c);
-  CHECK(map.cost(3.01, 3.01) == DMRP_COST_LETHAL);
-  CHECK(map.cost(3.22, 3.02) == DMRP_COST_INSCRIBED);
-  CHECK(map.cost(-0.01, 3.0) == DMRP_COST_FREE);
-  CHECK(map.index_of(-0.01, 3.0) == -1);
-  CHECK(map.index_of(5.99, 5.99) == 120 * 120 - 1);
-  CHECK(map.index_of(6.0, 3.0) == -1);
+  CHECK(map.cost({3.01, 3.01}) == DMRP_COST_LETHAL);
+  CHECK(map.cost({3.22, 3.02}) == DMRP_COST_INSCRIBED);
+  CHECK(map.cost({-0.01, 3.0}) == DMRP_COST_FREE);
+  CHECK(map.index_of({-0.01, 3.0}) == -1);
+  CHECK(map.index_of({5.99, 5.99}) == 120 * 120 - 1);
+  CHECK(map.index_of({6.0, 3.0}) == -1);
   for (const double distance : {0.3, 0.35, 0.4, 0.5})
     CHECK(map.distance_of(map.highest_cost_at(distance)) == Approx(distance).margin(0.005));
   CHECK(map.highest_cost_at(0.2) == DMRP_COST_INSCRIBED - 1);
@@ -214,23 +214,23 @@ TEST_CASE("Footprints on the costmap") {
   SECTION("a disc costs what its centre's cell costs, and grows") {
     const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
     FootprintCheck check(map, disc, 0.0, {1.0, 1.0, 0.0});
-    CHECK(check.cost(arc_state({3.025, 3.225, 0.0})) == in_collision);
-    CHECK(check.cost(arc_state({3.025, 3.325, 0.0})) == map.cost(3.025, 3.325));
+    CHECK(check.cost(directed({3.025, 3.225, 0.0})) == in_collision);
+    CHECK(check.cost(directed({3.025, 3.325, 0.0})) == map.cost({3.025, 3.325}));
     check.scale(1.3);  // 0.325
-    CHECK(check.cost(arc_state({3.025, 3.325, 0.0})) == in_collision);
-    CHECK(check.cost(arc_state({3.025, 3.375, 0.0})) > 0);
+    CHECK(check.cost(directed({3.025, 3.325, 0.0})) == in_collision);
+    CHECK(check.cost(directed({3.025, 3.375, 0.0})) > 0);
   }
   SECTION("a long robot fits one way only") {
     const dmrp_vec2 corners[] = {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}};
     const dmrp_footprint box = {sizeof(box), 4, std::hypot(0.6, 0.3), 0.3, corners};
     FootprintCheck check(map, box, 0.0, {1.0, 1.0, 0.0});
-    CHECK(check.cost(arc_state({3.025, 3.425, 0.0})) >= 0);
-    CHECK(check.cost(arc_state({3.025, 3.625, pi / 2})) == in_collision);
+    CHECK(check.cost(directed({3.025, 3.425, 0.0})) >= 0);
+    CHECK(check.cost(directed({3.025, 3.625, pi / 2})) == in_collision);
   }
   SECTION("who stands too near may leave, and come no nearer") {
     const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
     const FootprintCheck check(map, disc, 0.05, {3.225, 3.025, 0.0});
-    CHECK(check.cost(arc_state({3.225, 3.025, 1.0})) >= 0);
+    CHECK(check.cost(directed({3.225, 3.025, 1.0})) >= 0);
     CHECK(check.arc_cost({3.225, 3.025, 0.0}, 0.2, 0.0, 1.0, 10) >= 0);
     CHECK(check.arc_cost({3.225, 3.025, pi}, 0.2, 0.0, 1.0, 10) == in_collision);
   }
@@ -284,7 +284,7 @@ TEST_CASE("Distances from a robot to obstacles") {
   CHECK(separation(box, {1.0, -0.1, 0.0}, set.all()[2], 0.0).distance_m == Approx(-0.1));
 }
 
-TEST_CASE("The gradient of a distance is its slope") {
+TEST_CASE("The gradient of a distance agrees with finite differences") {
   Now now;
   Clusters clusters{{point, segment, triangle}};
   dmrp_agent person = {7, DMRP_AGENT_PERSON, 0, {0.5, 1.0, 0.0}, {0.4, -0.3}, 0.3};
@@ -307,7 +307,7 @@ TEST_CASE("The gradient of a distance is its slope") {
       const auto slope = [&](double x, double y, double theta) {
         return (distance(h * x, h * y, h * theta) - distance(-h * x, -h * y, -h * theta)) / (2.0 * h);
       };
-      // on a ridge, where two nearest points take turns, there is no gradient: one-sided slopes differ
+      // no gradient exists where two points are equally close: one-sided slopes differ
       const auto kink = [&](double x, double y, double theta) {
         return std::abs(distance(h * x, h * y, h * theta) + distance(-h * x, -h * y, -h * theta) -
                         2.0 * here.distance_m) > 1e-9;
@@ -365,7 +365,7 @@ TEST_CASE("The path ahead ends at its look-ahead, at the window or at the stop")
   }
 }
 
-TEST_CASE("A goal that is taken is moved back along the path") {
+TEST_CASE("An occupied goal moves back along the path") {
   Now now;
   FakeCostmap costmap(120);
   costmap.mark(4.0, 3.0);
@@ -385,12 +385,12 @@ TEST_CASE("A goal that is taken is moved back along the path") {
   CHECK_FALSE(ahead.ends_at_stop());
 }
 
-TEST_CASE("Turning to and fro on the spot is noticed, driving and turning round are not") {
+TEST_CASE("Turning back and forth on the spot is detected; driving and turning around are not") {
   const dmrp_limits limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
   OscillationDetector detector;
   detector.reset(20);
   const auto drive = [&](int periods, double v, auto omega_of) {
-    for (int i = 0; i < periods; ++i) detector.note({v, 0.0, omega_of(i)}, limits);
+    for (int i = 0; i < periods; ++i) detector.record({v, 0.0, omega_of(i)}, limits);
   };
   const auto to_and_fro = [](int i) { return i / 3 % 2 == 0 ? 0.5 : -0.5; };
   drive(8, 0.0, to_and_fro);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of the MPC: the program's derivatives, the Riccati recursion against a dense solution, the interior point
-// method on problems whose answers are known, and what is associated and guessed.
+// The parts of the MPC: the problem's derivatives, the Riccati recursion against a dense solution, the interior point
+// method on problems with known solutions, the association of obstacles and the initial guesses.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -103,7 +103,7 @@ Solved solve(Problem& problem, const std::vector<Obstacle>& obstacles = {}, std:
 
 }  // namespace
 
-TEST_CASE("Gradients and curvatures of all constraints are those of finite differences") {
+TEST_CASE("Gradients and curvatures of all constraints agree with finite differences") {
   const dmrp_footprint& footprint = GENERATE(0, 1) == 0 ? disc : box;
   const Surroundings around;
   Problem problem = in_the_open({}, {});
@@ -126,12 +126,12 @@ TEST_CASE("Gradients and curvatures of all constraints are those of finite diffe
       problem.constraints(4, k, nudged(w, entry, h), after.data());
       for (std::size_t i = 0; i < count; ++i) {
         CAPTURE(round, k, entry, i);
-        // where the nearest feature changes there is no gradient: both sides must tell the same
+        // no gradient exists where the closest feature changes: checks only where both one-sided slopes agree
         if (std::abs(before[i].gradient[entry] - after[i].gradient[entry]) > 1e-3) continue;
         CHECK(here[i].gradient[entry] == Approx((after[i].value - before[i].value) / (2.0 * h)).margin(1e-5));
       }
     }
-    // along the tangent, for discs: the curvature says how the gradient turns
+    // for discs: the curvature gives the change of the gradient along the tangent
     if (&footprint != &disc) continue;
     for (std::size_t i = 0; i < count; ++i) {
       if (here[i].curvature == 0.0 || -here[i].value < 0.0) continue;
@@ -149,7 +149,7 @@ TEST_CASE("Gradients and curvatures of all constraints are those of finite diffe
   if (&footprint == &disc) CHECK(curved > 50);
 }
 
-TEST_CASE("First and second derivatives of transitions are those of finite differences") {
+TEST_CASE("First and second derivatives of transitions agree with finite differences") {
   const Problem problem = in_the_open({}, {});
   Stream random(2, "transitions");
   const double h = 1e-5;
@@ -186,7 +186,7 @@ TEST_CASE("First and second derivatives of transitions are those of finite diffe
   }
 }
 
-TEST_CASE("The transition of angles is wrapped") {
+TEST_CASE("Transitions wrap angles") {
   const Problem problem = in_the_open({}, {});
   StageVector w = {};
   w[at_theta] = 3.1;
@@ -196,7 +196,7 @@ TEST_CASE("The transition of angles is wrapped") {
   CHECK(in_the_open({}, {0.0, 0.0, -3.1}).terminal_error({0.0, 0.0, 3.1})[2] == Approx(6.2 - 2.0 * pi));
 }
 
-TEST_CASE("The Riccati recursion solves what a dense factorisation solves") {
+TEST_CASE("The Riccati recursion agrees with a dense factorisation") {
   Stream random(3, "riccati");
   constexpr std::size_t stages = 6;
   constexpr int z_size = static_cast<int>(state_size);
@@ -218,7 +218,7 @@ TEST_CASE("The Riccati recursion solves what a dense factorisation solves") {
     REQUIRE(riccati.factor(0.0));
     riccati.solve();
 
-    // over the controls and dt alone: the states follow
+    // over the controls and dt alone: they determine the states
     constexpr int unknowns = 2 * (static_cast<int>(stages) - 1) + 1;
     Eigen::MatrixXd z = Eigen::MatrixXd::Zero(z_size, unknowns + 1);  // the state as a function of the unknowns, and 1
     z(static_cast<int>(at_dt), unknowns - 1) = 1.0;
@@ -257,7 +257,7 @@ TEST_CASE("The Riccati recursion solves what a dense factorisation solves") {
   }
 }
 
-TEST_CASE("An indefinite reduced Hessian is noticed, and a shift mends it") {
+TEST_CASE("An indefinite reduced Hessian is detected, and a shift makes it positive definite") {
   RiccatiRecursion riccati;
   riccati.stages().resize(3);
   for (QuadraticStage& stage : riccati.stages()) {
@@ -268,7 +268,7 @@ TEST_CASE("An indefinite reduced Hessian is noticed, and a shift mends it") {
   CHECK(riccati.factor(2.0));
 }
 
-TEST_CASE("Straight ahead at full speed takes length over speed") {
+TEST_CASE("Driving straight at full speed takes the length over the speed") {
   Problem problem = in_the_open({0.0, 0.0, 0.0}, {2.0, 0.0, 0.0});
   problem.before = {0.8, 0.0};
   const Solved solved = solve(problem);
@@ -277,20 +277,20 @@ TEST_CASE("Straight ahead at full speed takes length over speed") {
   CHECK(problem.violation(solved.trajectory) < 1e-4);
 }
 
-TEST_CASE("From rest to rest the controls are a trapezoid within the accelerations") {
+TEST_CASE("From rest to rest the speeds are a trapezoid within the acceleration limits") {
   Problem problem = in_the_open({0.0, 0.0, 0.0}, {2.0, 0.0, 0.0});
   problem.ends_at_rest = true;
   problem.fixes_heading = false;
   const Solved solved = solve(problem, {}, 40);
   CHECK(solved.report.converged);
   CHECK(problem.violation(solved.trajectory) < 1e-4);
-  // the continuous one takes 2 / 0.8 + 0.8 / 1; controls held from the start of each step save less than a step
+  // the continuous solution takes 2 / 0.8 + 0.8 / 1; controls held from the start of each step save less than a step
   CHECK(solved.trajectory.duration_s() == Approx(3.3).margin(0.15));
   CHECK(solved.trajectory.controls.front().v <= solved.trajectory.dt_s + 1e-6);
   CHECK(solved.trajectory.controls.back().v <= solved.trajectory.dt_s + 1e-6);
 }
 
-TEST_CASE("Between two points that leave a gap the way through is found, past one the way round") {
+TEST_CASE("The trajectory passes through a gap between two points, and around a single point") {
   Problem problem = in_the_open({0.0, 0.0, 0.0}, {2.0, 0.0, 0.0});
   problem.before = {0.8, 0.0};
   std::vector<dmrp_vec2> points = {{1.0, 0.4}, {1.0, -0.36}};
@@ -311,7 +311,7 @@ TEST_CASE("Between two points that leave a gap the way through is found, past on
     for (const dmrp_vec2& point : points) CHECK(std::hypot(state.x - point.x, state.y - point.y) > 0.35 - 1e-3);
 }
 
-TEST_CASE("What cannot be is answered all the same") {
+TEST_CASE("Infeasible problems have a solution") {
   Problem problem = in_the_open({0.0, 0.0, 0.0}, {2.0, 0.0, 0.0});
   std::vector<dmrp_vec2> vertices;
   std::vector<Obstacle> obstacles(1);
@@ -345,7 +345,7 @@ TEST_CASE("What cannot be is answered all the same") {
   }
 }
 
-TEST_CASE("Every near obstacle is associated, of the others the nearest on either side") {
+TEST_CASE("All close obstacles are associated, and of the others the closest one on each side") {
   const std::vector<dmrp_vec2> points = {{1.0, 0.6}, {1.0, -0.5}, {1.0, 1.5}, {1.0, 2.2}, {1.0, -1.2}, {1.0, 9.0}};
   std::vector<Obstacle> obstacles;
   for (const dmrp_vec2& point : points) {
@@ -368,7 +368,7 @@ TEST_CASE("Every near obstacle is associated, of the others the nearest on eithe
   CHECK_FALSE(association.associate(trajectory, obstacles, {}, problem));
 }
 
-TEST_CASE("A guess leads along the points, what is left of a trajectory to where the goal is now") {
+TEST_CASE("A new guess leads along the points, a shifted trajectory to the new goal") {
   Problem problem = in_the_open({0.0, 0.0, 0.0}, {2.0, 2.0, 0.5 * pi});
   const std::vector<dmrp_vec2> corner = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {2.0, 2.0}};
   InitialGuess guess;
@@ -392,7 +392,7 @@ TEST_CASE("A guess leads along the points, what is left of a trajectory to where
     CHECK(std::abs(trajectory.states[k + 1].theta - trajectory.states[k].theta) < 1.0);
 }
 
-TEST_CASE("The guide goes round what stands in the way, and says where there is no way") {
+TEST_CASE("The guide leads around obstacles and reports unreachable points") {
   FakeCostmap fake(120);
   for (int row = 0; row < 90; ++row) fake.mark(3.01, 0.05 * row + 0.01);
   dmrp_costmap c = fake.c();
@@ -403,11 +403,11 @@ TEST_CASE("The guide goes round what stands in the way, and says where there is 
   guide.spread(map, from, 0.27, 0.4);
   REQUIRE(guide.reaches(map, to));
   std::vector<dmrp_vec2> way;
-  guide.way_to(map, to, way);
+  guide.path_to(map, to, way);
   double highest_m = 0.0;
   for (const dmrp_vec2 point : way) {
     highest_m = std::max(highest_m, point.y);
-    CHECK(map.distance_of(map.cost(point.x, point.y)) >= 0.25);
+    CHECK(map.distance_of(map.cost(point)) >= 0.25);
   }
   CHECK(highest_m > map.center(60, 90).y);
   for (int row = 90; row < 120; ++row) fake.mark(3.01, 0.05 * row + 0.01);

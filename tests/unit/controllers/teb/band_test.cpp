@@ -21,7 +21,7 @@ dmrp_footprint disc(double radius_m) {
   return {sizeof(dmrp_footprint), 0, radius_m, radius_m, nullptr};
 }
 
-// A band that breaks every rule a little.
+// A band that violates every constraint a little.
 TimedElasticBand ragged_band(toolkit::Stream& random, int poses) {
   TimedElasticBand band;
   band.begin({0.0, 0.0, random.uniform(-0.5, 0.5)});
@@ -85,7 +85,7 @@ std::array<double, 11> random_block(toolkit::Stream& random) {
 
 Motion motion_at(const double* v) {
   Motion motion;
-  move_between<true>(directed(v[0], v[1], v[2]), directed(v[4], v[5], v[6]), v[3], motion);
+  motion_between<true>(directed(v[0], v[1], v[2]), directed(v[4], v[5], v[6]), v[3], motion);
   return motion;
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("TEB: penalties begin a margin inside their bounds, and at zero where 
   CHECK(above(0.5, 0.5, 0.05).error == Approx(0.05));
 }
 
-TEST_CASE("TEB: the gradient of a whole band's cost agrees with finite differences, the ends are held") {
+TEST_CASE("TEB: the gradient of a band's cost agrees with finite differences, and the ends are fixed") {
   toolkit::Stream random(2, "teb.gradient");
   const dmrp_limits limits = test_limits();
   const dmrp_vec2 outline[] = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.3, -0.2}};
@@ -163,7 +163,7 @@ TEST_CASE("TEB: the gradient of a whole band's cost agrees with finite differenc
     scene.start_velocity = {0.4, 0.0, -0.2};
     scene.stops_at_goal = round % 4 < 2;
     scene.preferred_turn = round % 3 == 0 ? Turn::left : Turn::any;
-    BandTuning tuning;
+    Parameters tuning;
     tuning.weight_shortest_path = 0.7;
     tuning.inflation_dist = 0.9;
     TimedElasticBand band = ragged_band(random, 9);
@@ -195,9 +195,9 @@ TEST_CASE("TEB: the gradient of a whole band's cost agrees with finite differenc
   }
 }
 
-TEST_CASE("TEB: a band's first lay-out turns in place where the robot faces away, the way asked for") {
+TEST_CASE("TEB: a new band of a robot that faces away begins with a turn in place in the preferred direction") {
   const dmrp_limits limits = test_limits();
-  const BandTuning tuning;
+  const Parameters tuning;
   TimedElasticBand band;
   lay_out(band, {0.0, 0.0, 0.0}, {-2.0, 0.0, toolkit::pi}, {{-0.5, 0.0}, {-1.0, 0.0}, {-1.5, 0.0}}, limits, tuning,
           Turn::right);
@@ -208,9 +208,9 @@ TEST_CASE("TEB: a band's first lay-out turns in place where the robot faces away
   CHECK(band.duration_s() == Approx(toolkit::pi + 2.0 / 0.8).epsilon(0.05));
 }
 
-TEST_CASE("TEB: resizing keeps the times near dt_ref, the whole duration and the ends") {
+TEST_CASE("TEB: resizing keeps the intervals near dt_ref, the duration and the ends") {
   toolkit::Stream random(3, "teb.resize");
-  BandTuning tuning;
+  Parameters tuning;
   for (int round = 0; round < 100; ++round) {
     TimedElasticBand band;
     band.begin({0.0, 0.0, 0.0});
@@ -244,7 +244,7 @@ TEST_CASE("TEB: moving the ends drops the poses that the robot has passed") {
   CHECK(band.dt.size() == 6);
 }
 
-TEST_CASE("TEB: poses are linked to all obstacles close by and to the nearest on either side") {
+TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one on each side") {
   TimedElasticBand band;
   band.begin({0.0, 0.0, 0.0});
   band.append({1.0, 0.0, 0.0}, 1.0);
@@ -257,7 +257,7 @@ TEST_CASE("TEB: poses are linked to all obstacles close by and to the nearest on
     obstacles[i].center = at[i];
   }
   obstacles[5].velocity = {0.0, 5.0};  // with the robot when that is at the pose
-  BandTuning tuning;                   // forced within 0.75 m, cut off at 2.5 m
+  Parameters tuning;                   // forced within 0.75 m, cut off at 2.5 m
   std::vector<ObstacleLink> links;
   ObstacleLinker linker;
   linker.link(band, disc(0.2), obstacles, tuning, links);
@@ -286,7 +286,7 @@ TEST_CASE("TEB: an optimised band is fast, smooth, clear of obstacles and within
   const std::vector<Obstacle> obstacles = {post};
   const std::vector<Vec2> none;
   Scene scene = {&limits, &footprint, &obstacles, &none};
-  BandTuning tuning;
+  Parameters tuning;
   tuning.min_obstacle_dist = 0.2;
   tuning.inflation_dist = 0.3;
   tuning.obstacle_association_cutoff_factor = 10.0;
@@ -301,7 +301,7 @@ TEST_CASE("TEB: an optimised band is fast, smooth, clear of obstacles and within
     const Motion motion = [&] {
       Motion m;
       const Pose a = band.pose(i), b = band.pose(i + 1);
-      move_between<false>(directed(a.x, a.y, a.theta), directed(b.x, b.y, b.theta), band.dt[i], m);
+      motion_between<false>(directed(a.x, a.y, a.theta), directed(b.x, b.y, b.theta), band.dt[i], m);
       return m;
     }();
     CHECK(motion.v < 0.85);

@@ -15,7 +15,7 @@ using namespace dmrp::controllers::teb;
 
 namespace {
 
-// Shapes that live as long as it does.
+// Owns shapes.
 class Shapes {
  public:
   Shapes& add(const std::vector<Vec2>& vertices, double radius_m = 0.0, Vec2 velocity = {0.0, 0.0}) {
@@ -56,7 +56,7 @@ Signature signature_of(const std::vector<Vec2>& points, const Shapes& shapes, do
   return band_signature(band_through(points, dt_s), marks);
 }
 
-// How much the direction to the way's points turns, as seen from a mark.
+// The angle that a path sweeps as seen from a mark.
 double swept_angle(const std::vector<Vec2>& points, Vec2 mark) {
   double sum = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i)
@@ -69,7 +69,7 @@ struct Setting {
   dmrp_footprint footprint = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
   std::vector<Vec2> none;
   std::vector<Vec2> path;
-  BandTuning tuning;
+  Parameters tuning;
   Setting() {
     tuning.min_obstacle_dist = 0.1;
     tuning.inflation_dist = 0.3;
@@ -102,11 +102,11 @@ TEST_CASE("TEB: a step crosses a ray from right to left, from left to right, or 
   CHECK(ray_crossing({1.0, 1.0}, {2.0, 3.0}, ray) == 0);
   CHECK(ray_crossing({-3.0, 1.0}, {1.0, -1.0}, ray) == 0);  // through the line at -1
   CHECK(ray_crossing({-1.0, 1.0}, {3.0, -1.0}, ray) == -1);
-  // a point on the ray's line belongs to one side: there and on is one crossing
+  // a point on the ray's line belongs to one side: a step to it and one beyond it are one crossing
   CHECK(ray_crossing({2.0, -1.0}, {2.0, 0.0}, ray) + ray_crossing({2.0, 0.0}, {2.0, 1.0}, ray) == 1);
 }
 
-TEST_CASE("TEB: ways have the same signature where they pass everything on the same sides") {
+TEST_CASE("TEB: paths that pass all obstacles on the same sides have the same signature") {
   Shapes post;
   post.add({{2.0, 0.1}});
   const Signature above = signature_of({{0.0, 0.0}, {2.0, 0.6}, {4.0, 0.0}}, post);
@@ -125,7 +125,7 @@ TEST_CASE("TEB: ways have the same signature where they pass everything on the s
   CHECK(through != right);
 }
 
-TEST_CASE("TEB: passing in front of somebody who crosses is not passing behind") {
+TEST_CASE("TEB: passing in front of a crossing person is another class than passing behind") {
   Shapes walker;
   walker.add({{2.0, -2.0}}, 0.3, {0.0, 1.0});
   // crosses y = 0 after 2 s
@@ -137,7 +137,7 @@ TEST_CASE("TEB: passing in front of somebody who crosses is not passing behind")
   CHECK(quick != slow);
 }
 
-TEST_CASE("TEB: signatures agree with winding angles on ways drawn at random") {
+TEST_CASE("TEB: signatures agree with winding angles on random paths") {
   toolkit::Stream random(5, "teb.signature");
   int same = 0;
   for (int round = 0; round < 400; ++round) {
@@ -165,13 +165,13 @@ TEST_CASE("TEB: signatures agree with winding angles on ways drawn at random") {
   CHECK(same < 380);
 }
 
-TEST_CASE("TEB: the roadmap finds the ways round, the shortest of each class, the same for the same seed") {
+TEST_CASE("TEB: the roadmap finds the shortest path of each class, the same for the same seed") {
   Shapes shapes;
   shapes.add({{2.0, 0.1}}, 0.3);
   std::vector<Mark> marks;
   set_marks(shapes.all(), {4.0, 0.0}, marks);
   const RoadmapQuery query = {{0.0, 0.0}, {4.0, 0.0}, 0.8, 0.2, &shapes.all(), &marks};
-  const ClassTuning tuning;
+  const Parameters tuning;
   Roadmap roadmap;
   roadmap.reserve(tuning);
   std::vector<std::vector<Vec2>> first;
@@ -184,7 +184,7 @@ TEST_CASE("TEB: the roadmap finds the ways round, the shortest of each class, th
     std::set<Signature> classes;
     double last_m = 0.0;
     for (std::size_t i = 0; i < roadmap.size(); ++i) {
-      roadmap.way(i, ways[i]);
+      roadmap.path(i, ways[i]);
       std::vector<Vec2> whole = ways[i];
       whole.insert(whole.begin(), query.start);
       whole.push_back(query.goal);
@@ -203,14 +203,14 @@ TEST_CASE("TEB: the roadmap finds the ways round, the shortest of each class, th
   }
 }
 
-TEST_CASE("TEB: the roadmap finds a gap a little wider than the robot, from whatever seed") {
+TEST_CASE("TEB: the roadmap finds a gap a little wider than the robot with any seed") {
   // a wall across a corridor of 3 m, a gap of 0.7 m at its left end
   Shapes shapes;
   shapes.add({{-1.0, 1.5}, {5.0, 1.5}}).add({{-1.0, -1.5}, {5.0, -1.5}}).add({{2.0, -1.5}, {2.0, 0.8}});
   std::vector<Mark> marks;
   set_marks(shapes.all(), {3.0, 0.0}, marks);
   const RoadmapQuery query = {{0.0, 0.0}, {3.2, 0.0}, 0.8, 0.2, &shapes.all(), &marks};
-  const ClassTuning tuning;
+  const Parameters tuning;
   Roadmap roadmap;
   roadmap.reserve(tuning);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -221,12 +221,12 @@ TEST_CASE("TEB: the roadmap finds a gap a little wider than the robot, from what
   }
 }
 
-TEST_CASE("TEB: a band for each side of an obstacle, the cheaper chosen, the other one kept in reserve") {
+TEST_CASE("TEB: a band for each side of an obstacle; the cheaper one is chosen, the other is kept") {
   Shapes shapes;
   shapes.add({{1.5, 0.15}}, 0.3);  // more room below
   Setting setting;
   ClassPlanner planner;
-  planner.start(setting.tuning, {}, {}, 1);
+  planner.start(setting.tuning, 1);
   for (int cycle = 0; cycle < 5; ++cycle) planner.plan(setting.task(shapes));
   REQUIRE(planner.best());
   CHECK(lowest(*planner.best()) < -0.3);
@@ -246,29 +246,29 @@ TEST_CASE("TEB: without homotopy classes there is one band") {
   Shapes shapes;
   shapes.add({{1.5, 0.15}}, 0.3);
   Setting setting;
-  ClassTuning classes;
-  classes.enable_homotopy_class_planning = false;
+  Parameters parameters = setting.tuning;
+  parameters.enable_homotopy_class_planning = false;
   ClassPlanner planner;
-  planner.start(setting.tuning, classes, {}, 1);
+  planner.start(parameters, 1);
   for (int cycle = 0; cycle < 3; ++cycle) planner.plan(setting.task(shapes));
   CHECK(planner.size() == 1);
   CHECK(lowest(*planner.best()) < -0.3);
 }
 
-TEST_CASE("TEB: hysteresis and the blocking period keep the way chosen last") {
+TEST_CASE("TEB: hysteresis and the blocking period keep the last choice") {
   Setting setting;
   Shapes higher;  // more room below
   higher.add({{1.5, 0.05}}, 0.3);
   Shapes lower;  // more room above
   lower.add({{1.5, -0.05}}, 0.3);
-  // whether the way chosen leads below, after each of: higher, lower, higher
+  // whether the chosen band passes below, after each of: higher, lower, higher
   const auto sides = [&](double hysteresis, double blocking_s) {
-    ClassTuning classes;
-    classes.selection_cost_hysteresis = hysteresis;
-    classes.selection_prefer_initial_plan = 1.0;
-    classes.switching_blocking_period = blocking_s;
+    Parameters parameters = setting.tuning;
+    parameters.selection_cost_hysteresis = hysteresis;
+    parameters.selection_prefer_initial_plan = 1.0;
+    parameters.switching_blocking_period = blocking_s;
     ClassPlanner planner;
-    planner.start(setting.tuning, classes, {}, 1);
+    planner.start(parameters, 1);
     std::vector<bool> below;
     std::int64_t t_ns = 0;
     for (const Shapes* shapes : {&higher, &lower, &higher}) {
@@ -288,14 +288,14 @@ TEST_CASE("TEB: hysteresis and the blocking period keep the way chosen last") {
   CHECK(blocked[1] == blocked[2]);
 }
 
-TEST_CASE("TEB: a goal that jumps makes the bands anew, one that creeps keeps them") {
+TEST_CASE("TEB: a goal that jumps restarts the bands, a goal that moves slowly keeps them") {
   Shapes shapes;
   shapes.add({{1.5, 0.15}}, 0.3);
   Setting setting;
-  ClassTuning classes;
-  classes.enable_homotopy_class_planning = false;
+  Parameters parameters = setting.tuning;
+  parameters.enable_homotopy_class_planning = false;
   ClassPlanner planner;
-  planner.start(setting.tuning, classes, {}, 1);
+  planner.start(parameters, 1);
   Task task = setting.task(shapes);
   for (int cycle = 0; cycle < 3; ++cycle) planner.plan(task);
   const double kept = lowest(*planner.best());
@@ -310,12 +310,12 @@ TEST_CASE("TEB: a goal that jumps makes the bands anew, one that creeps keeps th
   CHECK(std::abs(*std::max_element(planner.best()->x.begin(), planner.best()->x.end())) < 0.5);
 }
 
-TEST_CASE("TEB: in recovery a robot that faces away turns the way preferred") {
+TEST_CASE("TEB: in recovery a robot that faces away turns in the preferred direction") {
   Shapes shapes;
   Setting setting;
   ClassPlanner planner;
   for (const Turn turn : {Turn::left, Turn::right}) {
-    planner.start(setting.tuning, {}, {}, 1);
+    planner.start(setting.tuning, 1);
     Task task = setting.task(shapes);
     task.start.theta = turn == Turn::left ? -3.0 : 3.0;  // the other way would be shorter
     task.scene.preferred_turn = turn;

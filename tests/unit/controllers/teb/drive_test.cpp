@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What teb_local_planner is known to fail at, in closed loop.
+// Known failures of teb_local_planner, in closed loop.
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
@@ -15,7 +15,7 @@ Controller teb() {
 
 }  // namespace
 
-TEST_CASE("TEB: a start nearer to a wall than min_obstacle_dist gets away") {
+TEST_CASE("TEB: a robot that starts closer to a wall than min_obstacle_dist leaves it") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
   course.boxes = {{{-1.0, 0.29}, {3.0, 0.5}}};  // 4 cm beside the robot
@@ -33,7 +33,7 @@ TEST_CASE("TEB: keeps its speed in a free corridor, cycle after cycle") {
   for (std::size_t k = 15; k < 110; ++k) CHECK(drive.commands[k].v_x > 0.75);
 }
 
-TEST_CASE("TEB: goes on once a way is free again, after many cycles without one") {
+TEST_CASE("TEB: continues once a path is free again, after many cycles without one") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
   course.boxes = {{{0.4, -0.6}, {0.6, 0.6}},
@@ -48,7 +48,7 @@ TEST_CASE("TEB: goes on once a way is free again, after many cycles without one"
   CHECK(drive.longest_no_solution_s < 1.0);
 }
 
-TEST_CASE("TEB: no spinning for ever before a place that is taken") {
+TEST_CASE("TEB: does not spin before an occupied goal") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}});
   course.walkers = {standing({4.0, 0.0})};
@@ -61,7 +61,7 @@ TEST_CASE("TEB: no spinning for ever before a place that is taken") {
   CHECK(drive.turned_rad < 6.3);
 }
 
-TEST_CASE("TEB: the defaults, which are upstream's, drive in the open") {
+TEST_CASE("TEB: upstream's defaults drive in open space") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {5.0, 0.0}, {5.0, 5.0}});
   course.walkers = {standing({2.5, -0.1})};
@@ -84,7 +84,7 @@ TEST_CASE("TEB: via-points draw the robot along the path") {
   CHECK(b.path_deviation_m < 0.7 * a.path_deviation_m);
 }
 
-TEST_CASE("TEB: leaves its bands in the trace, the chosen one and the others") {
+TEST_CASE("TEB: annotates the chosen band and the others") {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
   course.walkers = {standing({2.0, 0.1})};

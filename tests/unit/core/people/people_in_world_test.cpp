@@ -6,23 +6,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/world/world.hpp"
-#include "tests/unit/core/sample_scenarios.hpp"
+#include "tests/unit/core/people/sample_worlds.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
-
-std::vector<dmrp_vec2> straight_on(const World& world) {
-  std::vector<dmrp_vec2> velocities;
-  for (const dmrp_person& person : world.people())
-    velocities.push_back(person.desired_speed * toolkit::normalized(person.target - person.position));
-  return velocities;
-}
-
-}  // namespace
 
 TEST_CASE("people start along their flows, clear of obstacles and each other, at the set speeds") {
   Scenario scenario = busy_hall(30);

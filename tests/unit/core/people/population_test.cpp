@@ -8,7 +8,7 @@
 
 #include "core/execution/ending.hpp"
 #include "core/people/crowd_lattice.hpp"
-#include "tests/unit/core/people/people_in_worlds.hpp"
+#include "tests/unit/core/people/sample_worlds.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;

@@ -95,7 +95,7 @@ TEST_CASE("a scenario without robots and people is a mistake") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 0"));
   CHECK(message_of(with_robots("robots = 0")) ==
-        "experiment.toml:9:10: without robots nobody is there: scenario 'hall' has no people");
+        "experiment.toml:9:10: 'robots' must be at least 1: scenario 'hall' has no people");
   write_hall_without_robots();
   write_file("hall/scenario.toml", with(std::string("") + scenario_text, "people = 2", "people = 0"));
   std::string empty = with(scenario_text, "people = 2", "people = 0");
@@ -143,10 +143,10 @@ TEST_CASE("mistakes in the number of robots") {
   CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' occurs twice");
   CHECK(at("robots = 3\ntasks = \"listed\"") ==
         "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
-  CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', how many");
+  CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', their number");
   CHECK_THAT(at("tasks = \"random\"\nrobots = 1"), Catch::Contains("experiment.toml:9:9: 'tasks' must be"));
   CHECK_THAT(at("robots = 100"),
-             Catch::StartsWith("experiment.toml:9:10: scenario 'hall' holds at most ") &&
+             Catch::StartsWith("experiment.toml:9:10: scenario 'hall' has room for ") &&
                  Catch::EndsWith("(repetition 0: starts, and goals, more than 2 m apart), not 100"));
 }
 

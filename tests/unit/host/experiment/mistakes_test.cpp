@@ -56,9 +56,9 @@ TEST_CASE("mistakes in an experiment file") {
        "experiment.toml:8:7: scenario 'hall' has 2 people: the experiment needs a [[pedestrian_model]]"},
       // [experiment]
       {"\"test\"", "\"a/b\"",
-       "experiment.toml:2:8: 'name' names the run directory: it can have no '/' and not begin with '.'"},
+       "experiment.toml:2:8: 'name' is the name of the run directory: it must not contain '/' or begin with '.'"},
       {"\"test\"", "\"..\"",
-       "experiment.toml:2:8: 'name' names the run directory: it can have no '/' and not begin with '.'"},
+       "experiment.toml:2:8: 'name' is the name of the run directory: it must not contain '/' or begin with '.'"},
       {"\"test\"", "\"\"", "experiment.toml:2:8: 'name' must not be empty"},
       {"\"test\"", "\"a\\nb\"", "experiment.toml:2:8: 'name' must not have line breaks or other control characters"},
       {"seed = 7", "seed = -1", "experiment.toml:3:8: 'seed' must be at least 0, not -1"},

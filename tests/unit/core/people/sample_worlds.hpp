@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// people_in_worlds.hpp: worlds with people, as the tests of core/people need them.
+// sample_worlds.hpp: worlds with people, as the tests of core/people need them.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// feasibility.hpp: the collision check of an optimised trajectory.
+#pragma once
+
+#include "controllers/motion/footprint_check.hpp"
+#include "controllers/motion/obstacles.hpp"
+#include "controllers/mpc/trajectory.hpp"
+
+namespace dmrp::controllers::mpc {
+
+// The input of the check in one control cycle. Does not own what it refers to.
+struct Surroundings {
+  const Observation& now;
+  const std::vector<Obstacle>& obstacles;
+  FootprintCheck& footprint;  // on the costmap
+};
+
+// Whether the states 1 to `most_states` after `first` are free, state first + k at the time k dt_s.
+bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::size_t most_states,
+                       const Surroundings& around);
+
+}  // namespace dmrp::controllers::mpc
