@@ -3,8 +3,8 @@
 // scenarios. Runs one `dmrp-host plan` for each plan and validates the files of paths. Prints a table; with --json the
 // table goes to standard error, and a list of {"name", "value", "unit"} to standard output.
 //
-// median: of planning_ms over all instances, where an unsolved one counts as the time limit; mean: over the solved ones;
-// nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
+// median: of planning_ms over all instances, where an unsolved one counts as the time limit; mean: over the solved
+// ones; nodes: median of high-level expansions of the solved ones; memory: the largest peak of all processes.
 #include <fmt/format.h>
 #include <unistd.h>
 

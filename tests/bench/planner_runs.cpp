@@ -67,7 +67,7 @@ std::optional<double> number(const nlohmann::json& document, const char* key) {
 
 // Checks the host's figures of a plan against the file of paths and the tasks. Returns the error, or nothing.
 std::string validate(const nlohmann::json& document, const KnownPlanner& known, const Instance& instance,
-                  const fs::path& paths) {
+                     const fs::path& paths) {
   if (!document.at("valid").get<bool>()) return "the host reports an invalid plan";
   if (!instance.scenario.empty()) return "";  // there is no map to check against
   const test::PathVerdict verdict = test::check_paths(instance.map.string(), instance.tasks.string(), instance.agents,

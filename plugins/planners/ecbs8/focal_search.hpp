@@ -27,9 +27,9 @@ struct BoundedPath {
 
 class FocalSearch {
  public:
-  explicit FocalSearch(const Graph& graph) : graph_(graph) {}
-
   enum class Result { found, none, stopped };
+
+  explicit FocalSearch(const Graph& graph) : graph_(graph) {}
 
   // Finds a path that costs at most `suboptimality` times the lower bound. The agent itself must not be among the
   // others. `lower_bound` is a known lower bound.
@@ -95,6 +95,12 @@ class FocalSearch {
     std::int32_t rest_from;    // the path cannot end before
   };
 
+  // A place that is closed from some time on.
+  struct Closing {
+    Cost farthest;  // the greatest distance to go from there or beside it
+    std::int32_t from;
+  };
+
   void begin(const Task& task);
   void begin_detours(const Task& task, StopSignal& stop);
   Cost distance_to_go(const Task& task, const State& state) const;
@@ -113,12 +119,6 @@ class FocalSearch {
   Slot& find_slot(std::uint64_t identity);
   void grow_slots();
   void trace_back(std::int32_t last, BoundedPath& out) const;
-
-  // A place that is closed from some time on.
-  struct Closing {
-    Cost farthest;  // the greatest distance to go from there or beside it
-    std::int32_t from;
-  };
 
   const Graph& graph_;
   std::optional<Graph> graph_without_closed_;

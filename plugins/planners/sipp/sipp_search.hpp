@@ -18,10 +18,10 @@ namespace dmrp::planners {
 
 class SippSearch {
  public:
+  enum class Result { free, displacing, none, stopped };
+
   SippSearch(const GridGraph& graph, const SafeIntervals& others)
       : graph_(graph), others_(others), intervals_(static_cast<std::size_t>(graph.location_count())) {}
-
-  enum class Result { free, displacing, none, stopped };
 
   // The agent itself must not be among the others. `prices` has the positive price of displacing each robot; if it is
   // empty no robot may be displaced. Result::displacing: the path conflicts with some robots. The robot stays at its

@@ -63,6 +63,8 @@ class ConflictTable {
   void list(std::int32_t agent, PathView path, std::vector<Conflict>& out) const;
 
  private:
+  using Link = std::uint16_t;  // an agent plus one; zero ends a list
+
   // Calls visit(agent, is_swap) for each conflict of an arrival.
   template <class Visit>
   void visit_at(Location from, Location to, std::int32_t t, Visit visit) const {
@@ -88,7 +90,6 @@ class ConflictTable {
   void take_out(std::int32_t agent);
   void grow(std::int32_t horizon);
 
-  using Link = std::uint16_t;  // an agent plus one; zero ends a list
   std::size_t location_count_;
   std::int32_t horizon_ = 0;                // number of times in the table, a multiple of 64
   std::vector<std::uint64_t> passed_;       // by location and time, one bit: whether an agent passes

@@ -52,6 +52,10 @@ class SafeIntervalSearch {
     bool is_open = false;
     bool is_end = false;  // comes to rest here; `conflicts` include those of resting
   };
+  struct Slot {
+    std::uint32_t epoch = 0;
+    Id first = none;
+  };
   // A node under expansion.
   struct Expansion {
     Id id;
@@ -79,10 +83,6 @@ class SafeIntervalSearch {
   const LowLevelRequest* request_ = nullptr;
   FocalList focal_;
   std::vector<Node> nodes_;
-  struct Slot {
-    std::uint32_t epoch = 0;
-    Id first = none;
-  };
   std::vector<Slot> slots_;  // by location: the last node added there in this search
   std::uint32_t epoch_ = 0;
   std::int64_t expanded_ = 0;

@@ -17,8 +17,6 @@ namespace dmrp::planners {
 
 class EarliestArrival {
  public:
-  explicit EarliestArrival(const GridGraph& graph, StopSignal* stop = nullptr);
-
   struct Query {
     const Agent& agent;
     const TourTable& table;
@@ -27,6 +25,8 @@ class EarliestArrival {
     Location not_from = nowhere;  // the search ignores the move from here to `to`
     std::int32_t latest = 0;
   };
+
+  explicit EarliestArrival(const GridGraph& graph, StopSignal* stop = nullptr);
 
   // A lower bound of the time at which the agent can be there: ignores constraints that apply after the arrival.
   // query.latest + 1 if it is later than query.latest. Nothing if the search takes too long or `stop` was raised. The
