@@ -12,8 +12,7 @@
 //   DMRP_PLUGINS(Mine)
 //
 // A plugin class has a cheap default constructor: the library makes one object to read the parameter table.
-#ifndef DMRP_PLUGIN_HPP
-#define DMRP_PLUGIN_HPP
+#pragma once
 
 #include "cpp/global_planner.hpp"
 #include "cpp/library.hpp"
@@ -21,5 +20,3 @@
 #include "cpp/metric.hpp"
 #include "cpp/pedestrian_model.hpp"
 #include "dmrp.h"
-
-#endif

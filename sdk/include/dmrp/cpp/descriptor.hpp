@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/descriptor.hpp: the description of a plugin class, built in its static describe().
-#ifndef DMRP_CPP_DESCRIPTOR_HPP
-#define DMRP_CPP_DESCRIPTOR_HPP
+#pragma once
 
 #include <memory>
 #include <string>
@@ -157,5 +156,3 @@ class PublishedDescriptor {
 };
 
 }  // namespace dmrp
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/global_planner.hpp: the base class of global planners; the contract is in ../global_planner.h.
-#ifndef DMRP_CPP_GLOBAL_PLANNER_HPP
-#define DMRP_CPP_GLOBAL_PLANNER_HPP
+#pragma once
 
 #include <stdexcept>
 
@@ -73,5 +72,3 @@ class GlobalPlanner : public Plugin {
 };
 
 }  // namespace dmrp
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/library.hpp: defines the entry of a plugin library: DMRP_PLUGINS(A, B), once per library.
-#ifndef DMRP_CPP_LIBRARY_HPP
-#define DMRP_CPP_LIBRARY_HPP
+#pragma once
 
 #include <array>
 #include <cstring>
@@ -77,5 +76,3 @@ class Library {
 }  // namespace dmrp
 
 #define DMRP_PLUGINS(...) DMRP_ENTRY = dmrp::Library<__VA_ARGS__>::entry();
-
-#endif

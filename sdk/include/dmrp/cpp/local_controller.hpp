@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/local_controller.hpp: the base class of local controllers; the contract is in ../local_controller.h.
-#ifndef DMRP_CPP_LOCAL_CONTROLLER_HPP
-#define DMRP_CPP_LOCAL_CONTROLLER_HPP
+#pragma once
 
 #include "../local_controller.h"
 #include "path.hpp"
@@ -86,5 +85,3 @@ class LocalController : public Plugin {
 };
 
 }  // namespace dmrp
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/metric.hpp: the base class of metrics; the contract is in ../metric.h.
-#ifndef DMRP_CPP_METRIC_HPP
-#define DMRP_CPP_METRIC_HPP
+#pragma once
 
 #include <limits>
 #include <stdexcept>
@@ -132,5 +131,3 @@ class Metric : public Plugin {
 };
 
 }  // namespace dmrp
-
-#endif

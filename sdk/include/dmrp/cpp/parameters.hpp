@@ -4,8 +4,7 @@
 //   dmrp::Param<double> gain = param("gain", 2.0).unit("1/s").range(0.0, 10.0).doc("turn rate per radian of error");
 //
 // The declarations of a class form its parameter table; the values are set before start() is called.
-#ifndef DMRP_CPP_PARAMETERS_HPP
-#define DMRP_CPP_PARAMETERS_HPP
+#pragma once
 
 #include <cmath>
 #include <cstdint>
@@ -138,5 +137,3 @@ class Param {
 };
 
 }  // namespace dmrp
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/path.hpp: a path as a span of waypoints; the contract is in ../path.h.
-#ifndef DMRP_CPP_PATH_HPP
-#define DMRP_CPP_PATH_HPP
+#pragma once
 
 #include "../path.h"
 #include "span.hpp"
@@ -17,5 +16,3 @@ class Path : public Span<Waypoint> {
 };
 
 }  // namespace dmrp
-
-#endif

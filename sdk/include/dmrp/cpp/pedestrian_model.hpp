@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/pedestrian_model.hpp: the base class of pedestrian models; the contract is in ../pedestrian_model.h.
-#ifndef DMRP_CPP_PEDESTRIAN_MODEL_HPP
-#define DMRP_CPP_PEDESTRIAN_MODEL_HPP
+#pragma once
 
 #include "../pedestrian_model.h"
 #include "plugin_base.hpp"
@@ -42,5 +41,3 @@ class PedestrianModel : public Plugin {
 };
 
 }  // namespace dmrp
-
-#endif

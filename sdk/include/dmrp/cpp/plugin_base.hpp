@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/plugin_base.hpp: the base class of every plugin class: parameters, the host, the world of the trial.
-#ifndef DMRP_CPP_PLUGIN_BASE_HPP
-#define DMRP_CPP_PLUGIN_BASE_HPP
+#pragma once
 
 #include <exception>
 #include <memory>
@@ -165,5 +164,3 @@ Kind& from_instance(dmrp_instance* self) {
 }  // namespace detail
 
 }  // namespace dmrp
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cpp/span.hpp: a read-only view of an array that crosses the ABI: pointer, count and the owner's stride.
-#ifndef DMRP_CPP_SPAN_HPP
-#define DMRP_CPP_SPAN_HPP
+#pragma once
 
 #include <cstddef>
 #include <iterator>
@@ -76,5 +75,3 @@ class Span {
 };
 
 }  // namespace dmrp
-
-#endif

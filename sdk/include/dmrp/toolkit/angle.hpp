@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // angle.hpp: angles in radians, counter-clockwise from +x.
-#ifndef DMRP_TOOLKIT_ANGLE_HPP
-#define DMRP_TOOLKIT_ANGLE_HPP
+#pragma once
 
 #include <cmath>
 
@@ -31,5 +30,3 @@ double bearing(const From& from, const To& to) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -3,8 +3,7 @@
 //
 // Exact, not sampled: a disc swept along a segment stays clear of a shape if the segment is at least the disc's radius
 // away from it. Touching counts as clear. `shapes` is any range of dmrp_shape; metres.
-#ifndef DMRP_TOOLKIT_DISC_SWEEP_HPP
-#define DMRP_TOOLKIT_DISC_SWEEP_HPP
+#pragma once
 
 #include <algorithm>
 
@@ -41,5 +40,3 @@ bool disc_retreat_is_clear(const dmrp_segment& motion, double radius_m, const Sh
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -5,8 +5,7 @@
 // number of cells. Columns first, by two running counts, the lower envelope's special case for a mask; then every row
 // as the lower envelope of parabolas. Squared distances are integers, so the result is exact up to the final rounding
 // to float.
-#ifndef DMRP_TOOLKIT_DISTANCE_TRANSFORM_HPP
-#define DMRP_TOOLKIT_DISTANCE_TRANSFORM_HPP
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -149,5 +148,3 @@ class DistanceTransform {
 };
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grid_line.hpp: the cells of a grid that a straight line crosses.
-#ifndef DMRP_TOOLKIT_GRID_LINE_HPP
-#define DMRP_TOOLKIT_GRID_LINE_HPP
+#pragma once
 
 #include <cmath>
 #include <cstdint>
@@ -63,5 +62,3 @@ inline bool line_is_free(const GridView& grid, dmrp_vec2 from, dmrp_vec2 to) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grid_view.hpp: access to a dmrp_grid by cells, indices and points. See ../grid.h for the layout.
-#ifndef DMRP_TOOLKIT_GRID_VIEW_HPP
-#define DMRP_TOOLKIT_GRID_VIEW_HPP
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -140,5 +139,3 @@ class GridView {
 };
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -6,8 +6,7 @@
 // the true length, and at cell centres never shorter than the straight line except by rounding. It moves between cells
 // only along edges E, N, W, S of the grid's mask, which are mutual, and cuts no corner. Cells at equal distance are
 // settled in the order of their indices, so equal grids give equal fields.
-#ifndef DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
-#define DMRP_TOOLKIT_NAVIGATION_FIELD_HPP
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -327,5 +326,3 @@ class NavigationField {
 };
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // polygon.hpp: convex polygons, metres. Vertices counter-clockwise; the border belongs to the polygon. All functions
 // but signed_area() require a convex counter-clockwise polygon (is_convex_ccw) and give meaningless results otherwise.
-#ifndef DMRP_TOOLKIT_POLYGON_HPP
-#define DMRP_TOOLKIT_POLYGON_HPP
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -125,5 +124,3 @@ inline std::vector<dmrp_vec2> to_world(const dmrp_pose& frame, PolygonView local
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -5,8 +5,7 @@
 // span of dmrp_waypoint. Repeated points (waits) are allowed. Segment i leads from point i to point i + 1.
 // Arc length is measured from the first point, in metres; `arcs` are the arc lengths of all points (arc_lengths()).
 // Functions that return a place need at least one point, unless stated otherwise.
-#ifndef DMRP_TOOLKIT_POLYLINE_HPP
-#define DMRP_TOOLKIT_POLYLINE_HPP
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
@@ -148,5 +147,3 @@ double heading_at(const Path& path, const std::vector<double>& arcs, double arc_
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

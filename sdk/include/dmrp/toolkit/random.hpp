@@ -13,8 +13,7 @@
 //
 // normal() and truncated_normal() use log, exp and cos, so their results are equal to the bit with the same libm; the
 // results of all others are equal on every machine.
-#ifndef DMRP_TOOLKIT_RANDOM_HPP
-#define DMRP_TOOLKIT_RANDOM_HPP
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -213,5 +212,3 @@ class Stream {
 };
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -3,8 +3,7 @@
 //
 // A ray is an origin and a unit direction. Every function returns the distance to the first common point; 0 if the
 // origin lies in the body; infinity if the ray misses. Touching counts as a hit, within the precision of doubles.
-#ifndef DMRP_TOOLKIT_RAY_CAST_HPP
-#define DMRP_TOOLKIT_RAY_CAST_HPP
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -90,5 +89,3 @@ inline double ray_to_border(const Ray& ray, const Rectangle& border) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

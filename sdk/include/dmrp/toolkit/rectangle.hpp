@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // rectangle.hpp: axis-aligned rectangles, metres; the border belongs to the rectangle.
-#ifndef DMRP_TOOLKIT_RECTANGLE_HPP
-#define DMRP_TOOLKIT_RECTANGLE_HPP
+#pragma once
 
 #include <algorithm>
 
@@ -38,5 +37,3 @@ constexpr double depth(const Rectangle& rectangle, dmrp_vec2 point) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // segment.hpp: distances and intersections of straight segments, metres. A segment of length zero counts as a point.
-#ifndef DMRP_TOOLKIT_SEGMENT_HPP
-#define DMRP_TOOLKIT_SEGMENT_HPP
+#pragma once
 
 #include <algorithm>
 #include <optional>
@@ -84,5 +83,3 @@ inline double distance(const dmrp_segment& a, const dmrp_segment& b) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // shape_distance.hpp: distances to the static shapes of a world, metres.
-#ifndef DMRP_TOOLKIT_SHAPE_DISTANCE_HPP
-#define DMRP_TOOLKIT_SHAPE_DISTANCE_HPP
+#pragma once
 
 #include <algorithm>
 
@@ -61,5 +60,3 @@ double clearance(const Shapes& shapes, const Rectangle& border, dmrp_vec2 point)
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

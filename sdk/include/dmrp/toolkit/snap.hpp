@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // snap.hpp: assigns robots at any position to cells of a planning grid, for planning from their present poses.
-#ifndef DMRP_TOOLKIT_SNAP_HPP
-#define DMRP_TOOLKIT_SNAP_HPP
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
@@ -83,5 +82,3 @@ std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, co
 }
 
 }  // namespace dmrp::toolkit
-
-#endif

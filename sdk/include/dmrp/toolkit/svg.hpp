@@ -13,8 +13,7 @@
 // Elements have a CSS class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
 // `label`, `heading`; the document has a style for each of these, and none for other names. Line widths and text sizes
 // are in pixels of the page, not in metres.
-#ifndef DMRP_TOOLKIT_SVG_HPP
-#define DMRP_TOOLKIT_SVG_HPP
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -234,5 +233,3 @@ class SvgPlan {
 };
 
 }  // namespace dmrp::toolkit
-
-#endif

@@ -3,8 +3,7 @@
 //
 // dmrp_vec2 is a C type in the global namespace; its operators are there too, so that argument-dependent lookup finds
 // them. They take no other type, so they cannot clash with the operators of other vector types.
-#ifndef DMRP_TOOLKIT_VEC2_HPP
-#define DMRP_TOOLKIT_VEC2_HPP
+#pragma once
 
 #include <cmath>
 
@@ -117,5 +116,3 @@ inline dmrp_vec2 to_local(const dmrp_pose& frame, dmrp_vec2 world) {
 }
 
 }  // namespace dmrp::toolkit
-
-#endif
