@@ -74,7 +74,7 @@ TEST_CASE("A recorded trace is read while its file waits for what metrics find")
   CHECK(pass(records) == trace);
   CHECK(pass(records) == trace);
   REQUIRE(kept.foxglove());
-  kept.foxglove()->mark({"sto", 0, 1'000'000'000, {}, "near"});
+  kept.foxglove()->metric_event({"sto", 0, 1'000'000'000, {}, "near"});
   kept.finish();
   CHECK_FALSE(fs::exists(folder / "scratch"));
 
