@@ -163,7 +163,7 @@ TEST_CASE("Motions are dropped by the angle between the direction to the goal an
         }
         const double apart =
             std::abs(dmrp::toolkit::difference(std::atan2(motion.dy, motion.dx), direction(way).theta));
-        REQUIRE(dropped == apart > pi / 4);
+        REQUIRE(dropped == (apart > pi / 4));
       }
     }
   }
