@@ -13,8 +13,6 @@ using namespace dmrp::core::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::int64_t step_ns = 20'000'000;
-constexpr std::int64_t second_ns = 1'000'000'000;
 
 }  // namespace
 
