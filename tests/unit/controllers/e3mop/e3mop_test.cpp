@@ -88,13 +88,13 @@ TEST_CASE("A moving disc occupies the area that it sweeps") {
 TEST_CASE("A robot that stands too close to an obstacle may leave but come no closer") {
   const Window window = discs_window({{0.0, 0.55}}, 0.3);
   const FreeSpace from_afar(window.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, 0.0, 0.0});
-  CHECK_FALSE(from_afar.is_free({0.0, 0.0, 1.0, 0.0}));
+  CHECK_FALSE(from_afar.is_free({{0.0, 0.0}, {1.0, 0.0}}));
   const FreeSpace from_there(window.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {0.0, 0.0, 0.0});
-  CHECK(from_there.is_free({0.0, 0.0, 1.0, 0.0}));
-  CHECK(from_there.is_free({0.1, 0.0, 1.0, 0.0}));
-  CHECK(from_there.is_free({0.0, -0.1, 1.0, 0.0}));
-  CHECK_FALSE(from_there.is_free({0.0, 0.04, 1.0, 0.0}));
-  CHECK_FALSE(from_there.is_free({0.75, 0.55, 1.0, 0.0}) != from_afar.is_free({0.75, 0.55, 1.0, 0.0}));
+  CHECK(from_there.is_free({{0.0, 0.0}, {1.0, 0.0}}));
+  CHECK(from_there.is_free({{0.1, 0.0}, {1.0, 0.0}}));
+  CHECK(from_there.is_free({{0.0, -0.1}, {1.0, 0.0}}));
+  CHECK_FALSE(from_there.is_free({{0.0, 0.04}, {1.0, 0.0}}));
+  CHECK_FALSE(from_there.is_free({{0.75, 0.55}, {1.0, 0.0}}) != from_afar.is_free({{0.75, 0.55}, {1.0, 0.0}}));
 }
 
 TEST_CASE("The objective's gradient agrees with finite differences") {

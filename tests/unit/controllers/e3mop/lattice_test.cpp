@@ -265,7 +265,7 @@ TEST_CASE("A path is free, leads from the start to the goal, and bends no tighte
     CHECK(result.poses.front().x == 0.0);
     for (std::size_t i = 1; i < result.poses.size(); ++i) {
       const dmrp_pose& pose = result.poses[i];
-      REQUIRE(problem.free_space.is_free({pose.x, pose.y, std::cos(pose.theta), std::sin(pose.theta)}));
+      REQUIRE(problem.free_space.is_free({{pose.x, pose.y}, {std::cos(pose.theta), std::sin(pose.theta)}}));
       REQUIRE(std::hypot(pose.x - result.poses[i - 1].x, pose.y - result.poses[i - 1].y) <= 0.05 + 1e-9);
     }
     if (!result.found) continue;
