@@ -73,7 +73,7 @@ double derivative_error(const std::array<double, size>& by, std::array<double, s
 }
 
 DirectedPose directed(double x, double y, double theta) {
-  return {{x, y, theta}, {std::cos(theta), std::sin(theta)}};
+  return {{x, y}, theta, {std::cos(theta), std::sin(theta)}};
 }
 
 std::array<double, 11> random_block(toolkit::Stream& random) {
