@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# machine_fails.sh DMRP_HOST [SANITIZERS]. When the machine fails, the exit status is 3 and one line says why. Files beyond `ulimit -f` stand for a full disk.
+# machine_fails.sh DMRP_HOST [SANITIZERS]
+# When the machine fails, the exit status is 3 and one line says why. Files beyond `ulimit -f` stand for a full disk.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 # expect_failure PATTERN COMMAND...: status 3, and one line on standard error
