@@ -3,17 +3,25 @@
 //
 // The rules apply to all headers:
 //
-// - Only fixed-width integers, double, float arrays, pointers and UTF-8 text cross the ABI. 64-bit, little-endian.
+// - Only fixed-width integers, double, float arrays, pointers and text cross the ABI. 64-bit, little-endian. Text is
+//   NUL-terminated UTF-8; NULL means "".
 // - *Values* (values.h) are frozen: they have no struct_size and never get another field.
 // - *Growable structs* begin with `uint32_t struct_size`, cross by pointer only and have no implicit padding.
 //   New fields are appended. The maker of a struct sets struct_size to the sizeof it was compiled with; the reader
 //   checks DMRP_HAS(pointer, field) for every field newer than v1.0.
 // - *Array elements* cross as pointer, count and the owner's stride in bytes; access them with DMRP_AT, never with [].
 //   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS).
-// - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size.
+// - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size, nor past
+//   the stride of an output array (DMRP_AT_OUT). Nothing that may grow is embedded in another struct.
+// - `reserved` fields are zero and ignored: a later minor version may give them a meaning in which zero is as before.
+// - *Constants* are open lists unless a header says otherwise: a minor version may add to them, so readers skip, or
+//   treat as the header says, what they do not know.
+// - Pointers are not NULL, and functions in a table are there, unless a header says that they may be NULL.
 // - Pointers in a struct that the host passes are valid until the call returns, unless the header says otherwise:
 //   a dmrp_host is valid until destroy() returns (the library's own until deinit() returns); dmrp_world and extensions
 //   are valid until the next start() or destroy() begins, and neither of these two may access them.
+// - No exception and no longjmp crosses the ABI: host functions never throw, a plugin catches what it throws. A plugin
+//   does not end the process, and does not fork unless its descriptor has DMRP_FLAG_PROCESSES.
 // - Every function carries a thread tag:
 //     [main]  on the main thread of its process, no other call into the library at the same time
 //     [step]  inside a trial: one call at a time for an instance; instances may run concurrently and may move
@@ -23,6 +31,12 @@
 //   hash order, earlier trials, or other instances in the process.
 // - A plugin does not change the locale, working directory, signal handlers, environment, floating-point control bits
 //   or file descriptors that it did not open, and starts no thread in a static initialiser.
+//
+// What may change: a minor version appends fields, functions at the end of a table, constants and extensions, and takes
+// nothing away; a plugin built with 1.x runs on every host 1.y with y >= its min_host_minor. Only a major version changes
+// the rest. The C++ layer (cpp/) and the toolkit are compiled into the plugin and are no part of this binary promise.
+// Their source promise: code that compiles with the C++ layer of 1.x compiles with that of 1.y, y > x; the toolkit may
+// change with every release, and CHANGELOG.md says how.
 #ifndef DMRP_ABI_H
 #define DMRP_ABI_H
 
@@ -35,7 +49,7 @@
 
 // Until v1 is frozen the contract may change, so host and plugin must have the same draft number.
 // It becomes zero with the freeze.
-#define DMRP_ABI_DRAFT 1
+#define DMRP_ABI_DRAFT 2
 
 // Whether the struct behind `pointer` is long enough to hold `field`.
 #define DMRP_HAS(pointer, field)     \
@@ -48,6 +62,12 @@
 // Element `index` of an array of `type` with the owner's stride.
 #define DMRP_AT(type, base, stride, index) \
   ((const type*)(const void*)((const char*)(base) + (size_t)(index) * (size_t)(stride)))
+
+// The same for an output array: a pointer to write to.
+#define DMRP_AT_OUT(type, base, stride, index) ((type*)(void*)((char*)(base) + (size_t)(index) * (size_t)(stride)))
+
+// Marks the exported object of a plugin library, whatever visibility it is compiled with.
+#define DMRP_EXPORT __attribute__((visibility("default")))
 
 #if defined(__cplusplus)
 #define DMRP_STATIC_ASSERT(condition, name) static_assert(condition, #name)

@@ -5,14 +5,20 @@
 
 #include "plugin.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct dmrp_entry {
   uint32_t struct_size;
   uint32_t abi_minor;       // the minor version that the library was built with; informational
   uint32_t min_host_minor;  // the lowest minor version it accepts; an older host refuses it and prints both versions
   uint32_t abi_draft;       // must equal the host's until v1 is frozen
 
-  // Called once after loading, before create(). `host` is valid until deinit() returns. Returns DMRP_OK or DMRP_FATAL.
-  // A host may first call only init() and deinit() in a separate process, to report a failure before a run begins.
+  // Called once after loading, before create(): the place to load what all instances share. `host` is valid until
+  // deinit() returns. After any status but DMRP_OK and DMRP_WARNING the library is not used, and not even deinit() is
+  // called. A host may first call only init() and deinit() in a separate process, to report a failure before a run
+  // begins.
   // [main]
   int32_t (*init)(const dmrp_host* host);
 
@@ -20,14 +26,15 @@ typedef struct dmrp_entry {
   // [main]
   void (*deinit)(void);
 
-  // Number of plugins in this library, and the descriptor of each: static data, available before init().
+  // Number of plugins in this library, and the descriptor of each: static data, available before init(); NULL if it
+  // cannot be made.
   // [any]
   uint32_t (*plugin_count)(void);
   const dmrp_descriptor* (*descriptor)(uint32_t index);
 
   // Creates an instance of the plugin `id`. `host` belongs to this instance and is valid until its destroy() returns;
   // `params` has every declared key and is valid until the call returns; the plugin fills in `out` before it returns
-  // DMRP_OK. Returns DMRP_OK, DMRP_ERROR (with set_error), DMRP_OUT_OF_MEMORY or DMRP_FATAL.
+  // DMRP_OK. No destroy() follows another status.
   // [main]
   int32_t (*create)(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out);
 } dmrp_entry;
@@ -36,12 +43,16 @@ DMRP_ASSERT_SIZE(dmrp_entry, 56);
 
 #define DMRP_ENTRY_SYMBOL "dmrp_entry_v1"
 
+#ifdef __cplusplus
+}
+#endif
+
 // Begins the definition of the exported object: `DMRP_ENTRY = { sizeof(dmrp_entry), ... };`
 // (In C++ a const object has internal linkage unless it was declared extern before.)
 #if defined(__cplusplus)
-#define DMRP_ENTRY_DECLARATION extern "C" __attribute__((visibility("default"))) const dmrp_entry dmrp_entry_v1
+#define DMRP_ENTRY_DECLARATION extern "C" DMRP_EXPORT const dmrp_entry dmrp_entry_v1
 #else
-#define DMRP_ENTRY_DECLARATION extern __attribute__((visibility("default"))) const dmrp_entry dmrp_entry_v1
+#define DMRP_ENTRY_DECLARATION extern DMRP_EXPORT const dmrp_entry dmrp_entry_v1
 #endif
 #define DMRP_ENTRY        \
   DMRP_ENTRY_DECLARATION; \

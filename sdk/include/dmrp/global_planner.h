@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-// global_planner.h: plans paths for all robots at once. One instance per trial, called again for every replan.
+// global_planner.h: plans paths for all robots at once. One instance per trial, called again for every replan: an
+// anytime planner keeps its search between the calls and improves the plan in force.
 #ifndef DMRP_GLOBAL_PLANNER_H
 #define DMRP_GLOBAL_PLANNER_H
 
 #include "path.h"
 #include "plugin.h"
-#include "world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // A robot as the planner sees it. Array element.
 typedef struct dmrp_planning_robot {
   uint32_t state;          // DMRP_ROBOT_*; an inactive robot rests at `start`: its path is that one waypoint
-  uint32_t goal_count;     // remaining goals, >= 1 when active
+  uint32_t goal_count;     // remaining goals known so far, >= 1 when active
   const dmrp_goal* goals;  // moved to the centres of their cells: paths visit these and end at the last
   uint32_t goal_stride;
   uint32_t first_goal_index;  // index of goals[0] among all of the robot's goals
   const dmrp_robot* robot;    // kinematics, footprint, limits
+  const dmrp_grid* grid;      // the cells of problem.grid, with `free` and `edges` for this robot's footprint
   dmrp_pose pose;             // its present pose
   dmrp_twist velocity;        // its present velocity
   dmrp_vec2 start;            // `pose` snapped to the centre of a free cell of its own: its path begins here
@@ -31,7 +36,7 @@ typedef struct dmrp_planning_problem {
   int64_t effective_from_ns;  // when the plan takes effect: t_ns of every first waypoint
   int64_t step_duration_ns;   // duration of one step of a step-wise planner
   int64_t time_budget_ns;     // wall time; should_stop() returns 1 after it. Plugins read no clock
-  const dmrp_grid* grid;      // world.planning_grid
+  const dmrp_grid* grid;      // world.planning_grid: `free` and `edges` hold for every robot
   const dmrp_path* in_force;  // the plan in force, one path per robot
   uint32_t in_force_stride;
   uint32_t reserved;
@@ -45,18 +50,19 @@ struct dmrp_plan_sink {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The path of one robot; call it once per robot. `stride` is sizeof(dmrp_waypoint) as the plugin was compiled.
+  // The path of one robot; call it once per robot.
   // The first waypoint is the robot's `start` at effective_from_ns; times increase strictly; planners on the grid give
   // one waypoint per step (waits too) until the robot stays at its last goal for good.
-  // Returns DMRP_OK, or DMRP_ERROR for a robot that does not exist or already has a path.
+  // Returns DMRP_OK; DMRP_OUT_OF_MEMORY; or DMRP_ERROR for a robot that does not exist or already has a path, or a path
+  // that is not readable.
   // [step]
-  int32_t (*path)(dmrp_plan_sink* sink, uint32_t robot, const dmrp_waypoint* waypoints, uint32_t count,
-                  uint32_t stride);
+  int32_t (*path)(dmrp_plan_sink* sink, uint32_t robot, const dmrp_path* path);
 
   // A named number about this call. The host knows "cost", "lower_bound", "high_level_expanded",
   // "high_level_generated" and "low_level_expanded" and records any other name as given. Kept even if there is no plan.
+  // Returns DMRP_OK; DMRP_OUT_OF_MEMORY; or DMRP_ERROR without a name.
   // [step]
-  void (*statistic)(dmrp_plan_sink* sink, const char* name, double value);
+  int32_t (*statistic)(dmrp_plan_sink* sink, const char* name, double value);
 };
 
 typedef struct dmrp_global_planner {
@@ -69,8 +75,8 @@ typedef struct dmrp_global_planner {
   //   DMRP_TIMEOUT      should_stop() or one of the planner's own limits ended the search
   //   DMRP_ERROR        the instance is unusable until the next start()
   // The host checks every plan against the descriptor's connectivity; an invalid plan is a fault (bad_output).
-  // If the descriptor has the flag DMRP_PLANNER_UNCOORDINATED, the host counts and records conflicts between robots
-  // and accepts the plan.
+  // If the descriptor has DMRP_FLAG_UNCOORDINATED, the host counts and records conflicts between robots and accepts
+  // the plan.
   //
   // Rationale: cost is measured in steps (or metres), time in multiples of step_duration_ns. A diagonal step takes as
   // long as a straight one, so cost and time differ; never report one under the name of the other.
@@ -78,9 +84,13 @@ typedef struct dmrp_global_planner {
   int32_t (*plan)(dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink);
 } dmrp_global_planner;
 
-DMRP_ASSERT_SIZE(dmrp_planning_robot, 96);
+DMRP_ASSERT_SIZE(dmrp_planning_robot, 104);
 DMRP_ASSERT_SIZE(dmrp_planning_problem, 88);
 DMRP_ASSERT_SIZE(dmrp_plan_sink, 32);
 DMRP_ASSERT_SIZE(dmrp_global_planner, 16);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

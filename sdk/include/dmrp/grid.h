@@ -5,6 +5,10 @@
 
 #include "values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Bits of an edge mask: the eight moves out of a cell, counter-clockwise from +x. Edges are mutual: if a move is open,
 // so is the move back.
 #define DMRP_EDGE_E 0x01u
@@ -18,7 +22,7 @@
 
 // Cells are row-major from the lower left: index = row * width + column; +column is +x, +row is +y.
 // The centre of a cell is origin + ((column + 0.5), (row + 0.5)) * resolution_m.
-// Arrays have width * height elements and are valid as long as the struct.
+// Arrays have width * height elements, are never NULL, and are valid as long as the struct.
 typedef struct dmrp_grid {
   uint32_t struct_size;
   uint32_t width;   // columns
@@ -33,5 +37,9 @@ typedef struct dmrp_grid {
 } dmrp_grid;
 
 DMRP_ASSERT_SIZE(dmrp_grid, 64);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,6 +8,11 @@
 
 #include "abi.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Levels of a log line. Open list: a host treats an unknown level as DMRP_LOG_INFO.
 #define DMRP_LOG_DEBUG 0
 #define DMRP_LOG_INFO 1
 #define DMRP_LOG_WARNING 2
@@ -16,30 +21,39 @@
 typedef struct dmrp_host dmrp_host;
 struct dmrp_host {
   uint32_t struct_size;
-  uint32_t reserved;
-  void* context;        // the host's own
-  const char* name;     // "dmrp-host"
-  const char* version;  // of the host, semantic
+  uint32_t abi_minor;        // the minor version of the contract that the host was built with
+  void* context;             // the host's own
+  const char* name;          // "dmrp-host"
+  const char* version;       // of the host, semantic
+  const char* library_path;  // absolute path of this plugin's library: data files (weights) are installed beside it
 
-  // Writes a line to the log. `text` is copied.
+  // Writes a line to the log. `text` is copied; the host escapes control characters and bytes that are not UTF-8.
   // [any]
   void (*log)(const dmrp_host* host, int32_t level, const char* text);
 
-  // Explains the status other than DMRP_OK that the current call will return. `text` is copied; the last one counts.
+  // Explains the status other than DMRP_OK that the current call will return. `text` is copied as by log(); the last
+  // one counts. Ignored outside a call of this instance.
   // [any]
   void (*set_error)(const dmrp_host* host, const char* text);
 
-  // Returns 1 once the time budget of the current call is used up: the call should then return soon; 0 before.
+  // Returns 1 once the time budget of the current call is used up: the call should then return soon; 0 before. Returns
+  // 1 outside a call of this instance, so that a thread of the plugin that outlives its call ends.
   // Costs a few nanoseconds; ask at least every millisecond. A trial in which this returned 1 is not repeatable.
   // [any]
   int32_t (*should_stop)(const dmrp_host* host);
 
-  // An extension of the host (ext/*.h) by its id, or NULL. Ask in start(): extensions belong to the trial, and the host
-  // computes some (the costmap) only for instances that asked there. Valid until the next start() or destroy() begins.
+  // An extension of the host (ext/*.h) by its id. NULL if the host does not offer it to this kind of plugin, or the
+  // descriptor does not declare it in `requires_` or `uses`. Ask in start(): extensions belong to the trial, and the
+  // host computes some (the costmap) only for instances that asked there. Valid until the next start() or destroy()
+  // begins.
   // [step]
   const void* (*get_extension)(const dmrp_host* host, const char* id);
 };
 
-DMRP_ASSERT_SIZE(dmrp_host, 64);
+DMRP_ASSERT_SIZE(dmrp_host, 72);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

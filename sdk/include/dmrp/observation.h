@@ -5,6 +5,11 @@
 
 #include "robot.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Kinds of agent. Open list: a controller avoids an agent of unknown kind as it does a person.
 #define DMRP_AGENT_ROBOT 1
 #define DMRP_AGENT_PERSON 2
 
@@ -18,24 +23,24 @@ typedef struct dmrp_agent {
   double radius_m;
 } dmrp_agent;
 
-// Made by the host for one call of step().
+// Made by the host for one call of step(). No pointer is NULL, except `agents` when agent_count is 0.
+// Growable; an array of observations has a stride like every array.
 //
 // If the experiment sets odometry noise, `pose` is the robot's estimate and `velocity` its odometry reading; agents,
 // lidar and costmap are then placed relative to the estimated pose, as in a robot's own map. Goal and path keep their
 // true places; progress, arrival and metrics use the true pose.
 typedef struct dmrp_observation {
   uint32_t struct_size;
-  uint32_t robot;       // index; always world.self
+  uint32_t robot;       // index
   int64_t t_ns;         // simulated time
   int64_t dt_ns;        // the control period
   dmrp_pose pose;       // estimated
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
   // The current goal; with dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
-  // (Embedded by value, so dmrp_goal cannot grow.)
-  dmrp_goal goal;
+  const dmrp_goal* goal;
   uint32_t goal_index;
-  uint32_t goal_count;
+  uint32_t goal_count;         // of the goals known so far
   double progress_m;           // arc length along the path of the point that the robot has reached; never decreases
   uint32_t progress_waypoint;  // last waypoint passed
   uint32_t released_waypoint;  // last waypoint that may be passed; the last of the path with execution = "free"
@@ -47,6 +52,10 @@ typedef struct dmrp_observation {
 } dmrp_observation;
 
 DMRP_ASSERT_SIZE(dmrp_agent, 64);
-DMRP_ASSERT_SIZE(dmrp_observation, 208);
+DMRP_ASSERT_SIZE(dmrp_observation, 160);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

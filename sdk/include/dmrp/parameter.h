@@ -8,8 +8,12 @@
 
 #include "abi.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Types of a parameter. PATH is a path that the host resolves against the folder of the experiment file; the manifest
-// lists the file's hash.
+// lists the file's hash. Open list: a host skips a plugin with a parameter of a type that it does not know, and says so.
 #define DMRP_PARAM_BOOL 1          // integer 0 or 1
 #define DMRP_PARAM_INT 2           // integer
 #define DMRP_PARAM_DOUBLE 3        // number
@@ -19,8 +23,8 @@
 #define DMRP_PARAM_DOUBLE_ARRAY 7  // numbers, count
 #define DMRP_PARAM_STRING_ARRAY 8  // texts, count
 
-// One value. Only the field of its type is meaningful; the others are zero.
-// Owned by its maker; values made by the host are valid until create() returns.
+// One value. Only the field of its type is meaningful; the others are zero. Array element.
+// Valid until create() returns.
 typedef struct dmrp_param_value {
   const char* key;
   uint32_t type;   // DMRP_PARAM_*
@@ -43,12 +47,22 @@ typedef struct dmrp_params {
 
 // One declared parameter. Static data of the plugin. Array element.
 typedef struct dmrp_param_spec {
-  dmrp_param_value fallback;   // key, type and the default. (Embedded by value, so dmrp_param_value cannot grow.)
-  const char* unit;            // "m", "rad/s", "1" for a ratio, "" if there is none
-  const char* doc;             // one line
-  double minimum;              // of INT, DOUBLE and each element of DOUBLE_ARRAY; -INFINITY if there is none
-  double maximum;              // of the same types; INFINITY if there is none
-  const char* const* choices;  // for CHOICE, choice_count texts
+  const char* key;  // letters, digits and '_', unique within the plugin
+  uint32_t type;    // DMRP_PARAM_*
+  uint32_t count;   // of the default of an array
+  // The default: the field of the type.
+  int64_t integer;
+  double number;
+  const char* text;
+  const double* numbers;
+  const char* const* texts;
+  const char* unit;  // "m", "rad/s", "1" for a ratio, "" if there is none
+  const char* doc;   // one line
+  // Of INT, DOUBLE and each element of DOUBLE_ARRAY: the default lies within. No bound is -INFINITY or INFINITY;
+  // minimum = maximum = 0, as in a struct that was not filled in, is refused.
+  double minimum;
+  double maximum;
+  const char* const* choices;  // for CHOICE, choice_count texts; the default is one of them
   uint32_t choice_count;
   uint32_t reserved;
 } dmrp_param_spec;
@@ -56,5 +70,9 @@ typedef struct dmrp_param_spec {
 DMRP_ASSERT_SIZE(dmrp_param_value, 56);
 DMRP_ASSERT_SIZE(dmrp_params, 24);
 DMRP_ASSERT_SIZE(dmrp_param_spec, 104);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

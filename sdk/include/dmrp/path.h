@@ -5,7 +5,11 @@
 
 #include "values.h"
 
-// Array element.
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Array element. A later minor version may append a velocity for kinodynamic paths: DMRP_STRIDE_HAS tells.
 typedef struct dmrp_waypoint {
   double x;             // m
   double y;             // m
@@ -20,12 +24,16 @@ typedef struct dmrp_waypoint {
 typedef struct dmrp_path {
   uint32_t struct_size;
   uint32_t count;
-  uint32_t stride;  // of waypoints
+  uint32_t stride;  // of waypoints: sizeof(dmrp_waypoint) as the path's maker was compiled
   uint32_t reserved;
   const dmrp_waypoint* waypoints;
 } dmrp_path;
 
 DMRP_ASSERT_SIZE(dmrp_waypoint, 40);
 DMRP_ASSERT_SIZE(dmrp_path, 24);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

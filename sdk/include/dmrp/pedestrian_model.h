@@ -9,6 +9,10 @@
 #include "person.h"
 #include "plugin.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // The crowd at one physics step; made by the host for one call.
 typedef struct dmrp_crowd {
   uint32_t struct_size;
@@ -25,18 +29,38 @@ typedef struct dmrp_crowd {
   uint32_t reserved;
 } dmrp_crowd;
 
+// The motion of one person in the step that begins now. Array element.
+typedef struct dmrp_motion {
+  dmrp_vec2 velocity;  // m/s, world frame
+} dmrp_motion;
+
+// Output of step(); allocated, zeroed and sized by the host.
+typedef struct dmrp_motions {
+  uint32_t struct_size;
+  uint32_t count;   // crowd.person_count
+  uint32_t stride;  // of motions
+  uint32_t reserved;
+  dmrp_motion* motions;  // motions[i] is for people[i]; DMRP_AT_OUT finds it
+} dmrp_motions;
+
 typedef struct dmrp_pedestrian_model {
   uint32_t struct_size;
   uint32_t reserved;
 
-  // Writes person_count velocities (m/s, world frame) for the step that begins now. Bodies are solid: the world removes
-  // the part of a velocity that would deepen an overlap. A velocity above 5 m/s or not finite is a fault (bad_output).
-  // The host ignores the velocities of people who follow a recording. Returns DMRP_OK or DMRP_ERROR.
+  // Writes the motion of every person. Bodies are solid: the world removes the part of a velocity that would deepen an
+  // overlap. A velocity above 5 m/s or not finite is a fault (bad_output). The host ignores the motions of people who
+  // follow a recording.
   // [step]
-  int32_t (*step)(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_vec2* velocities);
+  int32_t (*step)(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_motions* motions);
 } dmrp_pedestrian_model;
 
 DMRP_ASSERT_SIZE(dmrp_crowd, 56);
+DMRP_ASSERT_SIZE(dmrp_motion, 16);
+DMRP_ASSERT_SIZE(dmrp_motions, 24);
 DMRP_ASSERT_SIZE(dmrp_pedestrian_model, 16);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

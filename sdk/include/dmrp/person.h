@@ -5,6 +5,20 @@
 
 #include "values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// How a person answers to robots. Open list: a model treats a reaction that it does not know as UNSPECIFIED.
+// (The others are the behaviours of HuNavSim, Perez-Higueras et al., RA-L 2023, section III.)
+#define DMRP_REACTION_UNSPECIFIED 0  // as the model and its parameters have it
+#define DMRP_REACTION_REGULAR 1      // avoids a robot as it avoids a person
+#define DMRP_REACTION_IMPASSIVE 2    // does not notice robots
+#define DMRP_REACTION_SURPRISED 3    // stops and looks at it
+#define DMRP_REACTION_CURIOUS 4      // walks up to it, then on
+#define DMRP_REACTION_SCARED 5       // keeps far away
+#define DMRP_REACTION_THREATENING 6  // gets in its way
+
 // A person. Array element.
 typedef struct dmrp_person {
   uint64_t id;         // stable; a respawned person has a new one
@@ -17,8 +31,14 @@ typedef struct dmrp_person {
   dmrp_vec2 target;      // the current destination
   dmrp_vec2 area_lower;  // the place that target_id identifies: an axis-aligned rectangle that contains `target`
   dmrp_vec2 area_upper;
+  uint32_t reaction;  // DMRP_REACTION_*
+  uint32_t reserved;
 } dmrp_person;
 
-DMRP_ASSERT_SIZE(dmrp_person, 112);
+DMRP_ASSERT_SIZE(dmrp_person, 120);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 // plugin.h: an instance of a plugin and its life cycle.
 //
-//   create -> start -> calls -> start -> calls ... -> destroy
+//   create -> start -> calls -> trial_end -> start -> calls ... -> destroy
 //
 // start() begins a trial, and makes an instance usable again after DMRP_ERROR. An earlier trial must not influence a
 // later one: the host reuses instances for several trials, and a trial must give the same results whatever ran before.
@@ -11,10 +11,25 @@
 #include "descriptor.h"
 #include "host.h"
 #include "status.h"
+#include "trial_end.h"
 #include "world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // The plugin's own type; the host only passes the pointer back.
 typedef struct dmrp_instance dmrp_instance;
+
+#define DMRP_NO_ROBOT (-1)  // dmrp_start.robot of an instance that does not drive one robot
+
+// What a trial begins with; made by the host for one call.
+typedef struct dmrp_start {
+  uint32_t struct_size;
+  int32_t robot;            // index of the robot that this local controller drives; otherwise DMRP_NO_ROBOT
+  uint64_t seed;            // for this instance alone; the same seed gives the same results
+  const dmrp_world* world;  // valid until the next start() or destroy() begins
+} dmrp_start;
 
 // Filled in by create(); allocated, zeroed and sized by the host.
 typedef struct dmrp_plugin {
@@ -26,10 +41,9 @@ typedef struct dmrp_plugin {
   // dmrp_metric. Owned by the plugin, valid as long as the instance; the host copies it.
   const void* interface_;
 
-  // Begins a trial. `seed` is for this instance alone; the same seed gives the same results. `world` is valid until the
-  // next start() or destroy() begins. Returns DMRP_OK, DMRP_WARNING, DMRP_ERROR or DMRP_OUT_OF_MEMORY.
+  // Begins a trial.
   // [step]
-  int32_t (*start)(dmrp_instance* self, const dmrp_world* world, uint64_t seed);
+  int32_t (*start)(dmrp_instance* self, const dmrp_start* start);
 
   // An extension of the plugin by its id, or NULL. The function pointer may be NULL. Valid until destroy().
   // [any]
@@ -38,8 +52,19 @@ typedef struct dmrp_plugin {
   // Frees the instance. Allowed after any status but DMRP_FATAL.
   // [main]
   void (*destroy)(dmrp_instance* self);
+
+  // A trial has ended: the place to free what belongs to it. Called once after the last call of the trial, unless the
+  // trial ended with a fault; never for metrics, whose finish() is their end. The function pointer may be NULL.
+  // Results must not depend on what it keeps.
+  // [step]
+  int32_t (*trial_end)(dmrp_instance* self, const dmrp_trial_end* end);
 } dmrp_plugin;
 
-DMRP_ASSERT_SIZE(dmrp_plugin, 48);
+DMRP_ASSERT_SIZE(dmrp_start, 24);
+DMRP_ASSERT_SIZE(dmrp_plugin, 56);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

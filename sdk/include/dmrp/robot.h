@@ -5,32 +5,51 @@
 
 #include "values.h"
 
-#define DMRP_KINEMATICS_DIFFERENTIAL 1  // (v_x, omega)
-#define DMRP_KINEMATICS_HOLONOMIC 2     // (v_x, v_y, omega); reserved, not simulated by v1.0 hosts
+#ifdef __cplusplus
+extern "C" {
+#endif
 
+// Drives. Open list; a host refuses robots that it cannot simulate.
+#define DMRP_KINEMATICS_DIFFERENTIAL 1  // commands (v_x, omega)
+#define DMRP_KINEMATICS_HOLONOMIC 2     // commands (v_x, v_y, omega)
+#define DMRP_KINEMATICS_ACKERMANN 3     // commands (v_x, omega); omega = v_x tan(steering angle) / wheelbase_m
+
+// What a robot does. Open list. A finished robot becomes active again if it is given another goal.
 #define DMRP_ROBOT_ACTIVE 0    // still has a goal
-#define DMRP_ROBOT_FINISHED 1  // arrived at its last goal; parked there until the end of the trial
+#define DMRP_ROBOT_FINISHED 1  // arrived at its last goal so far; parked there
 #define DMRP_ROBOT_FAILED 2    // declared failed by the host; stands where it is
 
 // The limits that the host enforces on every command. Equal for all plugins: no controller has limits of its own.
 typedef struct dmrp_limits {
   uint32_t struct_size;
   uint32_t reserved;
-  double v_min;      // m/s, <= 0; 0 forbids driving backwards
-  double v_max;      // m/s
-  double v_y_max;    // m/s; 0 for differential drive
-  double omega_max;  // rad/s
-  double a_max;      // m/s^2, speeding up and braking
-  double alpha_max;  // rad/s^2
+  double v_min;              // m/s, <= 0; 0 forbids driving backwards
+  double v_max;              // m/s
+  double v_y_max;            // m/s; 0 unless holonomic
+  double omega_max;          // rad/s
+  double a_max;              // m/s^2, speeding up and braking
+  double alpha_max;          // rad/s^2
+  double wheelbase_m;        // Ackermann only, as the next two; otherwise 0
+  double steering_max;       // rad, largest steering angle to either side
+  double steering_rate_max;  // rad/s
 } dmrp_limits;
 
-// The outline of a robot in its own frame: a disc around the origin, or a convex polygon.
+// A convex polygon. Array element.
+typedef struct dmrp_polygon {
+  const dmrp_vec2* vertices;  // counter-clockwise
+  uint32_t vertex_count;      // >= 3
+  uint32_t reserved;
+} dmrp_polygon;
+
+// The outline of a robot in its own frame: a disc around the origin, or the union of convex polygons.
 typedef struct dmrp_footprint {
   uint32_t struct_size;
-  uint32_t vertex_count;      // 0: a disc
-  double radius_m;            // of the disc, or of the circle around the origin that contains the polygon
+  uint32_t part_count;        // 0: a disc
+  double radius_m;            // of the disc, or of the circle around the origin that contains the polygons
   double inscribed_radius_m;  // of the largest disc around the origin inside it
-  const dmrp_vec2* vertices;  // counter-clockwise; NULL for a disc
+  const dmrp_polygon* parts;  // NULL for a disc
+  uint32_t part_stride;
+  uint32_t reserved;
 } dmrp_footprint;
 
 // A goal pose. Array element.
@@ -45,9 +64,10 @@ typedef struct dmrp_goal {
 // A robot at the start of the trial. Array element.
 typedef struct dmrp_robot {
   const char* name;
+  const char* type;     // name of its type; "" for the default type
   uint32_t kinematics;  // DMRP_KINEMATICS_*
   uint32_t goal_count;
-  const dmrp_goal* goals;  // in order; a tour where there are several
+  const dmrp_goal* goals;  // as known at the start, in order; a tour where there are several. More may follow
   uint32_t goal_stride;
   uint32_t reserved;
   const dmrp_limits* limits;
@@ -55,9 +75,14 @@ typedef struct dmrp_robot {
   dmrp_pose start;
 } dmrp_robot;
 
-DMRP_ASSERT_SIZE(dmrp_limits, 56);
-DMRP_ASSERT_SIZE(dmrp_footprint, 32);
+DMRP_ASSERT_SIZE(dmrp_limits, 80);
+DMRP_ASSERT_SIZE(dmrp_polygon, 16);
+DMRP_ASSERT_SIZE(dmrp_footprint, 40);
 DMRP_ASSERT_SIZE(dmrp_goal, 56);
-DMRP_ASSERT_SIZE(dmrp_robot, 72);
+DMRP_ASSERT_SIZE(dmrp_robot, 80);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-// status.h: the status that a plugin function returns, and which calls may follow it.
+// status.h: the status that a plugin function returns, which calls may follow it, and which function may return it.
 #ifndef DMRP_STATUS_H
 #define DMRP_STATUS_H
 
@@ -13,5 +13,14 @@
 #define DMRP_OUT_OF_MEMORY 4  // like DMRP_ERROR, recorded under its own name
 #define DMRP_ERROR 5          // the instance is unusable until the next start(); the trial ends with a fault
 #define DMRP_FATAL 6          // the library is unusable; the host calls none of its functions again but deinit()
+
+// What a function may return:
+//
+//   every function that returns a status   DMRP_OK, DMRP_WARNING, DMRP_OUT_OF_MEMORY, DMRP_ERROR, DMRP_FATAL
+//   plan() of a global planner             also DMRP_NO_SOLUTION and DMRP_TIMEOUT
+//   step() of a local controller           also DMRP_NO_SOLUTION
+//
+// Any other status, known or not, is a fault (abi_breach): the host uses no output of that call.
+// This list is closed: no minor version adds a status.
 
 #endif

@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 // values.h: the frozen value types. SI units; radians, counter-clockwise from +x; the world frame is right-handed.
+// The contract is planar: a third dimension is left to v2.
 #ifndef DMRP_VALUES_H
 #define DMRP_VALUES_H
 
 #include "abi.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // A point or a vector in the world frame, metres (or m/s where a header says velocity).
 typedef struct dmrp_vec2 {
@@ -35,5 +40,9 @@ DMRP_ASSERT_SIZE(dmrp_vec2, 16);
 DMRP_ASSERT_SIZE(dmrp_pose, 24);
 DMRP_ASSERT_SIZE(dmrp_twist, 24);
 DMRP_ASSERT_SIZE(dmrp_segment, 32);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,11 @@
 #include "grid.h"
 #include "robot.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Kinds of shape. Open list: a reader uses the segments of a shape that it does not know.
 #define DMRP_SHAPE_CIRCLE 1
 #define DMRP_SHAPE_POLYGON 2
 
@@ -20,10 +25,13 @@ typedef struct dmrp_shape {
   double height_m;
 } dmrp_shape;
 
-// Valid, with all it points to, from start() until the next start() or destroy() begins; constant in between.
+// Valid, with all it points to, from start() until the next start() or destroy() begins. All instances of a trial may
+// get the same object. Robots are as at the start; static geometry changes within a trial only where an extension that
+// the plugin asked for says so.
 typedef struct dmrp_world {
   uint32_t struct_size;
   uint32_t person_count;      // the most people present at any time
+  double person_radius_m;     // the largest radius of a person; 0 if it is not known
   dmrp_vec2 lower;            // lower left corner of the world, a rectangle
   dmrp_vec2 upper;            // upper right corner; the border is a wall
   int64_t step_ns;            // one physics step
@@ -38,12 +46,15 @@ typedef struct dmrp_world {
   uint32_t shape_stride;
   const dmrp_segment* segments;  // outlines of all shapes and of the border, as walls for people; circles as polygons
   uint32_t segment_count;
-  int32_t self;                    // index of the robot that this local controller drives; -1 for other plugin kinds
+  uint32_t reserved;
   const dmrp_grid* planning_grid;  // cells for global planners; `free` holds for every robot of the trial
-  const dmrp_grid* walking_grid;   // finer cells for the navigation of people; `free` holds for the scenario's people
 } dmrp_world;
 
 DMRP_ASSERT_SIZE(dmrp_shape, 56);
 DMRP_ASSERT_SIZE(dmrp_world, 136);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -42,7 +42,13 @@ class Descriptor {
 
   // Planners.
   Descriptor& connectivity(std::uint32_t connectivity) { return connectivity_ = connectivity, *this; }
-  Descriptor& uncoordinated() { return planner_flags_ |= DMRP_PLANNER_UNCOORDINATED, *this; }
+  Descriptor& uncoordinated() { return flags(DMRP_FLAG_UNCOORDINATED); }
+
+  // Controllers: the drives that they can drive, as bits 1u << DMRP_KINEMATICS_*; differential alone if not given.
+  Descriptor& kinematics(std::uint32_t bits) { return kinematics_ = bits, *this; }
+
+  // Adds DMRP_FLAG_* bits. (CentralController sets DMRP_FLAG_CENTRAL itself.)
+  Descriptor& flags(std::uint32_t bits) { return flags_ |= bits, *this; }
 
   // Metrics: the values computed, and the channels (DMRP_CHANNEL_* bits) needed for them.
   Descriptor& value(std::string name, std::string unit, Direction direction, Subjects subjects,
@@ -66,7 +72,8 @@ class Descriptor {
   std::vector<std::string> requires_, uses_;
   std::vector<Value> values_;
   std::uint32_t connectivity_ = DMRP_CONNECTIVITY_NONE;
-  std::uint32_t planner_flags_ = 0;
+  std::uint32_t flags_ = 0;
+  std::uint32_t kinematics_ = 0;
   std::uint32_t channels_ = 0;
 };
 
@@ -102,7 +109,8 @@ class PublishedDescriptor {
     c_.value_stride = sizeof(dmrp_metric_value_spec);
     c_.connectivity = descriptor_.connectivity_;
     c_.channels = descriptor_.channels_;
-    c_.planner_flags = descriptor_.planner_flags_;
+    c_.flags = descriptor_.flags_;
+    c_.kinematics = descriptor_.kinematics_;
   }
   PublishedDescriptor(const PublishedDescriptor&) = delete;
   PublishedDescriptor& operator=(const PublishedDescriptor&) = delete;
@@ -121,14 +129,14 @@ class PublishedDescriptor {
       choices_.push_back(pointers(d->choices));
       texts_.push_back(pointers(d->texts));
       dmrp_param_spec spec{};
-      spec.fallback.key = d->key.c_str();
-      spec.fallback.type = d->type;
-      spec.fallback.count = static_cast<std::uint32_t>(d->numbers.size() + d->texts.size());
-      spec.fallback.integer = d->integer;
-      spec.fallback.number = d->number;
-      spec.fallback.text = d->text.c_str();
-      spec.fallback.numbers = d->numbers.data();
-      spec.fallback.texts = texts_.back().data();
+      spec.key = d->key.c_str();
+      spec.type = d->type;
+      spec.count = static_cast<std::uint32_t>(d->numbers.size() + d->texts.size());
+      spec.integer = d->integer;
+      spec.number = d->number;
+      spec.text = d->text.c_str();
+      spec.numbers = d->numbers.data();
+      spec.texts = texts_.back().data();
       spec.unit = d->unit.c_str();
       spec.doc = d->doc.c_str();
       spec.minimum = d->minimum;

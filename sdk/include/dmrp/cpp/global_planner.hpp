@@ -43,13 +43,17 @@ class PlanSink {
   explicit PlanSink(dmrp_plan_sink* c) : c_(c) {}
 
   void path(std::uint32_t robot, const std::vector<Waypoint>& waypoints) {
-    if (c_->path(c_, robot, waypoints.data(), static_cast<std::uint32_t>(waypoints.size()), sizeof(Waypoint)) !=
-        DMRP_OK)
-      throw std::logic_error("the host refused the path of robot " + std::to_string(robot));
+    const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(Waypoint), 0,
+                            waypoints.data()};
+    check(c_->path(c_, robot, &path), "the path of robot " + std::to_string(robot));
   }
-  void statistic(const char* name, double value) { c_->statistic(c_, name, value); }
+  void statistic(const char* name, double value) { check(c_->statistic(c_, name, value), name); }
 
  private:
+  static void check(std::int32_t status, const std::string& what) {
+    if (status == DMRP_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (status != DMRP_OK) throw std::logic_error("the host refused " + what);
+  }
   dmrp_plan_sink* c_;
 };
 
@@ -58,16 +62,15 @@ class GlobalPlanner : public Plugin {
   virtual Status plan(const PlanningProblem& problem, PlanSink& sink) = 0;
 
   static constexpr std::uint32_t kind = DMRP_KIND_GLOBAL_PLANNER;
-  static const void* interface_table() {
-    static const dmrp_global_planner table = {
-        sizeof(table), 0, [](dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink) {
-          auto& planner = detail::from_instance<GlobalPlanner>(self);
-          return PluginAccess::guarded(planner, [&] {
-            PlanSink out(sink);
-            return planner.plan(PlanningProblem(*problem), out);
-          });
-        }};
-    return &table;
+  static constexpr dmrp_global_planner interface_table() { return {sizeof(dmrp_global_planner), 0, &call_plan}; }
+
+ private:
+  static std::int32_t call_plan(dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink) {
+    auto& planner = detail::from_instance<GlobalPlanner>(self);
+    return PluginAccess::guarded(planner, [&] {
+      PlanSink out(sink);
+      return planner.plan(PlanningProblem(*problem), out);
+    });
   }
 };
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // cpp/library.hpp: defines the entry of a plugin library: DMRP_PLUGINS(A, B), once per library.
+//
+// What all instances of a class share, such as the weights of a learned policy, is loaded once: a plugin class may have
+// the static functions `load(const dmrp::Host&)`, which may throw, and `unload()`.
 #pragma once
 
 #include <array>
@@ -11,7 +14,29 @@
 
 namespace dmrp {
 
-template <class... Plugins>
+namespace detail {
+
+template <class P, class = void>
+constexpr bool has_load = false;
+template <class P>
+constexpr bool has_load<P, std::void_t<decltype(P::load(std::declval<const Host&>()))>> = true;
+
+template <class P, class = void>
+constexpr bool has_unload = false;
+template <class P>
+constexpr bool has_unload<P, std::void_t<decltype(P::unload())>> = true;
+
+template <class P, class = void>
+constexpr std::uint32_t flags_of_kind = 0;
+template <class P>
+constexpr std::uint32_t flags_of_kind<P, std::void_t<decltype(P::flags)>> = P::flags;
+
+}  // namespace detail
+
+// `Unit` is a type of the translation unit that has DMRP_PLUGINS. It gives the functions and static objects of this
+// class internal linkage: those of an inline function in two libraries would be one object for the whole process
+// (STB_GNU_UNIQUE), and the second library would get the first one's descriptors.
+template <class Unit, class... Plugins>
 class Library {
  public:
   static constexpr dmrp_entry entry() {
@@ -19,12 +44,23 @@ class Library {
   }
 
  private:
-  static std::int32_t init(const dmrp_host*) { return DMRP_OK; }
-  static void deinit() {}
+  static std::int32_t init(const dmrp_host* host) {
+    return PluginAccess::guarded(host, [&] { return (load<Plugins>(Host(host)), ...), Status::ok; });
+  }
+  static void deinit() { (unload<Plugins>(), ...); }
   static std::uint32_t count() { return sizeof...(Plugins); }
 
+  template <class P>
+  static void load([[maybe_unused]] const Host& host) {
+    if constexpr (detail::has_load<P>) P::load(host);
+  }
+  template <class P>
+  static void unload() {
+    if constexpr (detail::has_unload<P>) P::unload();
+  }
+
   static const dmrp_descriptor* descriptor(std::uint32_t index) {
-    static constexpr std::array<const dmrp_descriptor& (*)(), sizeof...(Plugins)> published = {&describe<Plugins>...};
+    constexpr std::array<const dmrp_descriptor& (*)(), sizeof...(Plugins)> published = {&describe<Plugins>...};
     try {
       return index < published.size() ? &published[index]() : nullptr;
     } catch (...) {
@@ -35,11 +71,17 @@ class Library {
   // The parameter table comes from a prototype of the class.
   template <class P>
   static const dmrp_descriptor& describe() {
-    static const PublishedDescriptor published(P::describe(), P::kind, [] {
+    static const PublishedDescriptor published(P::describe().flags(detail::flags_of_kind<P>), P::kind, [] {
       P prototype;
       return std::move(PluginAccess::parameters(prototype));
     }());
     return published.get();
+  }
+
+  template <class P>
+  static const void* interface_table() {
+    static constexpr auto table = P::interface_table();
+    return &table;
   }
 
   static std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
@@ -55,24 +97,37 @@ class Library {
     if (std::strcmp(describe<P>().id, id) != 0) return false;
     auto plugin = std::make_unique<P>();
     PluginAccess::configure(*plugin, host, params);
-    out->interface_ = P::interface_table();
-    out->start = [](dmrp_instance* self, const dmrp_world* world, std::uint64_t seed) {
-      auto& started = detail::from_instance<Plugin>(self);
-      return PluginAccess::guarded(started, [&] { return PluginAccess::start(started, *world, seed); });
-    };
-    out->get_extension = [](dmrp_instance* self, const char* extension) -> const void* {
-      try {
-        return detail::from_instance<Plugin>(self).offered_extension(extension);
-      } catch (...) {
-        return nullptr;
-      }
-    };
-    out->destroy = [](dmrp_instance* self) { delete &detail::from_instance<Plugin>(self); };
+    out->interface_ = interface_table<P>();
+    out->start = &start;
+    out->get_extension = &get_extension;
+    out->destroy = &destroy;
+    out->trial_end = &trial_end;
     out->self = detail::to_instance(plugin.release());
     return true;
+  }
+
+  static std::int32_t start(dmrp_instance* self, const dmrp_start* c) {
+    auto& plugin = detail::from_instance<Plugin>(self);
+    return PluginAccess::guarded(plugin, [&] { return PluginAccess::start(plugin, *c); });
+  }
+  static const void* get_extension(dmrp_instance* self, const char* id) {
+    try {
+      return detail::from_instance<Plugin>(self).offered_extension(id);
+    } catch (...) {
+      return nullptr;
+    }
+  }
+  static void destroy(dmrp_instance* self) { delete &detail::from_instance<Plugin>(self); }
+  static std::int32_t trial_end(dmrp_instance* self, const dmrp_trial_end* end) {
+    auto& plugin = detail::from_instance<Plugin>(self);
+    return PluginAccess::guarded(plugin, [&] { return plugin.trial_end(*end), Status::ok; });
   }
 };
 
 }  // namespace dmrp
 
-#define DMRP_PLUGINS(...) DMRP_ENTRY = dmrp::Library<__VA_ARGS__>::entry();
+#define DMRP_PLUGINS(...)      \
+  namespace {                  \
+  struct dmrp_plugins_unit {}; \
+  }                            \
+  DMRP_ENTRY = dmrp::Library<dmrp_plugins_unit, __VA_ARGS__>::entry();

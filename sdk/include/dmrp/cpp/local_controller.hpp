@@ -19,7 +19,7 @@ struct Observation {
         pose(c.pose),
         velocity(c.velocity),
         applied(c.applied),
-        goal(c.goal),
+        goal(*c.goal),
         goal_index(c.goal_index),
         goal_count(c.goal_count),
         progress_m(c.progress_m),
@@ -35,7 +35,7 @@ struct Observation {
   Pose pose;
   Twist velocity;
   Twist applied;
-  Goal goal;
+  const Goal& goal;
   std::uint32_t goal_index;
   std::uint32_t goal_count;
   double progress_m;
@@ -59,28 +59,82 @@ class LocalController : public Plugin {
   virtual Status step(const Observation& now, Command& command) = 0;
 
   static constexpr std::uint32_t kind = DMRP_KIND_LOCAL_CONTROLLER;
-  static const void* interface_table() {
-    static const dmrp_local_controller table = {
-        sizeof(table), 0,
-        [](dmrp_instance* self, const dmrp_path* path, std::uint64_t revision) {
-          auto& controller = detail::from_instance<LocalController>(self);
-          return PluginAccess::guarded(controller, [&] {
-            controller.set_path(Path(*path), revision);
-            return Status::ok;
-          });
-        },
-        [](dmrp_instance* self, const dmrp_observation* observation, dmrp_command* out) {
-          auto& controller = detail::from_instance<LocalController>(self);
-          return PluginAccess::guarded(controller, [&] {
-            Command command;
-            const Status status = controller.step(Observation(*observation), command);
-            out->v_x = command.v_x;
-            out->v_y = command.v_y;
-            out->omega = command.omega;
-            return status;
-          });
-        }};
-    return &table;
+  static constexpr dmrp_local_controller interface_table() {
+    return {sizeof(dmrp_local_controller), 0, &call_set_path, &call_step, nullptr};
+  }
+
+ private:
+  static std::int32_t call_set_path(dmrp_instance* self, const dmrp_path_update* update) {
+    auto& controller = detail::from_instance<LocalController>(self);
+    return PluginAccess::guarded(controller, [&] {
+      controller.set_path(Path(*update->path), update->revision);
+      return Status::ok;
+    });
+  }
+  static std::int32_t call_step(dmrp_instance* self, const dmrp_observation* observation, dmrp_command* out) {
+    auto& controller = detail::from_instance<LocalController>(self);
+    return PluginAccess::guarded(controller, [&] {
+      Command command;
+      const Status status = controller.step(Observation(*observation), command);
+      out->v_x = command.v_x;
+      out->v_y = command.v_y;
+      out->omega = command.omega;
+      return status;
+    });
+  }
+};
+
+// All active robots at one control tick, and the command of each. Valid until step() returns.
+class Fleet {
+ public:
+  explicit Fleet(const dmrp_fleet& c) : c_(&c) {}
+
+  std::size_t size() const { return c_->count; }
+  Observation operator[](std::size_t i) const {
+    return Observation(*DMRP_AT(dmrp_observation, c_->observations, c_->observation_stride, i));
+  }
+  // The robot of observation i gets this command; zero if none is given.
+  void command(std::size_t i, const Command& command) {
+    dmrp_command& out = *DMRP_AT_OUT(dmrp_command, c_->commands, c_->command_stride, i);
+    out.v_x = command.v_x;
+    out.v_y = command.v_y;
+    out.omega = command.omega;
+  }
+  // There is no admissible command for it: the host brakes.
+  void brake(std::size_t i) {
+    DMRP_AT_OUT(dmrp_command, c_->commands, c_->command_stride, i)->status = DMRP_NO_SOLUTION;
+  }
+
+ private:
+  const dmrp_fleet* c_;
+};
+
+// One instance that drives all robots.
+class CentralController : public Plugin {
+ public:
+  virtual void set_path(std::uint32_t robot, Path path, std::uint64_t revision) = 0;
+  virtual Status step(Fleet& fleet) = 0;
+
+  static constexpr std::uint32_t kind = DMRP_KIND_LOCAL_CONTROLLER;
+  static constexpr std::uint32_t flags = DMRP_FLAG_CENTRAL;
+  static constexpr dmrp_local_controller interface_table() {
+    return {sizeof(dmrp_local_controller), 0, &call_set_path, nullptr, &call_step_all};
+  }
+
+ private:
+  static std::int32_t call_set_path(dmrp_instance* self, const dmrp_path_update* update) {
+    auto& controller = detail::from_instance<CentralController>(self);
+    return PluginAccess::guarded(controller, [&] {
+      controller.set_path(update->robot, Path(*update->path), update->revision);
+      return Status::ok;
+    });
+  }
+  static std::int32_t call_step_all(dmrp_instance* self, const dmrp_fleet* c) {
+    auto& controller = detail::from_instance<CentralController>(self);
+    return PluginAccess::guarded(controller, [&] {
+      Fleet fleet(*c);
+      return controller.step(fleet);
+    });
   }
 };
 

@@ -17,6 +17,7 @@ using Contact = dmrp_contact;
 using Call = dmrp_call;
 using RobotEnd = dmrp_robot_end;
 using Statistic = dmrp_statistic;
+using Subject = dmrp_subject;
 
 // A value that is undefined for this trial: NULL in the results.
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
@@ -67,6 +68,30 @@ struct TrialEnd {
   Span<RobotEnd> robots;
 };
 
+enum class Severity : std::uint32_t {
+  info = DMRP_SEVERITY_INFO,
+  warning = DMRP_SEVERITY_WARNING,
+  serious = DMRP_SEVERITY_SERIOUS
+};
+
+// An event for the time line; name and text live until event() returns.
+struct Event {
+  const char* name;
+  std::int64_t from_ns;
+  std::int64_t to_ns;
+  std::vector<Subject> subjects;
+  std::string text;
+  Vec2 place = {undefined, undefined};
+  Severity severity = Severity::info;
+};
+
+inline Subject robot_subject(std::uint64_t index) {
+  return {DMRP_SUBJECT_ROBOT, 0, index};
+}
+inline Subject person_subject(std::uint64_t id) {
+  return {DMRP_SUBJECT_PEDESTRIAN, 0, id};
+}
+
 class MetricSink {
  public:
   explicit MetricSink(dmrp_metric_sink* c) : c_(c) {}
@@ -82,17 +107,28 @@ class MetricSink {
   void curve(const char* name, double coordinate, double value) {
     give(name, DMRP_SUBJECT_SYSTEM, 0, coordinate, value);
   }
-  void event(const char* name, std::int64_t from_ns, std::int64_t to_ns, const std::vector<std::uint32_t>& robots,
-             const std::string& text) {
-    if (c_->event(c_, name, from_ns, to_ns, robots.data(), static_cast<std::uint32_t>(robots.size()), text.c_str()) !=
-        DMRP_OK)
-      throw std::logic_error(std::string("the host refused an event of ") + name);
+  void event(const Event& event) {
+    const dmrp_event c = {sizeof(c),
+                          static_cast<std::uint32_t>(event.severity),
+                          event.name,
+                          event.from_ns,
+                          event.to_ns,
+                          event.subjects.data(),
+                          static_cast<std::uint32_t>(event.subjects.size()),
+                          sizeof(Subject),
+                          event.place,
+                          event.text.c_str()};
+    check(c_->event(c_, &c), "an event", event.name);
   }
 
  private:
   void give(const char* name, std::uint32_t subject_kind, std::uint64_t subject, double coordinate, double value) {
-    if (c_->value(c_, name, subject_kind, subject, coordinate, value) != DMRP_OK)
-      throw std::logic_error(std::string("the host refused a value of ") + name);
+    const dmrp_metric_result result = {sizeof(result), subject_kind, name, subject, coordinate, value};
+    check(c_->value(c_, &result), "a value", name);
+  }
+  static void check(std::int32_t status, const char* what, const char* name) {
+    if (status == DMRP_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (status != DMRP_OK) throw std::logic_error(std::string("the host refused ") + what + " of " + name);
   }
   dmrp_metric_sink* c_;
 };
@@ -105,9 +141,8 @@ class Metric : public Plugin {
   virtual void finish(const TrialEnd& end, MetricSink& sink) = 0;
 
   static constexpr std::uint32_t kind = DMRP_KIND_METRIC;
-  static const void* interface_table() {
-    static const dmrp_metric table = {sizeof(table), 0, &call_begin, &call_observe, &call_finish};
-    return &table;
+  static constexpr dmrp_metric interface_table() {
+    return {sizeof(dmrp_metric), 0, &call_begin, &call_observe, &call_finish};
   }
 
  private:

@@ -2,6 +2,7 @@
 // cpp/parameters.hpp: parameters bound to members of a plugin class.
 //
 //   dmrp::Param<double> gain = param("gain", 2.0).unit("1/s").range(0.0, 10.0).doc("turn rate per radian of error");
+//   dmrp::Param<int> samples = param("samples", 20).range(1, 1000).doc("trajectories a tick");
 //
 // The declarations of a class form its parameter table; the values are set before start() is called.
 #pragma once
@@ -11,7 +12,10 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,6 +49,11 @@ inline void assign(bool& to, const dmrp_param_value& from) {
 inline void assign(std::int64_t& to, const dmrp_param_value& from) {
   to = from.integer;
 }
+inline void assign(int& to, const dmrp_param_value& from) {
+  if (from.integer < std::numeric_limits<int>::min() || from.integer > std::numeric_limits<int>::max())
+    throw std::out_of_range(std::string(from.key) + " does not fit into an int");
+  to = static_cast<int>(from.integer);
+}
 inline void assign(double& to, const dmrp_param_value& from) {
   to = from.number;
 }
@@ -76,6 +85,12 @@ inline void fall_back(ParamDefinition& d, std::vector<double> value) {
 inline void fall_back(ParamDefinition& d, std::vector<std::string> value) {
   d.type = DMRP_PARAM_STRING_ARRAY, d.texts = std::move(value);
 }
+
+// Whether a default of type From declares a parameter of type To: the same type, an integer for any integer type, an
+// integer for a double.
+template <class To, class From>
+constexpr bool declares = std::is_same_v<To, From> || (std::is_same_v<From, std::int64_t> &&
+                                                       (std::is_same_v<To, int> || std::is_same_v<To, double>));
 
 }  // namespace detail
 
@@ -119,7 +134,20 @@ class ParamBuilder {
 template <class T>
 class Param {
  public:
-  Param(const ParamBuilder<T>& declared) : value_(declared.value_) {  // implicit: `Param<double> x = param(...)`
+  static_assert(std::is_same_v<T, bool> || std::is_same_v<T, int> || std::is_same_v<T, std::int64_t> ||
+                    std::is_same_v<T, double> || std::is_same_v<T, std::string> ||
+                    std::is_same_v<T, std::vector<double>> || std::is_same_v<T, std::vector<std::string>>,
+                "dmrp::Param<T>: T is bool, int, std::int64_t, double, std::string, std::vector<double> or "
+                "std::vector<std::string>");
+
+  template <class From>
+  Param(const ParamBuilder<From>& declared)  // implicit: `Param<double> x = param(...)`
+      : value_(static_cast<T>(declared.value_)) {
+    static_assert(detail::declares<T, From>, "dmrp::Param<T>: the default given to param() is of another type than T");
+    if constexpr (!std::is_same_v<T, From> && std::is_same_v<T, double>) {
+      declared.definition_->integer = 0;
+      detail::fall_back(*declared.definition_, value_);
+    }
     declared.definition_->target = &value_;
     declared.definition_->assign = [](void* target, const dmrp_param_value& value) {
       detail::assign(*static_cast<T*>(target), value);
@@ -135,5 +163,26 @@ class Param {
  private:
   T value_;
 };
+
+// A parameter that is a text compares with texts. (Numbers compare through their conversion; the operators of
+// std::string are templates, which take no conversions.)
+inline bool operator==(const Param<std::string>& a, std::string_view b) {
+  return *a == b;
+}
+inline bool operator==(std::string_view a, const Param<std::string>& b) {
+  return a == *b;
+}
+inline bool operator==(const Param<std::string>& a, const Param<std::string>& b) {
+  return *a == *b;
+}
+inline bool operator!=(const Param<std::string>& a, std::string_view b) {
+  return *a != b;
+}
+inline bool operator!=(std::string_view a, const Param<std::string>& b) {
+  return a != *b;
+}
+inline bool operator!=(const Param<std::string>& a, const Param<std::string>& b) {
+  return *a != *b;
+}
 
 }  // namespace dmrp

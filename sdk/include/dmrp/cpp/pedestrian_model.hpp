@@ -24,19 +24,33 @@ struct Crowd {
   Span<Agent> robots;
 };
 
+// The motion of each person: zero until it is written. Valid until step() returns.
+class Motions {
+ public:
+  explicit Motions(dmrp_motions& c) : c_(&c) {}
+
+  std::size_t size() const { return c_->count; }
+  dmrp_motion& operator[](std::size_t person) { return *DMRP_AT_OUT(dmrp_motion, c_->motions, c_->stride, person); }
+
+ private:
+  dmrp_motions* c_;
+};
+
 class PedestrianModel : public Plugin {
  public:
-  // Writes crowd.people.size() velocities.
-  virtual Status step(const Crowd& crowd, Vec2* velocities) = 0;
+  // Writes the motion of crowd.people[i] to motions[i].
+  virtual Status step(const Crowd& crowd, Motions& motions) = 0;
 
   static constexpr std::uint32_t kind = DMRP_KIND_PEDESTRIAN_MODEL;
-  static const void* interface_table() {
-    static const dmrp_pedestrian_model table = {
-        sizeof(table), 0, [](dmrp_instance* self, const dmrp_crowd* crowd, dmrp_vec2* velocities) {
-          auto& model = detail::from_instance<PedestrianModel>(self);
-          return PluginAccess::guarded(model, [&] { return model.step(Crowd(*crowd), velocities); });
-        }};
-    return &table;
+  static constexpr dmrp_pedestrian_model interface_table() { return {sizeof(dmrp_pedestrian_model), 0, &call_step}; }
+
+ private:
+  static std::int32_t call_step(dmrp_instance* self, const dmrp_crowd* crowd, dmrp_motions* motions) {
+    auto& model = detail::from_instance<PedestrianModel>(self);
+    return PluginAccess::guarded(model, [&] {
+      Motions out(*motions);
+      return model.step(Crowd(*crowd), out);
+    });
   }
 };
 

@@ -5,10 +5,13 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../plugin.h"
+#include "extensions.hpp"
 #include "parameters.hpp"
 #include "span.hpp"
 
@@ -20,6 +23,7 @@ using Twist = dmrp_twist;
 using Segment = dmrp_segment;
 using Limits = dmrp_limits;
 using Footprint = dmrp_footprint;
+using Polygon = dmrp_polygon;
 using Goal = dmrp_goal;
 using Robot = dmrp_robot;
 using Grid = dmrp_grid;
@@ -57,11 +61,38 @@ class World {
   Span<Shape> shapes() const { return {c_->shapes, c_->shape_count, c_->shape_stride}; }
   Span<Segment> segments() const { return {c_->segments, c_->segment_count}; }
   const Grid& planning_grid() const { return *c_->planning_grid; }
-  const Grid& walking_grid() const { return *c_->walking_grid; }
   const dmrp_world* operator->() const { return c_; }  // the scalars: world->lower, world->step_ns, ...
 
  private:
   const dmrp_world* c_ = nullptr;
+};
+
+inline Span<Polygon> parts(const Footprint& footprint) {
+  return {footprint.parts, footprint.part_count, footprint.part_stride};
+}
+
+// dmrp_start with the world as a class.
+struct Start {
+  World world;
+  std::uint64_t seed;
+  std::int32_t robot;  // the robot that this local controller drives, or DMRP_NO_ROBOT
+};
+
+// The host of a library or an instance.
+class Host {
+ public:
+  explicit Host(const dmrp_host* c) : c_(c) {}
+
+  void log(LogLevel level, const std::string& text) const {
+    c_->log(c_, static_cast<std::int32_t>(level), text.c_str());
+  }
+  void set_error(const std::string& text) const { c_->set_error(c_, text.c_str()); }
+  bool should_stop() const { return c_->should_stop(c_) != 0; }
+  std::string library_path() const { return c_->library_path; }  // weights and other data are installed beside it
+  const dmrp_host* c() const { return c_; }
+
+ private:
+  const dmrp_host* c_;
 };
 
 // The host and the parameters' values are available from start() on, not in the constructor. The library makes one more
@@ -74,7 +105,10 @@ class Plugin {
   virtual ~Plugin() = default;
 
   // Begins a trial: reset all state of an earlier one. world() is set, extension() may be called.
-  virtual Status start(const World&, std::uint64_t /*seed*/) { return Status::ok; }
+  virtual Status start(const Start&) { return Status::ok; }
+
+  // The trial has ended, without a fault: the place to free what belongs to it. Not called for metrics.
+  virtual void trial_end(const dmrp_trial_end&) {}
 
   // An extension that the plugin provides to the host, or nullptr.
   virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
@@ -93,16 +127,22 @@ class Plugin {
   }
 
   const World& world() const { return world_; }
-  void log(LogLevel level, const std::string& text) const {
-    host_->log(host_, static_cast<std::int32_t>(level), text.c_str());
-  }
-  void set_error(const std::string& text) const { host_->set_error(host_, text.c_str()); }
-  bool should_stop() const { return host_->should_stop(host_) != 0; }
+  Host host() const { return Host(host_); }
+  void log(LogLevel level, const std::string& text) const { host().log(level, text); }
+  void set_error(const std::string& text) const { host().set_error(text); }
+  bool should_stop() const { return host().should_stop(); }
 
-  // An extension of the host, as its C struct: extension<dmrp_lidar>(DMRP_EXT_LIDAR). Ask in start().
+  // An extension of the host, as its C struct: extension<dmrp_lidar>(). Ask in start(). The first throws if there is
+  // none; the second returns nullptr.
   template <class T>
-  const T* extension(const char* id) const {
-    return static_cast<const T*>(host_->get_extension(host_, id));
+  const T& extension() const {
+    if (const T* found = find_extension<T>()) return *found;
+    throw std::runtime_error(std::string("the host gives no ") + ExtensionId<T>::value +
+                             ": declare it in describe() by needs() or uses()");
+  }
+  template <class T>
+  const T* find_extension() const {
+    return static_cast<const T*>(host_->get_extension(host_, ExtensionId<T>::value));
   }
 
  private:
@@ -125,9 +165,9 @@ struct PluginAccess {
     }
   }
 
-  static Status start(Plugin& plugin, const dmrp_world& world, std::uint64_t seed) {
-    plugin.world_ = World(world);
-    return plugin.start(plugin.world_, seed);
+  static Status start(Plugin& plugin, const dmrp_start& c) {
+    plugin.world_ = World(*c.world);
+    return plugin.start({plugin.world_, c.seed, c.robot});
   }
 
   // Runs `call`, which returns a Status, and turns every exception into a status.

@@ -11,10 +11,32 @@
 
 #include "../values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define DMRP_EXT_ANNOTATE "dmrp.annotate/1"
 
+// Roles of a trajectory. Open list: a host drops one that it does not know.
 #define DMRP_ANNOTATE_PREDICTED 1  // the trajectory that the plugin chose
 #define DMRP_ANNOTATE_CANDIDATE 2  // a trajectory that it considered
+
+// A trajectory in the world frame.
+typedef struct dmrp_trajectory {
+  uint32_t struct_size;
+  uint32_t role;           // DMRP_ANNOTATE_*
+  uint32_t robot;          // index of the robot that it is about; 0 where the plugin is not a controller
+  uint32_t count;          // of poses
+  const dmrp_pose* poses;  // step_ns apart, the first at the current time
+  int64_t step_ns;
+} dmrp_trajectory;
+
+// A line of text, shown at the current time.
+typedef struct dmrp_note {
+  uint32_t struct_size;
+  uint32_t robot;  // as in dmrp_trajectory
+  const char* text;
+} dmrp_note;
 
 typedef struct dmrp_annotate dmrp_annotate;
 struct dmrp_annotate {
@@ -26,17 +48,18 @@ struct dmrp_annotate {
   // [step]
   int32_t (*wanted)(const dmrp_annotate* annotate);
 
-  // A trajectory in the world frame: poses step_ns apart, the first at the current time. `role`: DMRP_ANNOTATE_*.
-  // Copied.
+  // Both are copied, and dropped for a robot that the instance does not drive.
   // [step]
-  void (*trajectory)(const dmrp_annotate* annotate, uint32_t role, const dmrp_pose* poses, uint32_t count,
-                     int64_t step_ns);
-
-  // A line of text, shown at the current time. Copied.
-  // [step]
-  void (*note)(const dmrp_annotate* annotate, const char* text);
+  void (*trajectory)(const dmrp_annotate* annotate, const dmrp_trajectory* trajectory);
+  void (*note)(const dmrp_annotate* annotate, const dmrp_note* note);
 };
 
+DMRP_ASSERT_SIZE(dmrp_trajectory, 32);
+DMRP_ASSERT_SIZE(dmrp_note, 16);
 DMRP_ASSERT_SIZE(dmrp_annotate, 40);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,10 @@
 
 #include "../values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define DMRP_EXT_DISTANCE_FIELD "dmrp.distance_field/1"
 
 // Cells as in dmrp_costmap.
@@ -27,12 +31,17 @@ struct dmrp_distance_field {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The field of the instance's robot. Valid until the current call of step() returns.
+  // The field of a robot. Valid until the current call of step() or
+  // step_all() returns. NULL for a robot that the instance does not drive.
   // [step]
-  const dmrp_field* (*field)(const dmrp_distance_field* extension);
+  const dmrp_field* (*field)(const dmrp_distance_field* extension, uint32_t robot);
 };
 
 DMRP_ASSERT_SIZE(dmrp_field, 64);
 DMRP_ASSERT_SIZE(dmrp_distance_field, 24);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

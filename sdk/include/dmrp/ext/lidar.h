@@ -6,6 +6,10 @@
 
 #include "../values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define DMRP_EXT_LIDAR "dmrp.lidar/1"
 
 // Beam i points at angle_min + i * angle_increment in the robot's frame. The sensor sits at the robot's origin.
@@ -26,12 +30,17 @@ struct dmrp_lidar {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The latest scan of the instance's robot. Valid until the current call of step() returns.
+  // The latest scan of a robot. Valid until the current call of step() or
+  // step_all() returns. NULL for a robot that the instance does not drive.
   // [step]
-  const dmrp_scan* (*scan)(const dmrp_lidar* lidar);
+  const dmrp_scan* (*scan)(const dmrp_lidar* lidar, uint32_t robot);
 };
 
 DMRP_ASSERT_SIZE(dmrp_scan, 56);
 DMRP_ASSERT_SIZE(dmrp_lidar, 24);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,10 @@
 
 #include "../values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define DMRP_EXT_LOCAL_COSTMAP "dmrp.local_costmap/1"
 
 #define DMRP_COST_FREE 0
@@ -33,12 +37,17 @@ struct dmrp_local_costmap {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The costmap of the instance's robot. Valid until the current call of step() returns.
+  // The costmap of a robot. Valid until the current call of step() or
+  // step_all() returns. NULL for a robot that the instance does not drive.
   // [step]
-  const dmrp_costmap* (*costmap)(const dmrp_local_costmap* extension);
+  const dmrp_costmap* (*costmap)(const dmrp_local_costmap* extension, uint32_t robot);
 };
 
 DMRP_ASSERT_SIZE(dmrp_costmap, 80);
 DMRP_ASSERT_SIZE(dmrp_local_costmap, 24);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

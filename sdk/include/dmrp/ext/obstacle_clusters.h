@@ -6,6 +6,10 @@
 
 #include "../values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define DMRP_EXT_OBSTACLE_CLUSTERS "dmrp.obstacle_clusters/1"
 
 // A convex shape that covers connected lethal cells. Array element.
@@ -34,14 +38,18 @@ struct dmrp_obstacle_clusters {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The clusters around the instance's robot, computed on demand, at most once per scan. Valid until the current call
-  // of step() returns.
+  // The clusters around a robot, computed on demand, at most once per scan. Valid until the current call of step() or
+  // step_all() returns. NULL for a robot that the instance does not drive.
   // [step]
-  const dmrp_obstacle_cluster_list* (*clusters)(const dmrp_obstacle_clusters* extension);
+  const dmrp_obstacle_cluster_list* (*clusters)(const dmrp_obstacle_clusters* extension, uint32_t robot);
 };
 
 DMRP_ASSERT_SIZE(dmrp_obstacle_cluster, 16);
 DMRP_ASSERT_SIZE(dmrp_obstacle_cluster_list, 40);
 DMRP_ASSERT_SIZE(dmrp_obstacle_clusters, 24);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// cpp/extensions.hpp: the id of each extension struct, for Plugin::extension<T>(). For an extension of your own:
+//
+//   template <>
+//   struct dmrp::ExtensionId<my_extension> { static constexpr const char* value = "..."; };
+#pragma once
+
+#include "../ext/annotate.h"
+#include "../ext/distance_field.h"
+#include "../ext/lidar.h"
+#include "../ext/local_costmap.h"
+#include "../ext/obstacle_clusters.h"
+#include "../ext/walking_grid.h"
+
+namespace dmrp {
+
+template <class Extension>
+struct ExtensionId;
+
+template <>
+struct ExtensionId<dmrp_annotate> {
+  static constexpr const char* value = DMRP_EXT_ANNOTATE;
+};
+template <>
+struct ExtensionId<dmrp_distance_field> {
+  static constexpr const char* value = DMRP_EXT_DISTANCE_FIELD;
+};
+template <>
+struct ExtensionId<dmrp_lidar> {
+  static constexpr const char* value = DMRP_EXT_LIDAR;
+};
+template <>
+struct ExtensionId<dmrp_local_costmap> {
+  static constexpr const char* value = DMRP_EXT_LOCAL_COSTMAP;
+};
+template <>
+struct ExtensionId<dmrp_obstacle_clusters> {
+  static constexpr const char* value = DMRP_EXT_OBSTACLE_CLUSTERS;
+};
+template <>
+struct ExtensionId<dmrp_walking_grid> {
+  static constexpr const char* value = DMRP_EXT_WALKING_GRID;
+};
+
+}  // namespace dmrp
