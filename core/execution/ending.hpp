@@ -2,7 +2,8 @@
 // ending.hpp: decides when a trial ends and why a robot failed.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
+#include <dmrp/trial_end.h>
 
 #include <cstdint>
 #include <deque>

@@ -8,7 +8,7 @@ namespace dmrp::core {
 
 struct AnnotationSource {
   std::uint32_t plugin_kind = 0;  // DMRP_KIND_*
-  std::uint32_t robot = 0;        // of a local controller; 0 otherwise
+  std::uint32_t robot = 0;        // that it is about; 0 where the plugin is not a controller
 };
 
 }  // namespace dmrp::core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/foxglove/foxglove_channels.hpp"
 
+#include <dmrp/descriptor.h>
 #include <dmrp/ext/annotate.h>
 
 #include <algorithm>
@@ -52,7 +53,10 @@ void FoxgloveChannels::world(const dmrp_world& world) {
     known.frame = numbered("robot_", i);
     known.name = text_or(robot.name, known.frame);
     known.radius_m = robot.footprint->radius_m;
-    known.outline.assign(robot.footprint->vertices, robot.footprint->vertices + robot.footprint->vertex_count);
+    for (std::uint32_t p = 0; p < robot.footprint->part_count; ++p) {
+      const dmrp_polygon& part = *DMRP_AT(dmrp_polygon, robot.footprint->parts, robot.footprint->part_stride, p);
+      known.parts.emplace_back(part.vertices, part.vertices + part.vertex_count);
+    }
     known.pose = robot.start;
   }
   put_map(world);
@@ -100,7 +104,7 @@ void FoxgloveChannels::put_robots(std::int64_t t_ns) {
     entity_.clear();
     entity_.note("name", robot.name);
     entity_.note("state", states[std::min<std::uint32_t>(robot.state, 2)]);
-    draw_robot(entity_, {i, robot.name, robot.radius_m, robot.outline, robot.state});
+    draw_robot(entity_, {i, robot.name, robot.radius_m, robot.parts, robot.state});
     scene_.add(entity_, robot.frame, {robot.frame, true, 0});
   }
   file_.write(robots_channel_, t_ns, scene_.message());

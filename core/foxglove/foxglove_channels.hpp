@@ -19,7 +19,9 @@
 #pragma once
 
 #include <dmrp/ext/lidar.h>
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
+#include <dmrp/trial_end.h>
+#include <dmrp/world.h>
 
 #include <cstdint>
 #include <span>
@@ -63,7 +65,7 @@ class FoxgloveChannels {
     std::string name;   // from the scenario
     std::string frame;  // "robot_0"
     double radius_m = 0.0;
-    std::vector<dmrp_vec2> outline;  // empty: a disc
+    std::vector<std::vector<dmrp_vec2>> parts;  // of the outline; empty: a disc
     std::uint32_t state = DMRP_ROBOT_ACTIVE;
     dmrp_pose pose{};
   };

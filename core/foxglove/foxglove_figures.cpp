@@ -51,7 +51,7 @@ void draw_shape(SceneEntity& entity, const dmrp_shape& shape) {
   const Color& color = shape.height_m >= wall_height_m ? wall_color : furniture_color;
   if (shape.kind == DMRP_SHAPE_CIRCLE)
     entity.cylinder({shape.center.x, shape.center.y, 0.0, 0.0}, shape.radius_m, shape.height_m, color);
-  else
+  else if (shape.kind == DMRP_SHAPE_POLYGON)
     entity.prism({shape.vertices, shape.vertex_count}, 0.0, shape.height_m, color);
 }
 
@@ -65,10 +65,8 @@ void draw_robot(SceneEntity& entity, const RobotFigure& robot) {
   const Color color = robot.state == DMRP_ROBOT_FAILED
                           ? failed_color
                           : series_color(robot.index, robot.state == DMRP_ROBOT_FINISHED ? 0.4 : 1.0);
-  if (robot.outline.empty())
-    entity.cylinder({}, robot.radius_m, figure_robot_height_m, color);
-  else
-    entity.prism(robot.outline, 0.0, figure_robot_height_m, color);
+  if (robot.parts.empty()) entity.cylinder({}, robot.radius_m, figure_robot_height_m, color);
+  for (const std::vector<dmrp_vec2>& part : robot.parts) entity.prism(part, 0.0, figure_robot_height_m, color);
   entity.arrow({0.0, 0.0, figure_robot_height_m, 0.0}, 1.6 * robot.radius_m, 0.25 * robot.radius_m, label_color);
   entity.text({0.0, 0.0, figure_robot_height_m + 0.35, 0.0}, 0.3, label_color, robot.name);
 }

@@ -3,13 +3,14 @@
 // foxglove_channels.cpp.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
 #include <dmrp/world.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/foxglove/foxglove_scene.hpp"
 
@@ -22,7 +23,7 @@ struct RobotFigure {
   std::size_t index = 0;  // gives the colour
   std::string_view name;
   double radius_m = 0.0;
-  std::span<const dmrp_vec2> outline;  // empty: a disc
+  std::span<const std::vector<dmrp_vec2>> parts;  // of the outline; empty: a disc
   std::uint32_t state = DMRP_ROBOT_ACTIVE;
 };
 

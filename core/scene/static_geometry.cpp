@@ -7,6 +7,9 @@
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace dmrp::core {
 namespace {
@@ -35,6 +38,26 @@ std::vector<dmrp_segment> outlines(const std::vector<Shape>& shapes, const toolk
       border.lower, {border.upper.x, border.lower.y}, border.upper, {border.lower.x, border.upper.y}};
   append_outline(corners, segments);
   return segments;
+}
+
+Shape shape_of(const dmrp_shape& shape) {
+  if (shape.kind != DMRP_SHAPE_CIRCLE && shape.kind != DMRP_SHAPE_POLYGON)
+    throw std::invalid_argument("the shape " + std::string(shape.name) + " is of an unknown kind");
+  Shape copy;
+  copy.name = shape.name;
+  copy.kind = shape.kind == DMRP_SHAPE_CIRCLE ? Shape::Kind::circle : Shape::Kind::polygon;
+  copy.center = shape.center;
+  copy.radius_m = shape.radius_m;
+  copy.vertices.assign(shape.vertices, shape.vertices + shape.vertex_count);
+  copy.height_m = shape.height_m;
+  return copy;
+}
+
+std::vector<Shape> shapes_of(const dmrp_world& world) {
+  std::vector<Shape> shapes;
+  for (std::uint32_t i = 0; i < world.shape_count; ++i)
+    shapes.push_back(shape_of(*DMRP_AT(dmrp_shape, world.shapes, world.shape_stride, i)));
+  return shapes;
 }
 
 BoxTree tree_of(const std::vector<dmrp_shape>& shapes) {
@@ -67,9 +90,15 @@ std::vector<dmrp_shape> sdk_shapes_of(const std::vector<Shape>& shapes) {
 }
 
 StaticGeometry::StaticGeometry(const Scenario& scenario)
-    : lower_(scenario.lower),
-      upper_(scenario.upper),
-      shapes_(scenario.shapes),
+    : StaticGeometry({scenario.lower, scenario.upper}, scenario.shapes) {}
+
+StaticGeometry::StaticGeometry(const dmrp_world& world)
+    : StaticGeometry({world.lower, world.upper}, shapes_of(world)) {}
+
+StaticGeometry::StaticGeometry(const toolkit::Rectangle& rectangle, std::vector<Shape> shapes)
+    : lower_(rectangle.lower),
+      upper_(rectangle.upper),
+      shapes_(std::move(shapes)),
       sdk_shapes_(sdk_shapes_of(shapes_)),
       segments_(outlines(shapes_, {lower_, upper_})),
       tree_(tree_of(sdk_shapes_)) {}

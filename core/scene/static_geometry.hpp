@@ -33,6 +33,10 @@ std::vector<dmrp_shape> sdk_shapes_of(const std::vector<Shape>& shapes);
 class StaticGeometry {
  public:
   explicit StaticGeometry(const Scenario& scenario);
+
+  // From a stored world: equal to that of its scenario, to the bit. Throws std::invalid_argument if the world has a
+  // shape of an unknown kind.
+  explicit StaticGeometry(const dmrp_world& world);
   StaticGeometry(const StaticGeometry&) = delete;
   StaticGeometry& operator=(const StaticGeometry&) = delete;
 
@@ -67,6 +71,8 @@ class StaticGeometry {
   SurfaceDistance distance_to(std::uint32_t shape, dmrp_vec2 point) const;
 
  private:
+  StaticGeometry(const toolkit::Rectangle& rectangle, std::vector<Shape> shapes);
+
   dmrp_vec2 lower_;
   dmrp_vec2 upper_;
   std::vector<Shape> shapes_;

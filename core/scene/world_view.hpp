@@ -6,8 +6,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/scenario.hpp"
@@ -16,25 +14,16 @@
 
 namespace dmrp::core {
 
-// Owns all data that its dmrp_world points to.
+// Owns all data that its dmrp_world points to. All instances of a trial share one.
 class WorldView {
  public:
   WorldView(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
-            const StaticGeometry& geometry, const PlanningGrid& planning_grid, const PlanningGrid& walking_grid,
-            std::int64_t call_budget_ns);
-
-  // A deep copy of a world with any strides.
-  explicit WorldView(const dmrp_world& world);
-
+            const StaticGeometry& geometry, const PlanningGrid& planning_grid, std::int64_t call_budget_ns);
   ~WorldView();
   WorldView(WorldView&&) noexcept;
   WorldView& operator=(WorldView&&) noexcept;
 
-  // The world for plugins other than local controllers (self = -1).
   const dmrp_world& world() const;
-
-  // The world for the controller of one robot. Points into this view's storage.
-  dmrp_world seen_by(std::int32_t robot) const;
 
  private:
   struct Storage;

@@ -2,8 +2,8 @@
 // contact_events.hpp: groups contacts into events and attributes their fault.
 #pragma once
 
-#include <dmrp/metric.h>
 #include <dmrp/observation.h>
+#include <dmrp/sample.h>
 
 #include <cstdint>
 #include <deque>

@@ -2,8 +2,8 @@
 // world.hpp: the simulated world of one trial. It owns no plugins and no clock: the caller steps it with velocities.
 #pragma once
 
-#include <dmrp/metric.h>
 #include <dmrp/pedestrian_model.h>
+#include <dmrp/sample.h>
 
 #include <cstdint>
 #include <deque>

@@ -2,7 +2,7 @@
 // replay_contacts.hpp: turns the contacts of samples into events with beginning and end.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
 
 #include <cstdint>
 #include <map>

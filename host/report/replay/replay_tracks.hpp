@@ -2,7 +2,7 @@
 // replay_tracks.hpp: the tracks of robots and people in a replay.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
 
 #include <cstddef>
 #include <cstdint>
