@@ -15,8 +15,8 @@ Descriptor Eecbs::describe() {
       .connectivity(DMRP_CONNECTIVITY_4);
 }
 
-Status Eecbs::start(const World&, std::uint64_t seed) {
-  seed_ = seed;
+Status Eecbs::start(const Start& start) {
+  seed_ = start.seed;
   return Status::ok;
 }
 
@@ -31,7 +31,7 @@ ConflictSearchOptions Eecbs::options() const {
   options.rectangle_reasoning = *rectangle_reasoning;
   options.dependency_graph = *weighted_dependency_graph;
   options.disjoint_splitting = *disjoint_splitting;
-  options.conflict_steps = static_cast<std::int32_t>(*conflict_steps);
+  options.conflict_steps = *conflict_steps;
   options.replan_in_place = *replan_in_place;
   options.restart_after = *restart_after;
   options.seed = seed_;

@@ -41,7 +41,7 @@ class Eecbs final : public ConflictSearchPlanner {
   Param<bool> replan_in_place =
       param("replan_in_place", true)
           .doc("before a split, replan robots with conflicts as long as that leaves fewer conflicts");
-  Param<std::int64_t> conflict_steps =
+  Param<int> conflict_steps =
       param("conflict_steps", 1)
           .unit("1")
           .range(0, 1000)
@@ -60,7 +60,7 @@ class Eecbs final : public ConflictSearchPlanner {
                                        .range(1, 1'000'000'000)
                                        .doc("constraint-tree nodes after which the search gives up");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
 
  protected:
   ConflictSearchOptions options() const override;

@@ -18,8 +18,8 @@ Descriptor Sipp::describe() {
       .connectivity(DMRP_CONNECTIVITY_4);
 }
 
-Status Sipp::start(const World&, std::uint64_t seed) {
-  seed_ = seed;
+Status Sipp::start(const Start& start) {
+  seed_ = start.seed;
   return Status::ok;
 }
 

@@ -29,7 +29,7 @@ class Sipp final : public GlobalPlanner {
   Param<std::int64_t> restarts =
       param("restarts", 1000).unit("1").range(0, 100'000'000).doc("restarts in a new order before the search gives up");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   Status plan(const PlanningProblem& problem, PlanSink& sink) override;
 
  private:
