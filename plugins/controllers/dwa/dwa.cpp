@@ -8,8 +8,6 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "controllers/motion/annotate_arc.hpp"
-
 namespace dmrp::controllers {
 
 namespace {
@@ -45,17 +43,15 @@ Descriptor Dwa::describe() {
       .source(
           "Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation "
           "Magazine 4 (1997); critics as in ROS's dwa_local_planner")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
-Status Dwa::start(const World&, std::uint64_t) {
-  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-  if (!costmap_) {
-    set_error("the host has no " DMRP_EXT_LOCAL_COSTMAP);
-    return Status::error;
-  }
-  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+Status Dwa::start(const Start& start) {
+  costmap_ = &extension<dmrp_local_costmap>();
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tuning_ = {sim_time,      sim_granularity, angular_sim_granularity, path_distance_bias, goal_distance_bias,
              occdist_scale, twirling_scale,  forward_point_distance,  scaling_speed,      max_scaling_factor};
   window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
@@ -77,7 +73,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   command = braking(now);
   tracker_.update(now);
   if (tracker_.empty()) return Status::ok;
-  const CostmapView map(*costmap_->costmap(costmap_));
+  const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   FootprintCheck footprint(map, now.footprint, footprint_padding, now.pose);
   if (turn_to_ && std::abs(toolkit::difference(now.pose.theta, *turn_to_)) <= turn_end_rad) turn_to_.reset();
   if (at_goal_.reached(tracker_.stop(), now)) {
@@ -88,7 +84,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   } else {
     return choose(now, map, footprint, command);
   }
-  annotate_arc(annotate_, now.pose, command.v_x, command.omega, tuning_.sim_time);
+  annotations_.arc(now.pose, command.v_x, command.omega, tuning_.sim_time);
   return Status::ok;
 }
 
@@ -235,7 +231,7 @@ Command Dwa::approach(const Observation& now, const dwa::Sample& choice) const {
 
 // The samples and the choice.
 void Dwa::annotate(const dwa::Scene& scene, const dwa::Sample& choice) const {
-  if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  if (!annotations_.wanted()) return;
   constexpr int steps = 17;
   std::array<Pose, steps + 1> poses;
   const auto add = [&](const dwa::Sample& sample, std::uint32_t role) {
@@ -245,8 +241,7 @@ void Dwa::annotate(const dwa::Scene& scene, const dwa::Sample& choice) const {
       pose = pose_of(at);
       rollout.step(at);
     }
-    annotate_->trajectory(annotate_, role, poses.data(), steps + 1,
-                          static_cast<std::int64_t>(tuning_.sim_time / steps * 1e9));
+    annotations_.trajectory(role, poses, tuning_.sim_time / steps);
   };
   for (const double v : window_.v)
     for (const double omega : window_.omega) add({v, omega}, DMRP_ANNOTATE_CANDIDATE);

@@ -5,7 +5,6 @@
 // (1997).
 #pragma once
 
-#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 
 #include <array>
@@ -14,6 +13,7 @@
 
 #include "controllers/dwa/critics.hpp"
 #include "controllers/dwa/path_fronts.hpp"
+#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/path_tracker.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 
@@ -66,7 +66,7 @@ class Dwa final : public LocalController {
                                                      .range(0.5, 100.0)
                                                      .doc("length of the path considered, inside the window");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
@@ -81,7 +81,7 @@ class Dwa final : public LocalController {
   void annotate(const dwa::Scene& scene, const dwa::Sample& choice) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
-  const dmrp_annotate* annotate_ = nullptr;
+  Annotations annotations_;
   dwa::Tuning tuning_;
 
   // state from one control cycle to the next

@@ -83,19 +83,16 @@ Descriptor E3mop::describe() {
       .source(
           "Wen, Zhang, Gao, Yuan, Fang: E3MoP: Efficient motion planning based on heuristic-guided motion primitives "
           "pruning and path optimization with sparse-banded structure, IEEE T-ASE 19 (2022)")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_DISTANCE_FIELD)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
-Status E3mop::start(const World&, std::uint64_t) {
-  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-  distance_field_ = extension<dmrp_distance_field>(DMRP_EXT_DISTANCE_FIELD);
-  if (!costmap_ || !distance_field_) {
-    set_error(costmap_ ? "the host has no " DMRP_EXT_DISTANCE_FIELD : "the host has no " DMRP_EXT_LOCAL_COSTMAP);
-    return Status::error;
-  }
-  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+Status E3mop::start(const Start& start) {
+  costmap_ = &extension<dmrp_local_costmap>();
+  distance_field_ = &extension<dmrp_distance_field>();
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
   limits_ = {};
@@ -143,7 +140,7 @@ void E3mop::prepare(const Observation& now) {
 
 // Plans a path on the lattice, shapes it and follows it; turns in place if the path leads aside.
 Command E3mop::drive(const Observation& now) {
-  const CostmapView map(*costmap_->costmap(costmap_));
+  const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
   const auto space_of = [&](const ClearanceField& field) {
     return FreeSpace(field, now.footprint, footprint_padding, now.pose, &outline);
@@ -187,7 +184,7 @@ Command E3mop::drive(const Observation& now) {
 
 // Whether there are agents whose motion is foreseen.
 bool E3mop::read_fields(const Observation& now) {
-  const dmrp_field& field = *distance_field_->field(distance_field_);
+  const dmrp_field& field = *distance_field_->field(distance_field_, now.robot);
   field_.read(field);
   foreseen_.read(field);
   bool has_agents = false;
@@ -290,7 +287,7 @@ bool E3mop::shape_path(const Observation& now, const FreeSpace& free_space) {
   settings.smoothing.weight_smoothness = weight_smoothness;
   settings.smoothing.weight_obstacle = weight_obstacle;
   settings.smoothing.safe_distance_m = safe_distance;
-  settings.smoothing.iterations = static_cast<int>(max_iterations);
+  settings.smoothing.iterations = max_iterations;
   settings.point_spacing_m = point_spacing;
   return shaper_.shape(rough_, now, foreseen_, free_space, settings, path_);
 }
@@ -308,13 +305,10 @@ Vec2 E3mop::lead_point(bool is_shaped) const {
 
 // The lattice path as the candidate, the velocity profile as the prediction.
 void E3mop::annotate(const std::vector<Pose>& lattice_path) {
-  if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  if (!annotations_.wanted()) return;
   constexpr double step_s = 0.1;
   constexpr int steps = 30;
-  constexpr auto step_ns = static_cast<std::int64_t>(step_s * 1e9);
-  if (lattice_path.size() > 1)
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, lattice_path.data(),
-                          static_cast<std::uint32_t>(lattice_path.size()), step_ns);
+  if (lattice_path.size() > 1) annotations_.trajectory(DMRP_ANNOTATE_CANDIDATE, lattice_path, step_s);
   intended_.clear();
   std::size_t i = 0;
   for (int k = 0; k <= steps; ++k) {
@@ -324,8 +318,7 @@ void E3mop::annotate(const std::vector<Pose>& lattice_path) {
     const Vec2 at = toolkit::lerp(path_[i].at, path_[i + 1].at, share);
     intended_.push_back({at.x, at.y, path_[i].theta});
   }
-  annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, intended_.data(),
-                        static_cast<std::uint32_t>(intended_.size()), step_ns);
+  annotations_.trajectory(DMRP_ANNOTATE_PREDICTED, intended_, step_s);
 }
 
 }  // namespace dmrp::controllers

@@ -6,7 +6,6 @@
 // path optimization with sparse-banded structure, IEEE Transactions on Automation Science and Engineering 19 (2022).
 #pragma once
 
-#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/distance_field.h>
 #include <dmrp/ext/local_costmap.h>
 
@@ -15,6 +14,7 @@
 
 #include "controllers/e3mop/local_plan.hpp"
 #include "controllers/e3mop/path_shaper.hpp"
+#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 
@@ -48,7 +48,7 @@ class E3mop final : public LocalController {
       param("point_spacing", 0.1).unit("m").range(0.02, 1.0).doc("between the points that are optimised");
   Param<double> smoothing_length =
       param("smoothing_length", 3.0).unit("m").range(0.3, 20.0).doc("length of the path that is optimised");
-  Param<std::int64_t> max_iterations =
+  Param<int> max_iterations =
       param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
@@ -57,7 +57,7 @@ class E3mop final : public LocalController {
                                       .range(0.0, 10.0)
                                       .doc("time for which the predicted motion of visible agents counts as occupied");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
@@ -81,7 +81,7 @@ class E3mop final : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_distance_field* distance_field_ = nullptr;
-  const dmrp_annotate* annotate_ = nullptr;
+  Annotations annotations_;
 
   // state from one control cycle to the next
   PathTracker tracker_;

@@ -9,17 +9,17 @@
 
 namespace dmrp::controllers::e3mop {
 
-// A disc is free if the distance to the nearest obstacle is at least its radius and the padding. A polygon is free if
-// that holds for its circumscribed circle, and in collision if it fails for its inscribed circle; in between, its
-// outline decides.
+// A disc is free if the distance to the nearest obstacle is at least its radius and the padding. Polygons are free
+// if that holds for their circumscribed circle, and in collision if it fails for the inscribed circle; in between, their
+// outlines decide.
 //
 // A robot that already stands too close to an obstacle may move near its position as long as it comes no closer.
 class FreeSpace {
  public:
-  // `outline` checks polygons; if it is NULL, a polygon counts as its circumscribed circle.
+  // `outline` checks polygons; if it is NULL, they count as their circumscribed circle.
   FreeSpace(const ClearanceField& field, const Footprint& footprint, double padding_m, const Pose& now,
             const FootprintCheck* outline = nullptr)
-      : field_(&field), outline_(footprint.vertex_count > 0 ? outline : nullptr), start_(toolkit::position(now)) {
+      : field_(&field), outline_(footprint.part_count > 0 ? outline : nullptr), start_(toolkit::position(now)) {
     const double radius_m = outline_ ? footprint.inscribed_radius_m : footprint.radius_m;
     surely_m_ = static_cast<float>(footprint.radius_m + padding_m);
     needed_m_ = static_cast<float>(radius_m + padding_m);

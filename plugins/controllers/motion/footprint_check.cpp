@@ -23,16 +23,22 @@ int FootprintCheck::polygon_cost(const DirectedPoint& robot) const {
   if (center_cost > highest_) return tolerated(robot.at, center_cost);
   if (map_.distance_of(static_cast<std::uint8_t>(center_cost)) > footprint_->radius_m * factor_ + padding_m_)
     return center_cost;
+  for (const Polygon& part : parts(*footprint_))
+    if (!outline_is_clear(part, robot)) return tolerated(robot.at, center_cost);
+  return std::min(center_cost, DMRP_COST_INSCRIBED - 1);
+}
+
+bool FootprintCheck::outline_is_clear(const Polygon& part, const DirectedPoint& robot) const {
   // moves each vertex outward from the centre: exact padding at the corners, approximate along the sides
   const double growth = factor_ + padding_m_ / footprint_->radius_m;
   const auto vertex = [&](std::uint32_t i) {
-    const Vec2 v = footprint_->vertices[i] * growth;
+    const Vec2 v = part.vertices[i] * growth;
     const auto [c, s] = robot.heading;
     return Vec2{robot.at.x + c * v.x - s * v.y, robot.at.y + s * v.x + c * v.y};
   };
-  for (std::uint32_t i = 0; i < footprint_->vertex_count; ++i)
-    if (!edge_is_clear(vertex(i), vertex((i + 1) % footprint_->vertex_count))) return tolerated(robot.at, center_cost);
-  return std::min(center_cost, DMRP_COST_INSCRIBED - 1);
+  for (std::uint32_t i = 0; i < part.vertex_count; ++i)
+    if (!edge_is_clear(vertex(i), vertex((i + 1) % part.vertex_count))) return false;
+  return true;
 }
 
 bool FootprintCheck::edge_is_clear(Vec2 from, Vec2 to) const {

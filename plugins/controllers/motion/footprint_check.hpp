@@ -12,7 +12,7 @@ namespace dmrp::controllers {
 inline constexpr int in_collision = -1;
 
 // Checks one footprint, scaled by a factor and then enlarged by a padding. A disc costs as much as the cell of its
-// centre; a polygon costs the maximum of its centre and its outline.
+// centre; polygons cost the maximum of their centre and their outlines.
 //
 // A robot that already stands too close to an obstacle (a person stepped up to it) may move as long as it comes no
 // closer. Otherwise it could not move until the obstacle leaves.
@@ -25,7 +25,7 @@ class FootprintCheck {
 
   // 0 to 252, or in_collision.
   int cost(const DirectedPoint& robot) const {
-    if (footprint_->vertex_count > 0) return polygon_cost(robot);
+    if (footprint_->part_count > 0) return polygon_cost(robot);
     const int cost = map_.cost(robot.at);
     return cost <= highest_ ? cost : tolerated(robot.at, cost);
   }
@@ -37,6 +37,7 @@ class FootprintCheck {
  private:
   int polygon_cost(const DirectedPoint& robot) const;
   int tolerated(Vec2 center, int cost) const;
+  bool outline_is_clear(const Polygon& part, const DirectedPoint& robot) const;
   bool edge_is_clear(Vec2 from, Vec2 to) const;
 
   CostmapView map_;

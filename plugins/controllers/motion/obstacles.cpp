@@ -4,6 +4,7 @@
 #include <dmrp/abi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
@@ -107,8 +108,25 @@ Witness to_polygon(PolygonView robot, const Vec2* vertices, std::uint32_t count)
   return nearest;
 }
 
-// A footprint with more corners counts as its circumscribed circle.
+// A footprint with a part of more corners counts as its circumscribed circle.
 constexpr std::size_t most_corners = 32;
+
+bool counts_as_disc(const Footprint& footprint) {
+  const Span<Polygon> all = parts(footprint);
+  return all.empty() ||
+         std::any_of(all.begin(), all.end(), [](const Polygon& part) { return part.vertex_count > most_corners; });
+}
+
+// Between a part of a footprint, whose origin is at this pose, and a shape without its radius.
+Witness to_part(const Polygon& part, Vec2 at, Vec2 heading, const Obstacle& obstacle) {
+  std::array<Vec2, most_corners> corners;
+  const auto [c, s] = heading;
+  for (std::size_t i = 0; i < part.vertex_count; ++i) {
+    const Vec2 corner = part.vertices[i];
+    corners[i] = at + Vec2{c * corner.x - s * corner.y, s * corner.x + c * corner.y};
+  }
+  return to_polygon(PolygonView(corners.data(), part.vertex_count), obstacle.vertices, obstacle.vertex_count);
+}
 
 }  // namespace
 
@@ -155,21 +173,19 @@ double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& ob
 Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s) {
   // in the obstacle's moving frame
   const Vec2 at = toolkit::position(robot) - ahead_s * obstacle.velocity;
-  if (footprint.vertex_count == 0 || footprint.vertex_count > most_corners) {
+  if (counts_as_disc(footprint)) {
     const Witness witness = to_point(obstacle.vertices, obstacle.vertex_count, at);
     return {witness.distance_m - obstacle.radius_m - footprint.radius_m, witness.normal, 0.0};
   }
-  Vec2 corners[most_corners];
-  const std::size_t count = footprint.vertex_count;
-  const double c = std::cos(robot.theta);
-  const double s = std::sin(robot.theta);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 corner = footprint.vertices[i];
-    corners[i] = at + Vec2{c * corner.x - s * corner.y, s * corner.x + c * corner.y};
+  const Vec2 heading = {std::cos(robot.theta), std::sin(robot.theta)};
+  Witness nearest;
+  nearest.distance_m = std::numeric_limits<double>::infinity();
+  for (const Polygon& part : parts(footprint)) {
+    const Witness witness = to_part(part, at, heading, obstacle);
+    if (!(witness.distance_m >= nearest.distance_m)) nearest = witness;  // NaN stays NaN
   }
-  const Witness witness = to_polygon(PolygonView(corners, count), obstacle.vertices, obstacle.vertex_count);
-  const Vec2 lever = toolkit::perpendicular(witness.lever_end - at);
-  return {witness.distance_m - obstacle.radius_m, witness.normal, toolkit::dot(witness.normal, lever)};
+  const Vec2 lever = toolkit::perpendicular(nearest.lever_end - at);
+  return {nearest.distance_m - obstacle.radius_m, nearest.normal, toolkit::dot(nearest.normal, lever)};
 }
 
 }  // namespace dmrp::controllers

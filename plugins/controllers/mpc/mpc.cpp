@@ -49,18 +49,16 @@ Descriptor Mpc::describe() {
       .source(
           "Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with "
           "Non-Euclidean Rotation Groups, ECC 2021; as in ROS's mpc_local_planner")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
-Status Mpc::start(const World&, std::uint64_t) {
-  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-  clusters_ = extension<dmrp_obstacle_clusters>(DMRP_EXT_OBSTACLE_CLUSTERS);
-  if (!costmap_ || !clusters_) {
-    set_error("the host has no " DMRP_EXT_LOCAL_COSTMAP " or no " DMRP_EXT_OBSTACLE_CLUSTERS);
-    return Status::error;
-  }
+Status Mpc::start(const Start& start) {
+  costmap_ = &extension<dmrp_local_costmap>();
+  clusters_ = &extension<dmrp_obstacle_clusters>();
   if (min_grid_size > max_grid_size) {
     set_error("min_grid_size is greater than max_grid_size");
     return Status::error;
@@ -69,10 +67,10 @@ Status Mpc::start(const World&, std::uint64_t) {
     set_error("min_dt is greater than max_dt");
     return Status::error;
   }
-  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
-  const auto states = static_cast<std::size_t>(std::max<std::int64_t>(max_grid_size, grid_size_ref));
+  const auto states = static_cast<std::size_t>(std::max<int>(max_grid_size, grid_size_ref));
   constexpr std::size_t bounds_per_state = 10;
   constexpr std::size_t obstacles_per_state = mpc::most_obstacles_per_state + 2;
   optimizer_.reserve(states, states * (bounds_per_state + obstacles_per_state), usual_obstacles);
@@ -100,7 +98,7 @@ Status Mpc::step(const Observation& now, Command& command) {
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
-  const CostmapView map(*costmap_->costmap(costmap_));
+  const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
   const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
   const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
@@ -132,7 +130,7 @@ Status Mpc::step(const Observation& now, Command& command) {
 }
 
 const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const CostmapView& map) {
-  obstacle_set_.gather(now, clusters_->clusters(clusters_));
+  obstacle_set_.gather(now, clusters_->clusters(clusters_, now.robot));
   obstacles_ = obstacle_set_.all();
   for (Obstacle& obstacle : obstacles_) {
     // an obstacle may extend beyond the centres of its lethal cells, and a cluster is simplified with a tolerance
@@ -202,11 +200,11 @@ void Mpc::pose_problem(const Observation& now, const Target& target) {
 
 mpc::OptimizerSettings Mpc::optimizer_settings() const {
   mpc::OptimizerSettings settings;
-  settings.outer_iterations = static_cast<int>(*outer_ocp_iterations);
+  settings.outer_iterations = outer_ocp_iterations;
   settings.grid = {dt_ref, dt_hyst_ratio, static_cast<std::size_t>(*min_grid_size),
                    static_cast<std::size_t>(*max_grid_size)};
   settings.association = {force_inclusion_dist, cutoff_dist};
-  settings.solver.iterations = static_cast<int>(*iterations);
+  settings.solver.iterations = iterations;
   settings.solver.tolerance = tol;
   return settings;
 }
@@ -274,7 +272,7 @@ void Mpc::skip_waiting(const mpc::Surroundings& around) {
 }
 
 void Mpc::annotate(int solver_iterations) const {
-  if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  if (!annotations_.wanted()) return;
   constexpr std::size_t most = 200;
   std::array<Pose, most> poses;
   const std::size_t count = std::min(most, trajectory_.size());
@@ -282,11 +280,10 @@ void Mpc::annotate(int solver_iterations) const {
     poses[k] = trajectory_.states[k];
     poses[k].theta = toolkit::wrap(poses[k].theta);
   }
-  annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, poses.data(), static_cast<std::uint32_t>(count),
-                        static_cast<std::int64_t>(trajectory_.dt_s * 1e9));
+  annotations_.trajectory(DMRP_ANNOTATE_PREDICTED, {poses.data(), count}, trajectory_.dt_s);
   std::array<char, 32> note;
   std::snprintf(note.data(), note.size(), "iterations %d", solver_iterations);
-  annotate_->note(annotate_, note.data());
+  annotations_.note(note.data());
 }
 
 }  // namespace dmrp::controllers

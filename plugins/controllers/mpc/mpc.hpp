@@ -6,13 +6,13 @@
 // robot's limits come from the observation.
 #pragma once
 
-#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <dmrp/plugin.hpp>
 #include <optional>
 
+#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -25,8 +25,7 @@ class Mpc final : public LocalController {
  public:
   static Descriptor describe();
 
-  Param<std::int64_t> grid_size_ref =
-      param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a new trajectory");
+  Param<int> grid_size_ref = param("grid_size_ref", 20).unit("1").range(2, 200).doc("states of a new trajectory");
   Param<double> dt_ref =
       param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
@@ -35,16 +34,15 @@ class Mpc final : public LocalController {
                                     .unit("1")
                                     .range(0.0, 1.0)
                                     .doc("tolerated deviation of the time step, relative to dt_ref");
-  Param<std::int64_t> min_grid_size = param("min_grid_size", 2).unit("1").range(2, 200).doc("least number of states");
-  Param<std::int64_t> max_grid_size =
-      param("max_grid_size", 50).unit("1").range(2, 200).doc("greatest number of states");
+  Param<int> min_grid_size = param("min_grid_size", 2).unit("1").range(2, 200).doc("least number of states");
+  Param<int> max_grid_size = param("max_grid_size", 50).unit("1").range(2, 200).doc("greatest number of states");
   Param<bool> warm_start = param("warm_start", true).doc("start from the rest of the last trajectory");
-  Param<std::int64_t> outer_ocp_iterations =
+  Param<int> outer_ocp_iterations =
       param("outer_ocp_iterations", 5)
           .unit("1")
           .range(1, 100)
           .doc("maximum solutions per period; each begins by adapting the grid and the obstacles");
-  Param<std::int64_t> iterations =
+  Param<int> iterations =
       param("iterations", 100).unit("1").range(1, 1000).doc("maximum solver iterations per solution");
   Param<double> tol =
       param("tol", 1e-4).unit("1").range(1e-10, 1.0).doc("tolerance of the solver's optimality conditions");
@@ -60,11 +58,10 @@ class Mpc final : public LocalController {
                                   .doc("beyond force_inclusion_dist and up to this, the closest obstacle on each side");
   Param<bool> enable_dynamic_obstacles =
       param("enable_dynamic_obstacles", true).doc("predicts the motion of agents at constant velocity");
-  Param<std::int64_t> collision_check_no_poses =
-      param("collision_check_no_poses", -1)
-          .unit("1")
-          .range(-1, 200)
-          .doc("states whose footprint must be free on the costmap; -1: all");
+  Param<int> collision_check_no_poses = param("collision_check_no_poses", -1)
+                                            .unit("1")
+                                            .range(-1, 200)
+                                            .doc("states whose footprint must be free on the costmap; -1: all");
   Param<double> max_global_plan_lookahead_dist =
       param("max_global_plan_lookahead_dist", 1.5).unit("m").range(0.2, 100.0).doc("length of the path planned along");
   Param<double> force_reinit_new_goal_dist = param("force_reinit_new_goal_dist", 1.0)
@@ -76,7 +73,7 @@ class Mpc final : public LocalController {
                                                     .range(0.0, 3.2)
                                                     .doc("restarts if the end of the plan turns farther");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
@@ -107,7 +104,7 @@ class Mpc final : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  const dmrp_annotate* annotate_ = nullptr;
+  Annotations annotations_;
 
   // state from one control cycle to the next
   PathTracker tracker_;

@@ -35,7 +35,7 @@ Constraint rate_bound(double sign, StageEntry to, StageEntry from, const StageVe
 // The curvature of the distance: the reciprocal of the distance between a disc's centre and the closest corner of the
 // obstacle; 0 if a side is closest. Polygonal footprints count as closest by a side: their curvature is neglected.
 double corner_curvature(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, const Separation& apart) {
-  if (footprint.vertex_count > 0) return 0.0;
+  if (footprint.part_count > 0) return 0.0;
   const double to_center_m = apart.distance_m + footprint.radius_m + obstacle.radius_m;
   if (to_center_m < 1e-3) return 0.0;
   const Vec2 nearest = robot - to_center_m * apart.gradient;

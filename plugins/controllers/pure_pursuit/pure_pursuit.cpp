@@ -6,8 +6,6 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "controllers/motion/annotate_arc.hpp"
-
 namespace dmrp::controllers {
 
 Descriptor PurePursuit::describe() {
@@ -18,13 +16,14 @@ Descriptor PurePursuit::describe() {
       .source(
           "Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 "
           "(2023)")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
       .uses(DMRP_EXT_LOCAL_COSTMAP)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
-Status PurePursuit::start(const World&, std::uint64_t) {
-  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+Status PurePursuit::start(const Start& start) {
+  costmap_ = find_extension<dmrp_local_costmap>();
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
   return Status::ok;
@@ -40,7 +39,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
     command = tracker_.empty() ? braking(now) : at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
-  const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_) : nullptr;
+  const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_, now.robot) : nullptr;
   command = pursue(now, look_ahead(now), map);
   bool blocked = use_collision_detection && map && is_blocked(now, command, map);
   if (blocked) {
@@ -49,7 +48,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
     blocked = is_blocked(now, command, map);
   }
   if (!blocked) {
-    annotate_arc(annotate_, now.pose, command.v_x, command.omega, max_allowed_time_to_collision_up_to_carrot);
+    annotations_.arc(now.pose, command.v_x, command.omega, max_allowed_time_to_collision_up_to_carrot);
     return Status::ok;
   }
   command = braking(now);

@@ -5,11 +5,11 @@
 // Parameters have the names of nav2; the limits of speeds and accelerations come from the robot.
 #pragma once
 
-#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 
 #include <dmrp/plugin.hpp>
 
+#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/path_tracker.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -64,7 +64,7 @@ class PurePursuit final : public LocalController {
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
@@ -76,7 +76,7 @@ class PurePursuit final : public LocalController {
   bool is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
-  const dmrp_annotate* annotate_ = nullptr;
+  Annotations annotations_;
   PathTracker tracker_;
   StopAndRotate at_goal_;
 };

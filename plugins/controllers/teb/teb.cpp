@@ -48,27 +48,25 @@ Descriptor Teb::describe() {
       .source(
           "Roesmann, Hoffmann, Bertram: Integrated online trajectory planning and optimization in distinctive "
           "topologies, Robotics and Autonomous Systems 88 (2017); as ROS's teb_local_planner")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
-Status Teb::start(const World& world, std::uint64_t seed) {
-  costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-  clusters_ = extension<dmrp_obstacle_clusters>(DMRP_EXT_OBSTACLE_CLUSTERS);
-  if (!costmap_ || !clusters_) {
-    set_error("the host has no " DMRP_EXT_LOCAL_COSTMAP " or no " DMRP_EXT_OBSTACLE_CLUSTERS);
-    return Status::error;
-  }
-  annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
+Status Teb::start(const Start& start) {
+  costmap_ = &extension<dmrp_local_costmap>();
+  clusters_ = &extension<dmrp_obstacle_clusters>();
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
   obstacles_.clear();
   parameters_ = parameters();
-  const double periods = parameters_.oscillation_filter_duration / seconds(world->control_period_ns);
+  const double periods = parameters_.oscillation_filter_duration / seconds(start.world->control_period_ns);
   via_points_.reserve(64);
   oscillation_.reset(static_cast<std::size_t>(std::max(2.0, std::round(periods))));
-  planner_.start(parameters_, seed);
+  planner_.start(parameters_, start.seed);
   preferred_turn_ = teb::Turn::any;
   infeasible_in_a_row_ = 0;
   was_infeasible_ = false;
@@ -90,7 +88,7 @@ Status Teb::step(const Observation& now, Command& command) {
     return Status::ok;
   }
   watch_for_oscillation(now);
-  const CostmapView map(*costmap_->costmap(costmap_));
+  const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   const Status status = drive(now, map, command);
   oscillation_.record(command, now.limits);
   return status;
@@ -122,7 +120,7 @@ void Teb::watch_for_oscillation(const Observation& now) {
 Status Teb::drive(const Observation& now, const CostmapView& map, Command& command) {
   FootprintCheck footprint(map, now.footprint, padding_m, now.pose);
   const bool is_cut = look_along_path(now, map, footprint);
-  obstacles_.gather(now, clusters_->clusters(clusters_));
+  obstacles_.gather(now, clusters_->clusters(clusters_, now.robot));
   // as close as the robot can come to an obstacle on its path: wait
   const Vec2 goal = toolkit::position(path_.goal());
   if (is_cut && toolkit::distance(toolkit::position(now.pose), goal) < wait_within_m) {
@@ -275,19 +273,17 @@ Status Teb::wait(const Observation& now, FootprintCheck& footprint, Command& com
 }
 
 void Teb::annotate(const teb::TimedElasticBand& best) const {
-  if (!annotate_ || !annotate_->wanted(annotate_)) return;
+  if (!annotations_.wanted()) return;
   std::array<Pose, 32> poses;
   const auto add = [&](const teb::TimedElasticBand& band, std::uint32_t role) {
     const double step_s = band.duration_s() / static_cast<double>(poses.size() - 1);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = teb::pose_at(band, static_cast<double>(i) * step_s);
-    annotate_->trajectory(annotate_, role, poses.data(), static_cast<std::uint32_t>(poses.size()),
-                          static_cast<std::int64_t>(step_s * 1e9));
+    annotations_.trajectory(role, poses, step_s);
   };
   for (std::size_t i = 0; i < planner_.size(); ++i)
     if (&planner_.band(i) != &best) add(planner_.band(i), DMRP_ANNOTATE_CANDIDATE);
   add(best, DMRP_ANNOTATE_PREDICTED);
-  annotate_->note(
-      annotate_,
+  annotations_.note(
       ("iterations " + std::to_string(planner_.iterations()) + ", bands " + std::to_string(planner_.size())).c_str());
 }
 

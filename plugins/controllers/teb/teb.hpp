@@ -2,12 +2,12 @@
 // teb.hpp: the timed elastic band with homotopy classes, after ROS's teb_local_planner.
 #pragma once
 
-#include <dmrp/ext/annotate.h>
 #include <dmrp/ext/local_costmap.h>
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <dmrp/plugin.hpp>
 
+#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/oscillation_detector.hpp"
 #include "controllers/motion/path_ahead.hpp"
@@ -22,7 +22,7 @@ class Teb final : public teb::DeclaredParameters {
  public:
   static Descriptor describe();
 
-  Status start(const World& world, std::uint64_t seed) override;
+  Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
@@ -43,7 +43,7 @@ class Teb final : public teb::DeclaredParameters {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  const dmrp_annotate* annotate_ = nullptr;
+  Annotations annotations_;
   PathTracker tracker_;
   PathAhead path_;
   Guide guide_;
