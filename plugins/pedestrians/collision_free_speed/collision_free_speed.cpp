@@ -41,21 +41,23 @@ Descriptor CollisionFreeSpeed::describe() {
       .summary("people turn away from their neighbours and walk as fast as the gap ahead permits")
       .source(
           "Tordeux, Chraibi, Seyfried: Collision-free speed model for pedestrian dynamics, Traffic and Granular Flow "
-          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29");
+          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29")
+      .needs(DMRP_EXT_WALKING_GRID);
 }
 
-Status CollisionFreeSpeed::start(const World& world, std::uint64_t seed) {
+Status CollisionFreeSpeed::start(const Start& start) {
+  const World& world = start.world;
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
-  side_preference_.start(seed);
+  side_preference_.start(start.seed);
   walkers_.start();
-  ways_.start(world.walking_grid());
+  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
 
-Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
+Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
   walkers_.gather(crowd, robot_awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
@@ -64,7 +66,8 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Vec2* velocities) {
   for (const Walker& walker : walkers_.by_place()) {
     find_neighbors(walker, crowd.people);
     const Vec2 along = direction(walker);
-    velocities[walker.slot] = without_wall_contact(speed_along(along, walker, step_s) * along, walker.person, step_s);
+    motions[walker.slot].velocity =
+        without_wall_contact(speed_along(along, walker, step_s) * along, walker.person, step_s);
   }
   return Status::ok;
 }

@@ -39,8 +39,8 @@ class CollisionFreeSpeed final : public PedestrianModel {
                                       .range(0.0, 1.0)
                                       .doc("how much people react to robots: 1 as to people, 0 not at all");
 
-  Status start(const World& world, std::uint64_t seed) override;
-  Status step(const Crowd& crowd, Vec2* velocities) override;
+  Status start(const Start& start) override;
+  Status step(const Crowd& crowd, Motions& motions) override;
 
  private:
   // A neighbour of a person.

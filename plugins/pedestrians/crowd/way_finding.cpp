@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
+#include <stdexcept>
 
 namespace dmrp::pedestrians {
 
@@ -15,16 +16,26 @@ constexpr toolkit::NavigationCost walking_cost = {1.0, 2.0};
 // For people outside the free cells: the weight of the way on, relative to the way back into the cells.
 constexpr double onward_weight = 10.0;
 
+// The size of the walking grid's cells.
+constexpr double cell_m = 0.25;
+
 // More than any scenario has. The limit keeps fields of unused places from accumulating.
 constexpr std::size_t most_places_kept = 64;
 
 }  // namespace
 
-void WayFinder::start(const Grid& walking_grid) {
+const Grid& walking_grid(const dmrp_walking_grid& extension, const World& world) {
+  const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world->person_radius_m};
+  const Grid* grid = extension.grid(&extension, &request);
+  if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
+  return *grid;
+}
+
+void WayFinder::start(const Grid& grid) {
   ways_.clear();
-  if (!is_known(walking_grid) || places_.size() > most_places_kept) {
+  if (!is_known(grid) || places_.size() > most_places_kept) {
     places_.clear();
-    copy(walking_grid);
+    copy(grid);
   }
 }
 

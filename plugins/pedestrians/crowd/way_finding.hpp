@@ -14,6 +14,9 @@
 
 namespace dmrp::pedestrians {
 
+// The grid that the scenario's people walk on. Throws if there is none.
+const Grid& walking_grid(const dmrp_walking_grid& extension, const World& world);
+
 // All people with the same target area share one navigation field, computed when the first of them needs it. Fields
 // depend only on the grid and the area, so they stay valid over trials on the same grid.
 class WayFinder {
@@ -22,7 +25,7 @@ class WayFinder {
   WayFinder(const WayFinder&) = delete;
   WayFinder& operator=(const WayFinder&) = delete;
 
-  void start(const Grid& walking_grid);
+  void start(const Grid& grid);
 
   // The desired direction of the person in this slot, a unit vector; zero on the target. Leads straight to the target
   // where no way exists.

@@ -35,20 +35,22 @@ Descriptor Orca::describe() {
           "people choose the collision-free velocity nearest to their preferred one, provided that all do their share")
       .source(
           "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), "
-          "doi:10.1007/978-3-642-19457-3_1");
+          "doi:10.1007/978-3-642-19457-3_1")
+      .needs(DMRP_EXT_WALKING_GRID);
 }
 
-Status Orca::start(const World& world, std::uint64_t seed) {
-  side_preference_.start(seed);
+Status Orca::start(const Start& start) {
+  const World& world = start.world;
+  side_preference_.start(start.seed);
   walkers_.start();
-  ways_.start(world.walking_grid());
+  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
 
-Status Orca::step(const Crowd& crowd, Vec2* velocities) {
+Status Orca::step(const Crowd& crowd, Motions& motions) {
   walkers_.gather(crowd, robot_awareness, grid_, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
@@ -68,7 +70,7 @@ Status Orca::step(const Crowd& crowd, Vec2* velocities) {
       // most planes contain every velocity up to the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
-    velocities[slot] = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(way, person, step_s));
+    motions[slot].velocity = program_.solve(planes_, wall_planes, max_speed, preferred_velocity(way, person, step_s));
   }
   return Status::ok;
 }

@@ -24,9 +24,8 @@ class Orca final : public PedestrianModel {
 
   Param<double> neighbor_distance =
       param("neighbor_distance", 5.0).unit("m").range(0.5, 50.0).doc("people ignore neighbours farther away");
-  Param<std::int64_t> max_neighbors = param("max_neighbors", std::int64_t{10})
-                                          .range(1, 100)
-                                          .doc("people consider at most this many neighbours, the nearest ones");
+  Param<int> max_neighbors =
+      param("max_neighbors", 10).range(1, 100).doc("people consider at most this many neighbours, the nearest ones");
   Param<double> time_horizon = param("time_horizon", 3.0)
                                    .unit("s")
                                    .range(0.1, 20.0)
@@ -39,8 +38,8 @@ class Orca final : public PedestrianModel {
                                       .range(0.0, 1.0)
                                       .doc("how much people react to robots: 1 as to people, 0 not at all");
 
-  Status start(const World& world, std::uint64_t seed) override;
-  Status step(const Crowd& crowd, Vec2* velocities) override;
+  Status start(const Start& start) override;
+  Status step(const Crowd& crowd, Motions& motions) override;
 
  private:
   // Fills neighbors_ and returns their number.

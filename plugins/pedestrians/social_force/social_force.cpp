@@ -43,13 +43,15 @@ Descriptor SocialForce::describe() {
       .summary("people accelerate toward their targets and away from walls, robots and each other")
       .source(
           "Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405; groups: PLoS ONE 5 (2010), "
-          "doi:10.1371/journal.pone.0010047");
+          "doi:10.1371/journal.pone.0010047")
+      .needs(DMRP_EXT_WALKING_GRID);
 }
 
-Status SocialForce::start(const World& world, std::uint64_t seed) {
+Status SocialForce::start(const Start& start) {
+  const World& world = start.world;
   shape_ = {lambda, gamma, n, n_prime};
-  seed_ = seed;
-  ways_.start(world.walking_grid());
+  seed_ = start.seed;
+  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
   groups_.start();
   walkers_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
@@ -57,7 +59,7 @@ Status SocialForce::start(const World& world, std::uint64_t seed) {
   return Status::ok;
 }
 
-Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
+Status SocialForce::step(const Crowd& crowd, Motions& motions) {
   walkers_.gather(crowd, robot_awareness, neighbors_,
                   [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
@@ -74,7 +76,7 @@ Status SocialForce::step(const Crowd& crowd, Vec2* velocities) {
     }
     const double speed = toolkit::norm(velocity);
     const double cap = speed_cap_factor * person.desired_speed;
-    velocities[walker.slot] = speed > cap ? velocity * (cap / speed) : velocity;
+    motions[walker.slot].velocity = speed > cap ? velocity * (cap / speed) : velocity;
   }
   return Status::ok;
 }

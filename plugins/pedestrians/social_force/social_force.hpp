@@ -56,8 +56,8 @@ class SocialForce final : public PedestrianModel {
                                    .range(0.0, 1.0)
                                    .doc("standard deviation of the random velocity added in one second");
 
-  Status start(const World& world, std::uint64_t seed) override;
-  Status step(const Crowd& crowd, Vec2* velocities) override;
+  Status start(const Start& start) override;
+  Status step(const Crowd& crowd, Motions& motions) override;
 
  private:
   Vec2 acceleration(const Walker& walker, const Span<Person>& people);
