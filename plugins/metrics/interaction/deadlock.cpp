@@ -152,14 +152,16 @@ void Deadlock::finish(const TrialEnd&, MetricSink& sink) {
   std::vector<double> counts(progress_.size(), 0.0), times_s;
   for (const Event& deadlock : deadlocks_) {
     all.add(deadlock.from_ns, deadlock.to_ns);
+    std::vector<Subject> robots;
     std::string text = "robots ";
     for (const std::uint32_t robot : deadlock.cycle) {
       own[robot].add(deadlock.from_ns, deadlock.to_ns);
       ++counts[robot];
+      robots.push_back(robot_subject(robot));
       text += std::to_string(robot) + " -> ";
     }
     text += std::to_string(deadlock.cycle.front()) + " wait for each other";
-    sink.event("deadlocks", deadlock.from_ns, deadlock.to_ns, deadlock.cycle, text);
+    sink.event({"deadlocks", deadlock.from_ns, deadlock.to_ns, robots, text});
   }
   const bool measured = last_ns_ >= 0 && !progress_.empty();
   for (std::size_t robot = 0; robot < own.size(); ++robot) {

@@ -6,6 +6,12 @@
 
 namespace dmrp::metrics {
 
+// A contact of another kind is skipped.
+inline bool is_known(const Contact& contact) {
+  return contact.kind == DMRP_CONTACT_STATIC || contact.kind == DMRP_CONTACT_ROBOT ||
+         contact.kind == DMRP_CONTACT_PERSON;
+}
+
 inline bool between_robots(const Contact& contact) {
   return contact.kind == DMRP_CONTACT_ROBOT;
 }

@@ -2,6 +2,7 @@
 #include "metrics/outcome/spl.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "metrics/measure/describe_metric.hpp"
@@ -9,6 +10,12 @@
 #include "metrics/outcome/shortest_way.hpp"
 
 namespace dmrp::metrics {
+namespace {
+
+// The size of the walking grid's cells.
+constexpr double cell_m = 0.25;
+
+}  // namespace
 
 Descriptor Spl::describe() {
   return describe_metric("dmrp.metric.spl", "SPL")
@@ -22,7 +29,13 @@ Descriptor Spl::describe() {
           "shortest_length", "m", Direction::none, Subjects::system_and_robots,
           "l: the shortest way of the robot's disc from its start through its goals among the static shapes, without "
           "other robots (any-angle search on the walking grid's clearance, within about 1 %); system: sum over "
-          "robots; undefined if there is no way");
+          "robots; undefined if there is no way")
+      .needs(DMRP_EXT_WALKING_GRID);
+}
+
+Status Spl::start(const Start&) {
+  walking_grid_ = &extension<dmrp_walking_grid>();
+  return Status::ok;
 }
 
 void Spl::begin(const dmrp_plan*) {
@@ -34,7 +47,11 @@ void Spl::observe(const Sample& sample) {
 }
 
 void Spl::finish(const TrialEnd& end, MetricSink& sink) {
-  ShortestWay search(world().walking_grid());
+  // only its clearance counts, which is the same for every radius
+  const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world()->person_radius_m};
+  const Grid* grid = walking_grid_->grid(walking_grid_, &request);
+  if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
+  ShortestWay search(*grid);
   std::vector<double> spl, shortest_m;
   for (std::size_t robot = 0; robot < world().robots().size(); ++robot) {
     shortest_m.push_back(search.tour_length(world().robots()[robot]));

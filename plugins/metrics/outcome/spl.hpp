@@ -11,11 +11,13 @@ namespace dmrp::metrics {
 class Spl final : public Metric {
  public:
   static Descriptor describe();
+  Status start(const Start& start) override;
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
+  const dmrp_walking_grid* walking_grid_ = nullptr;
   DrivenLength driven_;
 };
 

@@ -46,6 +46,7 @@ void Success::begin(const dmrp_plan*) {
 
 void Success::observe(const Sample& sample) {
   for (const Contact& contact : sample.contacts) {
+    if (!is_known(contact)) continue;
     if (fault_of_a(contact)) at_fault_[contact.a] = true;
     if (fault_of_b(contact)) at_fault_[contact.b] = true;
   }
@@ -63,8 +64,11 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
     sink.robot("success", robot, success.back());
     sink.robot("safe_success", robot, safe_success.back());
     if (!succeeded)
-      sink.event("success", end.t_ns, end.t_ns, {static_cast<std::uint32_t>(robot)},
-                 "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure));
+      sink.event({"success",
+                  end.t_ns,
+                  end.t_ns,
+                  {robot_subject(robot)},
+                  "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
   }
   sink.system("success", mean_of_defined(success));
   sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);

@@ -130,8 +130,12 @@ void Ibtr::finish(const TrialEnd& end, MetricSink& sink) {
     blocked_of[congestion.a].add(congestion.from_ns, congestion.to_ns);
     blocked_of[congestion.b].add(congestion.from_ns, congestion.to_ns);
     pair_sum_ns += congestion.to_ns - congestion.from_ns;
-    sink.event("ibtr", congestion.from_ns, congestion.to_ns, {congestion.a, congestion.b},
-               "robots " + std::to_string(congestion.a) + " and " + std::to_string(congestion.b) + " block each other");
+    sink.event(
+        {"ibtr",
+         congestion.from_ns,
+         congestion.to_ns,
+         {robot_subject(congestion.a), robot_subject(congestion.b)},
+         "robots " + std::to_string(congestion.a) + " and " + std::to_string(congestion.b) + " block each other"});
   }
 
   const std::int64_t mission_ns = last_ns_ < 0 ? 0 : end.t_ns;

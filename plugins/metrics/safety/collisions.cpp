@@ -68,6 +68,7 @@ Collisions::Pair Collisions::pair_of(const Contact& contact, const Sample& sampl
 
 void Collisions::observe(const Sample& sample) {
   for (const Contact& contact : sample.contacts) {
+    if (!is_known(contact)) continue;
     const Pair pair = pair_of(contact, sample);
     if (begins(contact)) {
       latest_[pair] = events_.size();
@@ -104,12 +105,12 @@ void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
   for (const Event& event : events_) {
     system.count(event.kind, event.fault_of_a || event.fault_of_b, event.unavoidable);
     tallies[event.a].count(event.kind, event.fault_of_a, event.unavoidable);
-    std::vector<std::uint32_t> robots = {event.a};
+    std::vector<Subject> robots = {robot_subject(event.a)};
     if (event.kind == DMRP_CONTACT_ROBOT) {
       tallies[event.b].count(event.kind, event.fault_of_b, event.unavoidable);
-      robots.push_back(static_cast<std::uint32_t>(event.b));
+      robots.push_back(robot_subject(event.b));
     }
-    sink.event("collisions", event.from_ns, event.to_ns, robots, text_of(event));
+    sink.event({"collisions", event.from_ns, event.to_ns, robots, text_of(event)});
   }
   for (std::size_t robot = 0; robot < tallies.size(); ++robot)
     give_all(tallies[robot],
