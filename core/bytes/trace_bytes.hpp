@@ -59,6 +59,16 @@ class ByteWriter {
     put_array(text.data(), text.size());
   }
 
+  // The u32 length of what `put_content` writes, then that.
+  template <class PutContent>
+  void put_block(PutContent&& put_content) {
+    put(std::uint32_t{0});
+    const std::size_t begin = bytes_.size();
+    put_content();
+    const auto length = static_cast<std::uint32_t>(bytes_.size() - begin);
+    std::memcpy(bytes_.data() + begin - sizeof(length), &length, sizeof(length));
+  }
+
  private:
   TraceBytes& bytes_;
 };

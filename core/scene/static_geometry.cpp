@@ -41,11 +41,13 @@ std::vector<dmrp_segment> outlines(const std::vector<Shape>& shapes, const toolk
 }
 
 Shape shape_of(const dmrp_shape& shape) {
-  if (shape.kind != DMRP_SHAPE_CIRCLE && shape.kind != DMRP_SHAPE_POLYGON)
-    throw std::invalid_argument("the shape " + std::string(shape.name) + " is of an unknown kind");
+  const bool is_circle = shape.kind == DMRP_SHAPE_CIRCLE;
+  const bool is_polygon = shape.kind == DMRP_SHAPE_POLYGON && shape.vertex_count >= 3;
+  if (!is_circle && !is_polygon)
+    throw std::invalid_argument("the shape " + std::string(shape.name) + " is neither a circle nor a polygon");
   Shape copy;
   copy.name = shape.name;
-  copy.kind = shape.kind == DMRP_SHAPE_CIRCLE ? Shape::Kind::circle : Shape::Kind::polygon;
+  copy.kind = is_circle ? Shape::Kind::circle : Shape::Kind::polygon;
   copy.center = shape.center;
   copy.radius_m = shape.radius_m;
   copy.vertices.assign(shape.vertices, shape.vertices + shape.vertex_count);

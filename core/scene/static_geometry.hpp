@@ -34,8 +34,8 @@ class StaticGeometry {
  public:
   explicit StaticGeometry(const Scenario& scenario);
 
-  // From a stored world: equal to that of its scenario, to the bit. Throws std::invalid_argument if the world has a
-  // shape of an unknown kind.
+  // From a stored world: equal to that of its scenario, to the bit. Throws std::invalid_argument for a shape that is
+  // neither a circle nor a polygon.
   explicit StaticGeometry(const dmrp_world& world);
   StaticGeometry(const StaticGeometry&) = delete;
   StaticGeometry& operator=(const StaticGeometry&) = delete;

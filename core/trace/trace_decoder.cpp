@@ -4,123 +4,143 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/trace/trace_elements.hpp"
+
 namespace dmrp::core {
 namespace {
 
 // The least number of bytes of one element in a record: bounds for damaged counts.
 constexpr std::size_t robot_bytes = 4 + 4 + 24 + 48 + 20 + 4;
-constexpr std::size_t goal_bytes = 56;
+constexpr std::size_t polygon_bytes = 8;
 constexpr std::size_t shape_bytes = 4 + 4 + 16 + 8 + 8 + 4;
-constexpr std::size_t waypoint_bytes = 36;
+constexpr std::size_t path_bytes = 4;
 constexpr std::size_t statistic_bytes = 12;
-constexpr std::size_t call_bytes = 20;
-constexpr std::size_t robot_end_bytes = 16;
 
-const dmrp_limits* take_limits(ByteCursor& in, TraceStorage& storage) {
+const dmrp_limits* take_limits(RecordCursor& record, TraceStorage& storage) {
   auto* limits = allocate<dmrp_limits>(storage, 1);
   limits->struct_size = sizeof(dmrp_limits);
-  for (double* value :
-       {&limits->v_min, &limits->v_max, &limits->v_y_max, &limits->omega_max, &limits->a_max, &limits->alpha_max})
-    *value = in.take<double>();
+  record.take_block([&](RecordCursor& in) {
+    for (double* value :
+         {&limits->v_min, &limits->v_max, &limits->v_y_max, &limits->omega_max, &limits->a_max, &limits->alpha_max})
+      *value = in.take<double>();
+    if (in.version() == 1) return;
+    for (double* value : {&limits->wheelbase_m, &limits->steering_max, &limits->steering_rate_max})
+      *value = in.take<double>();
+  });
   return limits;
 }
 
-const dmrp_footprint* take_footprint(ByteCursor& in, TraceStorage& storage) {
+dmrp_polygon take_polygon(RecordCursor& record, TraceStorage& storage) {
+  dmrp_polygon polygon{};
+  record.take_block([&](RecordCursor& in) {
+    polygon.vertex_count = in.take_count(sizeof(dmrp_vec2));
+    polygon.vertices = take_stored<dmrp_vec2>(in, storage, polygon.vertex_count);
+  });
+  return polygon;
+}
+
+const dmrp_footprint* take_footprint(RecordCursor& record, TraceStorage& storage) {
   auto* footprint = allocate<dmrp_footprint>(storage, 1);
   footprint->struct_size = sizeof(dmrp_footprint);
-  footprint->radius_m = in.take<double>();
-  footprint->inscribed_radius_m = in.take<double>();
-  footprint->vertex_count = in.take_count(sizeof(dmrp_vec2));
-  footprint->vertices = take_stored<dmrp_vec2>(in, storage, footprint->vertex_count);
+  footprint->part_stride = sizeof(dmrp_polygon);
+  record.take_block([&](RecordCursor& in) {
+    footprint->radius_m = in.take<double>();
+    footprint->inscribed_radius_m = in.take<double>();
+    // Format version 1 has one polygon, without vertices for a disc.
+    const std::uint32_t part_count = in.version() == 1 ? 1 : in.take_count(polygon_bytes);
+    auto* parts = allocate<dmrp_polygon>(storage, part_count);
+    for (std::uint32_t i = 0; i < part_count; ++i) parts[i] = take_polygon(in, storage);
+    if (part_count == 0 || (in.version() == 1 && parts[0].vertex_count == 0)) return;
+    footprint->parts = parts;
+    footprint->part_count = part_count;
+  });
   return footprint;
 }
 
-dmrp_robot take_robot(ByteCursor& in, TraceStorage& storage) {
+dmrp_robot take_robot(RecordCursor& record, TraceStorage& storage) {
   dmrp_robot robot{};
-  robot.name = take_stored_text(in, storage);
-  robot.kinematics = in.take<std::uint32_t>();
-  robot.start = in.take<dmrp_pose>();
-  robot.limits = take_limits(in, storage);
-  robot.footprint = take_footprint(in, storage);
-  robot.goal_count = in.take_count(goal_bytes);
-  robot.goal_stride = sizeof(dmrp_goal);
-  auto* goals = allocate<dmrp_goal>(storage, robot.goal_count);
-  robot.goals = goals;
-  for (std::uint32_t i = 0; i < robot.goal_count; ++i) {
-    goals[i].pose = in.take<dmrp_pose>();
-    goals[i].tolerance_m = in.take<double>();
-    goals[i].tolerance_rad = in.take<double>();
-    goals[i].tolerance_speed = in.take<double>();
-    goals[i].settle_ns = in.take<std::int64_t>();
-  }
+  record.take_block([&](RecordCursor& in) {
+    robot.name = take_stored_text(in, storage);
+    robot.kinematics = in.take<std::uint32_t>();
+    robot.start = in.take<dmrp_pose>();
+    robot.limits = take_limits(in, storage);
+    robot.footprint = take_footprint(in, storage);
+    const TraceElements stored = take_element_count<dmrp_goal>(in);
+    auto* goals = allocate<dmrp_goal>(storage, stored.count);
+    take_elements(in, stored, goals);
+    robot.goal_count = stored.count;
+    robot.goal_stride = sizeof(dmrp_goal);
+    robot.goals = goals;
+    robot.type = in.version() == 1 ? "" : take_stored_text(in, storage);
+  });
   return robot;
 }
 
-dmrp_shape take_shape(ByteCursor& in, TraceStorage& storage) {
+dmrp_shape take_shape(RecordCursor& record, TraceStorage& storage) {
   dmrp_shape shape{};
-  shape.name = take_stored_text(in, storage);
-  shape.kind = in.take<std::uint32_t>();
-  if (shape.kind != DMRP_SHAPE_CIRCLE && shape.kind != DMRP_SHAPE_POLYGON) in.fail("a shape of unknown kind");
-  shape.center = in.take<dmrp_vec2>();
-  shape.radius_m = in.take<double>();
-  shape.height_m = in.take<double>();
-  shape.vertex_count = in.take_count(sizeof(dmrp_vec2));
-  shape.vertices = take_stored<dmrp_vec2>(in, storage, shape.vertex_count);
+  record.take_block([&](RecordCursor& in) {
+    shape.name = take_stored_text(in, storage);
+    shape.kind = in.take<std::uint32_t>();
+    shape.center = in.take<dmrp_vec2>();
+    shape.radius_m = in.take<double>();
+    shape.height_m = in.take<double>();
+    shape.vertex_count = in.take_count(sizeof(dmrp_vec2));
+    shape.vertices = take_stored<dmrp_vec2>(in, storage, shape.vertex_count);
+  });
   return shape;
 }
 
-bool take_presence(ByteCursor& in) {
+bool take_presence(RecordCursor& in) {
   const auto presence = in.take<std::uint8_t>();
   if (presence > 1) in.fail("a presence flag other than 0 and 1");
   return presence == 1;
 }
 
 template <class Value>
-const Value* take_optional(ByteCursor& in, TraceStorage& storage, std::size_t count) {
+const Value* take_optional(RecordCursor& in, TraceStorage& storage, std::size_t count) {
   if (!take_presence(in)) return nullptr;
   in.require(count, sizeof(Value));
   return take_stored<Value>(in, storage, count);
 }
 
-const dmrp_grid* take_grid(ByteCursor& in, TraceStorage& storage) {
-  if (!take_presence(in)) return nullptr;
+const dmrp_grid* take_grid(RecordCursor& record, TraceStorage& storage) {
+  if (!take_presence(record)) return nullptr;
   auto* grid = allocate<dmrp_grid>(storage, 1);
   grid->struct_size = sizeof(dmrp_grid);
-  grid->width = in.take<std::uint32_t>();
-  grid->height = in.take<std::uint32_t>();
-  grid->resolution_m = in.take<double>();
-  grid->origin = in.take<dmrp_vec2>();
-  const std::size_t cells = std::size_t{grid->width} * grid->height;
-  grid->free = take_optional<std::uint8_t>(in, storage, cells);
-  grid->edges = take_optional<std::uint8_t>(in, storage, cells);
-  grid->clearance = take_optional<float>(in, storage, cells);
+  record.take_block([&](RecordCursor& in) {
+    grid->width = in.take<std::uint32_t>();
+    grid->height = in.take<std::uint32_t>();
+    grid->resolution_m = in.take<double>();
+    grid->origin = in.take<dmrp_vec2>();
+    const std::size_t cells = std::size_t{grid->width} * grid->height;
+    grid->free = take_optional<std::uint8_t>(in, storage, cells);
+    grid->edges = take_optional<std::uint8_t>(in, storage, cells);
+    grid->clearance = take_optional<float>(in, storage, cells);
+  });
   return grid;
 }
 
-dmrp_path take_path(ByteCursor& in, TraceStorage& storage) {
+dmrp_path take_path(RecordCursor& record, TraceStorage& storage) {
   dmrp_path path{};
   path.struct_size = sizeof(dmrp_path);
-  path.count = in.take_count(waypoint_bytes);
   path.stride = sizeof(dmrp_waypoint);
-  auto* waypoints = allocate<dmrp_waypoint>(storage, path.count);
-  path.waypoints = waypoints;
-  for (std::uint32_t i = 0; i < path.count; ++i) {
-    waypoints[i].x = in.take<double>();
-    waypoints[i].y = in.take<double>();
-    waypoints[i].theta = in.take<double>();
-    waypoints[i].t_ns = in.take<std::int64_t>();
-    waypoints[i].goal_index = in.take<std::uint32_t>();
-  }
+  record.take_block([&](RecordCursor& in) {
+    const TraceElements stored = take_element_count<dmrp_waypoint>(in);
+    auto* waypoints = allocate<dmrp_waypoint>(storage, stored.count);
+    take_elements(in, stored, waypoints);
+    path.count = stored.count;
+    path.waypoints = waypoints;
+  });
   return path;
 }
 
-dmrp_call take_call(ByteCursor& in) {
-  dmrp_call call{};
-  call.kind = in.take<std::uint32_t>();
-  call.robot = in.take<std::uint32_t>();
-  call.status = in.take<std::int32_t>();
-  call.duration_ns = in.take<std::int64_t>();
-  return call;
+dmrp_statistic take_statistic(RecordCursor& record, TraceStorage& storage) {
+  dmrp_statistic statistic{};
+  record.take_block([&](RecordCursor& in) {
+    statistic.name = take_stored_text(in, storage);
+    statistic.value = in.take<double>();
+  });
+  return statistic;
 }
 
 }  // namespace
@@ -132,10 +152,9 @@ const char* take_stored_text(ByteCursor& in, TraceStorage& storage) {
   return copy;
 }
 
-dmrp_world take_world(ByteCursor& in, TraceStorage& storage) {
+dmrp_world take_world(RecordCursor& in, TraceStorage& storage) {
   dmrp_world world{};
   world.struct_size = sizeof(dmrp_world);
-  world.self = -1;
   world.person_count = in.take<std::uint32_t>();
   world.lower = in.take<dmrp_vec2>();
   world.upper = in.take<dmrp_vec2>();
@@ -159,11 +178,14 @@ dmrp_world take_world(ByteCursor& in, TraceStorage& storage) {
   world.segment_count = in.take_count(sizeof(dmrp_segment));
   world.segments = take_stored<dmrp_segment>(in, storage, world.segment_count);
   world.planning_grid = take_grid(in, storage);
-  world.walking_grid = take_grid(in, storage);
+  if (in.version() == 1)
+    take_grid(in, storage);  // for the navigation of people
+  else
+    world.person_radius_m = in.take<double>();
   return world;
 }
 
-TracePlan take_plan(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_count) {
+TracePlan take_plan(RecordCursor& in, TraceStorage& storage, std::uint32_t robot_count) {
   TracePlan made;
   made.made_at_ns = in.take<std::int64_t>();
   dmrp_plan& plan = made.plan;
@@ -175,7 +197,7 @@ TracePlan take_plan(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_c
   plan.status = in.take<std::int32_t>();
   made.conflicts = in.take<std::uint32_t>();
 
-  plan.path_count = in.take_count(sizeof(std::uint32_t));
+  plan.path_count = in.take_count(path_bytes);
   if (plan.path_count != 0 && plan.path_count != robot_count) in.fail("a plan without a path for every robot");
   plan.path_stride = sizeof(dmrp_path);
   auto* paths = allocate<dmrp_path>(storage, plan.path_count);
@@ -186,34 +208,36 @@ TracePlan take_plan(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_c
   plan.statistic_stride = sizeof(dmrp_statistic);
   auto* statistics = allocate<dmrp_statistic>(storage, plan.statistic_count);
   plan.statistics = statistics;
-  for (std::uint32_t i = 0; i < plan.statistic_count; ++i) {
-    statistics[i].name = take_stored_text(in, storage);
-    statistics[i].value = in.take<double>();
-  }
+  for (std::uint32_t i = 0; i < plan.statistic_count; ++i) statistics[i] = take_statistic(in, storage);
   return made;
 }
 
-dmrp_trial_end take_end(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_count) {
+dmrp_trial_end take_end(RecordCursor& in, TraceStorage& storage, std::uint32_t robot_count) {
   dmrp_trial_end end{};
   end.struct_size = sizeof(dmrp_trial_end);
   end.ending = in.take<std::uint32_t>();
   end.t_ns = in.take<std::int64_t>();
-  end.robot_count = in.take_count(robot_end_bytes);
-  if (end.robot_count != robot_count) in.fail("an end record with another number of robots");
-  end.robot_stride = sizeof(dmrp_robot_end);
-  auto* robots = allocate<dmrp_robot_end>(storage, end.robot_count);
+  const TraceElements stored = take_element_count<dmrp_robot_end>(in);
+  if (stored.count != robot_count) in.fail("an end record with another number of robots");
+  auto* robots = allocate<dmrp_robot_end>(storage, stored.count);
+  take_elements(in, stored, robots);
   end.robots = robots;
-  for (std::uint32_t i = 0; i < end.robot_count; ++i) {
-    robots[i].state = in.take<std::uint32_t>();
-    robots[i].failure = in.take<std::uint32_t>();
-    robots[i].arrival_ns = in.take<std::int64_t>();
-  }
+  end.robot_count = stored.count;
+  end.robot_stride = sizeof(dmrp_robot_end);
   return end;
 }
 
-void take_calls(ByteCursor& in, std::vector<dmrp_call>& calls) {
-  calls.resize(in.take_count(call_bytes));
-  for (dmrp_call& call : calls) call = take_call(in);
+void take_calls(RecordCursor& in, std::vector<dmrp_call>& calls) {
+  const TraceElements stored = take_element_count<dmrp_call>(in);
+  calls.resize(stored.count);
+  if (in.version() > 1) return take_elements(in, stored, calls.data());
+  for (dmrp_call& call : calls) {
+    call = {};
+    call.kind = in.take<std::uint32_t>();
+    call.robot = in.take<std::uint32_t>();
+    call.status = in.take<std::int32_t>();
+    call.duration_ns = in.take<std::int64_t>();
+  }
 }
 
 }  // namespace dmrp::core

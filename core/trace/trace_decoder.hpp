@@ -2,7 +2,9 @@
 // trace_decoder.hpp: decodes the bodies of trace records into the structs of the plugin contract.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
+#include <dmrp/trial_end.h>
+#include <dmrp/world.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +17,7 @@
 
 #include "core/bytes/trace_bytes.hpp"
 #include "core/foxglove/annotation_source.hpp"
+#include "core/trace/record_cursor.hpp"
 
 namespace dmrp::core {
 
@@ -74,11 +77,11 @@ const char* take_stored_text(ByteCursor& in, TraceStorage& storage);
 
 // The body of a record, except for the format version before the world and the reason after the end. All throw
 // TraceError.
-dmrp_world take_world(ByteCursor& in, TraceStorage& storage);
-TracePlan take_plan(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_count);
-dmrp_trial_end take_end(ByteCursor& in, TraceStorage& storage, std::uint32_t robot_count);
+dmrp_world take_world(RecordCursor& in, TraceStorage& storage);
+TracePlan take_plan(RecordCursor& in, TraceStorage& storage, std::uint32_t robot_count);
+dmrp_trial_end take_end(RecordCursor& in, TraceStorage& storage, std::uint32_t robot_count);
 
 // The calls of a sample.
-void take_calls(ByteCursor& in, std::vector<dmrp_call>& calls);
+void take_calls(RecordCursor& in, std::vector<dmrp_call>& calls);
 
 }  // namespace dmrp::core

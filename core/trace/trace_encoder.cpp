@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bytes/trace_bytes.hpp"
+#include "core/trace/trace_elements.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -21,57 +22,66 @@ void put_optional(ByteWriter& out, const Value* values, std::size_t count) {
 }
 
 void put_limits(ByteWriter& out, const dmrp_limits& limits) {
-  for (const double value :
-       {limits.v_min, limits.v_max, limits.v_y_max, limits.omega_max, limits.a_max, limits.alpha_max})
-    out.put(value);
+  out.put_block([&] {
+    for (const double value : {limits.v_min, limits.v_max, limits.v_y_max, limits.omega_max, limits.a_max,
+                               limits.alpha_max, limits.wheelbase_m, limits.steering_max, limits.steering_rate_max})
+      out.put(value);
+  });
+}
+
+void put_vertices(ByteWriter& out, const dmrp_vec2* vertices, std::uint32_t count) {
+  out.put(count);
+  out.put_array(vertices, count);
 }
 
 void put_footprint(ByteWriter& out, const dmrp_footprint& footprint) {
-  out.put(footprint.radius_m);
-  out.put(footprint.inscribed_radius_m);
-  out.put(footprint.vertex_count);
-  out.put_array(footprint.vertices, footprint.vertex_count);
+  out.put_block([&] {
+    out.put(footprint.radius_m);
+    out.put(footprint.inscribed_radius_m);
+    out.put(footprint.part_count);
+    for (std::uint32_t i = 0; i < footprint.part_count; ++i) {
+      const dmrp_polygon& part = *DMRP_AT(dmrp_polygon, footprint.parts, footprint.part_stride, i);
+      out.put_block([&] { put_vertices(out, part.vertices, part.vertex_count); });
+    }
+  });
 }
 
 void put_robot(ByteWriter& out, const dmrp_robot& robot) {
-  out.put_text(text_of(robot.name));
-  out.put(robot.kinematics);
-  out.put(robot.start);
-  put_limits(out, *robot.limits);
-  put_footprint(out, *robot.footprint);
-  out.put(robot.goal_count);
-  for (std::uint32_t i = 0; i < robot.goal_count; ++i) {
-    const dmrp_goal& goal = *DMRP_AT(dmrp_goal, robot.goals, robot.goal_stride, i);
-    out.put(goal.pose);
-    out.put(goal.tolerance_m);
-    out.put(goal.tolerance_rad);
-    out.put(goal.tolerance_speed);
-    out.put(goal.settle_ns);
-  }
+  out.put_block([&] {
+    out.put_text(text_of(robot.name));
+    out.put(robot.kinematics);
+    out.put(robot.start);
+    put_limits(out, *robot.limits);
+    put_footprint(out, *robot.footprint);
+    put_elements(out, robot.goals, robot.goal_count, robot.goal_stride);
+    out.put_text(text_of(robot.type));
+  });
 }
 
 void put_shape(ByteWriter& out, const dmrp_shape& shape) {
-  out.put_text(text_of(shape.name));
-  out.put(shape.kind);
-  out.put(shape.center);
-  out.put(shape.radius_m);
-  out.put(shape.height_m);
-  const std::uint32_t vertex_count = shape.kind == DMRP_SHAPE_POLYGON ? shape.vertex_count : 0;
-  out.put(vertex_count);
-  out.put_array(shape.vertices, vertex_count);
+  out.put_block([&] {
+    out.put_text(text_of(shape.name));
+    out.put(shape.kind);
+    out.put(shape.center);
+    out.put(shape.radius_m);
+    out.put(shape.height_m);
+    put_vertices(out, shape.vertices, shape.kind == DMRP_SHAPE_POLYGON ? shape.vertex_count : 0);
+  });
 }
 
 void put_grid(ByteWriter& out, const dmrp_grid* grid) {
   out.put(static_cast<std::uint8_t>(grid != nullptr));
   if (!grid) return;
-  out.put(grid->width);
-  out.put(grid->height);
-  out.put(grid->resolution_m);
-  out.put(grid->origin);
-  const std::size_t cells = std::size_t{grid->width} * grid->height;
-  put_optional(out, grid->free, cells);
-  put_optional(out, grid->edges, cells);
-  put_optional(out, grid->clearance, cells);
+  out.put_block([&] {
+    out.put(grid->width);
+    out.put(grid->height);
+    out.put(grid->resolution_m);
+    out.put(grid->origin);
+    const std::size_t cells = std::size_t{grid->width} * grid->height;
+    put_optional(out, grid->free, cells);
+    put_optional(out, grid->edges, cells);
+    put_optional(out, grid->clearance, cells);
+  });
 }
 
 void put_world(ByteWriter& out, const dmrp_world& world) {
@@ -91,34 +101,18 @@ void put_world(ByteWriter& out, const dmrp_world& world) {
   out.put(world.segment_count);
   out.put_array(world.segments, world.segment_count);
   put_grid(out, world.planning_grid);
-  put_grid(out, world.walking_grid);
+  out.put(world.person_radius_m);
 }
 
 void put_path(ByteWriter& out, const dmrp_path& path) {
-  out.put(path.count);
-  for (std::uint32_t i = 0; i < path.count; ++i) {
-    const dmrp_waypoint& waypoint = *DMRP_AT(dmrp_waypoint, path.waypoints, path.stride, i);
-    out.put(waypoint.x);
-    out.put(waypoint.y);
-    out.put(waypoint.theta);
-    out.put(waypoint.t_ns);
-    out.put(waypoint.goal_index);
-  }
+  out.put_block([&] { put_elements(out, path.waypoints, path.count, path.stride); });
 }
 
-// Elements with the same layout in the trace as in memory: all at once, unless the owner's version of them is longer.
-template <class Element>
-void put_elements(ByteWriter& out, const Element* elements, std::uint32_t count, std::uint32_t stride) {
-  out.put(count);
-  if (stride == sizeof(Element)) return out.put_array(elements, count);
-  for (std::uint32_t i = 0; i < count; ++i) out.put(*DMRP_AT(Element, elements, stride, i));
-}
-
-void put_call(ByteWriter& out, const dmrp_call& call) {
-  out.put(call.kind);
-  out.put(call.robot);
-  out.put(call.status);
-  out.put(call.duration_ns);
+void put_statistic(ByteWriter& out, const dmrp_statistic& statistic) {
+  out.put_block([&] {
+    out.put_text(text_of(statistic.name));
+    out.put(statistic.value);
+  });
 }
 
 }  // namespace
@@ -162,11 +156,8 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
     for (std::uint32_t i = 0; i < plan.path_count; ++i)
       put_path(out, *DMRP_AT(dmrp_path, plan.paths, plan.path_stride, i));
     out.put(plan.statistic_count);
-    for (std::uint32_t i = 0; i < plan.statistic_count; ++i) {
-      const auto& statistic = *DMRP_AT(dmrp_statistic, plan.statistics, plan.statistic_stride, i);
-      out.put_text(text_of(statistic.name));
-      out.put(statistic.value);
-    }
+    for (std::uint32_t i = 0; i < plan.statistic_count; ++i)
+      put_statistic(out, *DMRP_AT(dmrp_statistic, plan.statistics, plan.statistic_stride, i));
   });
   if (foxglove_) foxglove_->plan(now_ns_, plan);
 }
@@ -183,9 +174,7 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
     put_elements(out, sample.robots, sample.robot_count, sample.robot_stride);
     put_elements(out, sample.people, sample.person_count, sample.person_stride);
     put_elements(out, sample.contacts, sample.contact_count, sample.contact_stride);
-    out.put(sample.call_count);
-    for (std::uint32_t i = 0; i < sample.call_count; ++i)
-      put_call(out, *DMRP_AT(dmrp_call, sample.calls, sample.call_stride, i));
+    put_elements(out, sample.calls, sample.call_count, sample.call_stride);
   });
 }
 
@@ -230,13 +219,7 @@ void TraceEncoder::end(const dmrp_trial_end& end, std::string_view reason) {
   record(TraceRecordKind::end, [&](ByteWriter& out) {
     out.put(end.ending);
     out.put(end.t_ns);
-    out.put(end.robot_count);
-    for (std::uint32_t i = 0; i < end.robot_count; ++i) {
-      const auto& robot = *DMRP_AT(dmrp_robot_end, end.robots, end.robot_stride, i);
-      out.put(robot.state);
-      out.put(robot.failure);
-      out.put(robot.arrival_ns);
-    }
+    put_elements(out, end.robots, end.robot_count, end.robot_stride);
     out.put_text(reason);
   });
 }

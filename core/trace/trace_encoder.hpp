@@ -3,7 +3,9 @@
 #pragma once
 
 #include <dmrp/ext/lidar.h>
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
+#include <dmrp/trial_end.h>
+#include <dmrp/world.h>
 
 #include <cstdint>
 #include <functional>

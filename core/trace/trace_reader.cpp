@@ -6,25 +6,38 @@
 
 #include "core/bytes/trace_bytes.hpp"
 #include "core/trace/trace_decoder.hpp"
+#include "core/trace/trace_elements.hpp"
 
 namespace dmrp::core {
 namespace {
 
+bool is_known(const dmrp_contact& contact) {
+  return contact.kind == DMRP_CONTACT_STATIC || contact.kind == DMRP_CONTACT_ROBOT ||
+         contact.kind == DMRP_CONTACT_PERSON;
+}
+
 // Metrics use these as indices without further checks.
 void check_contact(const ByteCursor& in, const dmrp_contact& contact, const dmrp_world& world,
                    std::uint32_t person_count) {
-  const std::uint32_t others = contact.kind == DMRP_CONTACT_STATIC   ? world.shape_count + 1
-                               : contact.kind == DMRP_CONTACT_ROBOT  ? world.robot_count
-                               : contact.kind == DMRP_CONTACT_PERSON ? person_count
-                                                                     : 0;
+  const std::uint32_t others = contact.kind == DMRP_CONTACT_STATIC  ? world.shape_count + 1
+                               : contact.kind == DMRP_CONTACT_ROBOT ? world.robot_count
+                                                                    : person_count;
   if (contact.a >= world.robot_count || contact.b >= others) in.fail("a contact of unknown bodies");
 }
 
-// Elements with the same layout in the trace as in memory.
+std::uint32_t format_version(const TraceRecord& world) {
+  const auto version = ByteCursor(world.body, world.offset).take<std::uint32_t>();
+  if (version == 0 || version > trace_format_version)
+    throw TraceError(world.offset, "format version " + std::to_string(version) + "; this program reads versions 1 to " +
+                                       std::to_string(trace_format_version));
+  return version;
+}
+
 template <class Element>
-void take_elements(ByteCursor& in, std::vector<Element>& elements) {
-  elements.resize(in.take_count(sizeof(Element)));
-  in.take_array(elements.data(), elements.size());
+void take_into(RecordCursor& in, std::vector<Element>& elements) {
+  const TraceElements stored = take_element_count<Element>(in);
+  elements.resize(stored.count);
+  take_elements(in, stored, elements.data());
 }
 
 }  // namespace
@@ -44,12 +57,11 @@ TraceReader::TraceReader(TraceRecords records, TraceExtent extent) : records_(st
 }
 
 void TraceReader::read_record(const TraceRecord& record) {
-  ByteCursor in(record.body, record.offset);
+  if (record.kind == TraceRecordKind::world) version_ = format_version(record);
+  RecordCursor in(record.body, record.offset, version_);
   switch (record.kind) {
     case TraceRecordKind::world:
-      if (const auto version = in.take<std::uint32_t>(); version != trace_format_version)
-        throw TraceError(record.offset,
-                         "format version " + std::to_string(version) + ", not " + std::to_string(trace_format_version));
+      in.take<std::uint32_t>();  // format version
       world_ = take_world(in, storage_);
       break;
     case TraceRecordKind::plan:
@@ -76,16 +88,16 @@ void TraceReader::read_record(const TraceRecord& record) {
     default:
       throw TraceError(record.offset - 1, "the kind of the record is unknown");
   }
-  if (!in.at_end()) in.fail("the record is longer than its content");
+  if (version_ == 1 && !in.at_end()) in.fail("the record is longer than its content");
 }
 
-void TraceReader::read_plan(ByteCursor& in) {
+void TraceReader::read_plan(RecordCursor& in) {
   const TracePlan made = take_plan(in, storage_, world_.robot_count);
   if (made.plan.path_count > 0 && plan_of_revision(made.plan.revision)) in.fail("a second plan of this revision");
   plans_.push_back(made);
 }
 
-void TraceReader::read_scan(ByteCursor& in) {
+void TraceReader::read_scan(RecordCursor& in) {
   TraceScan scan;
   scan.t_ns = in.take<std::int64_t>();
   scan.robot = in.take<std::uint32_t>();
@@ -103,7 +115,7 @@ void TraceReader::read_scan(ByteCursor& in) {
   }
 }
 
-void TraceReader::read_trajectory(ByteCursor& in) {
+void TraceReader::read_trajectory(RecordCursor& in) {
   TraceTrajectory trajectory;
   trajectory.t_ns = in.take<std::int64_t>();
   trajectory.source = in.take<AnnotationSource>();
@@ -118,7 +130,7 @@ void TraceReader::read_trajectory(ByteCursor& in) {
   }
 }
 
-void TraceReader::read_note(ByteCursor& in) {
+void TraceReader::read_note(RecordCursor& in) {
   TraceNote note;
   note.t_ns = in.take<std::int64_t>();
   note.source = in.take<AnnotationSource>();
@@ -131,7 +143,7 @@ void TraceReader::read_note(ByteCursor& in) {
 }
 
 // Decodes into sample_ and overwrites the previous sample.
-void TraceReader::read_sample(ByteCursor& in) {
+void TraceReader::read_sample(RecordCursor& in) {
   sample_ = {};
   sample_.struct_size = sizeof(dmrp_sample);
   sample_.t_ns = in.take<std::int64_t>();
@@ -141,10 +153,11 @@ void TraceReader::read_sample(ByteCursor& in) {
   if (revision != 0) sample_.plan = plan_of_revision(revision);
   if (revision != 0 && !sample_.plan) in.fail("the plan of the sample does not precede it");
 
-  take_elements(in, robots_);
+  take_into(in, robots_);
   if (robots_.size() != world_.robot_count) in.fail("a sample with another number of robots");
-  take_elements(in, people_);
-  take_elements(in, contacts_);
+  take_into(in, people_);
+  take_into(in, contacts_);
+  std::erase_if(contacts_, [](const dmrp_contact& contact) { return !is_known(contact); });
   for (const dmrp_contact& contact : contacts_)
     check_contact(in, contact, world_, static_cast<std::uint32_t>(people_.size()));
   take_calls(in, calls_);
@@ -168,7 +181,7 @@ void TraceReader::read_sample(ByteCursor& in) {
 const dmrp_sample* TraceReader::next_sample() {
   while (const auto record = records_.next()) {
     if (record->kind != TraceRecordKind::sample) continue;
-    ByteCursor in(record->body, record->offset);
+    RecordCursor in(record->body, record->offset, version_);
     read_sample(in);
     return &sample_;
   }

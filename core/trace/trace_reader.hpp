@@ -2,7 +2,9 @@
 // trace_reader.hpp: reads a trace as the structs that metric plugins take.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/sample.h>
+#include <dmrp/trial_end.h>
+#include <dmrp/world.h>
 
 #include <cstdint>
 #include <deque>
@@ -38,7 +40,7 @@ class TraceReader {
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
 
-  const dmrp_world& world() const { return world_; }  // with self = -1
+  const dmrp_world& world() const { return world_; }
 
   const std::deque<TracePlan>& plans() const { return plans_; }
   const dmrp_plan* first_plan() const;  // the first one with paths; null if there is none
@@ -56,16 +58,17 @@ class TraceReader {
 
  private:
   void read_record(const TraceRecord& record);
-  void read_plan(ByteCursor& in);
-  void read_sample(ByteCursor& in);
-  void read_scan(ByteCursor& in);
-  void read_trajectory(ByteCursor& in);
-  void read_note(ByteCursor& in);
+  void read_plan(RecordCursor& in);
+  void read_sample(RecordCursor& in);
+  void read_scan(RecordCursor& in);
+  void read_trajectory(RecordCursor& in);
+  void read_note(RecordCursor& in);
   const dmrp_plan* plan_of_revision(std::uint64_t revision) const;
 
   TraceRecords records_;
   TraceExtent extent_;
-  TraceStorage storage_;  // of everything that is valid as long as the reader
+  std::uint32_t version_ = 0;  // of the format
+  TraceStorage storage_;       // of everything that is valid as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
   std::vector<TraceScan> scans_;
