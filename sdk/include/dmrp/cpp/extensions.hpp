@@ -15,7 +15,10 @@
 namespace dmrp {
 
 template <class Extension>
-struct ExtensionId;
+struct ExtensionId {
+  static_assert(sizeof(Extension) == 0, "this extension has no id: specialise dmrp::ExtensionId for it");
+  static constexpr const char* value = "";
+};
 
 template <>
 struct ExtensionId<dmrp_annotate> {

@@ -43,9 +43,13 @@ class PlanSink {
   explicit PlanSink(dmrp_plan_sink* c) : c_(c) {}
 
   void path(std::uint32_t robot, const std::vector<Waypoint>& waypoints) {
-    const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(Waypoint), 0,
-                            waypoints.data()};
-    check(c_->path(c_, robot, &path), "the path of robot " + std::to_string(robot));
+    const dmrp_path c = {sizeof(c), static_cast<std::uint32_t>(waypoints.size()), sizeof(Waypoint), 0,
+                         waypoints.data()};
+    path(robot, c);
+  }
+  // For waypoints with more fields than these headers know.
+  void path(std::uint32_t robot, const dmrp_path& c) {
+    check(c_->path(c_, robot, &c), "the path of robot " + std::to_string(robot));
   }
   void statistic(const char* name, double value) { check(c_->statistic(c_, name, value), name); }
 
@@ -61,7 +65,7 @@ class GlobalPlanner : public Plugin {
  public:
   virtual Status plan(const PlanningProblem& problem, PlanSink& sink) = 0;
 
-  static constexpr std::uint32_t kind = DMRP_KIND_GLOBAL_PLANNER;
+  static constexpr std::uint32_t interface_kind = DMRP_KIND_GLOBAL_PLANNER;
   static constexpr dmrp_global_planner interface_table() { return {sizeof(dmrp_global_planner), 0, &call_plan}; }
 
  private:

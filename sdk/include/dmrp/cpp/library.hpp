@@ -26,10 +26,14 @@ constexpr bool has_unload = false;
 template <class P>
 constexpr bool has_unload<P, std::void_t<decltype(P::unload())>> = true;
 
+// Whether `pointer`, to a member of this name, is that of a static function.
+template <class Pointer>
+constexpr bool is_static_function = std::is_function_v<std::remove_pointer_t<Pointer>>;
 template <class P, class = void>
-constexpr std::uint32_t flags_of_kind = 0;
+constexpr bool has_other_load = false;
 template <class P>
-constexpr std::uint32_t flags_of_kind<P, std::void_t<decltype(P::flags)>> = P::flags;
+constexpr bool has_other_load<P, std::void_t<decltype(&P::load)>> =
+    is_static_function<decltype(&P::load)> && !has_load<P>;
 
 }  // namespace detail
 
@@ -52,11 +56,17 @@ class Library {
 
   template <class P>
   static void load([[maybe_unused]] const Host& host) {
+    static_assert(!detail::has_other_load<P>, "load() of a plugin class takes a const dmrp::Host&");
     if constexpr (detail::has_load<P>) P::load(host);
   }
   template <class P>
   static void unload() {
-    if constexpr (detail::has_unload<P>) P::unload();
+    if constexpr (detail::has_unload<P>) {
+      try {
+        P::unload();
+      } catch (...) {  // deinit() has no status
+      }
+    }
   }
 
   static const dmrp_descriptor* descriptor(std::uint32_t index) {
@@ -71,7 +81,7 @@ class Library {
   // The parameter table comes from a prototype of the class.
   template <class P>
   static const dmrp_descriptor& describe() {
-    static const PublishedDescriptor published(P::describe().flags(detail::flags_of_kind<P>), P::kind, [] {
+    static const PublishedDescriptor published(P::describe().flags(P::interface_flags), P::interface_kind, [] {
       P prototype;
       return std::move(PluginAccess::parameters(prototype));
     }());

@@ -92,6 +92,16 @@ template <class To, class From>
 constexpr bool declares = std::is_same_v<To, From> || (std::is_same_v<From, std::int64_t> &&
                                                        (std::is_same_v<To, int> || std::is_same_v<To, double>));
 
+template <class To, class From>
+To convert(const From& value) {
+  static_assert(declares<To, From>, "dmrp::Param<T>: the default given to param() is of another type than T");
+  if constexpr (declares<To, From>) {
+    return static_cast<To>(value);
+  } else {
+    return To();
+  }
+}
+
 }  // namespace detail
 
 // Declares one parameter; made by Plugin::param(), converted to a Param.
@@ -116,12 +126,16 @@ class ParamBuilder {
   }
   // For a text: the accepted values.
   ParamBuilder& choices(std::vector<std::string> choices) {
+    static_assert(std::is_same_v<T, std::string>, "choices() is for a parameter that is a text");
     definition_->type = DMRP_PARAM_CHOICE;
     definition_->choices = std::move(choices);
     return *this;
   }
   // For a text: it is the path of a file; the host resolves it against the folder of the experiment file.
-  ParamBuilder& path() { return definition_->type = DMRP_PARAM_PATH, *this; }
+  ParamBuilder& path() {
+    static_assert(std::is_same_v<T, std::string>, "path() is for a parameter that is a text");
+    return definition_->type = DMRP_PARAM_PATH, *this;
+  }
 
  private:
   template <class>
@@ -142,8 +156,7 @@ class Param {
 
   template <class From>
   Param(const ParamBuilder<From>& declared)  // implicit: `Param<double> x = param(...)`
-      : value_(static_cast<T>(declared.value_)) {
-    static_assert(detail::declares<T, From>, "dmrp::Param<T>: the default given to param() is of another type than T");
+      : value_(detail::convert<T>(declared.value_)) {
     if constexpr (!std::is_same_v<T, From> && std::is_same_v<T, double>) {
       declared.definition_->integer = 0;
       detail::fall_back(*declared.definition_, value_);

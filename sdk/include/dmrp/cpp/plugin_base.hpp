@@ -113,6 +113,9 @@ class Plugin {
   // An extension that the plugin provides to the host, or nullptr.
   virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
 
+  // Of a base class: what it adds to the descriptor's flags.
+  static constexpr std::uint32_t interface_flags = 0;
+
  protected:
   ParamBuilder<bool> param(const char* key, bool value) { return {parameters_, key, value}; }
   ParamBuilder<std::int64_t> param(const char* key, int value) { return {parameters_, key, value}; }

@@ -59,6 +59,7 @@ class Span {
       : base_(base), count_(count), stride_(stride) {}
 
   std::size_t size() const { return count_; }
+  std::size_t stride() const { return stride_; }  // for DMRP_STRIDE_HAS
   bool empty() const { return count_ == 0; }
   const T& operator[](std::size_t index) const { return *DMRP_AT(T, base_, stride_, index); }
   const T& front() const { return (*this)[0]; }
