@@ -2,7 +2,7 @@
 // The descriptors that the C++ layer exports, and the parameters of plugins.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ const dmrp_param_spec& spec(const std::string& key) {
   const dmrp_descriptor& d = descriptor("sample.controller");
   for (std::uint32_t i = 0; i < d.param_count; ++i) {
     const auto* s = DMRP_AT(dmrp_param_spec, d.params, d.param_stride, i);
-    if (key == s->fallback.key) return *s;
+    if (key == s->key) return *s;
   }
   throw std::runtime_error("no parameter " + key);
 }
@@ -45,10 +45,10 @@ TEST_CASE("the entry says what it was built with and lists the plugins in their 
   CHECK(dmrp_entry_v1.abi_minor == DMRP_ABI_MINOR);
   CHECK(dmrp_entry_v1.abi_draft == DMRP_ABI_DRAFT);
   CHECK(dmrp_entry_v1.min_host_minor == 0);
-  REQUIRE(dmrp_entry_v1.plugin_count() == 5);
+  REQUIRE(dmrp_entry_v1.plugin_count() == 6);
   CHECK(dmrp_entry_v1.descriptor(0)->id == std::string("sample.controller"));
-  CHECK(dmrp_entry_v1.descriptor(4)->id == std::string("sample.unmakeable"));
-  CHECK(dmrp_entry_v1.descriptor(5) == nullptr);
+  CHECK(dmrp_entry_v1.descriptor(5)->id == std::string("sample.unmakeable"));
+  CHECK(dmrp_entry_v1.descriptor(6) == nullptr);
   CHECK(dmrp_entry_v1.descriptor(0) == dmrp_entry_v1.descriptor(0));  // static data
 }
 
@@ -67,12 +67,18 @@ TEST_CASE("a descriptor carries all that describe() said") {
         std::vector<std::string>{"dmrp.local_costmap/1", "dmrp.annotate/1"});
   CHECK(controller.value_count == 0);
   CHECK(controller.connectivity == DMRP_CONNECTIVITY_NONE);
-  CHECK(controller.planner_flags == 0);
+  CHECK(controller.flags == (DMRP_FLAG_BACKWARDS | DMRP_FLAG_PROCESSES));
+  CHECK(controller.kinematics == 1u << DMRP_KINEMATICS_HOLONOMIC);
+
+  const dmrp_descriptor& central = descriptor("sample.central");
+  CHECK(central.kind == DMRP_KIND_LOCAL_CONTROLLER);
+  CHECK(central.flags == DMRP_FLAG_CENTRAL);
+  CHECK(central.kinematics == 0);
 
   const dmrp_descriptor& planner = descriptor("sample.planner");
   CHECK(planner.kind == DMRP_KIND_GLOBAL_PLANNER);
   CHECK(planner.connectivity == DMRP_CONNECTIVITY_8);
-  CHECK(planner.planner_flags == DMRP_PLANNER_UNCOORDINATED);
+  CHECK(planner.flags == DMRP_FLAG_UNCOORDINATED);
   CHECK(planner.vendor == std::string());  // never NULL
   CHECK(descriptor("sample.pedestrian").kind == DMRP_KIND_PEDESTRIAN_MODEL);
 
@@ -101,36 +107,41 @@ TEST_CASE("the parameter table has every declaration, in order, with type, defau
   const dmrp_descriptor& d = descriptor("sample.controller");
   std::vector<std::string> keys;
   for (std::uint32_t i = 0; i < d.param_count; ++i)
-    keys.push_back(DMRP_AT(dmrp_param_spec, d.params, d.param_stride, i)->fallback.key);
-  CHECK(keys == std::vector<std::string>{"does", "flag", "integer", "large", "number", "text", "choice", "file",
-                                         "numbers", "texts"});
+    keys.push_back(DMRP_AT(dmrp_param_spec, d.params, d.param_stride, i)->key);
+  CHECK(keys == std::vector<std::string>{"does", "flag", "integer", "large", "small", "number", "whole", "text",
+                                         "choice", "file", "numbers", "texts"});
 
-  CHECK(spec("flag").fallback.type == DMRP_PARAM_BOOL);
-  CHECK(spec("flag").fallback.integer == 1);
+  CHECK(spec("flag").type == DMRP_PARAM_BOOL);
+  CHECK(spec("flag").integer == 1);
   CHECK(spec("flag").doc == std::string("a flag"));
   CHECK(spec("flag").unit == std::string());
-  CHECK(spec("integer").fallback.type == DMRP_PARAM_INT);
-  CHECK(spec("integer").fallback.integer == 7);
+  CHECK(spec("integer").type == DMRP_PARAM_INT);
+  CHECK(spec("integer").integer == 7);
   CHECK(spec("integer").minimum == 1.0);
   CHECK(spec("integer").maximum == 9.0);
   CHECK(spec("integer").unit == std::string("1"));
-  CHECK(spec("large").fallback.integer == std::int64_t{1} << 60);
+  CHECK(spec("large").integer == std::int64_t{1} << 60);
   CHECK(spec("large").minimum == -INFINITY);
   CHECK(spec("large").maximum == INFINITY);
-  CHECK(spec("number").fallback.type == DMRP_PARAM_DOUBLE);
-  CHECK(spec("number").fallback.number == 0.25);
+  CHECK(spec("small").type == DMRP_PARAM_INT);
+  CHECK(spec("small").integer == -3);
+  CHECK(spec("whole").type == DMRP_PARAM_DOUBLE);  // whatever its default is written as
+  CHECK(spec("whole").number == 1.0);
+  CHECK(spec("whole").integer == 0);
+  CHECK(spec("number").type == DMRP_PARAM_DOUBLE);
+  CHECK(spec("number").number == 0.25);
   CHECK(spec("number").maximum == 0.5);
-  CHECK(spec("text").fallback.type == DMRP_PARAM_STRING);
-  CHECK(spec("text").fallback.text == std::string("as it is"));
-  CHECK(spec("choice").fallback.type == DMRP_PARAM_CHOICE);
-  CHECK(spec("choice").fallback.text == std::string("red"));
+  CHECK(spec("text").type == DMRP_PARAM_STRING);
+  CHECK(spec("text").text == std::string("as it is"));
+  CHECK(spec("choice").type == DMRP_PARAM_CHOICE);
+  CHECK(spec("choice").text == std::string("red"));
   CHECK(list(spec("choice").choices, spec("choice").choice_count) == std::vector<std::string>{"red", "green", "blue"});
-  CHECK(spec("file").fallback.type == DMRP_PARAM_PATH);
-  CHECK(spec("numbers").fallback.type == DMRP_PARAM_DOUBLE_ARRAY);
-  REQUIRE(spec("numbers").fallback.count == 2);
-  CHECK(spec("numbers").fallback.numbers[1] == -2.0);
-  CHECK(spec("texts").fallback.type == DMRP_PARAM_STRING_ARRAY);
-  CHECK(list(spec("texts").fallback.texts, spec("texts").fallback.count) == std::vector<std::string>{"a", "b", "c"});
+  CHECK(spec("file").type == DMRP_PARAM_PATH);
+  CHECK(spec("numbers").type == DMRP_PARAM_DOUBLE_ARRAY);
+  REQUIRE(spec("numbers").count == 2);
+  CHECK(spec("numbers").numbers[1] == -2.0);
+  CHECK(spec("texts").type == DMRP_PARAM_STRING_ARRAY);
+  CHECK(list(spec("texts").texts, spec("texts").count) == std::vector<std::string>{"a", "b", "c"});
 }
 
 TEST_CASE("create() brings values of every type into the members, what it leaves out keeps its default") {
@@ -138,7 +149,9 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
   const char* const texts[] = {"x"};
   std::vector<dmrp_param_value> given = {value("flag", DMRP_PARAM_BOOL),
                                          value("integer", DMRP_PARAM_INT),
+                                         value("small", DMRP_PARAM_INT),
                                          value("number", DMRP_PARAM_DOUBLE),
+                                         value("whole", DMRP_PARAM_DOUBLE),
                                          value("text", DMRP_PARAM_STRING),
                                          value("choice", DMRP_PARAM_CHOICE),
                                          value("file", DMRP_PARAM_PATH),
@@ -146,15 +159,17 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
                                          value("texts", DMRP_PARAM_STRING_ARRAY)};
   given[0].integer = 0;
   given[1].integer = 3;
-  given[2].number = 0.125;
+  given[2].integer = std::numeric_limits<int>::min();
+  given[3].number = 0.125;
+  given[4].number = 1.5;
   std::string text = "mine";  // destroyed before the plugin reads it
-  given[3].text = text.c_str();
-  given[4].text = "blue";
-  given[5].text = "/data/other.csv";
-  given[6].numbers = numbers;
-  given[6].count = 3;
-  given[7].texts = texts;
-  given[7].count = 1;
+  given[5].text = text.c_str();
+  given[6].text = "blue";
+  given[7].text = "/data/other.csv";
+  given[8].numbers = numbers;
+  given[8].count = 3;
+  given[9].texts = texts;
+  given[9].count = 1;
   const ParamList params(given);
 
   RecordingHost host;
@@ -167,11 +182,35 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
   world.struct_size = sizeof(world);
   world.time_limit_ns = 5;
   world.robot_count = 3;
-  CHECK(plugin.start(plugin.self, &world, 99) == DMRP_OK);
+  const dmrp_start start = {sizeof(start), 2, 99, &world};
+  CHECK(plugin.start(plugin.self, &start) == DMRP_OK);
   const double large = static_cast<double>(std::int64_t{1} << 60);
-  CHECK(seen().numbers == std::vector<double>{0.0, 3.0, large, 0.125, 4.0, 5.0, 6.0, 99.0, 3.0, 1.0});
+  const double smallest = std::numeric_limits<int>::min();
+  CHECK(seen().numbers ==
+        std::vector<double>{0.0, 3.0, large, smallest, 0.125, 1.5, 4.0, 5.0, 6.0, 99.0, 2.0, 3.0, 1.0});
   CHECK(seen().texts == std::vector<std::string>{"mine", "blue", "/data/other.csv", "x"});
   plugin.destroy(plugin.self);
+}
+
+TEST_CASE("a value that does not fit into a Param<int> is refused with its key") {
+  for (const std::int64_t outside : {std::int64_t{1} << 31, -(std::int64_t{1} << 31) - 1}) {
+    std::vector<dmrp_param_value> given = {value("small", DMRP_PARAM_INT)};
+    given[0].integer = outside;
+    const ParamList params(given);
+    RecordingHost host;
+    dmrp_plugin plugin{};
+    plugin.struct_size = sizeof(plugin);
+    CHECK(dmrp_entry_v1.create(&host.c, "sample.controller", params.c(), &plugin) == DMRP_ERROR);
+    CHECK(host.error == "small does not fit into an int");
+    CHECK(plugin.self == nullptr);
+    CHECK(seen().alive == 0);
+  }
+}
+
+TEST_CASE("a parameter that is a text compares with texts on both sides") {
+  const Sample sample("sample.controller", "compare texts");
+  REQUIRE(sample.start() == DMRP_OK);
+  CHECK(seen().numbers == std::vector<double>{1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0});
 }
 
 TEST_CASE("instances are told apart, and destroy() ends them") {
@@ -180,9 +219,8 @@ TEST_CASE("instances are told apart, and destroy() ends them") {
     const Sample first("sample.controller", "nothing");
     const Sample second("sample.controller", "no solution");
     CHECK(seen().alive == 2);
-    dmrp_world world{};
-    CHECK(first.c.start(first.c.self, &world, 1) == DMRP_OK);
-    CHECK(second.c.start(second.c.self, &world, 1) == DMRP_NO_SOLUTION);
+    CHECK(first.start() == DMRP_OK);
+    CHECK(second.start() == DMRP_NO_SOLUTION);
   }
   CHECK(seen().alive == 0);
 }
@@ -197,7 +235,7 @@ TEST_CASE("create() answers what it cannot make with a status and a text") {
   CHECK(create("sample.other") == DMRP_ERROR);
   CHECK(host.error == "no plugin of that id in this library");
 
-  CHECK(dmrp_entry_v1.descriptor(4) != nullptr);  // created before the error
+  CHECK(dmrp_entry_v1.descriptor(5) != nullptr);  // created before the error
   seen().texts = {"throw"};
   CHECK(create("sample.unmakeable") == DMRP_ERROR);
   CHECK(host.error == "thrown on purpose");

@@ -5,6 +5,11 @@
 #include <new>
 #include <stdexcept>
 
+template <>
+struct dmrp::ExtensionId<sample_extension> {
+  static constexpr const char* value = SAMPLE_EXTENSION;
+};
+
 namespace dmrp::test {
 
 Seen& seen() {
@@ -35,32 +40,51 @@ class SampleController final : public dmrp::LocalController {
         .license("MIT")
         .summary("what it does")
         .source("a paper, section 4")
-        .needs("dmrp.lidar/1")
+        .kinematics(1u << DMRP_KINEMATICS_HOLONOMIC)
+        .flags(DMRP_FLAG_BACKWARDS)
+        .flags(DMRP_FLAG_PROCESSES)
+        .needs(DMRP_EXT_LIDAR)
         .uses("dmrp.local_costmap/1")
-        .uses("dmrp.annotate/1");
+        .uses(DMRP_EXT_ANNOTATE);
+  }
+
+  static void load(const dmrp::Host& host) {
+    seen().loaded.push_back("sample.controller from " + host.library_path());
+    leave(seen().load_does);
+  }
+  static void unload() {
+    seen().unloaded.push_back("sample.controller");
+    leave(seen().unload_does);
   }
 
   dmrp::Param<std::string> does = param("does", "nothing");
   dmrp::Param<bool> flag = param("flag", true).doc("a flag");
   dmrp::Param<std::int64_t> integer = param("integer", 7).range(1, 9).unit("1");
   dmrp::Param<std::int64_t> large = param("large", std::int64_t{1} << 60);
+  dmrp::Param<int> small = param("small", -3).range(-5.0, 5.0);
   dmrp::Param<double> number = param("number", 0.25).unit("m").range(0.0, 0.5).doc("a number");
+  dmrp::Param<double> whole = param("whole", 1);
   dmrp::Param<std::string> text = param("text", "as it is");
   dmrp::Param<std::string> choice = param("choice", "red").choices({"red", "green", "blue"});
   dmrp::Param<std::string> file = param("file", "data.csv").path();
   dmrp::Param<std::vector<double>> numbers = param("numbers", std::vector<double>{1.5, -2.0});
   dmrp::Param<std::vector<std::string>> texts = param("texts", std::vector<std::string>{"a", "b", "c"});
 
-  dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
+  dmrp::Status start(const dmrp::Start& start) override {
     // the values of create()
-    seen().numbers = {flag ? 1.0 : 0.0, static_cast<double>(integer), static_cast<double>(large), number};
+    seen().numbers = {
+        flag ? 1.0 : 0.0, static_cast<double>(integer), static_cast<double>(large), 1.0 * small, number, whole};
     seen().numbers.insert(seen().numbers.end(), numbers->begin(), numbers->end());
     seen().texts = {text, choice, file};
     seen().texts.insert(seen().texts.end(), texts->begin(), texts->end());
     // the values of start()
-    seen().numbers.push_back(static_cast<double>(seed));
-    seen().numbers.push_back(static_cast<double>(world.robots().size()));
-    seen().numbers.push_back(this->world()->time_limit_ns == world->time_limit_ns ? 1.0 : 0.0);
+    seen().numbers.push_back(static_cast<double>(start.seed));
+    seen().numbers.push_back(start.robot);
+    seen().numbers.push_back(static_cast<double>(start.world.robots().size()));
+    seen().numbers.push_back(world()->time_limit_ns == start.world->time_limit_ns ? 1.0 : 0.0);
+    if (does == "compare texts") compare_texts();
+    if (does == "ask") ask();
+    if (does == "ask in vain") extension<dmrp_lidar>();
     return leave(does);
   }
 
@@ -71,21 +95,66 @@ class SampleController final : public dmrp::LocalController {
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    seen().numbers = {now.pose.x, now.limits.v_max, now.footprint.radius_m, dmrp::seconds(now.t_ns)};
+    seen().numbers = {now.pose.x, now.limits.v_max, now.footprint.radius_m, dmrp::seconds(now.t_ns), now.goal.pose.x};
     for (const dmrp::Agent& agent : now.agents) seen().numbers.push_back(static_cast<double>(agent.id));
+    for (const dmrp::Polygon& part : dmrp::parts(now.footprint)) seen().numbers.push_back(part.vertices[0].x);
     command.v_x = 0.5;
     command.omega = -0.25;
     if (should_stop()) log(dmrp::LogLevel::warning, "asked to stop");
-    if (*does == "ask") {
-      const auto* asked = extension<int>("dmrp.lidar/1");
-      log(dmrp::LogLevel::debug, asked ? std::to_string(*asked) : "nothing");
-    }
     return leave(does);
+  }
+
+  void trial_end(const dmrp_trial_end& end) override {
+    seen().numbers = {1.0 * end.ending, dmrp::seconds(end.t_ns), 1.0 * end.robot_count};
+    leave(does);
   }
 
   const void* offered_extension(const char* id) override {
     static const int offered = 5;
     return std::string(id) == "sample/1" ? &offered : nullptr;
+  }
+
+ private:
+  void ask() const {
+    const auto* missing = find_extension<dmrp_annotate>();
+    log(dmrp::LogLevel::debug, missing ? "annotations" : "no annotations");
+    log(dmrp::LogLevel::info, "the lidar has " + std::to_string(extension<dmrp_lidar>().struct_size));
+    log(dmrp::LogLevel::info, "the number is " + std::to_string(find_extension<sample_extension>()->number));
+  }
+
+  // Each comparison that a plugin may write, with its result.
+  void compare_texts() const {
+    const std::string red = "red";
+    seen().numbers = {choice == "red" ? 1.0 : 0.0, choice == red ? 1.0 : 0.0,    "red" == choice ? 1.0 : 0.0,
+                      red == choice ? 1.0 : 0.0,   choice == choice ? 1.0 : 0.0, choice == text ? 1.0 : 0.0,
+                      choice != "red" ? 1.0 : 0.0, choice != red ? 1.0 : 0.0,    "red" != choice ? 1.0 : 0.0,
+                      red != choice ? 1.0 : 0.0,   choice != text ? 1.0 : 0.0};
+  }
+};
+
+// Drives every second robot and brakes the others.
+class SampleCentral final : public dmrp::CentralController {
+ public:
+  static dmrp::Descriptor describe() { return dmrp::Descriptor("sample.central", "Sample central", "1.0.0"); }
+  static void load(const dmrp::Host&) { seen().loaded.push_back("sample.central"); }
+  static void unload() { seen().unloaded.push_back("sample.central"); }
+  dmrp::Param<std::string> does = param("does", "nothing");
+
+  void set_path(std::uint32_t robot, dmrp::Path path, std::uint64_t revision) override {
+    seen().numbers = {1.0 * robot, static_cast<double>(revision), path.back().x};
+    leave(does);
+  }
+  dmrp::Status step(dmrp::Fleet& fleet) override {
+    seen().numbers = {};
+    for (std::size_t i = 0; i < fleet.size(); ++i) {
+      const dmrp::Observation now = fleet[i];
+      seen().numbers.push_back(1.0 * now.robot);
+      if (i % 2 == 0)
+        fleet.command(i, {now.pose.x, 0.25, -1.0});
+      else
+        fleet.brake(i);
+    }
+    return leave(does);
   }
 };
 
@@ -127,9 +196,9 @@ class SamplePedestrians final : public dmrp::PedestrianModel {
   static dmrp::Descriptor describe() { return dmrp::Descriptor("sample.pedestrian", "Sample pedestrians", "1.0.0"); }
   dmrp::Param<std::string> does = param("does", "nothing");
 
-  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Vec2* velocities) override {
-    for (std::size_t i = 0; i < crowd.people.size(); ++i)
-      velocities[i] = {static_cast<double>(crowd.people[i].id), static_cast<double>(crowd.robots.size())};
+  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      motions[i].velocity = {static_cast<double>(crowd.people[i].id), static_cast<double>(crowd.robots.size())};
     return leave(does);
   }
 };
@@ -164,7 +233,8 @@ class SampleMetric final : public dmrp::Metric {
     sink.robot("timed", end.robots.size() - 1, dmrp::undefined);
     sink.pedestrian("curved", 12, 1.0);
     sink.curve("curved", 0.5, 2.0);
-    sink.event("plain", 1, 2, {0, 3}, "an event");
+    sink.event({"plain", 1, 2, {dmrp::robot_subject(3), dmrp::person_subject(40)}, "an event"});
+    sink.event({"other", 3, 3, {}, "", {1.0, 2.0}, dmrp::Severity::serious});
     leave(does);
   }
 };
@@ -183,10 +253,11 @@ RecordingHost::RecordingHost() {
     static_cast<RecordingHost*>(host->context)->error = text;
   };
   c.should_stop = [](const dmrp_host* host) { return static_cast<RecordingHost*>(host->context)->stop; };
+  c.library_path = "/plugins/libsample.so";
   c.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
-    static const int offered = 17;
-    static_cast<RecordingHost*>(host->context)->asked_extension = id;
-    return &offered;
+    const auto& offered = static_cast<RecordingHost*>(host->context)->offers;
+    const auto found = offered.find(id);
+    return found == offered.end() ? nullptr : found->second;
   };
 }
 
@@ -212,8 +283,17 @@ Sample::Sample(const char* id, const char* does) {
   if (dmrp_entry_v1.create(&host.c, id, params.c(), &c) != DMRP_OK) throw std::runtime_error(host.error);
 }
 
+std::int32_t Sample::start(std::uint64_t seed, std::int32_t robot) const {
+  dmrp_world world{};
+  world.struct_size = sizeof(world);
+  world.time_limit_ns = 5;
+  world.robot_count = 3;
+  const dmrp_start begin = {sizeof(begin), robot, seed, &world};
+  return c.start(c.self, &begin);
+}
+
 }  // namespace dmrp::test
 
 using namespace dmrp::test;
 
-DMRP_PLUGINS(SampleController, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade)
+DMRP_PLUGINS(SampleController, SampleCentral, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade)

@@ -5,24 +5,34 @@
 #include <dmrp/dmrp.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
-// As exported by a library. Holds sample.controller, sample.planner, sample.pedestrian and sample.metric; their
-// parameter `does` determines their calls: see sample_library.cpp.
+// As exported by a library. Holds sample.controller, sample.central, sample.planner, sample.pedestrian, sample.metric
+// and sample.unmakeable; their parameter `does` determines their calls: see sample_library.cpp.
 extern "C" const dmrp_entry dmrp_entry_v1;
+
+// An extension of the tests' own, which the C++ layer does not know.
+#define SAMPLE_EXTENSION "org.example.number/1"
+struct sample_extension {
+  std::uint32_t struct_size;
+  std::int32_t number;
+};
 
 namespace dmrp::test {
 
-// The arguments that the plugins received.
+// The arguments that the plugins received, and what the static load() and unload() of their classes did.
 struct Seen {
   std::vector<double> numbers;
   std::vector<std::string> texts;
-  int alive = 0;  // instances
+  int alive = 0;  // instances of sample.controller
+  std::vector<std::string> loaded, unloaded;
+  std::string load_does, unload_does;  // as the parameter `does`
 };
 Seen& seen();
 
-// A dmrp_host that stores log lines and errors.
+// A dmrp_host that stores log lines and errors. It offers the extensions that `offers` has.
 class RecordingHost {
  public:
   RecordingHost();
@@ -33,7 +43,7 @@ class RecordingHost {
   std::vector<std::string> log;  // "LEVEL text"
   std::string error;             // the last text of set_error, "" if there was none
   std::int32_t stop = 0;
-  std::string asked_extension;
+  std::map<std::string, const void*> offers;
 };
 
 // Values as a newer host passes them: each in `stride` bytes, more than the plugin knows.
@@ -67,6 +77,7 @@ class Sample {
   const Interface& as() const {
     return *static_cast<const Interface*>(c.interface_);
   }
+  std::int32_t start(std::uint64_t seed = 1, std::int32_t robot = 0) const;
 
   RecordingHost host;
   dmrp_plugin c{};
