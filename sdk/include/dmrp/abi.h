@@ -66,8 +66,10 @@
 // The same for an output array: a pointer to write to.
 #define DMRP_AT_OUT(type, base, stride, index) ((type*)(void*)((char*)(base) + (size_t)(index) * (size_t)(stride)))
 
-// Marks the exported object of a plugin library, whatever visibility it is compiled with.
+// Whatever visibility a plugin library is compiled with: marks its exported object, and the variables of the C++ layer
+// and the toolkit, each library's own (gcc otherwise makes an inline variable one object for the process).
 #define DMRP_EXPORT __attribute__((visibility("default")))
+#define DMRP_LOCAL __attribute__((visibility("hidden")))
 
 #if defined(__cplusplus)
 #define DMRP_STATIC_ASSERT(condition, name) static_assert(condition, #name)

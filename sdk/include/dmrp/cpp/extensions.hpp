@@ -17,32 +17,32 @@ namespace dmrp {
 template <class Extension>
 struct ExtensionId {
   static_assert(sizeof(Extension) == 0, "this extension has no id: specialise dmrp::ExtensionId for it");
-  static constexpr const char* value = "";
+  DMRP_LOCAL static constexpr const char* value = "";
 };
 
 template <>
 struct ExtensionId<dmrp_annotate> {
-  static constexpr const char* value = DMRP_EXT_ANNOTATE;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_ANNOTATE;
 };
 template <>
 struct ExtensionId<dmrp_distance_field> {
-  static constexpr const char* value = DMRP_EXT_DISTANCE_FIELD;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_DISTANCE_FIELD;
 };
 template <>
 struct ExtensionId<dmrp_lidar> {
-  static constexpr const char* value = DMRP_EXT_LIDAR;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_LIDAR;
 };
 template <>
 struct ExtensionId<dmrp_local_costmap> {
-  static constexpr const char* value = DMRP_EXT_LOCAL_COSTMAP;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_LOCAL_COSTMAP;
 };
 template <>
 struct ExtensionId<dmrp_obstacle_clusters> {
-  static constexpr const char* value = DMRP_EXT_OBSTACLE_CLUSTERS;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_OBSTACLE_CLUSTERS;
 };
 template <>
 struct ExtensionId<dmrp_walking_grid> {
-  static constexpr const char* value = DMRP_EXT_WALKING_GRID;
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_WALKING_GRID;
 };
 
 }  // namespace dmrp

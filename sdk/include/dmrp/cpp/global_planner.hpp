@@ -65,7 +65,7 @@ class GlobalPlanner : public Plugin {
  public:
   virtual Status plan(const PlanningProblem& problem, PlanSink& sink) = 0;
 
-  static constexpr std::uint32_t interface_kind = DMRP_KIND_GLOBAL_PLANNER;
+  DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_GLOBAL_PLANNER;
   static constexpr dmrp_global_planner interface_table() { return {sizeof(dmrp_global_planner), 0, &call_plan}; }
 
  private:

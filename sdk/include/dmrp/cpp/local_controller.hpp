@@ -58,7 +58,7 @@ class LocalController : public Plugin {
   virtual void set_path(Path path, std::uint64_t revision) = 0;
   virtual Status step(const Observation& now, Command& command) = 0;
 
-  static constexpr std::uint32_t interface_kind = DMRP_KIND_LOCAL_CONTROLLER;
+  DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_LOCAL_CONTROLLER;
   static constexpr dmrp_local_controller interface_table() {
     return {sizeof(dmrp_local_controller), 0, &call_set_path, &call_step, nullptr};
   }
@@ -115,8 +115,8 @@ class CentralController : public Plugin {
   virtual void set_path(std::uint32_t robot, Path path, std::uint64_t revision) = 0;
   virtual Status step(Fleet& fleet) = 0;
 
-  static constexpr std::uint32_t interface_kind = DMRP_KIND_LOCAL_CONTROLLER;
-  static constexpr std::uint32_t interface_flags = DMRP_FLAG_CENTRAL;
+  DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_LOCAL_CONTROLLER;
+  DMRP_LOCAL static constexpr std::uint32_t interface_flags = DMRP_FLAG_CENTRAL;
   static constexpr dmrp_local_controller interface_table() {
     return {sizeof(dmrp_local_controller), 0, &call_set_path, nullptr, &call_step_all};
   }

@@ -140,7 +140,7 @@ class Metric : public Plugin {
   virtual void observe(const Sample& sample) = 0;
   virtual void finish(const TrialEnd& end, MetricSink& sink) = 0;
 
-  static constexpr std::uint32_t interface_kind = DMRP_KIND_METRIC;
+  DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_METRIC;
   static constexpr dmrp_metric interface_table() {
     return {sizeof(dmrp_metric), 0, &call_begin, &call_observe, &call_finish};
   }

@@ -41,7 +41,7 @@ class PedestrianModel : public Plugin {
   // Writes the motion of crowd.people[i] to motions[i].
   virtual Status step(const Crowd& crowd, Motions& motions) = 0;
 
-  static constexpr std::uint32_t interface_kind = DMRP_KIND_PEDESTRIAN_MODEL;
+  DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_PEDESTRIAN_MODEL;
   static constexpr dmrp_pedestrian_model interface_table() { return {sizeof(dmrp_pedestrian_model), 0, &call_step}; }
 
  private:

@@ -114,7 +114,7 @@ class Plugin {
   virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
 
   // Of a base class: what it adds to the descriptor's flags.
-  static constexpr std::uint32_t interface_flags = 0;
+  DMRP_LOCAL static constexpr std::uint32_t interface_flags = 0;
 
  protected:
   ParamBuilder<bool> param(const char* key, bool value) { return {parameters_, key, value}; }

@@ -8,7 +8,7 @@
 
 namespace dmrp::toolkit {
 
-inline constexpr double pi = 3.14159265358979323846;
+DMRP_LOCAL inline constexpr double pi = 3.14159265358979323846;
 
 // The same direction in (-pi, pi]. NaN and infinities give NaN.
 inline double wrap(double angle) {

@@ -15,6 +15,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "../abi.h"
+
 namespace dmrp::toolkit {
 
 // Keeps its buffers: no allocation after the first call on the largest grid.
@@ -47,9 +49,10 @@ class DistanceTransform {
   }
 
  private:
-  static constexpr std::int32_t far = 40000;  // more than any distance along a column, its square within int32
+  // More than any distance along a column, its square within int32.
+  DMRP_LOCAL static constexpr std::int32_t far = 40000;
 
-  static constexpr std::int64_t most_tabled = 1 << 16;
+  DMRP_LOCAL static constexpr std::int64_t most_tabled = 1 << 16;
 
   void reserve() {
     distances_m_.resize(width_ * height_);

@@ -26,10 +26,10 @@ constexpr bool operator!=(Cell a, Cell b) {
 }
 
 // Directions have the numbers of the bits of an edge mask, counter-clockwise from +x: E, NE, N, NW, W, SW, S, SE.
-inline constexpr int direction_count = 8;
-inline constexpr std::array<std::int32_t, 8> direction_dx = {1, 1, 0, -1, -1, -1, 0, 1};
-inline constexpr std::array<std::int32_t, 8> direction_dy = {0, 1, 1, 1, 0, -1, -1, -1};
-inline constexpr std::array<double, 8> direction_length = {
+DMRP_LOCAL inline constexpr int direction_count = 8;
+DMRP_LOCAL inline constexpr std::array<std::int32_t, 8> direction_dx = {1, 1, 0, -1, -1, -1, 0, 1};
+DMRP_LOCAL inline constexpr std::array<std::int32_t, 8> direction_dy = {0, 1, 1, 1, 0, -1, -1, -1};
+DMRP_LOCAL inline constexpr std::array<double, 8> direction_length = {
     1.0, 1.4142135623730951, 1.0, 1.4142135623730951, 1.0, 1.4142135623730951, 1.0, 1.4142135623730951};  // in cells
 
 constexpr bool is_diagonal(int direction) {
@@ -49,7 +49,7 @@ constexpr int direction_of(std::int32_t dx, std::int32_t dy) {
 }
 
 // An index that no cell of any grid has.
-inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
+DMRP_LOCAL inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
 
 // A cheap view. The grid's arrays must outlive it; the struct dmrp_grid need not.
 // An index passed to a function must be that of a cell in the grid.

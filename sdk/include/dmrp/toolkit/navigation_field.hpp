@@ -58,7 +58,7 @@ class NavigationField {
     compute(grid, std::vector<Rectangle>{target}, cost);
   }
 
-  static constexpr double unreachable = std::numeric_limits<double>::infinity();
+  DMRP_LOCAL static constexpr double unreachable = std::numeric_limits<double>::infinity();
 
   const GridView& grid() const { return grid_; }
 

@@ -22,7 +22,7 @@ struct Ray {
   dmrp_vec2 direction = {1.0, 0.0};  // of length 1
 };
 
-inline constexpr double ray_misses = std::numeric_limits<double>::infinity();
+DMRP_LOCAL inline constexpr double ray_misses = std::numeric_limits<double>::infinity();
 
 inline double ray_to_circle(const Ray& ray, dmrp_vec2 center, double radius_m) {
   const dmrp_vec2 to_center = center - ray.origin;
