@@ -14,6 +14,7 @@
 #include <dlfcn.h>
 #include <dmrp/dmrp.h>
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -27,7 +28,8 @@
 namespace dmrp::test {
 
 // The dmrp_host of one instance. Hooks may be set at any time; without one, should_stop says no and there are no
-// extensions. Never moves: the plugin keeps its address.
+// extensions. As a host does, it gives only those that the descriptor declares. Never moves: the plugin keeps its
+// address.
 class FakeHost {
  public:
   struct LogLine {
@@ -40,11 +42,14 @@ class FakeHost {
   std::function<const void*(const std::string& id)> get_extension;
   std::map<std::string, const void*> extensions;  // looked up where there is no hook
 
-  FakeHost() {
+  // `descriptor`: of the instance's plugin; nullptr for the host of a library, which gives no extensions.
+  explicit FakeHost(const dmrp_descriptor* descriptor = nullptr) : descriptor_(descriptor) {
     c_.struct_size = sizeof(c_);
+    c_.abi_minor = DMRP_ABI_MINOR;
     c_.context = this;
     c_.name = "fake-host";
     c_.version = "0.0.0";
+    c_.library_path = DMRP_PLUGIN_DIR "/";
     c_.log = [](const dmrp_host* host, int32_t level, const char* text) { of(host).log.push_back({level, text}); };
     c_.set_error = [](const dmrp_host* host, const char* text) { of(host).errors.push_back(text); };
     c_.should_stop = [](const dmrp_host* host) -> int32_t {
@@ -52,6 +57,7 @@ class FakeHost {
     };
     c_.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
       FakeHost& fake = of(host);
+      if (!fake.declares(id)) return nullptr;
       if (fake.get_extension) return fake.get_extension(id);
       const auto found = fake.extensions.find(id);
       return found == fake.extensions.end() ? nullptr : found->second;
@@ -64,6 +70,15 @@ class FakeHost {
 
  private:
   static FakeHost& of(const dmrp_host* host) { return *static_cast<FakeHost*>(host->context); }
+
+  bool declares(const std::string& id) const {
+    if (!descriptor_) return false;
+    const dmrp_descriptor& d = *descriptor_;
+    return std::find(d.requires_, d.requires_ + d.requires_count, id) != d.requires_ + d.requires_count ||
+           std::find(d.uses, d.uses + d.uses_count, id) != d.uses + d.uses_count;
+  }
+
+  const dmrp_descriptor* descriptor_;
   dmrp_host c_{};
 };
 
@@ -114,8 +129,11 @@ using ParamOverrides = std::map<std::string, ParamOverride>;
 class ParamTable {
  public:
   ParamTable(const dmrp_descriptor& descriptor, ParamOverrides overrides) : overrides_(std::move(overrides)) {
-    for (uint32_t i = 0; i < descriptor.param_count; ++i)
-      values_.push_back(DMRP_AT(dmrp_param_spec, descriptor.params, descriptor.param_stride, i)->fallback);
+    for (uint32_t i = 0; i < descriptor.param_count; ++i) {
+      const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor.params, descriptor.param_stride, i);
+      values_.push_back(
+          {spec.key, spec.type, spec.count, spec.integer, spec.number, spec.text, spec.numbers, spec.texts});
+    }
     for (const auto& [key, value] : overrides_) set(key, value);
     c_.struct_size = sizeof(c_);
     c_.count = static_cast<uint32_t>(values_.size());
@@ -171,7 +189,7 @@ class PluginUnderTest {
  public:
   // `library` as in PluginLibrary::load. Throws std::runtime_error where create() fails.
   PluginUnderTest(const std::string& library, const std::string& id, ParamOverrides overrides = {})
-      : library_(PluginLibrary::load(library)), descriptor_(library_.find(id)) {
+      : library_(PluginLibrary::load(library)), descriptor_(library_.find(id)), host_(descriptor_) {
     if (!descriptor_) throw std::runtime_error(library + " has no plugin " + id);
     const ParamTable params(*descriptor_, std::move(overrides));
     c_.struct_size = sizeof(c_);
@@ -186,8 +204,12 @@ class PluginUnderTest {
   const dmrp_descriptor& descriptor() const { return *descriptor_; }
   dmrp_instance* self() { return c_.self; }
 
-  // The status of the plugin's start(). `world` must outlive the trial.
-  int32_t start(const dmrp_world& world, uint64_t seed = 1) { return c_.start(c_.self, &world, seed); }
+  // The status of the plugin's start(). `world` must outlive the trial. A local controller drives the first robot.
+  int32_t start(const dmrp_world& world, uint64_t seed = 1) {
+    const int32_t robot = descriptor_->kind == DMRP_KIND_LOCAL_CONTROLLER ? 0 : DMRP_NO_ROBOT;
+    const dmrp_start start = {sizeof(start), robot, seed, &world};
+    return c_.start(c_.self, &start);
+  }
 
   // The interface of the plugin's kind: as<dmrp_metric>().finish(plugin.self(), ...).
   template <class Interface>

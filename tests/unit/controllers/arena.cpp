@@ -7,6 +7,8 @@
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 
+#include "tests/unit/controllers/robot_body.hpp"
+
 namespace dmrp::test {
 
 namespace {
@@ -58,8 +60,8 @@ Trip::Trip(const std::string& controller, Course course, ParamOverrides override
     : original_(std::move(course)),
       sensors_(original_.sight),
       plugin_(std::make_unique<PluginUnderTest>("libdmrp_controllers.so", controller, std::move(overrides))) {
-  limits_ = {sizeof(limits_), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
-  footprint_ = {sizeof(footprint_), 0, 0.25, 0.25, nullptr};
+  limits_ = differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  footprint_ = disc_footprint(0.25);
   grid_.struct_size = sizeof(grid_);
   grid_.resolution_m = 1.0;
   if (original_.costmap) sensors_.offer(plugin_->host());
@@ -88,6 +90,7 @@ void Trip::start() {
   goal_.tolerance_speed = 0.1;
   goal_.settle_ns = 500'000'000;
   robot_.name = "robot";
+  robot_.type = "";
   robot_.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
   robot_.goals = &goal_;
   robot_.goal_count = 1;
@@ -105,7 +108,6 @@ void Trip::start() {
   world_.robot_count = 1;
   world_.robot_stride = sizeof(robot_);
   world_.planning_grid = &grid_;
-  world_.walking_grid = &grid_;
   if (plugin_->start(world_) != DMRP_OK) drive_.breaches.push_back("start() failed");
 }
 
@@ -149,7 +151,8 @@ void Trip::send_path() {
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
   const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints_.size()), sizeof(dmrp_waypoint), 0,
                           waypoints_.data()};
-  if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &path, course_.revision) != DMRP_OK)
+  const dmrp_path_update update = {sizeof(update), 0, course_.revision, &path};
+  if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &update) != DMRP_OK)
     drive_.breaches.push_back("set_path() failed");
   waypoints_.shrink_to_fit();
 }
@@ -184,7 +187,7 @@ void Trip::observe() {
   now.pose = pose_;
   now.velocity = velocity_;
   now.applied = applied;
-  now.goal = goal_;
+  now.goal = &goal_;
   now.goal_count = 1;
   const toolkit::PathPlace place =
       toolkit::project(waypoints_, arcs_, toolkit::position(pose_), progress_m, progress_m + 2.0);

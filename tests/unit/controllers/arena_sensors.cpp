@@ -45,18 +45,18 @@ bool same(const Box& a, const Box& b) {
 }  // namespace
 
 ArenaSensors::ArenaSensors(Sight sight) : sight_(sight), rolling_(core::CostmapSettings{}, robot_radius_m) {
-  lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {
-                        return &static_cast<ArenaSensors*>(self->context)->scan_;
+  lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self, std::uint32_t robot) {
+                        return of(self).given(robot, of(self).scan_);
                       }};
-  costmap_extension_ = {sizeof(dmrp_local_costmap), 0, this, [](const dmrp_local_costmap* self) -> const dmrp_costmap* {
-                          return &static_cast<ArenaSensors*>(self->context)->costmap_;
+  costmap_extension_ = {sizeof(dmrp_local_costmap), 0, this, [](const dmrp_local_costmap* self, std::uint32_t robot) {
+                          return of(self).given(robot, of(self).costmap_);
                         }};
-  field_extension_ = {sizeof(dmrp_distance_field), 0, this, [](const dmrp_distance_field* self) -> const dmrp_field* {
-                        return &static_cast<ArenaSensors*>(self->context)->field_;
+  field_extension_ = {sizeof(dmrp_distance_field), 0, this, [](const dmrp_distance_field* self, std::uint32_t robot) {
+                        return of(self).given(robot, of(self).field_);
                       }};
   clusters_extension_ = {sizeof(dmrp_obstacle_clusters), 0, this,
-                         [](const dmrp_obstacle_clusters* self) -> const dmrp_obstacle_cluster_list* {
-                           return &static_cast<ArenaSensors*>(self->context)->clusters_;
+                         [](const dmrp_obstacle_clusters* self, std::uint32_t robot) {
+                           return of(self).given(robot, of(self).clusters_);
                          }};
 }
 
@@ -132,12 +132,13 @@ ArenaNotes::ArenaNotes() {
   extension_.struct_size = sizeof(extension_);
   extension_.context = this;
   extension_.wanted = [](const dmrp_annotate*) -> std::int32_t { return 1; };
-  extension_.trajectory = [](const dmrp_annotate* self, std::uint32_t role, const dmrp_pose* poses, std::uint32_t count,
-                             std::int64_t step_ns) {
-    static_cast<ArenaNotes*>(self->context)->trajectories.push_back({role, step_ns, {poses, poses + count}});
+  extension_.trajectory = [](const dmrp_annotate* self, const dmrp_trajectory* said) {
+    if (said->robot != 0) return;
+    static_cast<ArenaNotes*>(self->context)
+        ->trajectories.push_back({said->role, said->step_ns, {said->poses, said->poses + said->count}});
   };
-  extension_.note = [](const dmrp_annotate* self, const char* text) {
-    static_cast<ArenaNotes*>(self->context)->notes.push_back(text);
+  extension_.note = [](const dmrp_annotate* self, const dmrp_note* said) {
+    if (said->robot == 0) static_cast<ArenaNotes*>(self->context)->notes.push_back(said->text);
   };
 }
 

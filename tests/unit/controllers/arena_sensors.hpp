@@ -54,6 +54,15 @@ class ArenaSensors {
   bool sees(dmrp_vec2 from, dmrp_vec2 to) const { return geometry_->line_of_sight(from, to); }
 
  private:
+  template <class Extension>
+  static const ArenaSensors& of(const Extension* extension) {
+    return *static_cast<const ArenaSensors*>(extension->context);
+  }
+  // The robot's data: there is one robot.
+  template <class Data>
+  static const Data* given(std::uint32_t robot, const Data& data) {
+    return robot == 0 ? &data : nullptr;
+  }
   void see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies);
 
   Sight sight_;

@@ -44,14 +44,16 @@ TEST_CASE("The library describes its controllers") {
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
     CHECK(std::string(descriptor->license) == "MIT");
+    CHECK(descriptor->kinematics == 1u << DMRP_KINEMATICS_DIFFERENTIAL);
+    CHECK(descriptor->flags == (controller.reverses ? DMRP_FLAG_BACKWARDS : 0u));
     for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
       const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);
-      CAPTURE(spec.fallback.key);
+      CAPTURE(spec.key);
       CHECK(std::strlen(spec.doc) > 0);
-      if (spec.fallback.type == DMRP_PARAM_DOUBLE) {
+      if (spec.type == DMRP_PARAM_DOUBLE) {
         CHECK(std::strlen(spec.unit) > 0);
-        CHECK(spec.minimum <= spec.fallback.number);
-        CHECK(spec.fallback.number <= spec.maximum);
+        CHECK(spec.minimum <= spec.number);
+        CHECK(spec.number <= spec.maximum);
       }
     }
   }

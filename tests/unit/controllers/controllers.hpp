@@ -16,7 +16,8 @@ namespace dmrp::test {
 
 struct Controller {
   std::string id;
-  bool evades = true;  // drives around an obstacle on the path; otherwise waits until it leaves
+  bool evades = true;    // drives around an obstacle on the path; otherwise waits until it leaves
+  bool reverses = true;  // may command v < 0 if the limits allow it
   ParamOverrides tuned = tuned_parameters(id);
 };
 
@@ -25,11 +26,11 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 }
 
 inline std::vector<Controller> all_controllers() {
-  return {{"dmrp.controller.pure_pursuit", false},
+  return {{"dmrp.controller.pure_pursuit", false, false},
           {"dmrp.controller.dwa"},
           {"dmrp.controller.teb"},
           {"dmrp.controller.mpc"},
-          {"dmrp.controller.e3mop"}};
+          {"dmrp.controller.e3mop", true, false}};
 }
 
 inline std::vector<Controller> evading_controllers() {

@@ -16,6 +16,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "core/sensors/obstacle_clusters.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 namespace dmrp::test {
 
@@ -37,13 +38,13 @@ class Perception {
     resolution_m_ = random.chance(0.7) ? 0.05 : random.uniform(0.03, 0.12);
     inflation_radius_m_ = inscribed_radius_m + random.uniform(0.0, 0.5);
     cost_scaling_ = random.uniform(1.0, 10.0);
-    costmap_extension_ = {sizeof(costmap_extension_), 0, this, [](const dmrp_local_costmap* self) {
+    costmap_extension_ = {sizeof(costmap_extension_), 0, this, [](const dmrp_local_costmap* self, std::uint32_t) {
                             return &static_cast<const Perception*>(self->context)->costmap_;
                           }};
-    field_extension_ = {sizeof(field_extension_), 0, this, [](const dmrp_distance_field* self) {
+    field_extension_ = {sizeof(field_extension_), 0, this, [](const dmrp_distance_field* self, std::uint32_t) {
                           return &static_cast<const Perception*>(self->context)->field_;
                         }};
-    clusters_extension_ = {sizeof(clusters_extension_), 0, this, [](const dmrp_obstacle_clusters* self) {
+    clusters_extension_ = {sizeof(clusters_extension_), 0, this, [](const dmrp_obstacle_clusters* self, std::uint32_t) {
                              return &static_cast<const Perception*>(self->context)->list_;
                            }};
   }
@@ -122,16 +123,19 @@ dmrp_limits random_limits(Stream& random) {
                         0.0,
                         random.uniform(0.2, 3.0),
                         random.uniform(0.2, 4.0),
-                        random.uniform(0.2, 6.0)};
+                        random.uniform(0.2, 6.0),
+                        0.0,
+                        0.0,
+                        0.0};
   if (random.chance(0.4)) limits.v_min = -random.uniform(0.05, limits.v_max);
   return limits;
 }
 
 // A disc, or a convex polygon that contains the origin: points of an ellipse with another centre.
-dmrp_footprint random_footprint(Stream& random, std::vector<dmrp_vec2>& vertices) {
+dmrp_footprint random_footprint(Stream& random, std::vector<dmrp_vec2>& vertices, std::vector<dmrp_polygon>& parts) {
   vertices.clear();
   const double radius_m = random.uniform(0.1, 0.5);
-  if (random.chance(0.5)) return {sizeof(dmrp_footprint), 0, radius_m, radius_m, nullptr};
+  if (random.chance(0.5)) return disc_footprint(radius_m);
   const auto count = 3 + random.below(6);
   const dmrp_vec2 center = {random.uniform(-0.2, 0.2) * radius_m, 0.0};
   const double slim = random.uniform(0.5, 1.0);
@@ -147,7 +151,8 @@ dmrp_footprint random_footprint(Stream& random, std::vector<dmrp_vec2>& vertices
     const dmrp_vec2 side = vertices[(i + 1) % vertices.size()] - vertices[i];
     inscribed_m = std::min(inscribed_m, toolkit::cross(vertices[i], side) / toolkit::norm(side));
   }
-  return {sizeof(dmrp_footprint), static_cast<std::uint32_t>(vertices.size()), reach_m, inscribed_m, vertices.data()};
+  parts = {polygon_of(vertices)};
+  return polygon_footprint(parts, reach_m, inscribed_m);
 }
 
 dmrp_vec2 somewhere_near(Stream& random, dmrp_vec2 at, double reach_m) {
@@ -189,7 +194,8 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
   };
   const dmrp_limits limits = random_limits(random);
   std::vector<dmrp_vec2> vertices;
-  const dmrp_footprint footprint = random_footprint(random, vertices);
+  std::vector<dmrp_polygon> parts;
+  const dmrp_footprint footprint = random_footprint(random, vertices, parts);
   Perception perception(random, footprint.inscribed_radius_m);
   perception.offer(plugin.host());
   const std::int64_t dt_ns = random.chance(0.5) ? 100'000'000 : 20'000'000 * (1 + std::int64_t(random.below(20)));
@@ -211,6 +217,7 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
   dmrp_goal goal = {pose, 0.2, 0.2, 0.1, 500'000'000};
   dmrp_robot robot{};
   robot.name = "robot";
+  robot.type = "";
   robot.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
   robot.goals = &goal;
   robot.goal_count = 1;
@@ -232,7 +239,6 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
   world.robot_count = 1;
   world.robot_stride = sizeof(robot);
   world.planning_grid = &grid;
-  world.walking_grid = &grid;
   demand(-1, plugin.start(world, seed) == DMRP_OK, "start() failed");
 
   const auto& controller = plugin.as<dmrp_local_controller>();
@@ -251,7 +257,8 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
       now.goal_index = 0;
       const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
                               waypoints.data()};
-      demand(step, controller.set_path(plugin.self(), &path, ++revision) == DMRP_OK, "set_path() failed");
+      const dmrp_path_update update = {sizeof(update), 0, ++revision, &path};
+      demand(step, controller.set_path(plugin.self(), &update) == DMRP_OK, "set_path() failed");
     }
     if (now.goal_index < waypoints.back().goal_index && random.chance(0.03)) ++now.goal_index;
     for (dmrp_agent& agent : agents) {
@@ -272,7 +279,7 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
           static_cast<std::uint32_t>(random.chance(0.5) ? waypoints.size() - 1 : random.below(waypoints.size()));
     now.released_waypoint = std::min(now.released_waypoint, static_cast<std::uint32_t>(waypoints.size() - 1));
     now.pose = pose;
-    now.goal = goal;
+    now.goal = &goal;
     now.goal_count = waypoints.back().goal_index + 1;
     now.limits = &limits;
     now.footprint = &footprint;

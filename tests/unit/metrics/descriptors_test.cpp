@@ -23,7 +23,7 @@ const dmrp_metric_value_spec& value_of(const dmrp_descriptor& descriptor, std::u
 const dmrp_param_spec* parameter_of(const dmrp_descriptor& descriptor, const std::string& key) {
   for (std::uint32_t i = 0; i < descriptor.param_count; ++i) {
     const auto* spec = DMRP_AT(dmrp_param_spec, descriptor.params, descriptor.param_stride, i);
-    if (key == spec->fallback.key) return spec;
+    if (key == spec->key) return spec;
   }
   return nullptr;
 }
@@ -220,8 +220,8 @@ TEST_CASE("the paper's parameter set equals the defaults, the released code's ha
     INFO(name);
     const dmrp_descriptor& descriptor = *PluginLibrary::load("libdmrp_metrics.so").find("dmrp.metric." + name);
     for (const auto& [key, value] : read_parameters("paper/" + name + ".toml", descriptor)) {
-      const dmrp_param_value& fallback = parameter_of(descriptor, key)->fallback;
-      CHECK(value == (fallback.type == DMRP_PARAM_INT ? static_cast<double>(fallback.integer) : fallback.number));
+      const dmrp_param_spec& spec = *parameter_of(descriptor, key);
+      CHECK(value == (spec.type == DMRP_PARAM_INT ? static_cast<double>(spec.integer) : spec.number));
     }
     CHECK(read_parameters("paper/" + name + ".toml", descriptor).size() == parameters.size());
     CHECK(read_parameters("released_code/" + name + ".toml", descriptor) == parameters);

@@ -24,6 +24,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/unit/given_walking_grid.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
@@ -240,10 +241,9 @@ class SyntheticTrial {
     world.step_ns = 20'000'000;
     world.control_period_ns = 100'000'000;
     world.planning_grid = &planning_grid_;
-    world.walking_grid = walking_grid_.get();
-    world.self = -1;
     return world;
   }
+  const dmrp_grid& walking_grid() const { return *walking_grid_; }
   std::size_t robot_count() const { return robots_.size(); }
   const dmrp_plan* first_plan() const { return plans_.empty() ? nullptr : &plans_.front().c; }
 
@@ -336,16 +336,11 @@ class CheckingSink {
       : descriptor_(descriptor), robot_count_(robot_count), into_(into) {
     c_.struct_size = sizeof(c_);
     c_.context = this;
-    c_.value = [](dmrp_metric_sink* sink, const char* name, std::uint32_t kind, std::uint64_t subject,
-                  double coordinate, double value) -> std::int32_t {
-      return of(sink).take_value(name, kind, subject, coordinate, value) ? DMRP_OK : DMRP_ERROR;
+    c_.value = [](dmrp_metric_sink* sink, const dmrp_metric_result* result) -> std::int32_t {
+      return of(sink).take_value(*result) ? DMRP_OK : DMRP_ERROR;
     };
-    c_.event = [](dmrp_metric_sink* sink, const char* name, std::int64_t from_ns, std::int64_t to_ns,
-                  const std::uint32_t* robots, std::uint32_t count, const char* text) -> std::int32_t {
-      if (!of(sink).specification(name) || to_ns < from_ns) return DMRP_ERROR;
-      of(sink).into_.events.push_back({name, static_cast<double>(from_ns) / 1e9, static_cast<double>(to_ns) / 1e9,
-                                       std::vector<std::uint32_t>(robots, robots + count), text});
-      return DMRP_OK;
+    c_.event = [](dmrp_metric_sink* sink, const dmrp_event* event) -> std::int32_t {
+      return of(sink).take_event(*event) ? DMRP_OK : DMRP_ERROR;
     };
   }
   dmrp_metric_sink* c() { return &c_; }
@@ -361,7 +356,8 @@ class CheckingSink {
     return nullptr;
   }
 
-  bool take_value(const char* name, std::uint32_t kind, std::uint64_t subject, double coordinate, double value) {
+  bool take_value(const dmrp_metric_result& result) {
+    const auto& [struct_size, kind, name, subject, coordinate, value] = result;
     const dmrp_metric_value_spec* spec = specification(name);
     if (!spec || (spec->subjects & 1u << kind) == 0 || std::isinf(value)) return false;
     if (kind == DMRP_SUBJECT_ROBOT && subject >= robot_count_) return false;
@@ -370,6 +366,20 @@ class CheckingSink {
       return spec->curve && !std::isinf(coordinate) && into_.curves[name].emplace(coordinate, value).second;
     }
     return into_.values.emplace(Measurement::Key{name, kind, kind == DMRP_SUBJECT_SYSTEM ? 0 : subject}, value).second;
+  }
+
+  // The events of these metrics are about robots.
+  bool take_event(const dmrp_event& event) {
+    if (!specification(event.name) || event.to_ns < event.from_ns) return false;
+    std::vector<std::uint32_t> robots;
+    for (std::uint32_t i = 0; i < event.subject_count; ++i) {
+      const auto* subject = DMRP_AT(dmrp_subject, event.subjects, event.subject_stride, i);
+      if (subject->kind != DMRP_SUBJECT_ROBOT || subject->id >= robot_count_) return false;
+      robots.push_back(static_cast<std::uint32_t>(subject->id));
+    }
+    into_.events.push_back({event.name, static_cast<double>(event.from_ns) / 1e9,
+                            static_cast<double>(event.to_ns) / 1e9, robots, event.text});
+    return true;
   }
 
   const dmrp_descriptor& descriptor_;
@@ -387,6 +397,8 @@ inline Measurement measure_once(PluginUnderTest& plugin, const SyntheticTrial& t
   const dmrp_metric_trial beginning = {sizeof(dmrp_metric_trial), 0, trial.first_plan()};
   const dmrp_trial_end end = trial.trial_end();
   CheckingSink sink(plugin.descriptor(), trial.robot_count(), measurement);
+  const GivenWalkingGrid walking_grid(trial.walking_grid());
+  walking_grid.offer(plugin.host());
 
   ok(plugin.start(world));
   ok(metric.begin(plugin.self(), &beginning));

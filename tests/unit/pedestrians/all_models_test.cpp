@@ -32,6 +32,15 @@ std::vector<dmrp_person> packed_people(const WalkingWorld& world, double people_
 
 }  // namespace
 
+TEST_CASE("models walk on a grid of 0.25 m for the scenario's largest person") {
+  const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
+  CAPTURE(model);
+  const WalkingWorld world({4.0, 4.0}, {});
+  const Walk walk(world, "dmrp.pedestrian." + model);
+  CHECK(walk.asked_grid().resolution_m == 0.25);
+  CHECK(walk.asked_grid().radius_m == world.c().person_radius_m);
+}
+
 TEST_CASE("a lone person walks at the desired speed and stops at the target") {
   const std::string model = GENERATE("orca", "collision_free_speed");  // social force relaxes toward both
   CAPTURE(model);

@@ -16,6 +16,12 @@ namespace {
 
 constexpr double walking_radius_m = 0.3;
 
+// As in a later version of the contract: models must use the stride.
+struct LongerMotion {
+  dmrp_motion motion;
+  double later_field;
+};
+
 void add_outline(const Box& box, std::vector<dmrp_segment>& segments) {
   const dmrp_vec2 corners[] = {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
   for (int i = 0; i < 4; ++i) segments.push_back({corners[i], corners[(i + 1) % 4]});
@@ -46,9 +52,8 @@ WalkingWorld::WalkingWorld(dmrp_vec2 size, std::vector<Box> boxes, double cell_m
   world_.control_period_ns = 100'000'000;
   world_.segments = segments_.data();
   world_.segment_count = static_cast<uint32_t>(segments_.size());
-  world_.self = -1;
+  world_.person_radius_m = walking_radius_m;
   world_.planning_grid = &grid_;
-  world_.walking_grid = &grid_;
 }
 
 double WalkingWorld::clearance(dmrp_vec2 point) const {
@@ -157,6 +162,8 @@ Walk::Walk(const WalkingWorld& world, const std::string& model, ParamOverrides p
 void Walk::restart(const WalkingWorld& world, uint64_t seed) {
   world_ = &world;
   step_ = 0;
+  walking_grid_ = std::make_unique<GivenWalkingGrid>(world.walking_grid());
+  walking_grid_->offer(model_.host());
   REQUIRE(model_.start(world.c(), seed) == DMRP_OK);
 }
 
@@ -173,8 +180,14 @@ void Walk::step() {
   crowd.robot_stride = sizeof(dmrp_agent);
 
   const double unwritten = std::numeric_limits<double>::quiet_NaN();
-  velocities.assign(people.size(), {unwritten, unwritten});
-  REQUIRE(model_.as<dmrp_pedestrian_model>().step(model_.self(), &crowd, velocities.data()) == DMRP_OK);
+  std::vector<LongerMotion> answer(people.size(), {{{unwritten, unwritten}}, unwritten});
+  dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(LongerMotion), 0, &answer.data()->motion};
+  REQUIRE(model_.as<dmrp_pedestrian_model>().step(model_.self(), &crowd, &motions) == DMRP_OK);
+  velocities.clear();
+  for (const LongerMotion& each : answer) {
+    REQUIRE(std::isnan(each.later_field));
+    velocities.push_back(each.motion.velocity);
+  }
   for (const dmrp_vec2 velocity : velocities)
     if (!(toolkit::norm(velocity) <= 5.0)) FAIL("a velocity of " << velocity.x << ", " << velocity.y);
 

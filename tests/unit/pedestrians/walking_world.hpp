@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <dmrp/toolkit/random.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "tests/unit/given_walking_grid.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
@@ -27,6 +29,7 @@ class WalkingWorld {
   WalkingWorld& operator=(const WalkingWorld&) = delete;
 
   const dmrp_world& c() const { return world_; }
+  const dmrp_grid& walking_grid() const { return grid_; }
   double clearance(dmrp_vec2 point) const;  // to the nearest box or border; 0 or less outside
 
  private:
@@ -71,6 +74,7 @@ class Walk {
   std::vector<dmrp_person> people;
   std::vector<dmrp_agent> robots;
   std::vector<dmrp_vec2> velocities;  // the model's last answer
+  const dmrp_walking_grid_request& asked_grid() const { return walking_grid_->asked; }
   double t_s() const { return static_cast<double>(step_) * step_s; }
 
   // One step. Robots move at their velocities. Fails the test if a velocity is not finite or above 5 m/s.
@@ -91,6 +95,7 @@ class Walk {
   void keep_solid();
 
   const WalkingWorld* world_;
+  std::unique_ptr<GivenWalkingGrid> walking_grid_;
   PluginUnderTest model_;
   int64_t step_ = 0;
 };

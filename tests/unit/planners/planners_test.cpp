@@ -67,13 +67,13 @@ TEST_CASE("the library describes its planners") {
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
     CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
-    CHECK(descriptor->planner_flags == 0);
+    CHECK(descriptor->flags == 0);
   }
   const dmrp_descriptor* descriptor = plugins.find(individual);
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
   CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
-  CHECK(descriptor->planner_flags == DMRP_PLANNER_UNCOORDINATED);
+  CHECK(descriptor->flags == DMRP_FLAG_UNCOORDINATED);
 }
 
 TEST_CASE("random small problems: CBS finds the joint optimum, individual each robot's own") {

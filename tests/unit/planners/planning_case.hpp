@@ -133,8 +133,7 @@ class CProblem {
     problem_.grid = &grid_;
 
     world_.struct_size = sizeof(world_);
-    world_.planning_grid = world_.walking_grid = &grid_;
-    world_.self = -1;
+    world_.planning_grid = &grid_;
   }
   CProblem(const CProblem&) = delete;
   CProblem& operator=(const CProblem&) = delete;
@@ -190,15 +189,16 @@ inline Plan run_planner(PluginUnderTest& planner, const PlanningCase& c, uint64_
   dmrp_plan_sink sink{};
   sink.struct_size = sizeof(sink);
   sink.context = &plan;
-  sink.path = [](dmrp_plan_sink* to, uint32_t robot, const dmrp_waypoint* waypoints, uint32_t count,
-                 uint32_t stride) -> int32_t {
+  sink.path = [](dmrp_plan_sink* to, uint32_t robot, const dmrp_path* path) -> int32_t {
     auto& paths = static_cast<Plan*>(to->context)->paths;
     if (robot >= paths.size() || !paths[robot].empty()) return DMRP_ERROR;
-    for (uint32_t i = 0; i < count; ++i) paths[robot].push_back(*DMRP_AT(dmrp_waypoint, waypoints, stride, i));
+    for (uint32_t i = 0; i < path->count; ++i)
+      paths[robot].push_back(*DMRP_AT(dmrp_waypoint, path->waypoints, path->stride, i));
     return DMRP_OK;
   };
-  sink.statistic = [](dmrp_plan_sink* to, const char* name, double value) {
+  sink.statistic = [](dmrp_plan_sink* to, const char* name, double value) -> int32_t {
     static_cast<Plan*>(to->context)->statistics[name] = value;
+    return DMRP_OK;
   };
   if (planner.start(problem.world(), seed) != DMRP_OK) throw std::runtime_error("start() failed");
   plan.status = planner.as<dmrp_global_planner>().plan(planner.self(), &problem.problem(), &sink);

@@ -8,6 +8,7 @@
 
 #include "controllers/dwa/critics.hpp"
 #include "tests/unit/controllers/fake_costmap.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::dwa;
@@ -15,14 +16,17 @@ using dmrp::test::FakeCostmap;
 
 namespace {
 
-const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
+const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const dmrp_goal goal{};
 
 dmrp_observation moving(const dmrp_limits& limits, double v, double omega) {
   dmrp_observation c{};
   c.struct_size = sizeof(c);
   c.dt_ns = 100'000'000;
   c.velocity = {v, 0.0, omega};
+  c.goal = &goal;
   c.limits = &limits;
   c.footprint = &disc;
   c.agent_stride = sizeof(dmrp_agent);
@@ -98,7 +102,7 @@ TEST_CASE("Samples cover the range and include zero if it lies inside") {
 }
 
 TEST_CASE("The window contains the velocities that the accelerations allow, within the limits") {
-  const dmrp_limits limits = {sizeof(limits), 0, 0.0, 0.8, 0.0, 1.0, 0.5, 2.0};
+  const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 0.5, 2.0);
   VelocityWindow window;
   window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 0.1, 0.8, 3, 4);
   CHECK(window.v.front() == Approx(0.35));
@@ -284,7 +288,7 @@ TEST_CASE("An arc into an obstacle is rejected, and a fast arc keeps a larger cl
 
 TEST_CASE("The choice equals that of an exhaustive search over the samples") {
   dmrp::toolkit::Stream random(11, "choices");
-  const dmrp_limits limits = {sizeof(limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
+  const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
   int choices = 0;
   int refusals = 0;
   for (int round = 0; round < 200; ++round) {

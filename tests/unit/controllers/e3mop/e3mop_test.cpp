@@ -292,8 +292,10 @@ TEST_CASE("A profile starts at the robot's speed and gives the time of the stop"
 }
 
 TEST_CASE("The tracking controller returns to its path") {
+  const dmrp_goal goal{};
   dmrp_observation c{};
   c.struct_size = sizeof(c);
+  c.goal = &goal;
   c.dt_ns = 100'000'000;
   c.limits = &e3mop_limits;
   c.footprint = &dmrp::test::e3mop_disc;

@@ -14,11 +14,12 @@
 #include "controllers/e3mop/lattice_search.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "host/scenario/read_scenario.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 namespace dmrp::test {
 
-inline const dmrp_limits e3mop_limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
-inline const dmrp_footprint e3mop_disc = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
+inline const dmrp_limits e3mop_limits = differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+inline const dmrp_footprint e3mop_disc = disc_footprint(0.25);
 
 // A window of 6 m at 0.05 m whose lethal cells are those that an obstacle reaches into, with its distance field.
 class Window {

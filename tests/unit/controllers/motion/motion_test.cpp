@@ -14,6 +14,7 @@
 #include "controllers/motion/stop_and_rotate.hpp"
 #include "controllers/motion/unicycle.hpp"
 #include "tests/unit/controllers/fake_costmap.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 using namespace dmrp::controllers;
 using dmrp::test::FakeCostmap;
@@ -25,16 +26,18 @@ const double nan_heading = std::numeric_limits<double>::quiet_NaN();
 
 // An observation that a test fills in.
 struct Now {
-  dmrp_limits limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
-  dmrp_footprint footprint = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
+  dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  dmrp_footprint footprint = dmrp::test::disc_footprint(0.25);
+  dmrp_goal goal{};
   dmrp_observation c{};
 
   Now() {
     c.struct_size = sizeof(c);
     c.dt_ns = 100'000'000;
-    c.goal.pose.theta = nan_heading;
-    c.goal.tolerance_m = 0.2;
-    c.goal.tolerance_rad = 0.2;
+    goal.pose.theta = nan_heading;
+    goal.tolerance_m = 0.2;
+    goal.tolerance_rad = 0.2;
+    c.goal = &goal;
     c.released_waypoint = 1000;
     c.limits = &limits;
     c.footprint = &footprint;
@@ -117,13 +120,13 @@ TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop p
   }
   SECTION("a tour stops at each goal") {
     send(tracker, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 1}, {2, 2, 1}});
-    now.c.goal.pose = {2.0, 0.0, 0.5};
+    now.goal.pose = {2.0, 0.0, 0.5};
     now.c.goal_index = 0;
     tracker.update(now.at(0.0, 0.0));
     CHECK(tracker.end_m() == Approx(2.0));
     CHECK(tracker.stop().is_goal);
     CHECK(tracker.stop().heading == 0.5);
-    now.c.goal.pose = {2.0, 2.0, nan_heading};
+    now.goal.pose = {2.0, 2.0, nan_heading};
     now.c.goal_index = 1;
     tracker.update(now.at(2.0, 0.0));
     CHECK(tracker.end_m() == Approx(4.0));
@@ -131,7 +134,7 @@ TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop p
   }
   SECTION("the last released waypoint is a stop, but no goal") {
     send(tracker, {{0, 0}, {1, 0}, {2, 0}});
-    now.c.goal.pose = {2.0, 0.0, 0.5};
+    now.goal.pose = {2.0, 0.0, 0.5};
     now.c.released_waypoint = 1;
     tracker.update(now.at(0.0, 0.0));
     CHECK(tracker.end_m() == Approx(1.0));
@@ -142,7 +145,7 @@ TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop p
   }
   SECTION("a point ahead lies on the circle") {
     send(tracker, {{0, 0}, {1, 0}, {1, 2}});
-    now.c.goal.pose = {1.0, 2.0, nan_heading};
+    now.goal.pose = {1.0, 2.0, nan_heading};
     tracker.update(now.at(0.4, 0.3));
     const dmrp_vec2 carrot = tracker.point_at_distance({0.4, 0.3}, 1.0);
     CHECK(carrot.x == Approx(1.0));
@@ -150,7 +153,7 @@ TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop p
   }
   SECTION("a single waypoint is a straight way from where the robot is") {
     send(tracker, {{3, 4}});
-    now.c.goal.pose = {3.0, 4.0, nan_heading};
+    now.goal.pose = {3.0, 4.0, nan_heading};
     tracker.update(now.at(0.0, 0.0));
     CHECK(tracker.end_m() == Approx(5.0));
     CHECK(tracker.stop().is_goal);
@@ -212,7 +215,7 @@ TEST_CASE("Footprints on the costmap") {
   const dmrp_costmap c = fake.c();
   const CostmapView map(c);
   SECTION("a disc costs what its centre's cell costs, and grows") {
-    const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
+    const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
     FootprintCheck check(map, disc, 0.0, {1.0, 1.0, 0.0});
     CHECK(check.cost(directed({3.025, 3.225, 0.0})) == in_collision);
     CHECK(check.cost(directed({3.025, 3.325, 0.0})) == map.cost({3.025, 3.325}));
@@ -221,14 +224,27 @@ TEST_CASE("Footprints on the costmap") {
     CHECK(check.cost(directed({3.025, 3.375, 0.0})) > 0);
   }
   SECTION("a long robot fits one way only") {
-    const dmrp_vec2 corners[] = {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}};
-    const dmrp_footprint box = {sizeof(box), 4, std::hypot(0.6, 0.3), 0.3, corners};
+    const std::vector<dmrp_vec2> corners = {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}};
+    const std::vector<dmrp_polygon> parts = {dmrp::test::polygon_of(corners)};
+    const dmrp_footprint box = dmrp::test::polygon_footprint(parts, std::hypot(0.6, 0.3), 0.3);
     FootprintCheck check(map, box, 0.0, {1.0, 1.0, 0.0});
     CHECK(check.cost(directed({3.025, 3.425, 0.0})) >= 0);
     CHECK(check.cost(directed({3.025, 3.625, pi / 2})) == in_collision);
   }
+  SECTION("a robot of two parts collides with each") {
+    // a bar along x, and another one to the left of its front
+    const std::vector<dmrp_vec2> bar = {{-0.3, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.3, 0.3}};
+    const std::vector<dmrp_vec2> arm = {{0.3, 0.3}, {0.6, 0.3}, {0.6, 0.9}, {0.3, 0.9}};
+    const std::vector<dmrp_polygon> parts = {dmrp::test::polygon_of(bar), dmrp::test::polygon_of(arm)};
+    const dmrp_footprint both = dmrp::test::polygon_footprint(parts, std::hypot(0.6, 0.9), 0.3);
+    FootprintCheck check(map, both, 0.0, {1.0, 1.0, 0.0});
+    CHECK(check.cost(directed({2.425, 3.025, 0.0})) == in_collision);  // the obstacle is at the bar's front
+    CHECK(check.cost(directed({2.425, 2.325, 0.0})) == in_collision);  // at the arm's front
+    CHECK(check.cost(directed({2.425, 3.625, 0.0})) >= 0);             // right of the bar
+    CHECK(check.cost(directed({3.025, 2.525, 0.0})) >= 0);             // left of the bar, behind the arm
+  }
   SECTION("who stands too near may leave, and come no nearer") {
-    const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
+    const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
     const FootprintCheck check(map, disc, 0.05, {3.225, 3.025, 0.0});
     CHECK(check.cost(directed({3.225, 3.025, 1.0})) >= 0);
     CHECK(check.arc_cost({3.225, 3.025, 0.0}, 0.2, 0.0, 1.0, 10) >= 0);
@@ -257,8 +273,9 @@ const std::vector<dmrp_vec2> point = {{1.0, 2.0}};
 const std::vector<dmrp_vec2> segment = {{-1.0, 0.5}, {2.0, 0.5}};
 const std::vector<dmrp_vec2> triangle = {{0.0, 0.0}, {2.0, 0.0}, {1.0, 1.5}};
 const std::vector<dmrp_vec2> corners = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.3, -0.2}};
-const dmrp_footprint disc = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
-const dmrp_footprint box = {sizeof(dmrp_footprint), 4, std::hypot(0.3, 0.2), 0.2, corners.data()};
+const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
+const std::vector<dmrp_polygon> box_parts = {dmrp::test::polygon_of(corners)};
+const dmrp_footprint box = dmrp::test::polygon_footprint(box_parts, std::hypot(0.3, 0.2), 0.2);
 
 }  // namespace
 
@@ -282,6 +299,36 @@ TEST_CASE("Distances from a robot to obstacles") {
   CHECK(separation(box, {1.0, -1.0, 0.0}, set.all()[2], 0.0).distance_m == Approx(0.8));
   CHECK(separation(box, {1.0, -1.0, pi / 2}, set.all()[2], 0.0).distance_m == Approx(0.7));
   CHECK(separation(box, {1.0, -0.1, 0.0}, set.all()[2], 0.0).distance_m == Approx(-0.1));
+}
+
+TEST_CASE("The distance of a robot of several parts is that of its nearest part") {
+  Now now;
+  Clusters clusters{{point, segment, triangle}};
+  ObstacleSet set;
+  set.gather(now.at(0.0, 0.0), clusters.c());
+  const std::vector<dmrp_vec2> left = {{0.0, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.0, -0.2}};
+  const std::vector<dmrp_vec2> right = {{0.3, 0.2}, {0.0, 0.2}, {0.0, -0.2}, {0.3, -0.2}};
+  const std::vector<dmrp_polygon> halves = {dmrp::test::polygon_of(left), dmrp::test::polygon_of(right)};
+  const dmrp_footprint halved = dmrp::test::polygon_footprint(halves, std::hypot(0.3, 0.2), 0.2);
+  dmrp::toolkit::Stream random(2, "poses");
+  int apart = 0;
+  for (int i = 0; i < 400; ++i) {
+    const dmrp_pose at = {random.uniform(-2.0, 3.0), random.uniform(-2.0, 3.0), random.uniform(-pi, pi)};
+    for (const Obstacle& obstacle : set.all()) {
+      const Separation whole = separation(box, at, obstacle, 0.0);
+      const Separation parts = separation(halved, at, obstacle, 0.0);
+      // overlaps of the halves are at most as deep as those of the whole
+      if (whole.distance_m <= 0.0) {
+        CHECK(parts.distance_m <= 1e-12);
+        continue;
+      }
+      ++apart;
+      CHECK(parts.distance_m == Approx(whole.distance_m).margin(1e-12));
+      CHECK(parts.gradient.x == Approx(whole.gradient.x).margin(1e-9));
+      CHECK(parts.gradient.y == Approx(whole.gradient.y).margin(1e-9));
+    }
+  }
+  CHECK(apart > 800);
 }
 
 TEST_CASE("The gradient of a distance agrees with finite differences") {
@@ -353,7 +400,7 @@ TEST_CASE("The path ahead ends at its look-ahead, at the window or at the stop")
   CHECK_FALSE(ahead.ends_at_stop());
 
   SECTION("a stop with a heading") {
-    now.c.goal.pose = {3.0, 4.5, 0.3};
+    now.goal.pose = {3.0, 4.5, 0.3};
     send(tracker, {{1.0, 3.0}, {2.0, 3.0}, {3.0, 3.0}, {3.0, 4.5}});
     const dmrp::Observation then = now.at(1.5, 2.9);
     tracker.update(then);
@@ -386,7 +433,7 @@ TEST_CASE("An occupied goal moves back along the path") {
 }
 
 TEST_CASE("Turning back and forth on the spot is detected; driving and turning around are not") {
-  const dmrp_limits limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
+  const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
   OscillationDetector detector;
   detector.reset(20);
   const auto drive = [&](int periods, double v, auto omega_of) {

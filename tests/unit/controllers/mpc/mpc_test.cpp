@@ -12,6 +12,7 @@
 #include "controllers/mpc/initial_guess.hpp"
 #include "controllers/mpc/interior_point.hpp"
 #include "tests/unit/controllers/fake_costmap.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::mpc;
@@ -21,9 +22,10 @@ using dmrp::toolkit::Stream;
 
 namespace {
 
-const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
+const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
 const std::vector<dmrp_vec2> box_corners = {{-0.3, -0.2}, {0.4, -0.2}, {0.4, 0.2}, {-0.3, 0.2}};
-const dmrp_footprint box = {sizeof(box), 4, 0.5, 0.2, box_corners.data()};
+const std::vector<dmrp_polygon> box_parts = {dmrp::test::polygon_of(box_corners)};
+const dmrp_footprint box = dmrp::test::polygon_footprint(box_parts, 0.5, 0.2);
 
 // Obstacles of all kinds, some of them moving.
 struct Surroundings {

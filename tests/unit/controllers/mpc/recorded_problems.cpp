@@ -10,6 +10,7 @@
 #include "controllers/mpc/association.hpp"
 #include "controllers/mpc/initial_guess.hpp"
 #include "controllers/mpc/interior_point.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 namespace dmrp::test {
 
@@ -19,7 +20,7 @@ using toolkit::Stream;
 
 namespace {
 
-const dmrp_footprint disc = {sizeof(disc), 0, 0.25, 0.25, nullptr};
+const dmrp_footprint disc = disc_footprint(0.25);
 constexpr double period_s = 0.1;
 constexpr double look_ahead_m = 2.5;
 constexpr double path_m = 8.0;

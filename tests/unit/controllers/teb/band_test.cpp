@@ -6,6 +6,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "controllers/teb/band_optimizer.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 using namespace dmrp;
 using namespace dmrp::controllers;
@@ -14,11 +15,7 @@ using namespace dmrp::controllers::teb;
 namespace {
 
 dmrp_limits test_limits() {
-  return {sizeof(dmrp_limits), 0, -0.2, 0.8, 0.0, 1.0, 1.0, 1.0};
-}
-
-dmrp_footprint disc(double radius_m) {
-  return {sizeof(dmrp_footprint), 0, radius_m, radius_m, nullptr};
+  return dmrp::test::differential_limits(-0.2, 0.8, 1.0, 1.0, 1.0);
 }
 
 // A band that violates every constraint a little.
@@ -153,8 +150,10 @@ TEST_CASE("TEB: penalties begin a margin inside their bounds, and at zero where 
 TEST_CASE("TEB: the gradient of a band's cost agrees with finite differences, and the ends are fixed") {
   toolkit::Stream random(2, "teb.gradient");
   const dmrp_limits limits = test_limits();
-  const dmrp_vec2 outline[] = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.3, -0.2}};
-  const dmrp_footprint footprints[] = {disc(0.25), {sizeof(dmrp_footprint), 4, 0.37, 0.2, outline}};
+  const std::vector<dmrp_vec2> outline = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.3, -0.2}};
+  const std::vector<dmrp_polygon> parts = {dmrp::test::polygon_of(outline)};
+  const dmrp_footprint footprints[] = {dmrp::test::disc_footprint(0.25),
+                                       dmrp::test::polygon_footprint(parts, 0.37, 0.2)};
   const Surroundings surroundings;
   const std::vector<Vec2> via_points = {{0.6, 0.1}, {1.4, 0.2}};
   for (int round = 0; round < 20; ++round) {
@@ -260,7 +259,7 @@ TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one o
   Parameters tuning;                   // forced within 0.75 m, cut off at 2.5 m
   std::vector<ObstacleLink> links;
   ObstacleLinker linker;
-  linker.link(band, disc(0.2), obstacles, tuning, links);
+  linker.link(band, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
   REQUIRE(links.size() == 5);
   CHECK(links[0].obstacle == 0);  // 0.7 m
   CHECK(links[1].obstacle == 3);  // 0.4 m
@@ -277,7 +276,7 @@ TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one o
 TEST_CASE("TEB: an optimised band is fast, smooth, clear of obstacles and within the limits") {
   dmrp_limits limits = test_limits();
   limits.v_min = 0.0;
-  const dmrp_footprint footprint = disc(0.25);
+  const dmrp_footprint footprint = dmrp::test::disc_footprint(0.25);
   const std::vector<Vec2> at = {{1.5, 0.05}};
   Obstacle post;
   post.vertices = at.data();

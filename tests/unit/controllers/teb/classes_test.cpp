@@ -8,6 +8,7 @@
 #include <set>
 
 #include "controllers/teb/class_planner.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 
 using namespace dmrp;
 using namespace dmrp::controllers;
@@ -65,8 +66,8 @@ double swept_angle(const std::vector<Vec2>& points, Vec2 mark) {
 }
 
 struct Setting {
-  dmrp_limits limits = {sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0};
-  dmrp_footprint footprint = {sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
+  dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  dmrp_footprint footprint = dmrp::test::disc_footprint(0.25);
   std::vector<Vec2> none;
   std::vector<Vec2> path;
   Parameters tuning;

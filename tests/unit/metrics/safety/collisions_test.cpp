@@ -43,6 +43,18 @@ TEST_CASE("a lasting contact is one collision, from its first to its last sample
   CHECK(m.events[1].to_s == 2.0);
 }
 
+TEST_CASE("contacts of a kind that a metric does not know are skipped") {
+  constexpr std::uint32_t unknown = 77;
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)});
+  trial.sample(0.1, {at(0, 0)}).contacts({contact(unknown, 5, 0, begins | fault_a)});
+  trial.end(0.1);
+  const Measurement m = measure("dmrp.metric.collisions", trial);
+  CHECK(m.system("collisions") == 0.0);
+  CHECK(m.events.empty());
+  CHECK(measure("dmrp.metric.success", trial).system("safe_success") == 1.0);
+}
+
 TEST_CASE("collisions count for each robot and once for the system") {
   const std::vector<dmrp_robot_sample> robots = {at(0, 0), at(0, 0), at(0, 0)};
   SyntheticTrial trial(3);

@@ -178,7 +178,7 @@ TEST_CASE("walkers are the people in the order of the grid, with their direction
 TEST_CASE("directions lead straight to visible targets and around obstacles to hidden ones") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
   WayFinder ways;
-  ways.start(*world.c().walking_grid);
+  ways.start(world.walking_grid());
 
   dmrp_person p = dmrp::test::person(1, {2.0, 2.0}, {5.0, 6.0});
   CHECK(ways.direction(0, p).x == Approx(0.6));
@@ -202,7 +202,7 @@ TEST_CASE("directions lead straight to visible targets and around obstacles to h
 TEST_CASE("people without a way to their target walk straight toward it") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 10.0}}});
   WayFinder ways;
-  ways.start(*world.c().walking_grid);
+  ways.start(world.walking_grid());
   const dmrp_vec2 along = ways.direction(0, dmrp::test::person(1, {2.0, 5.0}, {22.0, 2.0}));
   CHECK(along.x == Approx(20.0 / std::sqrt(409.0)));
   CHECK(along.y == Approx(-3.0 / std::sqrt(409.0)));
@@ -211,7 +211,7 @@ TEST_CASE("people without a way to their target walk straight toward it") {
 TEST_CASE("a person pushed out of the free cells finds the way back") {
   const dmrp::test::WalkingWorld world({24.0, 10.0}, {{{10.0, 0.0}, {12.0, 7.0}}});
   WayFinder ways;
-  ways.start(*world.c().walking_grid);
+  ways.start(world.walking_grid());
   CHECK(ways.direction(0, dmrp::test::person(1, {9.95, 3.0}, {22.0, 2.0})).x < 0.0);
 }
 
