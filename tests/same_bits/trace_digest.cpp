@@ -3,16 +3,12 @@
 // metrics read, but for what was measured by a clock. With --records a line for each record in its place, `number kind
 // log_time_ns bytes SHA-256`, so that the diff of two lists shows where two trials part.
 //
-// In the digest: every message of the channel, in the order of the file: its log time, its prefix, its whole body.
-// Set to 0 in it, since two runs of one trial differ there:
-//   plan    planning_ns, the wall time that plan() took
-//   sample  duration_ns of every call of a plugin
-// That is all: no other byte of the channel depends on a clock, on a path or on the version of anything but the trace's
-// format, which the world's record begins with. (Its call_budget_ns is a setting.) Not in the digest: how the messages
-// are spread over compressed chunks, and the channels for people to look at, of which /log names the planning time.
+// In the digest: every message of the channel, in the order of the file: its log time, and its record in the form of
+// canonical_records.hpp, which is the same for all format versions. (The world's call_budget_ns is a setting.) Not in
+// the digest: how the messages are spread over compressed chunks, and the channels for people to look at, of which /log
+// names the planning time.
 //
 // Exit status 1 where a trace is damaged or was cut short.
-#include <dmrp/metric.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -29,14 +25,12 @@
 #include "core/bytes/trace_bytes.hpp"
 #include "core/mcap/mcap_reader.hpp"
 #include "core/trace/trace.hpp"
+#include "tests/same_bits/canonical_records.hpp"
 
 namespace {
 
-using dmrp::core::ByteCursor;
-using dmrp::core::McapMessage;
 using dmrp::core::McapReader;
 using dmrp::core::TraceBytes;
-using dmrp::core::TraceRecordKind;
 
 class Sha256 {
  public:
@@ -67,58 +61,14 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
 };
 
-// The next 8 bytes of `record`, at the cursor's place in it.
-void clear_time(TraceBytes& record, ByteCursor& in) {
-  const std::size_t position = in.position();
-  in.take<std::int64_t>();
-  std::memset(record.data() + position, 0, sizeof(std::int64_t));
-}
-
-// The cursor stands at the beginning of the body in both.
-void clear_planning_time(TraceBytes& record, ByteCursor& in) {
-  in.take<std::int64_t>();   // made at
-  in.take<std::uint64_t>();  // revision
-  in.take<std::int64_t>();   // from
-  in.take<std::int64_t>();   // step duration
-  clear_time(record, in);
-}
-
-void clear_call_durations(TraceBytes& record, ByteCursor& in) {
-  in.take<std::int64_t>();   // t
-  in.take<std::int64_t>();   // dt
-  in.take<std::uint32_t>();  // control tick
-  in.take<std::uint64_t>();  // revision
-  for (const std::size_t element_bytes : {sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_contact)})
-    in.take_bytes(in.take_count(element_bytes) * std::uint64_t{element_bytes});
-  const auto calls = in.take<std::uint32_t>();
-  for (std::uint32_t i = 0; i < calls; ++i) {
-    in.take<std::uint32_t>();  // kind
-    in.take<std::uint32_t>();  // robot
-    in.take<std::int32_t>();   // status
-    clear_time(record, in);
-  }
-  if (!in.at_end()) in.fail("the sample is longer than what is known of it");
-}
-
-// The record of a message without what a clock measured.
-TraceBytes timeless(const McapMessage& message) {
-  TraceBytes record(message.data.begin(), message.data.end());
-  ByteCursor in(message.data);
-  const auto body_bytes = in.take<std::uint32_t>();
-  const auto kind = in.take<TraceRecordKind>();
-  if (body_bytes != in.rest().size()) in.fail("a message that is not one record");
-  if (kind == TraceRecordKind::plan) clear_planning_time(record, in);
-  if (kind == TraceRecordKind::sample) clear_call_durations(record, in);
-  return record;
-}
-
 // On standard output: a line a record, or one for all.
 void print_digest(const char* path, bool each_record) {
   McapReader file(path, dmrp::core::trace_topic);
+  dmrp::test::CanonicalRecords records;
   Sha256 all;
   std::size_t number = 0;
   for (auto message = file.next(); message; message = file.next(), ++number) {
-    const TraceBytes record = timeless(*message);
+    const TraceBytes record = records.next(message->data);
     all.add(&message->log_time_ns, sizeof(message->log_time_ns));
     all.add(record.data(), record.size());
     if (!each_record) continue;

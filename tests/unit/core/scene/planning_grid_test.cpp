@@ -3,12 +3,16 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 
 #include "core/scene/static_geometry.hpp"
+#include "core/scene/world_view.hpp"
+#include "core/trace/trace_reader.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 #include "tests/unit/core/scene/sampled_clearance.hpp"
+#include "tests/unit/core/trace/trace_in_memory.hpp"
 
 using namespace dmrp;
 using namespace dmrp::core;
@@ -90,4 +94,29 @@ TEST_CASE("people's cells are finer and need no margin") {
   // slender people get through where others don't
   CHECK(build_walking_grid(geometry, 0.1).free[0] == 1);
   CHECK(build_walking_grid(geometry, 0.38).free[grid.width + 1] == 0);
+}
+
+TEST_CASE("a grid over a stored world is the grid over its scenario, to the bit") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Scenario scenario = random_scenario(seed, 8.0, 12);
+    scenario.lower = {-1.5, 0.25};
+    const StaticGeometry geometry(scenario);
+    const PlanningGrid planning = build_planning_grid(geometry, 1.0, 0.25, 0.1);
+    const WorldView view(scenario, RobotSettings{}, SimulationSettings{}, geometry, planning, 5);
+    const dmrp::test::TraceInMemory trace(view.world());
+    const TraceReader stored(trace.bytes());
+    const StaticGeometry again(stored.world());
+    for (const double radius_m : {0.0, 0.1, 0.3}) {
+      const PlanningGrid expected = build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
+      const PlanningGrid grid = build_planning_grid(again, walking_resolution_m, radius_m, 0.0);
+      CHECK(grid.width == expected.width);
+      CHECK(grid.height == expected.height);
+      CHECK(grid.origin == expected.origin);
+      CHECK(grid.free == expected.free);
+      CHECK(grid.edges == expected.edges);
+      REQUIRE(grid.clearance.size() == expected.clearance.size());
+      CHECK(std::memcmp(grid.clearance.data(), expected.clearance.data(), expected.clearance.size() * sizeof(float)) ==
+            0);
+    }
+  }
 }

@@ -115,3 +115,19 @@ TEST_CASE("overlaps of discs with rotated boxes and discs agree with FCL") {
   CHECK(overlapping > 100);
   CHECK(overlapping < 900);
 }
+
+TEST_CASE("the geometry of a stored world needs shapes that it knows") {
+  const std::vector<dmrp_vec2> corners = {{1, 1}, {2, 1}, {2, 2}};
+  dmrp_shape shape{"arch", DMRP_SHAPE_POLYGON, 3, {}, 0.0, corners.data(), 2.0};
+  dmrp_world world{};
+  world.struct_size = sizeof(world);
+  world.upper = {4, 4};
+  world.shapes = &shape;
+  world.shape_count = 1;
+  world.shape_stride = sizeof(shape);
+  CHECK(StaticGeometry(world).clearance({3.0, 1.5}) == 1.0);
+  shape.vertex_count = 0;
+  CHECK_THROWS_WITH(StaticGeometry(world), "the shape arch is neither a circle nor a polygon");
+  shape.kind = 99;
+  CHECK_THROWS_AS(StaticGeometry(world), std::invalid_argument);
+}

@@ -2,7 +2,11 @@
 // A small trial with something of everything that a trace holds, and what two of them have in common.
 #pragma once
 
-#include <dmrp/metric.h>
+#include <dmrp/descriptor.h>
+#include <dmrp/sample.h>
+#include <dmrp/status.h>
+#include <dmrp/trial_end.h>
+#include <dmrp/world.h>
 
 #include <array>
 #include <cmath>
@@ -15,19 +19,31 @@
 
 namespace dmrp::test {
 
-// Two robots (a disc and a triangle, one with a tour), a circle and a polygon, both grids. Never moved or copied: the
+// Two robots (a disc and an arrow of two parts, one with a tour), a circle and a polygon, a grid. Never moved or copied: the
 // world points into it.
 struct ExampleWorld {
-  dmrp_limits limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.5};
-  std::array<dmrp_vec2, 3> outline{{{0.3, 0.0}, {-0.2, 0.25}, {-0.2, -0.25}}};
-  dmrp_footprint disc{sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr};
-  dmrp_footprint triangle{sizeof(dmrp_footprint), 3, 0.33, 0.15, outline.data()};
+  dmrp_limits limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.5, 0.0, 0.0, 0.0};
+  dmrp_limits steering_limits{sizeof(dmrp_limits), 0, -0.1, 0.9, 0.0, 1.0, 1.1, 1.6, 0.32, 0.5, 0.7};
+  std::array<dmrp_vec2, 3> front{{{0.3, 0.0}, {-0.2, 0.25}, {-0.2, -0.25}}};
+  std::array<dmrp_vec2, 4> back{{{-0.2, -0.1}, {-0.2, 0.1}, {-0.4, 0.1}, {-0.4, -0.1}}};
+  std::array<dmrp_polygon, 2> parts{{{front.data(), 3, 0}, {back.data(), 4, 0}}};
+  dmrp_footprint disc{sizeof(dmrp_footprint), 0, 0.25, 0.25, nullptr, 0, 0};
+  dmrp_footprint arrow{sizeof(dmrp_footprint), 2, 0.42, 0.15, parts.data(), sizeof(dmrp_polygon), 0};
   std::array<dmrp_goal, 3> goals{{{{5.5, 1.5, std::nan("")}, 0.2, 0.2, 0.1, 500'000'000},
                                   {{1.5, 5.5, 0.5}, 0.2, 0.3, 0.1, 500'000'000},
                                   {{2.5, 2.5, -3.0}, 0.25, 0.2, 0.1, 0}}};
   std::array<dmrp_robot, 2> robots{
-      {{"r0", DMRP_KINEMATICS_DIFFERENTIAL, 1, &goals[0], sizeof(dmrp_goal), 0, &limits, &disc, {0.5, 0.5, 0.0}},
-       {"rö1", DMRP_KINEMATICS_DIFFERENTIAL, 2, &goals[1], sizeof(dmrp_goal), 0, &limits, &triangle, {5.5, 5.5, 3.1}}}};
+      {{"r0", "", DMRP_KINEMATICS_DIFFERENTIAL, 1, &goals[0], sizeof(dmrp_goal), 0, &limits, &disc, {0.5, 0.5, 0.0}},
+       {"rö1",
+        "forklift",
+        DMRP_KINEMATICS_ACKERMANN,
+        2,
+        &goals[1],
+        sizeof(dmrp_goal),
+        0,
+        &steering_limits,
+        &arrow,
+        {5.5, 5.5, 3.1}}}};
   std::array<dmrp_vec2, 4> corners{{{2, 3}, {4, 3}, {4, 4}, {2, 4}}};
   std::array<dmrp_shape, 2> shapes{{{"planter", DMRP_SHAPE_CIRCLE, 0, {3, 1}, 0.4, nullptr, 0.9},
                                     {"shelf", DMRP_SHAPE_POLYGON, 4, {0, 0}, 0, corners.data(), 2.0}}};
@@ -36,12 +52,12 @@ struct ExampleWorld {
   std::array<std::uint8_t, 6> edges{0x01, 0, 0xff, 7, 9, 0};
   std::array<float, 6> clearance{0.5F, 0.0F, 1.25F, 0.1F, 3.0F, std::numeric_limits<float>::infinity()};
   dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data()};
-  dmrp_grid walking{sizeof(dmrp_grid), 2, 3, 0, 0.5, {-1.0, 0.0}, free.data(), nullptr, nullptr};
   dmrp_world world{};
 
   ExampleWorld() {
     world.struct_size = sizeof(dmrp_world);
     world.person_count = 2;
+    world.person_radius_m = 0.35;
     world.lower = {0, 0};
     world.upper = {6, 6};
     world.step_ns = 20'000'000;
@@ -56,9 +72,7 @@ struct ExampleWorld {
     world.shape_stride = sizeof(dmrp_shape);
     world.segments = segments.data();
     world.segment_count = 2;
-    world.self = 1;
     world.planning_grid = &planning;
-    world.walking_grid = &walking;
   }
   ExampleWorld(const ExampleWorld&) = delete;
   ExampleWorld& operator=(const ExampleWorld&) = delete;
@@ -105,9 +119,11 @@ struct ExampleSample {
     const double x = static_cast<double>(k) / 3.0;
     robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x};
     robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0};
-    people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}};
+    people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}, DMRP_REACTION_CURIOUS,
+                 0};
     people[1] = {
-        static_cast<std::uint64_t>(100 + k), 0, 8, {2.0, x}, {0.1, -1.1}, 0.3, 0.7, {x, 4.0}, {0.0, 3.0}, {5.0, 5.0}};
+        static_cast<std::uint64_t>(100 + k), 0, 8, {2.0, x}, {0.1, -1.1}, 0.3, 0.7, {x, 4.0}, {0.0, 3.0}, {5.0, 5.0},
+        DMRP_REACTION_UNSPECIFIED,           0};
     contacts[0] = {DMRP_CONTACT_STATIC, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 2, 0.0011, {0.0, 0.5}};
     contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}};
     calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
