@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Every header of the SDK compiles alone, and twice in a row, in the languages that it promises, by gcc and clang,
-# without a warning. The C headers also have no padding that the compiler put in. Called as: headers.sh INCLUDE_DIR
+# without a warning. The C headers also have no padding that the compiler put in, declare everything as extern "C", and
+# have at most 150 lines. Called as: headers.sh INCLUDE_DIR
 set -uo pipefail
-include=$1
+include=$(realpath "$1")
 
 # compile COMPILER STANDARD HEADER...: prints what went wrong
 compile() {
@@ -32,6 +33,19 @@ cd "$include/dmrp" || exit 1
 mapfile -t c_headers < <(find . -name '*.h' -printf '%P\n' | sort)
 mapfile -t cpp_headers < <(find . -name '*.hpp' -printf '%P\n' | sort)
 ((${#c_headers[@]} > 0 && ${#cpp_headers[@]} > 0)) || { echo "FAILED: no headers in $include/dmrp"; exit 1; }
+
+# dmrp.h and status.h declare nothing of their own, and neither does abi.h but in macros.
+check_texts() {
+  local header lines
+  for header in "${c_headers[@]}"; do
+    lines=$(wc -l <"$header")
+    ((lines <= 150)) || echo "FAILED: $header has $lines lines"
+    ! grep -qE '^(typedef|struct|enum|extern|union) ' "$header" || grep -q '^extern "C" {$' "$header" ||
+      echo "FAILED: $header declares without extern \"C\""
+  done
+}
+problems=$(check_texts)
+[[ -z $problems ]] || { echo "$problems"; exit 1; }
 
 # The C++ headers take longer to read: one by one in C++17, which they are written for; all at once in C++20.
 list_compilations() {

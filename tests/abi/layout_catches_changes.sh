@@ -18,11 +18,15 @@ expect_notice() {
     exit 1
   fi
 }
-expect_notice abi.h 's/DMRP_ABI_DRAFT 1/DMRP_ABI_DRAFT 2/'
+expect_notice abi.h 's/DMRP_ABI_DRAFT [0-9]*/DMRP_ABI_DRAFT 99/'
 expect_notice status.h 's/DMRP_TIMEOUT 3/DMRP_TIMEOUT 7/'
+expect_notice person.h 's/DMRP_REACTION_SCARED 5/DMRP_REACTION_SCARED 6/'
 expect_notice local_controller.h 's/  double omega;.*/&\n  double jerk;/;s/DMRP_ASSERT_SIZE(dmrp_command.*//'
 expect_notice local_controller.h 's/  double v_x; .*/  double omega;/;s/  double omega;  \/\/.*/  double v_x;/'
 expect_notice entry.h 's/int32_t (\*init)/int32_t (*prepare)/'
-expect_notice metric.h 's/  int64_t duration_ns;.*/  int32_t duration_ms;\n  int32_t more;/'
-expect_notice metric.h 's/const dmrp_person\* people/const dmrp_agent* people/'
-expect_notice plugin.h 's/const dmrp_world\* world, uint64_t seed/uint64_t seed, const dmrp_world* world/'
+expect_notice sample.h 's/  int64_t duration_ns;.*/  int32_t duration_ms;\n  int32_t more;/'
+expect_notice sample.h 's/const dmrp_person\* people/const dmrp_agent* people/'
+expect_notice plugin.h 's/  int32_t robot; .*/  uint32_t robot;/'
+expect_notice plugin.h 's/dmrp_instance\* self, const dmrp_start\* start/const dmrp_start* start, dmrp_instance* self/'
+expect_notice ext/lidar.h 's/const dmrp_lidar\* lidar, uint32_t robot/const dmrp_lidar* lidar, int32_t robot/'
+expect_notice ext/annotate.h 's/dmrp.annotate.1/dmrp.annotate\/2/'
