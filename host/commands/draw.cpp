@@ -70,7 +70,7 @@ Plan plan_once(const Experiment& experiment) {
   const VariantWorld variant(experiment, experiment.scenarios[0]);
   const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, experiment.seed);
   const PluginUse& use = experiment.global_planners[0];
-  Instance& planner = pool.get(use, -1);
+  Instance& planner = pool.get(use, DMRP_NO_ROBOT);
   const std::int64_t budget_ns = nanoseconds(experiment.limits.planner_time_s);
   planner.start(variant.view.world(), experiment.seed, budget_ns);
   Plan plan = make_plan(planner, use.info, variant, world, nullptr, budget_ns, 0);

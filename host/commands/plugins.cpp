@@ -53,8 +53,8 @@ int plugins_command(const std::vector<std::string>& named, PluginsFormat format)
     } catch (const std::runtime_error& error) {
       throw InputError(file.string() + ": " + error.what());
     }
-    for (const std::string& warning : {probe.warning, probe.init_error})
-      if (!warning.empty()) warn(file.string() + ": " + warning);
+    if (!probe.init_error.empty()) probe.warnings.push_back(probe.init_error);
+    for (const std::string& warning : probe.warnings) warn(file.string() + ": " + warning);
     if (format == PluginsFormat::json) {
       all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
       continue;

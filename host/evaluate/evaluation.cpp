@@ -14,6 +14,7 @@
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/files/sha256.hpp"
+#include "host/plugins/offered_extensions.hpp"
 #include "host/program/version.hpp"
 #include "host/results/manifest.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -137,9 +138,8 @@ class EvaluationPlanner {
 
   void use(const Found& found) {
     const PluginInfo& info = *found.info;
-    if (!info.needs.empty())  // metrics are offered no extension
-      throw InputError(fmt::format("{} needs the extension {}, which this host does not offer to a metric", info.id,
-                                   info.needs.front()));
+    if (const std::string missing = missing_extension(info); !missing.empty())
+      throw InputError(info.id + " " + missing);
     PluginUse made;
     made.library = library(*found.candidate);
     made.info = info;
@@ -154,7 +154,7 @@ class EvaluationPlanner {
       if (libraries[i].file == candidate.library.file) return i;
     const std::string file = candidate.library.file.string();
     if (!candidate.probe.init_error.empty()) throw InputError(file + ": " + candidate.probe.init_error);
-    if (!candidate.probe.warning.empty()) evaluation_.warnings.push_back(file + ": " + candidate.probe.warning);
+    for (const std::string& warning : candidate.probe.warnings) evaluation_.warnings.push_back(file + ": " + warning);
     libraries.push_back(candidate.library);
     if (candidate.of_run) libraries_of_run_.push_back(candidate.library);
     return static_cast<std::uint32_t>(libraries.size() - 1);

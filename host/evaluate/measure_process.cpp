@@ -57,9 +57,10 @@ class Measurer {
     try {
       core::TraceReader reader(core::TraceRecords(trial.trace), core::TraceExtent::samples);
       if (!reader.end()) throw std::runtime_error("was cut short: it has no end");
+      const auto walking_grids = std::make_shared<WalkingGrids>(reader.world());
       for (std::uint32_t i = first_metric; i < evaluation_.metrics.size(); ++i) {
         channel_.send({{"at", {index, i}}});
-        measure_metric(reader, i, trial.seed);
+        measure_metric(reader, walking_grids, i, trial.seed);
       }
     } catch (const std::bad_alloc&) {
       throw;
@@ -68,10 +69,11 @@ class Measurer {
     }
   }
 
-  void measure_metric(core::TraceReader& reader, std::uint32_t index, std::uint64_t seed) {
+  void measure_metric(core::TraceReader& reader, const std::shared_ptr<WalkingGrids>& walking_grids,
+                      std::uint32_t index, std::uint64_t seed) {
     const PluginUse& use = evaluation_.metrics[index];
     try {
-      channel_.send({{"result", measure(reader, pool_.get(use, -1), use.info, index, seed,
+      channel_.send({{"result", measure(reader, walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, index, seed,
                                         static_cast<std::int64_t>(evaluation_.limits.step_time_s * 1e9))}});
     } catch (const PluginFault& fault) {
       send_failure(fault.text());

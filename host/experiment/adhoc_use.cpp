@@ -12,6 +12,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/read_parameters.hpp"
+#include "host/plugins/offered_extensions.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/scenario/read_scenario.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -47,12 +48,10 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
       if (info.kind != DMRP_KIND_GLOBAL_PLANNER) continue;
       known.push_back(info.id);
       if (info.id != id) continue;
-      if (!info.needs.empty())
-        throw InputError(
-            fmt::format("--planner {}: needs the extension {}, which this host does not offer to a planner", id,
-                        info.needs.front()));
+      if (const std::string missing = missing_extension(info); !missing.empty())
+        throw InputError(fmt::format("--planner {}: {}", id, missing));
       if (!probe.init_error.empty()) throw InputError(file.string() + ": " + probe.init_error);
-      if (!probe.warning.empty()) experiment.warnings.push_back(file.string() + ": " + probe.warning);
+      for (const std::string& warning : probe.warnings) experiment.warnings.push_back(file.string() + ": " + warning);
       experiment.libraries = {{file.string(), file, probe.plugins}};
       PluginUse use;
       use.info = info;

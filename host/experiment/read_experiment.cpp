@@ -83,7 +83,7 @@ void check_ordered_execution(const TomlTable& root, const Experiment& experiment
   if (experiment.simulation.execution != core::Execution::ordered) return;
   const TomlValue execution = root.find_table("simulation")->need("execution");
   for (const PluginUse& planner : experiment.global_planners) {
-    if ((planner.info.planner_flags & DMRP_PLANNER_UNCOORDINATED) != 0)
+    if (planner.info.has_flag(DMRP_FLAG_UNCOORDINATED))
       execution.fail(fmt::format("'execution' = 'ordered' needs plans without conflicts, which {} does not make",
                                  planner.info.id));
     if (planner.info.connectivity == DMRP_CONNECTIVITY_ANY)

@@ -68,8 +68,8 @@ void read_libraries(const TomlDocument& document, const TomlValue& plugins, cons
     for (const LibraryUse& other : experiment.libraries)
       if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
     const Probe probe = probe_for(value, name, file, source);
-    if (!probe.warning.empty())
-      experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + probe.warning);
+    for (const std::string& warning : probe.warnings)
+      experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
     experiment.libraries.push_back({name, file, probe.plugins});
     for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
   }

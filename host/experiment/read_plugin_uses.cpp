@@ -46,11 +46,7 @@ std::pair<std::uint32_t, const PluginInfo*> find_plugin(const TomlValue& use, st
 }
 
 void check_extensions(const TomlValue& use, const PluginInfo& info) {
-  const std::vector<std::string> offered = offered_extensions(info.kind);
-  for (const std::string& id : info.needs)
-    if (std::find(offered.begin(), offered.end(), id) == offered.end())
-      use.fail(fmt::format("{} needs the extension {}, which this host does not offer to a {} (offered: {})", info.id,
-                           id, kind_name(info.kind), join_names(offered)));
+  if (const std::string missing = missing_extension(info); !missing.empty()) use.fail(info.id + " " + missing);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, co
     CallGuard guard(note);
     InstancePool pool(experiment.libraries, guard, &log_line);
     try {
-      Instance& planner = pool.get(experiment.global_planners[0], -1);
+      Instance& planner = pool.get(experiment.global_planners[0], DMRP_NO_ROBOT);
       planner.start(task.world(), experiment.seed, task.problem.c.time_budget_ns);
       const PlannerAnswer answer = call_planner(planner, task.problem.c, 0);
       file.write(head_of(answer), answer.paths);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "host/errors/escaped_text.hpp"
 #include "host/plugins/fp_control.hpp"
 #include "host/program/monotonic_time.hpp"
 
@@ -28,17 +29,26 @@ std::string status_detail(const char* status, const std::string& error) {
   return error.empty() ? fmt::format("returned {} without a text", status) : error;
 }
 
+std::string disallowed_detail(const char* name, std::int32_t status) {
+  return fmt::format("returned {} ({}), which status.h does not allow this function", name, status);
+}
+
 }  // namespace
 
-bool CallGuard::should_stop() {
+bool CallGuard::should_stop(const dmrp_host* caller) noexcept {
+  if (caller_ != caller) return true;
   const bool over = monotonic_ns() >= deadline_ns_;
   if (over) stopped_ = true;
   return over;
 }
 
-void CallGuard::set_error(const char* text) {
+void CallGuard::set_error(const dmrp_host* caller, const char* text) noexcept {
   const std::lock_guard lock(error_mutex_);
-  error_ = text ? text : "";
+  if (caller_ != caller) return;
+  try {
+    error_ = escaped(text);
+  } catch (...) {  // out of memory: the text is lost
+  }
 }
 
 std::string CallGuard::error() const {
@@ -46,8 +56,11 @@ std::string CallGuard::error() const {
   return error_;
 }
 
-void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
-  set_error("");
+void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns) {
+  {
+    const std::lock_guard lock(error_mutex_);
+    error_.clear();
+  }
   copy_text(note_.plugin, site.plugin);
   copy_text(note_.function, site.function);
   note_.step.store(site.step, std::memory_order_relaxed);
@@ -56,12 +69,17 @@ void CallGuard::enter(const CallSite& site, std::int64_t budget_ns) {
   control_bits_ = fp_control();
   start_ns_ = monotonic_ns();
   deadline_ns_ = start_ns_ + budget_ns;
+  caller_ = caller;
   note_.start_ns.store(start_ns_, std::memory_order_relaxed);
   note_.call_number.fetch_add(1, std::memory_order_release);
 }
 
-CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bool threw) {
+CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::int32_t status, bool threw) {
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
+  {
+    const std::lock_guard lock(error_mutex_);
+    caller_ = nullptr;
+  }
   note_.call_number.fetch_add(1);  // before the note of the next call
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
@@ -71,9 +89,13 @@ CallGuard::Result CallGuard::leave(const CallSite& site, std::int32_t status, bo
   switch (status) {
     case DMRP_OK:
     case DMRP_WARNING:
-    case DMRP_NO_SOLUTION:
-    case DMRP_TIMEOUT:
       return {status, duration_ns};
+    case DMRP_NO_SOLUTION:
+      if (answers != Answers::no_other) return {status, duration_ns};
+      throw PluginFault(fault_kind::abi_breach, site, disallowed_detail("DMRP_NO_SOLUTION", status));
+    case DMRP_TIMEOUT:
+      if (answers == Answers::no_solution_or_timeout) return {status, duration_ns};
+      throw PluginFault(fault_kind::abi_breach, site, disallowed_detail("DMRP_TIMEOUT", status));
     case DMRP_OUT_OF_MEMORY:
       throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error()));
     case DMRP_ERROR:

@@ -3,6 +3,7 @@
 // floating-point control bits, and turns statuses that end the trial into a PluginFault.
 #pragma once
 
+#include <dmrp/host.h>
 #include <dmrp/status.h>
 
 #include <atomic>
@@ -15,6 +16,9 @@
 
 namespace dmrp::host {
 
+// What a function may return besides DMRP_OK, DMRP_WARNING and the errors: the table in status.h.
+enum class Answers { no_other, no_solution, no_solution_or_timeout };
+
 // One per process: only one plugin function runs at a time.
 class CallGuard {
  public:
@@ -25,11 +29,13 @@ class CallGuard {
     std::int64_t duration_ns;
   };
 
-  // Calls `function`, which returns a status. should_stop() returns true after `budget_ns`. Throws PluginFault for
-  // OUT_OF_MEMORY, ERROR, FATAL, unknown statuses, changed control bits and exceptions.
+  // Calls `function`, which returns a status. `caller`: the host of the library or instance; should_stop() of that host
+  // returns true after `budget_ns`. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, statuses that the function may
+  // not return, changed control bits and exceptions.
   template <class Function>
-  Result call(const CallSite& site, std::int64_t budget_ns, Function&& function) {
-    enter(site, budget_ns);
+  Result call(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns, Answers answers,
+              Function&& function) {
+    enter(caller, site, budget_ns);
     std::int32_t status = DMRP_ERROR;
     bool threw = false;
     try {
@@ -37,28 +43,30 @@ class CallGuard {
     } catch (...) {
       threw = true;
     }
-    return leave(site, status, threw);
+    return leave(site, answers, status, threw);
   }
 
-  // The functions of host.h for the plugin that runs, from any of its threads.
-  bool should_stop();
-  void set_error(const char* text);
+  // The functions of host.h, from any thread. Outside a call of the caller should_stop() returns true and set_error()
+  // does nothing.
+  bool should_stop(const dmrp_host* caller) noexcept;
+  void set_error(const dmrp_host* caller, const char* text) noexcept;
 
-  // Whether should_stop() has returned true since reset_stopped().
+  // Whether should_stop() has returned true in a call since reset_stopped().
   bool stopped() const { return stopped_; }
   void reset_stopped() { stopped_ = false; }
 
-  // The last text of set_error() in this call.
+  // The last text of set_error() in this call, or in the last one; escaped.
   std::string error() const;
 
  private:
-  void enter(const CallSite& site, std::int64_t budget_ns);
-  Result leave(const CallSite& site, std::int32_t status, bool threw);
+  void enter(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns);
+  Result leave(const CallSite& site, Answers answers, std::int32_t status, bool threw);
 
   CallNote& note_;
   mutable std::mutex error_mutex_;
   std::string error_;
   std::int64_t start_ns_ = 0;
+  std::atomic<const dmrp_host*> caller_ = nullptr;  // of the call that runs
   std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
   std::atomic<bool> stopped_ = false;

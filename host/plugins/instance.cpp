@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/plugins/instance.hpp"
 
-#include <dmrp/global_planner.h>
-#include <dmrp/local_controller.h>
-#include <dmrp/metric.h>
-#include <dmrp/pedestrian_model.h>
+#include <vector>
 
+#include "host/plugins/output.hpp"
 #include "host/plugins/parameter_table.hpp"
-#include "host/program/version.hpp"
 
 namespace dmrp::host {
 
@@ -15,26 +12,43 @@ namespace {
 
 constexpr std::int64_t create_budget_ns = 10'000'000'000;
 
-// Every function of v1.0 must be there.
-bool table_is_whole(const void* table, std::uint32_t kind) {
+std::vector<std::string> declared_extensions(const PluginInfo& info) {
+  std::vector<std::string> ids = info.needs;
+  ids.insert(ids.end(), info.uses.begin(), info.uses.end());
+  return ids;
+}
+
+bool is_whole(const dmrp_global_planner& table, const PluginInfo&) {
+  return table.plan;
+}
+bool is_whole(const dmrp_local_controller& table, const PluginInfo& info) {
+  return table.set_path && (info.has_flag(DMRP_FLAG_CENTRAL) ? table.step_all != nullptr : table.step != nullptr);
+}
+bool is_whole(const dmrp_pedestrian_model& table, const PluginInfo&) {
+  return table.step;
+}
+bool is_whole(const dmrp_metric& table, const PluginInfo&) {
+  return table.begin && table.observe && table.finish;
+}
+
+// Every function of v1.0 is there.
+template <class Table>
+bool table_is_whole(const void* table, const PluginInfo& info) {
+  const auto& theirs = *static_cast<const Table*>(table);
+  return has_v1_0<Table>(theirs.struct_size) && is_whole(theirs, info);
+}
+
+bool interface_is_whole(const void* table, const PluginInfo& info) {
   if (!table) return false;
-  switch (kind) {
-    case DMRP_KIND_GLOBAL_PLANNER: {
-      const auto& t = *static_cast<const dmrp_global_planner*>(table);
-      return DMRP_HAS(&t, plan) && t.plan;
-    }
-    case DMRP_KIND_LOCAL_CONTROLLER: {
-      const auto& t = *static_cast<const dmrp_local_controller*>(table);
-      return DMRP_HAS(&t, step) && t.set_path && t.step;
-    }
-    case DMRP_KIND_PEDESTRIAN_MODEL: {
-      const auto& t = *static_cast<const dmrp_pedestrian_model*>(table);
-      return DMRP_HAS(&t, step) && t.step;
-    }
-    case DMRP_KIND_METRIC: {
-      const auto& t = *static_cast<const dmrp_metric*>(table);
-      return DMRP_HAS(&t, finish) && t.begin && t.observe && t.finish;
-    }
+  switch (info.kind) {
+    case DMRP_KIND_GLOBAL_PLANNER:
+      return table_is_whole<dmrp_global_planner>(table, info);
+    case DMRP_KIND_LOCAL_CONTROLLER:
+      return table_is_whole<dmrp_local_controller>(table, info);
+    case DMRP_KIND_PEDESTRIAN_MODEL:
+      return table_is_whole<dmrp_pedestrian_model>(table, info);
+    case DMRP_KIND_METRIC:
+      return table_is_whole<dmrp_metric>(table, info);
     default:
       return false;
   }
@@ -43,47 +57,39 @@ bool table_is_whole(const void* table, std::uint32_t kind) {
 }  // namespace
 
 Instance::Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log)
-    : id_(use.info.id), robot_(robot), guard_(guard), log_(std::move(log)) {
-  host_.struct_size = sizeof(host_);
-  host_.context = this;
-  host_.name = "dmrp-host";
-  host_.version = version;
-  host_.log = [](const dmrp_host* host, std::int32_t level, const char* text) {
-    const auto& instance = *static_cast<const Instance*>(host->context);
-    instance.log_(level, instance.id_, text ? text : "");
-  };
-  host_.set_error = [](const dmrp_host* host, const char* text) {
-    static_cast<const Instance*>(host->context)->guard_.set_error(text);
-  };
-  host_.should_stop = [](const dmrp_host* host) -> std::int32_t {
-    return static_cast<const Instance*>(host->context)->guard_.should_stop();
-  };
-  host_.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
-    const auto& instance = *static_cast<const Instance*>(host->context);
-    return id && instance.extensions_ ? instance.extensions_(id) : nullptr;
-  };
-
+    : id_(use.info.id),
+      robot_(robot),
+      guard_(guard),
+      host_(id_, library.file().string(), declared_extensions(use.info), guard, std::move(log)) {
   const ParameterTable parameters(use.parameters);
-  dmrp_plugin made{};
-  made.struct_size = sizeof(made);
-  call("create", 0, create_budget_ns,
-       [&] { return library.entry().create(&host_, id_.c_str(), &parameters.get(), &made); });
-  if (!made.self || !made.start || !made.destroy || !table_is_whole(made.interface_, use.info.kind))
+  Output<dmrp_plugin> made;
+  call("create", 0, create_budget_ns, Answers::no_other,
+       [&] { return library.entry().create(host_.c(), id_.c_str(), &parameters.get(), &made.value); });
+  made.check(site("create", 0), "dmrp_plugin");
+  const dmrp_plugin& plugin = made.value;
+  if (!plugin.self || !plugin.start || !plugin.destroy || !interface_is_whole(plugin.interface_, use.info))
     throw PluginFault(fault_kind::abi_breach, site("create", 0), "returned OK but did not fill in all of dmrp_plugin");
-  plugin_ = made;
+  plugin_ = plugin;
 }
 
 Instance::~Instance() {
   try {
     if (plugin_.self)
-      guard_.call(site("destroy", 0), create_budget_ns, [&] { return plugin_.destroy(plugin_.self), 0; });
+      guard_.call(host_.c(), site("destroy", 0), create_budget_ns, Answers::no_other,
+                  [&] { return plugin_.destroy(plugin_.self), DMRP_OK; });
   } catch (const PluginFault& fault) {
-    log_(DMRP_LOG_ERROR, id_, std::string("destroy: ") + fault.what());
+    host_.log(DMRP_LOG_ERROR, std::string("destroy: ") + fault.what());
   }
 }
 
 void Instance::start(const dmrp_world& world, std::uint64_t seed, std::int64_t budget_ns) {
-  call("start", 0, budget_ns, [&] { return plugin_.start(plugin_.self, &world, seed); });
+  const dmrp_start start = {sizeof(start), robot_, seed, &world};
+  call("start", 0, budget_ns, Answers::no_other, [&] { return plugin_.start(plugin_.self, &start); });
+}
+
+void Instance::end_trial(const dmrp_trial_end& end, std::int64_t step, std::int64_t budget_ns) {
+  if (!plugin_.trial_end) return;
+  call("trial_end", step, budget_ns, Answers::no_other, [&] { return plugin_.trial_end(plugin_.self, &end); });
 }
 
 }  // namespace dmrp::host

@@ -8,7 +8,12 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "host/errors/escaped_text.hpp"
+#include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/fp_control.hpp"
+#include "host/plugins/offered_extensions.hpp"
+#include "host/plugins/v1_sizes.hpp"
+#include "host/program/executable.hpp"
 
 namespace dmrp::host {
 
@@ -30,15 +35,23 @@ std::string loader_message(const std::exception& error, const std::filesystem::p
   return text;
 }
 
+// Whether the library is one of the host's own: ids that begin with "dmrp." are theirs.
+bool is_built_in(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(file.parent_path(), executable_path().parent_path() / "../lib/dmrp/plugins",
+                                     ignored);
+}
+
 dmrp_entry copy_entry(const dmrp_entry& theirs) {
-  constexpr std::size_t v1_0 = offsetof(dmrp_entry, create) + sizeof(theirs.create);
-  if (theirs.struct_size < v1_0) throw std::runtime_error("its dmrp_entry_v1 is shorter than v1.0's");
-  dmrp_entry ours{};
-  std::memcpy(&ours, &theirs, std::min<std::size_t>(theirs.struct_size, sizeof(ours)));
-  if (ours.abi_draft != DMRP_ABI_DRAFT)
+  // The draft first: the entry of another draft may have another size.
+  constexpr std::size_t up_to_draft = offsetof(dmrp_entry, abi_draft) + sizeof(theirs.abi_draft);
+  if (theirs.struct_size < up_to_draft) throw std::runtime_error("its dmrp_entry_v1 is shorter than v1.0's");
+  if (theirs.abi_draft != DMRP_ABI_DRAFT)
     throw std::runtime_error(
-        fmt::format("built for draft {} of the v1 contract, this host has draft {}: build it again", ours.abi_draft,
+        fmt::format("built for draft {} of the v1 contract, this host has draft {}: build it again", theirs.abi_draft,
                     DMRP_ABI_DRAFT));
+  if (!has_v1_0<dmrp_entry>(theirs.struct_size)) throw std::runtime_error("its dmrp_entry_v1 is shorter than v1.0's");
+  const dmrp_entry ours = copy_struct(theirs);
   if (ours.min_host_minor > DMRP_ABI_MINOR)
     throw std::runtime_error(
         fmt::format("needs a host of ABI 1.{} or newer, this is 1.{}", ours.min_host_minor, DMRP_ABI_MINOR));
@@ -49,7 +62,7 @@ dmrp_entry copy_entry(const dmrp_entry& theirs) {
 
 }  // namespace
 
-Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<Handle>()) {
+Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<Handle>()), file_(file) {
   const std::uint32_t control_bits = fp_control();
   try {
     handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
@@ -58,19 +71,35 @@ Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<H
   }
   if (fp_control() != control_bits) {
     set_fp_control(control_bits);
-    warning_ =
-        "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored";
+    warnings_.push_back(
+        "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored");
   }
   if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
     throw std::runtime_error("not a dmrp v1 plugin (no symbol " DMRP_ENTRY_SYMBOL "; built with dmrp_add_plugin()?)");
   entry_ = copy_entry(handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL));
 
+  read_descriptors();
+}
+
+void Library::read_descriptors() {
   const std::uint32_t count = entry_.plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
+  const bool built_in = is_built_in(file_);
   for (std::uint32_t i = 0; i < count; ++i) {
     const dmrp_descriptor* descriptor = entry_.descriptor(i);
     if (!descriptor) throw std::runtime_error(fmt::format("gives no descriptor for its plugin {}", i));
-    plugins_.push_back(copy_descriptor(*descriptor));
+    PluginInfo info = copy_descriptor(*descriptor);
+    if (const std::string part = unknown_part(info); !part.empty()) {
+      warnings_.push_back(fmt::format("its plugin '{}' is left out: it {}, which this host does not know",
+                                      escaped(info.id.c_str()), part));
+      continue;
+    }
+    check_descriptor(info);
+    if (is_reserved_id(info.id) && !built_in)
+      throw std::runtime_error(fmt::format(
+          "has a plugin with the id '{}': ids that begin with 'dmrp.' are for the built-in plugins", info.id));
+    for (std::string& warning : doubtful_extensions(info)) warnings_.push_back(std::move(warning));
+    plugins_.push_back(std::move(info));
   }
 }
 

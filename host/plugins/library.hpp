@@ -23,16 +23,25 @@ class Library {
   Library& operator=(const Library&) = delete;
 
   const dmrp_entry& entry() const { return entry_; }
-  const std::vector<PluginInfo>& plugins() const { return plugins_; }
-  const std::string& warning() const { return warning_; }  // about loading; empty if there is none
+  const std::vector<PluginInfo>& plugins() const { return plugins_; }  // those that this host knows
+  const std::filesystem::path& file() const { return file_; }
+
+  // One line each: that it changed the process when it was loaded, that a plugin of it is unknown to this host.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Handle;
+  void read_descriptors();
+
   std::unique_ptr<Handle> handle_;
+  std::filesystem::path file_;
   dmrp_entry entry_{};  // the library's, zero-filled where it is shorter
   std::vector<PluginInfo> plugins_;
-  std::string warning_;
+  std::vector<std::string> warnings_;
 };
+
+// The longest time for init() or deinit(), wall time.
+inline constexpr std::int64_t init_budget_ns = 10'000'000'000;
 
 // The file of a library that an experiment names. A name without a slash is searched in plugin_path(); a path is relative
 // to `base`. Empty if there is no such file.
@@ -48,7 +57,7 @@ std::vector<std::filesystem::path> libraries_of_plugin_path();
 // MachineError.
 struct Probe {
   std::vector<PluginInfo> plugins;
-  std::string warning{};
+  std::vector<std::string> warnings{};
   std::string init_error{};  // why init() failed, in one line; empty if it succeeded
 };
 Probe probe_library(const std::filesystem::path& file);

@@ -2,27 +2,21 @@
 // offered_extensions.hpp: the extensions that this host offers to each kind of plugin.
 #pragma once
 
-#include <dmrp/descriptor.h>
-#include <dmrp/ext/annotate.h>
-#include <dmrp/ext/distance_field.h>
-#include <dmrp/ext/lidar.h>
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "host/plugins/plugin_info.hpp"
+
 namespace dmrp::host {
 
 // The ids for a DMRP_KIND_*.
-inline std::vector<std::string> offered_extensions(std::uint32_t kind) {
-  if (kind == DMRP_KIND_METRIC) return {};
-  std::vector<std::string> ids = {DMRP_EXT_ANNOTATE};
-  if (kind == DMRP_KIND_LOCAL_CONTROLLER)
-    ids.insert(ids.end(),
-               {DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD, DMRP_EXT_OBSTACLE_CLUSTERS});
-  return ids;
-}
+std::vector<std::string> offered_extensions(std::uint32_t kind);
+
+// What the plugin requires in vain, in one line: "needs the extension X, which ..."; "" if it gets all that it requires.
+std::string missing_extension(const PluginInfo& info);
+
+// One line for each extension that the plugin uses and that looks like a misspelt one of this host.
+std::vector<std::string> doubtful_extensions(const PluginInfo& info);
 
 }  // namespace dmrp::host

@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/errors/escaped_text.hpp"
+#include "host/plugins/v1_sizes.hpp"
+
 namespace dmrp::host {
 
 namespace {
@@ -23,19 +26,20 @@ std::vector<std::string> texts_of(const char* const* texts, std::uint32_t count)
 
 ParameterSpec copy_parameter(const dmrp_param_spec& c) {
   ParameterSpec out;
-  const dmrp_param_value& value = c.fallback;
-  out.fallback = {text_of(value.key), value.type, value.integer, value.number, text_of(value.text), {}, {}};
-  if (value.type == DMRP_PARAM_DOUBLE_ARRAY) out.fallback.numbers.assign(value.numbers, value.numbers + value.count);
-  if (value.type == DMRP_PARAM_STRING_ARRAY) out.fallback.texts = texts_of(value.texts, value.count);
-  out.unit = text_of(c.unit);
-  out.doc = text_of(c.doc);
+  out.fallback = {text_of(c.key), c.type, c.integer, c.number, text_of(c.text), {}, {}};
+  if (c.type == DMRP_PARAM_DOUBLE_ARRAY) out.fallback.numbers.assign(c.numbers, c.numbers + c.count);
+  if (c.type == DMRP_PARAM_STRING_ARRAY) out.fallback.texts = texts_of(c.texts, c.count);
+  out.unit = escaped(c.unit);
+  out.doc = escaped(c.doc);
   out.minimum = c.minimum;
   out.maximum = c.maximum;
   out.choices = texts_of(c.choices, c.choice_count);
-  if (out.fallback.key.empty()) throw std::runtime_error("declares a parameter without a key");
-  if (value.type < DMRP_PARAM_BOOL || value.type > DMRP_PARAM_STRING_ARRAY)
-    throw std::runtime_error("declares parameter '" + out.fallback.key + "' with an unknown type");
   return out;
+}
+
+MetricValueSpec copy_value(const dmrp_metric_value_spec& c) {
+  return {text_of(c.name),   escaped(c.unit), escaped(c.description), c.direction, c.subjects,
+          c.wall_clock != 0, c.curve != 0};
 }
 
 // JSON has no infinity: a missing bound is null.
@@ -55,10 +59,13 @@ double any_number(const nlohmann::json& json) {
   return json.is_string() ? std::strtod(json.get<std::string>().c_str(), nullptr) : json.get<double>();
 }
 
-// Array elements are at least as large as in v1.0.
-void check_stride(std::uint32_t count, std::uint32_t stride, std::size_t least, const char* what) {
-  if (count > 0 && stride < least)
+template <class Element, class Copy>
+auto copy_all(const Element* base, std::uint32_t count, std::uint32_t stride, const char* what, Copy&& copy) {
+  if (count > 0 && !has_v1_0<Element>(stride))
     throw std::runtime_error(std::string("has a descriptor with ") + what + " that are shorter than v1.0's");
+  std::vector<decltype(copy(*base))> out;
+  for (std::uint32_t i = 0; i < count; ++i) out.push_back(copy(copy_element(base, stride, i)));
+  return out;
 }
 
 }  // namespace
@@ -116,8 +123,9 @@ void visit_fields(Visit&& visit) {
   visit("parameters", &PluginInfo::parameters);
   visit("values", &PluginInfo::values);
   visit("connectivity", &PluginInfo::connectivity);
-  visit("planner_flags", &PluginInfo::planner_flags);
   visit("channels", &PluginInfo::channels);
+  visit("flags", &PluginInfo::flags);
+  visit("kinematics", &PluginInfo::kinematics);
 }
 
 }  // namespace
@@ -152,39 +160,28 @@ const char* parameter_type_name(std::uint32_t type) {
   return type < std::size(names) ? names[type] : names[0];
 }
 
-PluginInfo copy_descriptor(const dmrp_descriptor& c) {
+PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
+  if (!has_v1_0<dmrp_descriptor>(theirs.struct_size))
+    throw std::runtime_error("has a descriptor that is shorter than v1.0's");
+  const dmrp_descriptor c = copy_struct(theirs);
   PluginInfo out;
-  if (!DMRP_HAS(&c, reserved)) throw std::runtime_error("has a descriptor that is shorter than v1.0's");
   out.id = text_of(c.id);
   out.kind = c.kind;
-  if (out.id.empty()) throw std::runtime_error("has a plugin without an id");
-  if (c.kind < DMRP_KIND_GLOBAL_PLANNER || c.kind > DMRP_KIND_METRIC)
-    throw std::runtime_error("'" + out.id + "' is of a kind that this host does not know");
-  out.name = text_of(c.name);
-  out.version = text_of(c.version);
-  out.vendor = text_of(c.vendor);
-  out.license = text_of(c.license);
-  out.summary = text_of(c.summary);
-  out.source = text_of(c.source);
+  out.name = escaped(c.name);
+  out.version = escaped(c.version);
+  out.vendor = escaped(c.vendor);
+  out.license = escaped(c.license);
+  out.summary = escaped(c.summary);
+  out.source = escaped(c.source);
   out.needs = texts_of(c.requires_, c.requires_count);
   out.uses = texts_of(c.uses, c.uses_count);
-  check_stride(c.param_count, c.param_stride, sizeof(dmrp_param_spec), "parameters");
-  check_stride(c.value_count, c.value_stride, sizeof(dmrp_metric_value_spec), "values");
-  for (std::uint32_t i = 0; i < c.param_count; ++i)
-    out.parameters.push_back(copy_parameter(*DMRP_AT(dmrp_param_spec, c.params, c.param_stride, i)));
-  for (std::uint32_t i = 0; i < c.value_count; ++i) {
-    const auto& v = *DMRP_AT(dmrp_metric_value_spec, c.values, c.value_stride, i);
-    if (!(v.subjects & (1u << DMRP_SUBJECT_SYSTEM)))
-      throw std::runtime_error("'" + out.id + "' declares a value without the system among its subjects");
-    out.values.push_back({text_of(v.name), text_of(v.unit), text_of(v.description), v.direction, v.subjects,
-                          v.wall_clock != 0, v.curve != 0});
-  }
+  out.parameters = copy_all(c.params, c.param_count, c.param_stride, "parameters", copy_parameter);
+  out.values = copy_all(c.values, c.value_count, c.value_stride, "values", copy_value);
   out.connectivity = c.connectivity;
-  out.planner_flags = c.planner_flags;
   out.channels = c.channels;
-  if (c.kind == DMRP_KIND_GLOBAL_PLANNER && c.connectivity != DMRP_CONNECTIVITY_4 &&
-      c.connectivity != DMRP_CONNECTIVITY_8 && c.connectivity != DMRP_CONNECTIVITY_ANY)
-    throw std::runtime_error("'" + out.id + "' is a planner that declares no connectivity (4, 8, any)");
+  out.flags = c.flags;
+  out.kinematics = c.kinematics;
+  if (c.kind == DMRP_KIND_LOCAL_CONTROLLER && c.kinematics == 0) out.kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL;
   return out;
 }
 

@@ -55,8 +55,11 @@ struct PluginInfo {
   std::vector<ParameterSpec> parameters;
   std::vector<MetricValueSpec> values;
   std::uint32_t connectivity = DMRP_CONNECTIVITY_NONE;
-  std::uint32_t planner_flags = 0;
   std::uint32_t channels = 0;
+  std::uint32_t flags = 0;       // DMRP_FLAG_*
+  std::uint32_t kinematics = 0;  // bits 1u << DMRP_KINEMATICS_*, of a controller never 0
+
+  bool has_flag(std::uint32_t flag) const { return (flags & flag) != 0; }
 };
 
 // "global_planner", ...: the names of the tables in experiment files.
@@ -65,7 +68,7 @@ const char* kind_name(std::uint32_t kind);
 // "bool", "int", "double", "string", "choice", "path", "double array", "string array".
 const char* parameter_type_name(std::uint32_t type);
 
-// Throws std::runtime_error, in one line, if the descriptor is not usable (no id, unknown kind, ...).
+// Throws std::runtime_error, in one line, if the descriptor or an array of it is shorter than v1.0's.
 PluginInfo copy_descriptor(const dmrp_descriptor& descriptor);
 
 void to_json(nlohmann::json& json, const PluginInfo& info);

@@ -5,15 +5,16 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "host/plugins/library.hpp"
+#include "host/plugins/plugin_host.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/line_channel.hpp"
 #include "host/process/watchdog.hpp"
-#include "host/program/version.hpp"
 
 namespace dmrp::host {
 
@@ -47,22 +48,19 @@ nlohmann::json answer_of_child(const std::filesystem::path& file) {
 }
 
 // Calls init(), so that a library that cannot work here is found before a run begins. Why it cannot; "" if it can.
-std::string try_init(const dmrp_entry& entry) {
-  std::string error;
-  dmrp_host host{};
-  host.struct_size = sizeof(host);
-  host.context = &error;
-  host.name = "dmrp-host";
-  host.version = version;
-  host.log = [](const dmrp_host*, std::int32_t, const char*) {};
-  host.set_error = [](const dmrp_host* self, const char* text) {
-    *static_cast<std::string*>(self->context) = text ? text : "";
-  };
-  host.should_stop = [](const dmrp_host*) -> std::int32_t { return 0; };
-  host.get_extension = [](const dmrp_host*, const char*) -> const void* { return nullptr; };
-  const std::int32_t status = entry.init(&host);
-  if (status == DMRP_OK || status == DMRP_WARNING) return entry.deinit(), "";
-  return error.empty() ? fmt::format("its init() returned status {}", status) : "its init() failed: " + error;
+std::string try_init(const Library& library) {
+  const auto note = std::make_unique<CallNote>();
+  CallGuard guard(*note);
+  const PluginHost host("library", library.file().string(), {}, guard,
+                        [](std::int32_t, const std::string&, const std::string&) {});
+  try {
+    guard.call(host.c(), {"library", "init"}, init_budget_ns, Answers::no_other,
+               [&] { return library.entry().init(host.c()); });
+  } catch (const PluginFault& fault) {
+    return std::string("its init() failed: ") + fault.what();
+  }
+  library.entry().deinit();
+  return "";
 }
 
 }  // namespace
@@ -70,7 +68,7 @@ std::string try_init(const dmrp_entry& entry) {
 Probe probe_library(const std::filesystem::path& file) {
   const nlohmann::json answer = answer_of_child(file);
   if (answer.contains("error")) throw std::runtime_error(answer.at("error").get<std::string>());
-  return {answer.at("plugins").get<std::vector<PluginInfo>>(), answer.at("warning").get<std::string>(),
+  return {answer.at("plugins").get<std::vector<PluginInfo>>(), answer.at("warnings").get<std::vector<std::string>>(),
           answer.at("init_error").get<std::string>()};
 }
 
@@ -78,8 +76,7 @@ void run_probe(const std::filesystem::path& file, int descriptor) {
   nlohmann::json answer;
   try {
     const Library library(file);
-    answer = {
-        {"plugins", library.plugins()}, {"warning", library.warning()}, {"init_error", try_init(library.entry())}};
+    answer = {{"plugins", library.plugins()}, {"warnings", library.warnings()}, {"init_error", try_init(library)}};
   } catch (const std::exception& error) {
     answer = {{"error", error.what()}};
   }

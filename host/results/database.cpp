@@ -13,7 +13,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t schema_version = 1;
+constexpr std::int64_t schema_version = 2;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE trial(
@@ -52,7 +52,11 @@ CREATE TABLE event(
   from_s REAL NOT NULL,
   to_s REAL NOT NULL,
   subjects TEXT NOT NULL,
-  text TEXT NOT NULL
+  text TEXT NOT NULL,
+  people TEXT NOT NULL DEFAULT '[]',
+  severity TEXT NOT NULL DEFAULT 'info',
+  x_m REAL,
+  y_m REAL
 );
 CREATE INDEX event_of_trial ON event(trial_id);
 CREATE TABLE fault(
@@ -69,7 +73,23 @@ CREATE TABLE fault(
 CREATE INDEX fault_of_trial ON fault(trial_id);
 )sql";
 
-constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};  // by DMRP_DIRECTION_*
+// Version 1 had no people, severity and place of an event.
+constexpr const char* upgrade_from_version_1 = R"sql(
+ALTER TABLE event ADD COLUMN people TEXT NOT NULL DEFAULT '[]';
+ALTER TABLE event ADD COLUMN severity TEXT NOT NULL DEFAULT 'info';
+ALTER TABLE event ADD COLUMN x_m REAL;
+ALTER TABLE event ADD COLUMN y_m REAL;
+PRAGMA user_version = 2;
+)sql";
+constexpr const char* events_of_version_1 =
+    "SELECT trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL FROM event "
+    "ORDER BY trial_id, rowid";
+constexpr const char* events_of_version_2 =
+    "SELECT trial_id, metric, from_s, to_s, subjects, text, people, severity, x_m, y_m FROM event "
+    "ORDER BY trial_id, rowid";
+
+constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};    // by DMRP_DIRECTION_*
+constexpr std::array<const char*, 3> severity_names{"info", "warning", "serious"};  // by DMRP_SEVERITY_*
 
 std::uint32_t index_of(const std::array<const char*, 3>& names, const std::string& name) {
   for (std::uint32_t i = 0; i < names.size(); ++i)
@@ -117,10 +137,12 @@ void write_values(const SqliteConnection& connection, const TrialRecord& trial) 
 }
 
 void write_events(const SqliteConnection& connection, const TrialRecord& trial) {
-  SqliteStatement insert(connection, "INSERT INTO event VALUES (?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(connection, "INSERT INTO event VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const MetricEvent& event : trial.events) {
     insert.bind(as_signed(trial.id)).bind(event.metric).bind(seconds(event.from_ns)).bind(seconds(event.to_ns));
-    insert.bind(nlohmann::json(event.robots).dump()).bind(event.text).run();
+    insert.bind(nlohmann::json(event.robots).dump()).bind(event.text).bind(nlohmann::json(event.people).dump());
+    insert.bind(std::string_view(severity_names.at(event.severity)));
+    insert.bind(event.place ? event.place->x : undefined).bind(event.place ? event.place->y : undefined).run();
   }
 }
 
@@ -192,6 +214,9 @@ void take_event(const SqliteStatement& row, TrialRecord& trial) {
   event.to_ns = nanoseconds(row.column_number(3));
   event.robots = nlohmann::json::parse(row.column_text(4)).get<std::vector<std::uint32_t>>();
   event.text = row.column_text(5);
+  event.people = nlohmann::json::parse(row.column_text(6)).get<std::vector<std::uint64_t>>();
+  event.severity = index_of(severity_names, row.column_text(7));
+  if (!row.column_is_null(8)) event.place = dmrp_vec2{row.column_number(8), row.column_number(9)};
 }
 
 void take_fault(const SqliteStatement& row, TrialRecord& trial) {
@@ -206,10 +231,14 @@ void take_fault(const SqliteStatement& row, TrialRecord& trial) {
   fault.rerun = row.column_text(8);
 }
 
-void check_schema_version(const SqliteConnection& connection, const std::filesystem::path& path) {
+std::int64_t version_of(const SqliteConnection& connection) {
   SqliteStatement pragma(connection, "PRAGMA user_version");
-  const std::int64_t version = pragma.step() ? pragma.column_integer(0) : 0;
-  if (version != schema_version)
+  return pragma.step() ? pragma.column_integer(0) : 0;
+}
+
+void check_schema_version(const SqliteConnection& connection, const std::filesystem::path& path) {
+  const std::int64_t version = version_of(connection);
+  if (version != schema_version && version != 1)
     throw SqliteError(path.string() + ": results of version " + std::to_string(version) + ", not " +
                       std::to_string(schema_version));
 }
@@ -239,6 +268,11 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
 ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
   check_schema_version(database.connection_, path);
+  if (version_of(database.connection_) == 1) {
+    SqliteTransaction transaction(database.connection_);
+    database.connection_.execute(upgrade_from_version_1);
+    transaction.commit();
+  }
   return database;
 }
 
@@ -285,8 +319,7 @@ std::vector<TrialRecord> ResultsDatabase::trials() const {
   read_rows(connection_,
             "SELECT trial_id, metric, subject_kind, subject, coordinate, value FROM value ORDER BY trial_id, rowid",
             trials, take_value);
-  read_rows(connection_, "SELECT trial_id, metric, from_s, to_s, subjects, text FROM event ORDER BY trial_id, rowid",
-            trials, take_event);
+  read_rows(connection_, version_of(connection_) == 1 ? events_of_version_1 : events_of_version_2, trials, take_event);
   read_rows(connection_,
             "SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
             "ORDER BY trial_id, rowid",

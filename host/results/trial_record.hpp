@@ -2,7 +2,7 @@
 // trial_record.hpp: the results of one trial, as in results.sqlite.
 #pragma once
 
-#include <dmrp/descriptor.h>
+#include <dmrp/metric.h>
 
 #include <array>
 #include <cstdint>
@@ -37,7 +37,10 @@ struct MetricEvent {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
   std::vector<std::uint32_t> robots;
+  std::vector<std::uint64_t> people;
   std::string text;
+  std::uint32_t severity = DMRP_SEVERITY_INFO;
+  std::optional<dmrp_vec2> place;
 };
 
 // The result of one metric for a trial.

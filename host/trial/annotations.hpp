@@ -5,6 +5,7 @@
 #include <dmrp/ext/annotate.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "core/trace/trace_encoder.hpp"
 
@@ -13,8 +14,10 @@ namespace dmrp::host {
 // Drops invalid annotations silently, so that no result depends on them.
 class Annotations {
  public:
-  // `trace` outlives it; nullptr if no annotations are recorded.
-  Annotations(core::TraceEncoder* trace, core::AnnotationSource source);
+  // `trace` outlives it; nullptr if no annotations are recorded. `plugin_kind`: DMRP_KIND_*. The robots that a controller
+  // drives are first_robot and the robot_count - 1 after it; annotations of other plugins are not about a robot.
+  Annotations(core::TraceEncoder* trace, std::uint32_t plugin_kind, std::uint32_t first_robot,
+              std::uint32_t robot_count);
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
 
@@ -22,11 +25,14 @@ class Annotations {
 
  private:
   bool wanted() const;
-  void trajectory(std::uint32_t role, const dmrp_pose* poses, std::uint32_t count, std::int64_t step_ns);
-  void note(const char* text);
+  std::optional<core::AnnotationSource> source(std::uint32_t robot) const;
+  void trajectory(const dmrp_trajectory& theirs);
+  void note(const dmrp_note& theirs);
 
   core::TraceEncoder* trace_;
-  core::AnnotationSource source_;
+  std::uint32_t plugin_kind_;
+  std::uint32_t first_robot_;
+  std::uint32_t robot_count_;
   dmrp_annotate extension_{};
 };
 

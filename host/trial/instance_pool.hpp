@@ -35,8 +35,11 @@ class InstancePool {
 
   CallGuard& guard_;
   LogSink log_;
-  std::vector<std::unique_ptr<Library>> libraries_;
-  std::vector<std::unique_ptr<dmrp_host>> library_hosts_;
+  struct LoadedLibrary {
+    std::unique_ptr<Library> library;
+    std::unique_ptr<PluginHost> host;
+  };
+  std::vector<LoadedLibrary> libraries_;
   std::map<Key, std::unique_ptr<Instance>> instances_;
 };
 

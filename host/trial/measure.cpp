@@ -9,7 +9,12 @@
 #include <dmrp/toolkit/random.hpp>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
+
+#include "host/errors/escaped_text.hpp"
+#include "host/plugins/host_callback.hpp"
+#include "host/plugins/v1_sizes.hpp"
 
 namespace dmrp::host {
 
@@ -29,31 +34,55 @@ std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
 }
 
-std::int32_t collect_value(dmrp_metric_sink* sink, const char* name, std::uint32_t subject_kind, std::uint64_t subject,
-                           double coordinate, double value) {
-  auto& collected = *static_cast<Collected*>(sink->context);
+Collected& collected_by(dmrp_metric_sink* sink) {
+  return *static_cast<Collected*>(sink->context);
+}
+
+std::int32_t collect_value(Collected& collected, const dmrp_metric_result& theirs) {
+  if (!has_v1_0<dmrp_metric_result>(theirs.struct_size)) return DMRP_ERROR;
+  const dmrp_metric_result c = copy_struct(theirs);
   const auto& specs = collected.info.values;
-  const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return name && s.name == name; });
-  if (spec == specs.end() || subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec->subjects & (1u << subject_kind)))
+  const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return c.name && s.name == c.name; });
+  if (spec == specs.end() || c.subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec->subjects & (1u << c.subject_kind)))
     return DMRP_ERROR;
-  if (subject_kind == DMRP_SUBJECT_ROBOT && subject >= collected.robot_count) return DMRP_ERROR;
-  if (std::isinf(value) || std::isinf(coordinate) || (!spec->curve && !std::isnan(coordinate))) return DMRP_ERROR;
-  const auto subject_id = subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional<std::uint64_t>(subject);
+  if (c.subject_kind == DMRP_SUBJECT_ROBOT && c.subject >= collected.robot_count) return DMRP_ERROR;
+  if (std::isinf(c.value) || std::isinf(c.coordinate) || (!spec->curve && !std::isnan(c.coordinate))) return DMRP_ERROR;
+  const auto subject = c.subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional(c.subject);
   const auto index = static_cast<std::size_t>(spec - specs.begin());
-  if (!collected.given.emplace(index, subject_kind, subject_id, or_none(coordinate)).second) return DMRP_ERROR;
-  collected.result.values.push_back({spec->name, subject_kind, subject_id, or_none(coordinate), or_none(value)});
+  if (!collected.given.emplace(index, c.subject_kind, subject, or_none(c.coordinate)).second) return DMRP_ERROR;
+  collected.result.values.push_back({spec->name, c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)});
   return DMRP_OK;
 }
 
-std::int32_t collect_event(dmrp_metric_sink* sink, const char* name, std::int64_t from_ns, std::int64_t to_ns,
-                           const std::uint32_t* robots, std::uint32_t robot_count, const char* text) {
-  auto& collected = *static_cast<Collected*>(sink->context);
-  if (!name || to_ns < from_ns) return DMRP_ERROR;
-  if (std::any_of(robots, robots + robot_count, [&](std::uint32_t r) { return r >= collected.robot_count; }))
-    return DMRP_ERROR;
-  collected.result.events.push_back(
-      {name, from_ns, to_ns, std::vector<std::uint32_t>(robots, robots + robot_count), text ? text : ""});
+std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
+  if (!has_v1_0<dmrp_event>(theirs.struct_size)) return DMRP_ERROR;
+  const dmrp_event c = copy_struct(theirs);
+  if (!c.name || c.to_ns < c.from_ns) return DMRP_ERROR;
+  if (c.subject_count > 0 && (!c.subjects || !has_v1_0<dmrp_subject>(c.subject_stride))) return DMRP_ERROR;
+  MetricEvent event = {escaped(c.name), c.from_ns, c.to_ns, {}, {}, escaped(c.text), c.severity, std::nullopt};
+  for (std::uint32_t i = 0; i < c.subject_count; ++i) {
+    const dmrp_subject subject = copy_element(c.subjects, c.subject_stride, i);
+    if (subject.kind == DMRP_SUBJECT_ROBOT && subject.id >= collected.robot_count) return DMRP_ERROR;
+    if (subject.kind == DMRP_SUBJECT_ROBOT) event.robots.push_back(static_cast<std::uint32_t>(subject.id));
+    if (subject.kind == DMRP_SUBJECT_PEDESTRIAN) event.people.push_back(subject.id);
+  }
+  if (event.severity > DMRP_SEVERITY_SERIOUS) event.severity = DMRP_SEVERITY_INFO;
+  if (std::isfinite(c.place.x) && std::isfinite(c.place.y)) event.place = c.place;
+  collected.result.events.push_back(std::move(event));
   return DMRP_OK;
+}
+
+dmrp_metric_sink sink_into(Collected& collected) {
+  dmrp_metric_sink sink{};
+  sink.struct_size = sizeof(sink);
+  sink.context = &collected;
+  sink.value = [](dmrp_metric_sink* self, const dmrp_metric_result* result) noexcept -> std::int32_t {
+    return result ? or_out_of_memory([&] { return collect_value(collected_by(self), *result); }) : DMRP_ERROR;
+  };
+  sink.event = [](dmrp_metric_sink* self, const dmrp_event* event) noexcept -> std::int32_t {
+    return event ? or_out_of_memory([&] { return collect_event(collected_by(self), *event); }) : DMRP_ERROR;
+  };
+  return sink;
 }
 
 // A missing value would look as if the metric had crashed.
@@ -69,25 +98,31 @@ void check_complete(const Collected& collected, const CallSite& site) {
 
 }  // namespace
 
-MetricResult measure(core::TraceReader& trace, Instance& metric, const PluginInfo& info, std::uint32_t index,
-                     std::uint64_t seed, std::int64_t call_budget_ns) {
+MetricResult measure(core::TraceReader& trace, const std::shared_ptr<WalkingGrids>& walking_grids, Instance& metric,
+                     const PluginInfo& info, std::uint32_t index, std::uint64_t seed, std::int64_t call_budget_ns) {
   if (!trace.end()) throw std::invalid_argument("the trace was cut short: it has no end");
   const auto table = metric.table<dmrp_metric>();
+  metric.offer([grids = std::weak_ptr(walking_grids)](std::string_view id) -> const void* {
+    const auto here = grids.lock();
+    return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
+  });
   metric.start(trace.world(), toolkit::Stream(seed, "metric", info.id).next_u64(), call_budget_ns);
 
   const dmrp_metric_trial trial = {sizeof(trial), 0, trace.first_plan()};
-  metric.call("begin", 0, call_budget_ns, [&] { return table.begin(metric.self(), &trial); });
+  metric.call("begin", 0, call_budget_ns, Answers::no_other, [&] { return table.begin(metric.self(), &trial); });
 
   // without a plan nothing moved: the only sample records the planner's call
   const bool shown = trace.end()->ending != DMRP_ENDING_NO_PLAN || (info.channels & DMRP_CHANNEL_CALLS) != 0;
   trace.rewind();
   std::int64_t step = 0;
   while (const dmrp_sample* sample = shown ? trace.next_sample() : nullptr)
-    metric.call("observe", step++, call_budget_ns, [&] { return table.observe(metric.self(), sample); });
+    metric.call("observe", step++, call_budget_ns, Answers::no_other,
+                [&] { return table.observe(metric.self(), sample); });
 
   Collected collected = {info, trace.world().robot_count, {index, {}, {}}, {}};
-  dmrp_metric_sink sink = {sizeof(sink), 0, &collected, &collect_value, &collect_event};
-  metric.call("finish", step, call_budget_ns, [&] { return table.finish(metric.self(), trace.end(), &sink); });
+  dmrp_metric_sink sink = sink_into(collected);
+  metric.call("finish", step, call_budget_ns, Answers::no_other,
+              [&] { return table.finish(metric.self(), trace.end(), &sink); });
   check_complete(collected, metric.site("finish", step));
   return std::move(collected.result);
 }

@@ -8,6 +8,10 @@
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/snap.hpp>
 
+#include "host/errors/escaped_text.hpp"
+#include "host/plugins/host_callback.hpp"
+#include "host/plugins/v1_sizes.hpp"
+
 namespace dmrp::host {
 
 namespace {
@@ -21,19 +25,35 @@ struct Collected {
   std::vector<PlanStatistic> statistics;
 };
 
-std::int32_t collect_path(dmrp_plan_sink* sink, std::uint32_t robot, const dmrp_waypoint* waypoints,
-                          std::uint32_t count, std::uint32_t stride) {
-  auto& collected = *static_cast<Collected*>(sink->context);
-  if (robot >= collected.paths.size() || collected.given[robot]) return DMRP_ERROR;
-  if (stride < sizeof(dmrp_waypoint) || (count > 0 && !waypoints)) return DMRP_ERROR;
+Collected& collected_by(dmrp_plan_sink* sink) {
+  return *static_cast<Collected*>(sink->context);
+}
+
+std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_path& theirs) {
+  if (robot >= collected.paths.size() || collected.given[robot] || !has_v1_0<dmrp_path>(theirs.struct_size))
+    return DMRP_ERROR;
+  const dmrp_path path = copy_struct(theirs);
+  if (path.count > 0 && (!path.waypoints || !has_v1_0<dmrp_waypoint>(path.stride))) return DMRP_ERROR;
+  std::vector<dmrp_waypoint> waypoints;
+  waypoints.reserve(path.count);
+  for (std::uint32_t i = 0; i < path.count; ++i) waypoints.push_back(copy_element(path.waypoints, path.stride, i));
+  collected.paths[robot] = std::move(waypoints);
   collected.given[robot] = true;
-  for (std::uint32_t i = 0; i < count; ++i)
-    collected.paths[robot].push_back(*DMRP_AT(dmrp_waypoint, waypoints, stride, i));
   return DMRP_OK;
 }
 
-void collect_statistic(dmrp_plan_sink* sink, const char* name, double value) {
-  if (name) static_cast<Collected*>(sink->context)->statistics.push_back({name, value});
+dmrp_plan_sink sink_into(Collected& collected) {
+  dmrp_plan_sink sink{};
+  sink.struct_size = sizeof(sink);
+  sink.context = &collected;
+  sink.path = [](dmrp_plan_sink* self, std::uint32_t robot, const dmrp_path* path) noexcept -> std::int32_t {
+    return path ? or_out_of_memory([&] { return collect_path(collected_by(self), robot, *path); }) : DMRP_ERROR;
+  };
+  sink.statistic = [](dmrp_plan_sink* self, const char* name, double value) noexcept -> std::int32_t {
+    if (!name) return DMRP_ERROR;
+    return or_out_of_memory([&] { return collected_by(self).statistics.push_back({escaped(name), value}), DMRP_OK; });
+  };
+  return sink;
 }
 
 // Planners work on cells: moves a goal to the centre of its cell.
@@ -84,6 +104,7 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
     robot.goals = problem.goals[i].data();
     robot.goal_stride = sizeof(dmrp_goal);
     robot.first_goal_index = state.goal_index;
+    robot.grid = &problem.grid;
     robot.robot = DMRP_AT(dmrp_robot, view.robots, view.robot_stride, i);
     robot.pose = state.pose;
     robot.velocity = state.velocity;
@@ -119,10 +140,10 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
   Collected collected;
   collected.paths.resize(problem.robot_count);
   collected.given.resize(problem.robot_count);
-  dmrp_plan_sink sink = {sizeof(sink), 0, &collected, &collect_path, &collect_statistic};
+  dmrp_plan_sink sink = sink_into(collected);
   const auto table = planner.table<dmrp_global_planner>();
-  const auto result =
-      planner.call("plan", step, problem.time_budget_ns, [&] { return table.plan(planner.self(), &problem, &sink); });
+  const auto result = planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout,
+                                   [&] { return table.plan(planner.self(), &problem, &sink); });
   PlannerAnswer answer{result.status, result.duration_ns, planner.guard().error(), {}, std::move(collected.statistics)};
   if (result.status == DMRP_NO_SOLUTION) return answer;
   if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
@@ -134,7 +155,7 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
 
 std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
   if (!verdict.error.empty()) return "invalid plan: " + verdict.error;
-  if (verdict.conflicts == 0 || (info.planner_flags & DMRP_PLANNER_UNCOORDINATED) != 0) return "";
+  if (verdict.conflicts == 0 || info.has_flag(DMRP_FLAG_UNCOORDINATED)) return "";
   return fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts);
 }
 

@@ -12,34 +12,13 @@ RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::
       lidar_(lidar),
       seed_(seed),
       odometry_(world.robot_settings().odometry, seed, robot, world.robots()[robot].pose),
-      ranges_(lidar.beams()) {
-  lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self) -> const dmrp_scan* {
-                        return &static_cast<RobotSensors*>(self->context)->scan();
-                      }};
-  costmap_extension_ = {sizeof(dmrp_local_costmap), 0, this, [](const dmrp_local_costmap* self) -> const dmrp_costmap* {
-                          return &static_cast<RobotSensors*>(self->context)->costmap_->costmap();
-                        }};
-  field_extension_ = {sizeof(dmrp_distance_field), 0, this, [](const dmrp_distance_field* self) -> const dmrp_field* {
-                        return &static_cast<RobotSensors*>(self->context)->costmap_->distance_field();
-                      }};
-  clusters_extension_ = {sizeof(dmrp_obstacle_clusters), 0, this,
-                         [](const dmrp_obstacle_clusters* self) -> const dmrp_obstacle_cluster_list* {
-                           return &static_cast<RobotSensors*>(self->context)->clusters();
-                         }};
-}
+      ranges_(lidar.beams()) {}
 
-const void* RobotSensors::extension(const std::string& id) {
-  if (id == DMRP_EXT_LIDAR) return &lidar_extension_;
-  const void* of_costmap = nullptr;
-  if (id == DMRP_EXT_LOCAL_COSTMAP) of_costmap = &costmap_extension_;
-  if (id == DMRP_EXT_DISTANCE_FIELD) of_costmap = &field_extension_;
-  if (id == DMRP_EXT_OBSTACLE_CLUSTERS) of_costmap = &clusters_extension_;
-  if (of_costmap && !costmap_) {
-    const core::RobotSettings& robot = world_.robot_settings();
-    costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m, robot.lidar.dropout_share);
-    costmap_->update(odometry_.pose(), scan());
-  }
-  return of_costmap;
+void RobotSensors::subscribe_to_costmap() {
+  if (costmap_) return;
+  const core::RobotSettings& robot = world_.robot_settings();
+  costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m, robot.lidar.dropout_share);
+  costmap_->update(odometry_.pose(), scan());
 }
 
 void RobotSensors::tick() {

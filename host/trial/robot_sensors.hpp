@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// robot_sensors.hpp: a robot's sensors, as the extensions of its controller.
+// robot_sensors.hpp: the sensors of one robot.
 #pragma once
 
 #include <dmrp/ext/distance_field.h>
@@ -8,7 +8,6 @@
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/sensors/costmap.hpp"
@@ -28,9 +27,8 @@ class RobotSensors {
   RobotSensors(const RobotSensors&) = delete;
   RobotSensors& operator=(const RobotSensors&) = delete;
 
-  // The extension with this id, nullptr if it is not offered. Asking for the costmap, or for an extension derived from it,
-  // subscribes to the costmap.
-  const void* extension(const std::string& id);
+  // From now on every scan is entered into the costmap, which the readings below the scan need.
+  void subscribe_to_costmap();
 
   // A control tick begins: earlier readings are out of date.
   void tick();
@@ -44,9 +42,11 @@ class RobotSensors {
   // The robots and people that the robot perceives, as in its observation.
   const std::vector<dmrp_agent>& agents();
 
- private:
+  const dmrp_costmap& costmap() const { return costmap_->costmap(); }
+  const dmrp_field& distance_field() { return costmap_->distance_field(); }
   const dmrp_obstacle_cluster_list& clusters();
 
+ private:
   const core::World& world_;
   std::uint32_t robot_;
   core::Lidar& lidar_;
@@ -60,10 +60,6 @@ class RobotSensors {
   std::unique_ptr<core::LocalCostmap> costmap_;  // nullptr until somebody subscribes
   core::ObstacleClusters clusters_;
   const dmrp_obstacle_cluster_list* fresh_clusters_ = nullptr;
-  dmrp_lidar lidar_extension_{};
-  dmrp_local_costmap costmap_extension_{};
-  dmrp_distance_field field_extension_{};
-  dmrp_obstacle_clusters clusters_extension_{};
 };
 
 }  // namespace dmrp::host

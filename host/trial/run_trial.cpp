@@ -110,17 +110,37 @@ class Run {
   void control() {
     dispatcher_.update_targets();
     plugins_.sense();
+    if (plugins_.has_central_controller()) return control_all();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-      if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-      if (const auto path = dispatcher_.take_new_path(i); !path.empty()) plugins_.set_path(i, path, step_);
-      if (const auto command = plugins_.control(i, dispatcher_.guidance(i), step_)) {
-        world_.set_command(i, *command);
-        monitor_.command_given(i, world_.t_ns());
-      } else {
-        world_.set_command(i, {0.0, 0.0, 0.0});
-      }
-      if (monitor_.failure(i) == DMRP_FAILURE_CONTROLLER) world_.fail(i);
+      if (!is_active(i)) continue;
+      pass_new_path(i);
+      drive(i, plugins_.control(i, dispatcher_.guidance(i), step_));
     }
+  }
+
+  void control_all() {
+    guided_.clear();
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
+      if (!is_active(i)) continue;
+      pass_new_path(i);
+      guided_.push_back({i, dispatcher_.guidance(i)});
+    }
+    if (guided_.empty()) return;
+    const auto commands = plugins_.control_all(guided_, step_);
+    for (std::size_t i = 0; i < guided_.size(); ++i) drive(guided_[i].robot, commands[i]);
+  }
+
+  bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
+
+  void pass_new_path(std::uint32_t robot) {
+    if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) plugins_.set_path(robot, path, step_);
+  }
+
+  // Without a command the robot brakes.
+  void drive(std::uint32_t robot, const std::optional<dmrp_twist>& command) {
+    world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
+    if (command) monitor_.command_given(robot, world_.t_ns());
+    if (monitor_.failure(robot) == DMRP_FAILURE_CONTROLLER) world_.fail(robot);
   }
 
   void record(std::span<const dmrp_contact> contacts) {
@@ -165,6 +185,7 @@ class Run {
                               ends_.data(),
                               static_cast<std::uint32_t>(ends_.size()),
                               sizeof(dmrp_robot_end)};
+    plugins_.end_trial(c, step_);
     trace_.end(c, ending_text(ending));
     return c;
   }
@@ -179,6 +200,7 @@ class Run {
   Plan plan_;                         // in force
   std::optional<Plan> pending_plan_;  // comes into force after the planning latency
   std::int64_t step_ = 0;
+  std::vector<GuidedRobot> guided_;  // of control_all()
   std::vector<dmrp_robot_sample> robots_;
   std::vector<dmrp_robot_end> ends_;
 };

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <dmrp/toolkit/random.hpp>
+#include <string_view>
 
 #include "core/scene/robot_task.hpp"
 
@@ -38,43 +38,63 @@ TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, con
 
 void TrialPlugins::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
-  planner_ = &pool.get(*planner_use_, -1);
-  offer(*planner_, {DMRP_KIND_GLOBAL_PLANNER, 0}, nullptr);
+  planner_ = &pool.get(*planner_use_, DMRP_NO_ROBOT);
+  offer(*planner_, DMRP_KIND_GLOBAL_PLANNER);
   planner_->start(variant_.view.world(), instance_seed(seed, "global_planner", 0),
                   nanoseconds(experiment_.limits.planner_time_s));
 }
 
 void TrialPlugins::start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   const PluginUse& use = experiment_.local_controllers[static_cast<std::size_t>(combination.local_controller)];
-  controllers_.reserve(world_.robots().size());  // plugins keep the address of their view
-  for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-    Instance& instance = pool.get(use, static_cast<std::int32_t>(i));
-    controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_, seed),
-                            variant_.view.seen_by(static_cast<std::int32_t>(i)),
-                            instance.table<dmrp_local_controller>()});
-    Controller& controller = controllers_.back();
-    offer(instance, {DMRP_KIND_LOCAL_CONTROLLER, i}, controller.sensors);
-    instance.start(controller.view, instance_seed(seed, "local_controller", i),
+  const auto robot_count = static_cast<std::uint32_t>(world_.robots().size());
+  const auto start = [&](Instance& instance, std::uint32_t index) {
+    instance.start(variant_.view.world(), instance_seed(seed, "local_controller", index),
                    nanoseconds(experiment_.limits.step_time_s));
+  };
+  central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
+  for (std::uint32_t i = 0; i < robot_count; ++i) {
+    Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
+    controllers_.push_back(
+        {&instance, std::make_shared<RobotSensors>(world_, i, lidar_, seed), instance.table<dmrp_local_controller>()});
+    if (central_) continue;
+    offer_to_controller(instance, i, 1);
+    start(instance, i);
   }
+  if (!central_ || robot_count == 0) return;
+  offer_to_controller(*controllers_[0].instance, 0, robot_count);
+  start(*controllers_[0].instance, 0);
 }
 
 void TrialPlugins::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   pedestrian_model_ =
-      &pool.get(experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], -1);
-  offer(*pedestrian_model_, {DMRP_KIND_PEDESTRIAN_MODEL, 0}, nullptr);
+      &pool.get(experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], DMRP_NO_ROBOT);
+  offer(*pedestrian_model_, DMRP_KIND_PEDESTRIAN_MODEL);
   pedestrian_model_->start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
                            nanoseconds(experiment_.limits.step_time_s));
   pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
 }
 
-// The instance outlives the trial, so it must not keep the extensions alive.
-void TrialPlugins::offer(Instance& instance, core::AnnotationSource source,
-                         const std::shared_ptr<RobotSensors>& sensors) {
-  annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, source));
+// Instances outlive the trial, so they must not keep the extensions alive.
+void TrialPlugins::offer(Instance& instance, std::uint32_t kind) {
+  annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, kind, 0, 0));
+  const auto grids = kind == DMRP_KIND_PEDESTRIAN_MODEL ? variant_.walking_grids : nullptr;
   instance.offer([annotations = std::weak_ptr(annotations_.back()),
-                  sensors = std::weak_ptr(sensors)](const char* id) -> const void* {
-    if (const auto here = annotations.lock(); here && std::strcmp(id, DMRP_EXT_ANNOTATE) == 0) return here->extension();
+                  grids = std::weak_ptr(grids)](std::string_view id) -> const void* {
+    if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
+    const auto here = grids.lock();
+    return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
+  });
+}
+
+void TrialPlugins::offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count) {
+  annotations_.push_back(
+      std::make_shared<Annotations>(annotated_trace_, DMRP_KIND_LOCAL_CONTROLLER, first_robot, robot_count));
+  std::vector<std::shared_ptr<RobotSensors>> sensors(first_robot);
+  for (std::uint32_t i = 0; i < robot_count; ++i) sensors.push_back(controllers_[first_robot + i].sensors);
+  sensor_extensions_.push_back(std::make_shared<SensorExtensions>(std::move(sensors)));
+  instance.offer([annotations = std::weak_ptr(annotations_.back()),
+                  sensors = std::weak_ptr(sensor_extensions_.back())](std::string_view id) -> const void* {
+    if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
     const auto here = sensors.lock();
     return here ? here->extension(id) : nullptr;
   });
@@ -95,9 +115,9 @@ void TrialPlugins::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> 
   const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
                           waypoints.data()};
   Controller& controller = controllers_[robot];
-  const std::uint64_t revision = ++controller.revision;
-  controller.instance->call("set_path", step, nanoseconds(experiment_.limits.step_time_s),
-                            [&] { return controller.table.set_path(controller.instance->self(), &path, revision); });
+  const dmrp_path_update update = {sizeof(update), robot, ++controller.revision, &path};
+  controller.instance->call("set_path", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
+                            [&] { return controller.table.set_path(controller.instance->self(), &update); });
 }
 
 void TrialPlugins::sense() {
@@ -108,22 +128,22 @@ void TrialPlugins::sense() {
     }
 }
 
-// The observation without the robot's agents.
-dmrp_observation TrialPlugins::observation(std::uint32_t robot, const Guidance& guidance) const {
+// Refers to `guidance`, and to the agents that the robot perceives at this tick.
+void TrialPlugins::observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const {
   const core::RobotState& state = world_.robots()[robot];
   const dmrp_world& view = variant_.view.world();
   const dmrp_robot& body = *DMRP_AT(dmrp_robot, view.robots, view.robot_stride, robot);
-  const core::Odometry& odometry = controllers_[robot].sensors->odometry();
+  RobotSensors& sensors = *controllers_[robot].sensors;
+  const std::vector<dmrp_agent>& agents = sensors.agents();
 
-  dmrp_observation observation{};
   observation.struct_size = sizeof(observation);
   observation.robot = robot;
   observation.t_ns = world_.t_ns();
   observation.dt_ns = variant_.simulation.control_period_ns;
-  observation.pose = odometry.pose();
-  observation.velocity = odometry.velocity();
+  observation.pose = sensors.odometry().pose();
+  observation.velocity = sensors.odometry().velocity();
   observation.applied = state.command;
-  observation.goal = guidance.goal;
+  observation.goal = &guidance.goal;
   observation.goal_index = state.goal_index;
   observation.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
   observation.progress_m = guidance.progress_m;
@@ -131,28 +151,60 @@ dmrp_observation TrialPlugins::observation(std::uint32_t robot, const Guidance& 
   observation.released_waypoint = guidance.released_waypoint;
   observation.limits = body.limits;
   observation.footprint = body.footprint;
-  return observation;
+  observation.agents = agents.data();
+  observation.agent_count = static_cast<std::uint32_t>(agents.size());
+  observation.agent_stride = sizeof(dmrp_agent);
+}
+
+dmrp_twist TrialPlugins::checked(std::uint32_t robot, const dmrp_command& command, const char* function,
+                                 std::int64_t step) const {
+  if (std::isfinite(command.v_x) && std::isfinite(command.v_y) && std::isfinite(command.omega))
+    return {command.v_x, command.v_y, command.omega};
+  CallSite site = controllers_[robot].instance->site(function, step);
+  site.robot = static_cast<std::int32_t>(robot);
+  throw PluginFault(fault_kind::bad_output, site,
+                    fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
 }
 
 std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
   Controller& controller = controllers_[robot];
-  const std::vector<dmrp_agent>& agents = controller.sensors->agents();
-  dmrp_observation seen = observation(robot, guidance);
-  seen.agents = agents.data();
-  seen.agent_count = static_cast<std::uint32_t>(agents.size());
-  seen.agent_stride = sizeof(dmrp_agent);
-
-  dmrp_command command{};
-  command.struct_size = sizeof(command);
-  const auto result = controller.instance->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
-    return controller.table.step(controller.instance->self(), &seen, &command);
-  });
+  dmrp_observation seen{};
+  observe(robot, guidance, seen);
+  command_.clear();
+  const auto result = controller.instance->call(
+      "step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_solution,
+      [&] { return controller.table.step(controller.instance->self(), &seen, &command_.value); });
+  command_.check(controller.instance->site("step", step), "dmrp_command");
   note_call(DMRP_CALL_CONTROL, robot, result);
   if (result.status == DMRP_NO_SOLUTION) return std::nullopt;
-  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
-    throw PluginFault(fault_kind::bad_output, controller.instance->site("step", step),
-                      fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
-  return dmrp_twist{command.v_x, command.v_y, command.omega};
+  return checked(robot, command_.value, "step", step);
+}
+
+std::span<const std::optional<dmrp_twist>> TrialPlugins::control_all(std::span<const GuidedRobot> robots,
+                                                                     std::int64_t step) {
+  observations_.assign(robots.size(), {});
+  commands_.resize(robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    observe(robots[i].robot, robots[i].guidance, observations_[i]);
+    commands_[i].struct_size = sizeof(dmrp_command);
+  }
+  const dmrp_fleet fleet = {sizeof(fleet),        static_cast<std::uint32_t>(robots.size()),
+                            observations_.data(), sizeof(dmrp_observation),
+                            sizeof(dmrp_command), commands_.data()};
+  const Controller& controller = controllers_[0];
+  const auto result =
+      controller.instance->call("step_all", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
+                                [&] { return controller.table.step_all(controller.instance->self(), &fleet); });
+  commands_.check(controller.instance->site("step_all", step), "the commands");
+  note_call(DMRP_CALL_CONTROL, 0, result);
+  twists_.clear();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (commands_[i].status == DMRP_NO_SOLUTION)
+      twists_.push_back(std::nullopt);
+    else
+      twists_.push_back(checked(robots[i].robot, commands_[i], "step_all", step));
+  }
+  return twists_;
 }
 
 const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step) {
@@ -165,17 +217,33 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
                             people.data(),       robots.data(),
                             sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
                             sizeof(dmrp_agent),  0};
-  const auto result = pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), [&] {
-    return pedestrian_table_.step(pedestrian_model_->self(), &crowd, velocities_.data());
-  });
+  motions_.resize(people.size());
+  dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
+  const auto result =
+      pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
+                              [&] { return pedestrian_table_.step(pedestrian_model_->self(), &crowd, &motions); });
+  motions_.check(pedestrian_model_->site("step", step), "the motions");
   note_call(DMRP_CALL_PEOPLE, 0, result);
-  if (result.status == DMRP_NO_SOLUTION) std::fill(velocities_.begin(), velocities_.end(), dmrp_vec2{0.0, 0.0});
-  for (std::size_t i = 0; i < velocities_.size(); ++i)
+  for (std::size_t i = 0; i < velocities_.size(); ++i) {
+    velocities_[i] = motions_[i].velocity;
     if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person_mps))
       throw PluginFault(
           fault_kind::bad_output, pedestrian_model_->site("step", step),
           fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocities_[i].x, velocities_[i].y));
+  }
   return velocities_;
+}
+
+void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
+  const auto end_of = [&](Instance* instance) {
+    if (instance) instance->end_trial(end, step, nanoseconds(experiment_.limits.step_time_s));
+  };
+  end_of(planner_);
+  for (const Controller& controller : controllers_) {
+    end_of(controller.instance);
+    if (central_) break;
+  }
+  end_of(pedestrian_model_);
 }
 
 }  // namespace dmrp::host

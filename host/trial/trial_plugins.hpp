@@ -14,14 +14,22 @@
 
 #include "core/sensors/lidar.hpp"
 #include "core/world/world.hpp"
+#include "host/plugins/output.hpp"
 #include "host/trial/annotations.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
+#include "host/trial/sensor_extensions.hpp"
 #include "host/trial/variant_world.hpp"
 
 namespace dmrp::host {
+
+// An active robot and its part of the plan.
+struct GuidedRobot {
+  std::uint32_t robot;
+  Guidance guidance;
+};
 
 class TrialPlugins {
  public:
@@ -41,11 +49,20 @@ class TrialPlugins {
   // Updates the sensors of all active robots; at the beginning of a control tick.
   void sense();
 
+  // Whether one controller instance drives all robots: then control_all() takes the place of control().
+  bool has_central_controller() const { return central_; }
+
   // The next command of a robot. Nothing if its controller found none: the host then brakes.
   std::optional<dmrp_twist> control(std::uint32_t robot, const Guidance& guidance, std::int64_t step);
 
+  // The next commands of all active robots, parallel to `robots`, valid until the next call.
+  std::span<const std::optional<dmrp_twist>> control_all(std::span<const GuidedRobot> robots, std::int64_t step);
+
   // The velocities of all people for the next step.
   const std::vector<dmrp_vec2>& people_velocities(std::int64_t step);
+
+  // The trial has ended without a fault.
+  void end_trial(const dmrp_trial_end& end, std::int64_t step);
 
   // The calls of plugins since the previous take_calls().
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
@@ -55,9 +72,11 @@ class TrialPlugins {
   void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
 
-  // Offers an instance the extension for annotations and, for a controller, those of the robot's sensors.
-  void offer(Instance& instance, core::AnnotationSource source, const std::shared_ptr<RobotSensors>& sensors);
-  dmrp_observation observation(std::uint32_t robot, const Guidance& guidance) const;
+  // Offer an instance its extensions.
+  void offer(Instance& instance, std::uint32_t kind);
+  void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
+  void observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const;
+  dmrp_twist checked(std::uint32_t robot, const dmrp_command& command, const char* function, std::int64_t step) const;
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
 
   const Experiment& experiment_;
@@ -69,7 +88,6 @@ class TrialPlugins {
   struct Controller {
     Instance* instance;
     std::shared_ptr<RobotSensors> sensors;
-    dmrp_world view;
     dmrp_local_controller table;
     std::uint64_t revision = 0;  // of its path
   };
@@ -77,8 +95,15 @@ class TrialPlugins {
   core::TraceEncoder* scanned_trace_;    // nullptr if no scans are recorded
   core::TraceEncoder* annotated_trace_;  // nullptr if no annotations are recorded
   std::vector<std::shared_ptr<Annotations>> annotations_;
-  std::vector<Controller> controllers_;
+  std::vector<std::shared_ptr<SensorExtensions>> sensor_extensions_;
+  std::vector<Controller> controllers_;  // by robot; all with the same instance if it is central
+  bool central_ = false;
+  Output<dmrp_command> command_;
+  std::vector<dmrp_observation> observations_;  // of control_all(), as the next two
+  OutputArray<dmrp_command> commands_;
+  std::vector<std::optional<dmrp_twist>> twists_;
   dmrp_pedestrian_model pedestrian_table_{};
+  OutputArray<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;  // parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };

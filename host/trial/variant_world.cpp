@@ -39,9 +39,10 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       geometry(std::make_shared<core::StaticGeometry>(scenario)),
       planning_grid(core::build_planning_grid(*geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
                                               simulation.planning_margin_m)),
-      walking_grid(core::build_walking_grid(*geometry, scenario.people.radius_m)),
-      routes(core::find_flow_routes(scenario, walking_grid)),
-      view(scenario, experiment.robot, simulation, *geometry, planning_grid, walking_grid,
+      walking_grids(std::make_shared<WalkingGrids>(geometry)),
+      routes(
+          core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
+      view(scenario, experiment.robot, simulation, *geometry, planning_grid,
            nanoseconds(experiment.limits.step_time_s)) {}
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
@@ -50,9 +51,9 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       simulation(shared.simulation),
       geometry(shared.geometry),
       planning_grid(shared.planning_grid),
-      walking_grid(shared.walking_grid),
+      walking_grids(shared.walking_grids),
       routes(shared.routes),
-      view(scenario, experiment.robot, simulation, *geometry, planning_grid, walking_grid,
+      view(scenario, experiment.robot, simulation, *geometry, planning_grid,
            nanoseconds(experiment.limits.step_time_s)) {}
 
 }  // namespace dmrp::host

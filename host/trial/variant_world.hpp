@@ -11,6 +11,7 @@
 #include "core/scene/static_geometry.hpp"
 #include "core/scene/world_view.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/trial/walking_grids.hpp"
 
 namespace dmrp::host {
 
@@ -26,7 +27,7 @@ struct VariantWorld {
   core::SimulationSettings simulation;  // with the time limit of this scenario
   std::shared_ptr<const core::StaticGeometry> geometry;
   core::PlanningGrid planning_grid;
-  core::PlanningGrid walking_grid;
+  std::shared_ptr<WalkingGrids> walking_grids;
   core::FlowRoutes routes;  // of the people
   core::WorldView view;
 };

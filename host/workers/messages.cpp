@@ -14,7 +14,22 @@ namespace dmrp::host {
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))   \
   }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricEvent, metric, from_ns, to_ns, robots, text)
+void to_json(nlohmann::json& json, const MetricEvent& e) {
+  const nlohmann::json place = e.place ? nlohmann::json::array({e.place->x, e.place->y}) : nlohmann::json();
+  json = nlohmann::json::array({e.metric, e.from_ns, e.to_ns, e.robots, e.people, e.text, e.severity, place});
+}
+void from_json(const nlohmann::json& json, MetricEvent& e) {
+  json.at(0).get_to(e.metric);
+  json.at(1).get_to(e.from_ns);
+  json.at(2).get_to(e.to_ns);
+  json.at(3).get_to(e.robots);
+  json.at(4).get_to(e.people);
+  json.at(5).get_to(e.text);
+  json.at(6).get_to(e.severity);
+  const nlohmann::json& place = json.at(7);
+  e.place = place.is_null() ? std::nullopt : std::optional(dmrp_vec2{place.at(0), place.at(1)});
+}
+
 DMRP_FIELDS(Job, trial, trace_file, scratch_file, keep_trace_of_success, skip_metrics, known_events)
 DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
 DMRP_FIELDS(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)

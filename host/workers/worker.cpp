@@ -97,7 +97,7 @@ class Worker {
     }
     if (done.outcome != trial_outcome::fault) {
       std::vector<MetricEvent> events = job.known_events;
-      measure_all(kept, seed, job, events);
+      measure_all(kept, world, seed, job, events);
       finish(kept, std::move(events));
     }
     done.repeatable = !guard_.stopped();
@@ -124,15 +124,16 @@ class Worker {
     if (fault.fatal()) _exit(1);
   }
 
-  void measure_all(KeptTrace& kept, std::uint64_t seed, const Job& job, std::vector<MetricEvent>& events) {
+  void measure_all(KeptTrace& kept, const VariantWorld& world, std::uint64_t seed, const Job& job,
+                   std::vector<MetricEvent>& events) {
     core::TraceReader reader(kept.records(), core::TraceExtent::samples);
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
       if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
       channel_.send({{"type", "measuring"}, {"index", i}});
       const PluginUse& use = experiment_.metrics[i];
       try {
-        const MetricResult result = measure(reader, pool_.get(use, -1), use.info, i, seed,
-                                            static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
+        const MetricResult result = measure(reader, world.walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i,
+                                            seed, static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
         channel_.send(typed("metric", result));
         events.insert(events.end(), result.events.begin(), result.events.end());
       } catch (const PluginFault& fault) {
@@ -152,7 +153,7 @@ class Worker {
 // Without a child process: the supervisor has already probed these libraries.
 Probe read_descriptors(const std::filesystem::path& file) {
   const Library library(file);
-  return {library.plugins(), library.warning(), ""};
+  return {library.plugins(), library.warnings(), ""};
 }
 
 }  // namespace

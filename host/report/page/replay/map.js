@@ -211,15 +211,17 @@ function draw_people(context, view, replay, at, colours) {
 }
 
 function trace_robot(context, robot, radius, scale) {
-  if (!robot.outline) {
+  if (robot.parts.length === 0) {
     circle(context, 0, 0, radius);
     return;
   }
   context.beginPath();
-  robot.outline.forEach(([x, y], i) =>
-    i === 0 ? context.moveTo(x * scale, -y * scale) : context.lineTo(x * scale, -y * scale)
-  );
-  context.closePath();
+  for (const part of robot.parts) {
+    part.forEach(([x, y], i) =>
+      i === 0 ? context.moveTo(x * scale, -y * scale) : context.lineTo(x * scale, -y * scale)
+    );
+    context.closePath();
+  }
 }
 
 function draw_robot(context, view, robot, pose, state, colours, picked) {

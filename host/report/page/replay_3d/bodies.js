@@ -80,13 +80,13 @@ function number_label(text, colour) {
 }
 
 function robot_solid(robot) {
-  if (!robot.outline) {
+  if (robot.parts.length === 0) {
     const disc = new THREE.CylinderBufferGeometry(robot.radius, robot.radius, ROBOT_HEIGHT_M, 28);
     disc.translate(0, ROBOT_HEIGHT_M / 2, 0);
     return disc;
   }
-  const outline = new THREE.Shape(robot.outline.map(([x, y]) => new THREE.Vector2(x, y)));
-  const solid = new THREE.ExtrudeBufferGeometry(outline, {depth: ROBOT_HEIGHT_M, bevelEnabled: false});
+  const outlines = robot.parts.map((part) => new THREE.Shape(part.map(([x, y]) => new THREE.Vector2(x, y))));
+  const solid = new THREE.ExtrudeBufferGeometry(outlines, {depth: ROBOT_HEIGHT_M, bevelEnabled: false});
   solid.rotateX(-Math.PI / 2);
   return solid;
 }

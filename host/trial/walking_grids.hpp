@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// walking_grids.hpp: dmrp.walking_grid/1: the grids of one world that plugins asked for.
+#pragma once
+
+#include <dmrp/ext/walking_grid.h>
+#include <dmrp/world.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "core/scene/planning_grid.hpp"
+#include "core/scene/static_geometry.hpp"
+
+namespace dmrp::host {
+
+// Keeps every grid: all trials and instances of a world share them. For one thread.
+class WalkingGrids {
+ public:
+  explicit WalkingGrids(std::shared_ptr<const core::StaticGeometry> geometry);
+
+  // Of a stored trace's world, which outlives this object.
+  explicit WalkingGrids(const dmrp_world& world);
+
+  WalkingGrids(const WalkingGrids&) = delete;
+  WalkingGrids& operator=(const WalkingGrids&) = delete;
+
+  // Computed by the first request. nullptr for a request out of range.
+  const core::PlanningGrid* find(double resolution_m, double radius_m);
+
+  const dmrp_walking_grid* extension() const { return &extension_; }
+
+ private:
+  struct Grid {
+    core::PlanningGrid grid;
+    dmrp_grid view{};
+  };
+  Grid* grid(double resolution_m, double radius_m);
+
+  const dmrp_world* world_ = nullptr;
+  std::shared_ptr<const core::StaticGeometry> geometry_;  // of world_ by the first request
+  std::map<std::pair<double, double>, std::unique_ptr<Grid>> grids_;
+  dmrp_walking_grid extension_{};
+};
+
+}  // namespace dmrp::host
