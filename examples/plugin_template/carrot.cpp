@@ -31,7 +31,7 @@ class CarrotFollower final : public dmrp::LocalController {
   dmrp::Param<double> headway = param("headway", 1.0).unit("s").range(0.1, 5.0).doc("time kept to a person ahead");
 
   // A trial begins: reset all state of the previous one.
-  dmrp::Status start(const dmrp::World&, std::uint64_t /*seed*/) override {
+  dmrp::Status start(const dmrp::Start&) override {
     path_.clear();
     arcs_.clear();
     return dmrp::Status::ok;

@@ -8,8 +8,13 @@ struct dmrp_instance {
   double rate;
 };
 
-static const dmrp_param_spec params[] = {
-    {{"rate", DMRP_PARAM_DOUBLE, 0, 0, 0.5, NULL, NULL, NULL}, "rad/s", "how fast it turns", 0.0, 1.0, NULL, 0, 0}};
+static const dmrp_param_spec params[] = {{.key = "rate",
+                                          .type = DMRP_PARAM_DOUBLE,
+                                          .number = 0.5,
+                                          .unit = "rad/s",
+                                          .doc = "how fast it turns",
+                                          .minimum = 0.0,
+                                          .maximum = 1.0}};
 
 static const dmrp_descriptor turner = {.struct_size = sizeof(dmrp_descriptor),
                                        .kind = DMRP_KIND_LOCAL_CONTROLLER,
@@ -19,15 +24,14 @@ static const dmrp_descriptor turner = {.struct_size = sizeof(dmrp_descriptor),
                                        .vendor = "Example",
                                        .license = "MIT",
                                        .summary = "turns on the spot",
-                                       .source = "",
                                        .params = params,
                                        .param_count = 1,
-                                       .param_stride = sizeof(dmrp_param_spec)};
+                                       .param_stride = sizeof(dmrp_param_spec),
+                                       .kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL};
 
-static int32_t set_path(dmrp_instance* self, const dmrp_path* path, uint64_t revision) {
+static int32_t set_path(dmrp_instance* self, const dmrp_path_update* update) {
   (void)self;
-  (void)revision;
-  return path->count > 0 ? DMRP_OK : DMRP_ERROR;
+  return update->path->count > 0 ? DMRP_OK : DMRP_ERROR;
 }
 
 static int32_t step(dmrp_instance* self, const dmrp_observation* observation, dmrp_command* command) {
@@ -36,13 +40,12 @@ static int32_t step(dmrp_instance* self, const dmrp_observation* observation, dm
   return DMRP_OK;
 }
 
-static const dmrp_local_controller controller = {sizeof(dmrp_local_controller), 0, set_path, step};
+static const dmrp_local_controller controller = {
+    .struct_size = sizeof(dmrp_local_controller), .set_path = set_path, .step = step};
 
-static int32_t start(dmrp_instance* self, const dmrp_world* world, uint64_t seed) {
+static int32_t start(dmrp_instance* self, const dmrp_start* begin) {
   (void)self;
-  (void)world;
-  (void)seed;
-  return DMRP_OK;
+  return begin->robot == DMRP_NO_ROBOT ? DMRP_ERROR : DMRP_OK;
 }
 
 static void destroy(dmrp_instance* self) {
