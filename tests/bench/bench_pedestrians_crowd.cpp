@@ -49,26 +49,25 @@ core::Scenario furnished_square(std::uint32_t people) {
   return scenario;
 }
 
-core::WorldView view_of(const core::Scenario& scenario, const core::StaticGeometry& geometry) {
-  const core::PlanningGrid walking_grid = core::build_walking_grid(geometry, scenario.people.radius_m);
-  return {scenario, {}, {}, geometry, walking_grid, walking_grid, 0};
-}
-
 }  // namespace
 
 Square::Square(std::uint32_t count)
     : people(count),
       scenario(furnished_square(count)),
       geometry(std::make_shared<const core::StaticGeometry>(scenario)),
-      view(view_of(scenario, *geometry)) {}
+      walking_grid(core::build_walking_grid(*geometry, scenario.people.radius_m)),
+      view(scenario, {}, {}, *geometry, walking_grid, 0) {}
 
 CrossingCrowd::CrossingCrowd(const Square& square, const std::string& model, std::uint64_t seed)
     : side_m_(square.scenario.upper.x),
+      grid_(square.walking_grid.view()),
+      walking_grid_(grid_),
       model_("libdmrp_pedestrians.so", model),
       geometry_(square.geometry),
       motion_(geometry_, step_ns) {
   place_people(square, seed);
-  velocities_.resize(people_.size());
+  motions_.resize(people_.size());
+  walking_grid_.offer(model_.host());
   if (model_.start(square.view.world(), seed) != DMRP_OK) throw std::runtime_error(model + " does not start");
 }
 
@@ -114,13 +113,14 @@ void CrossingCrowd::step_model() {
   crowd.people = people_.data();
   crowd.person_stride = sizeof(dmrp_person);
   crowd.robot_stride = sizeof(dmrp_agent);
-  if (model_.as<dmrp_pedestrian_model>().step(model_.self(), &crowd, velocities_.data()) != DMRP_OK)
+  dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
+  if (model_.as<dmrp_pedestrian_model>().step(model_.self(), &crowd, &motions) != DMRP_OK)
     throw std::runtime_error("a step failed");
 }
 
 void CrossingCrowd::move() {
   constexpr double step_s = 1e-9 * step_ns;
-  for (std::size_t i = 0; i < people_.size(); ++i) bodies_[i].displacement = velocities_[i] * step_s;
+  for (std::size_t i = 0; i < people_.size(); ++i) bodies_[i].displacement = motions_[i].velocity * step_s;
   motion_.resolve(bodies_);
   for (std::size_t i = 0; i < people_.size(); ++i) {
     dmrp_person& person = people_[i];

@@ -12,6 +12,7 @@
 #include "core/scene/static_geometry.hpp"
 #include "core/scene/world_view.hpp"
 #include "core/world/solid_motion.hpp"
+#include "tests/unit/given_walking_grid.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::bench {
@@ -23,6 +24,7 @@ struct Square {
   std::uint32_t people;
   core::Scenario scenario;
   std::shared_ptr<const core::StaticGeometry> geometry;
+  core::PlanningGrid walking_grid;
   core::WorldView view;
 };
 
@@ -40,13 +42,15 @@ class CrossingCrowd {
   void send_to(dmrp_person& person, std::uint32_t side) const;
 
   double side_m_;
+  dmrp_grid grid_;
+  test::GivenWalkingGrid walking_grid_;
   test::PluginUnderTest model_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   core::SolidMotion motion_;
   std::int64_t t_ns_ = 0;
   std::vector<dmrp_person> people_;
   std::vector<core::SolidBody> bodies_;
-  std::vector<dmrp_vec2> velocities_;
+  std::vector<dmrp_motion> motions_;
 };
 
 }  // namespace dmrp::bench

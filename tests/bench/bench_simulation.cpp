@@ -24,6 +24,7 @@
 #include "core/world/world.hpp"
 #include "tests/bench/bench_rows.hpp"
 #include "tests/bench/bench_simulation_world.hpp"
+#include "tests/unit/given_walking_grid.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace {
@@ -44,9 +45,10 @@ struct Setup {
 class PeopleVelocities {
  public:
   PeopleVelocities(const Setup& setup, const core::StaticGeometry& geometry, const core::PlanningGrid& walking_grid)
-      : view_(setup.scenario, {}, {}, geometry, walking_grid, walking_grid, 0) {
+      : view_(setup.scenario, {}, {}, geometry, walking_grid, 0), grid_(walking_grid.view()), walking_grid_(grid_) {
     if (setup.walking == Walking::straight) return;
     model_ = std::make_unique<test::PluginUnderTest>("libdmrp_pedestrians.so", "dmrp.pedestrian.social_force");
+    walking_grid_.offer(model_->host());
     if (model_->start(view_.world()) != DMRP_OK) throw std::runtime_error("the model does not start");
   }
 
@@ -75,12 +77,19 @@ class PeopleVelocities {
     crowd.person_stride = sizeof(dmrp_person);
     crowd.robot_count = static_cast<std::uint32_t>(world.robot_agents().size());
     crowd.robot_stride = sizeof(dmrp_agent);
-    if (model_->as<dmrp_pedestrian_model>().step(model_->self(), &crowd, velocities_.data()) != DMRP_OK)
+    motions_.resize(crowd.person_count);
+    dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
+    if (model_->as<dmrp_pedestrian_model>().step(model_->self(), &crowd, &motions) != DMRP_OK)
       throw std::runtime_error("a step failed");
+    std::transform(motions_.begin(), motions_.end(), velocities_.begin(),
+                   [](const dmrp_motion& motion) { return motion.velocity; });
   }
 
   core::WorldView view_;
+  dmrp_grid grid_;
+  test::GivenWalkingGrid walking_grid_;
   std::unique_ptr<test::PluginUnderTest> model_;
+  std::vector<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;
 };
 
