@@ -20,7 +20,8 @@ namespace dmrp::bench {
 // One call of step(), with the data of those extensions that the controller read.
 struct Frame {
   std::vector<dmrp_waypoint> path;  // if not empty: set_path() was called before
-  dmrp_observation observation{};
+  dmrp_observation observation{};   // replaying sets its pointers to the next two
+  dmrp_goal goal{};
   std::vector<dmrp_agent> agents;
 
   dmrp_scan scan{};
@@ -51,10 +52,10 @@ class Perception {
   virtual const void* extension(const std::string& id) = 0;
 
  protected:
-  virtual const dmrp_scan* scan() = 0;
-  virtual const dmrp_costmap* costmap() = 0;
-  virtual const dmrp_field* field() = 0;
-  virtual const dmrp_obstacle_cluster_list* clusters() = 0;
+  virtual const dmrp_scan* scan(std::uint32_t robot) = 0;
+  virtual const dmrp_costmap* costmap(std::uint32_t robot) = 0;
+  virtual const dmrp_field* field(std::uint32_t robot) = 0;
+  virtual const dmrp_obstacle_cluster_list* clusters(std::uint32_t robot) = 0;
 
   // The C struct of an id, nullptr if there is none.
   const void* own(const std::string& id) const;
@@ -79,10 +80,10 @@ class Recorder final : public Perception {
   const void* extension(const std::string& id) override;
 
  private:
-  const dmrp_scan* scan() override;
-  const dmrp_costmap* costmap() override;
-  const dmrp_field* field() override;
-  const dmrp_obstacle_cluster_list* clusters() override;
+  const dmrp_scan* scan(std::uint32_t robot) override;
+  const dmrp_costmap* costmap(std::uint32_t robot) override;
+  const dmrp_field* field(std::uint32_t robot) override;
+  const dmrp_obstacle_cluster_list* clusters(std::uint32_t robot) override;
 
   Source source_;
   Frame* frame_ = nullptr;
@@ -100,10 +101,10 @@ class Player final : public Perception {
   double take_iterations();
 
  private:
-  const dmrp_scan* scan() override;
-  const dmrp_costmap* costmap() override;
-  const dmrp_field* field() override;
-  const dmrp_obstacle_cluster_list* clusters() override;
+  const dmrp_scan* scan(std::uint32_t robot) override;
+  const dmrp_costmap* costmap(std::uint32_t robot) override;
+  const dmrp_field* field(std::uint32_t robot) override;
+  const dmrp_obstacle_cluster_list* clusters(std::uint32_t robot) override;
 
   const Frame* frame_ = nullptr;
   bool listens_;

@@ -9,12 +9,14 @@
 #include <dmrp/toolkit/random.hpp>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/execution/ending.hpp"
 #include "core/execution/progress.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
+#include "host/trial/sensor_extensions.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"
 
 namespace dmrp::bench {
@@ -40,13 +42,21 @@ dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
 // One robot while its trial is recorded.
 struct Driver {
   Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
-      : sensors(world, robot, lidar, seed), recorder([this](const std::string& id) { return sensors.extension(id); }) {}
+      : sensors(std::make_shared<host::RobotSensors>(world, robot, lidar, seed)),
+        extensions(sensors_of(robot)),
+        recorder([this](const std::string& id) { return extensions.extension(id); }) {}
 
-  host::RobotSensors sensors;
+  std::vector<std::shared_ptr<host::RobotSensors>> sensors_of(std::uint32_t robot) const {
+    std::vector<std::shared_ptr<host::RobotSensors>> by_robot(robot);
+    by_robot.push_back(sensors);
+    return by_robot;
+  }
+
+  std::shared_ptr<host::RobotSensors> sensors;
+  host::SensorExtensions extensions;
   Recorder recorder;
   host::Instance* controller = nullptr;
   dmrp_local_controller table{};
-  dmrp_world view{};
   core::PathProgress progress;
   std::vector<dmrp_waypoint> path;
 };
@@ -60,12 +70,16 @@ class Recording {
         lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), trial.variant.simulation.time_limit_ns),
         gained_m_(world_.robots().size()),
+        motions_(world_.people().size()),
         velocities_(world_.people().size()) {
     result_.tapes.resize(world_.robots().size());
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) start_driver(i, pool);
     plan(pool);
     if (velocities_.empty()) return;
-    people_ = &pool.get(trial.experiment.pedestrian_models[0], -1);
+    people_ = &pool.get(trial.experiment.pedestrian_models[0], DMRP_NO_ROBOT);
+    people_->offer([grids = trial.variant.walking_grids](std::string_view id) -> const void* {
+      return id == DMRP_EXT_WALKING_GRID ? grids->extension() : nullptr;
+    });
     people_->start(trial.variant.view.world(), instance_seed(trial.seed, "pedestrian_model", 0), budget_ns);
   }
 
@@ -96,14 +110,14 @@ class Recording {
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();
-    driver.view = trial_.variant.view.seen_by(static_cast<std::int32_t>(robot));
     driver.controller->offer([&driver](const char* id) { return driver.recorder.extension(id); });
-    driver.controller->start(driver.view, instance_seed(trial_.seed, "local_controller", robot), budget_ns);
+    driver.controller->start(trial_.variant.view.world(), instance_seed(trial_.seed, "local_controller", robot),
+                             budget_ns);
   }
 
   void plan(host::InstancePool& pool) {
     const host::PluginUse& use = trial_.experiment.global_planners[0];
-    host::Instance& planner = pool.get(use, -1);
+    host::Instance& planner = pool.get(use, DMRP_NO_ROBOT);
     planner.start(trial_.variant.view.world(), instance_seed(trial_.seed, "global_planner", 0), budget_ns);
     const host::Plan plan = host::make_plan(planner, use.info, trial_.variant, world_, nullptr, budget_ns, 0);
     if (!plan.exists()) throw std::runtime_error("the planner found no plan");
@@ -113,13 +127,14 @@ class Recording {
       driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
       driver.progress.set_path(driver.path, {pose.x, pose.y});
       const dmrp_path path = path_of(driver.path);
-      driver.table.set_path(driver.controller->self(), &path, 1);
+      const dmrp_path_update update = {sizeof(update), i, 1, &path};
+      driver.table.set_path(driver.controller->self(), &update);
     }
   }
 
   void control() {
     for (std::uint32_t i = 0; i < drivers_.size(); ++i)
-      if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i]->sensors.tick();
+      if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i]->sensors->tick();
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
       if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
       Driver& driver = *drivers_[i];
@@ -141,8 +156,9 @@ class Recording {
   void observe(std::uint32_t robot, Frame& frame) {
     const core::RobotState& state = world_.robots()[robot];
     Driver& driver = *drivers_[robot];
-    frame.agents = driver.sensors.agents();
-    const dmrp_robot& body = *DMRP_AT(dmrp_robot, driver.view.robots, driver.view.robot_stride, robot);
+    frame.agents = driver.sensors->agents();
+    const dmrp_world& view = trial_.variant.view.world();
+    const dmrp_robot& body = *DMRP_AT(dmrp_robot, view.robots, view.robot_stride, robot);
     dmrp_observation& now = frame.observation;
     now.struct_size = sizeof(now);
     now.robot = robot;
@@ -151,7 +167,8 @@ class Recording {
     now.pose = state.pose;
     now.velocity = state.velocity;
     now.applied = state.command;
-    now.goal = world_.goals(robot)[state.goal_index];
+    frame.goal = world_.goals(robot)[state.goal_index];
+    now.goal = &frame.goal;
     now.goal_index = state.goal_index;
     now.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
     now.progress_m = driver.progress.progress_m();
@@ -174,7 +191,10 @@ class Recording {
                               people.data(),       robots.data(),
                               sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
                               sizeof(dmrp_agent),  0};
-    people_->table<dmrp_pedestrian_model>().step(people_->self(), &crowd, velocities_.data());
+    dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
+    people_->table<dmrp_pedestrian_model>().step(people_->self(), &crowd, &motions);
+    std::transform(motions_.begin(), motions_.end(), velocities_.begin(),
+                   [](const dmrp_motion& motion) { return motion.velocity; });
   }
 
   const TrialUnderTest& trial_;
@@ -182,6 +202,7 @@ class Recording {
   core::Lidar lidar_;
   core::EndingMonitor monitor_;
   std::vector<double> gained_m_;
+  std::vector<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;
   std::vector<std::unique_ptr<Driver>> drivers_;
   host::Instance* people_ = nullptr;
@@ -200,9 +221,8 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
   Player player(listens);
   host::Instance& controller = pool.get(trial.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
   const auto table = controller.table<dmrp_local_controller>();
-  const dmrp_world view = trial.variant.view.seen_by(static_cast<std::int32_t>(robot));
   controller.offer([&player](const char* id) { return player.extension(id); });
-  controller.start(view, instance_seed(trial.seed, "local_controller", robot), budget_ns);
+  controller.start(trial.variant.view.world(), instance_seed(trial.seed, "local_controller", robot), budget_ns);
 
   Replay replay;
   replay.call_ms.reserve(tape.size());
@@ -211,9 +231,11 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
     player.read_from(frame);
     if (!frame.path.empty()) {
       const dmrp_path path = path_of(frame.path);
-      table.set_path(controller.self(), &path, 1);
+      const dmrp_path_update update = {sizeof(update), robot, 1, &path};
+      table.set_path(controller.self(), &update);
     }
     dmrp_observation observation = frame.observation;
+    observation.goal = &frame.goal;
     observation.agents = frame.agents.data();
     dmrp_command command{};
     command.struct_size = sizeof(command);
