@@ -114,7 +114,7 @@ std::vector<KnownPlanner> known_planners(const Bench& bench) {
     for (const auto& plugin : library.at("plugins"))
       if (const int connectivity = plugin.at("connectivity").get<int>(); plugin.at("kind").get<int>() == 1)
         planners.push_back(
-            {plugin.at("id").get<std::string>(), connectivity, (plugin.at("planner_flags").get<unsigned>() & 1u) != 0});
+            {plugin.at("id").get<std::string>(), connectivity, (plugin.at("flags").get<unsigned>() & 1u) != 0});
   return planners;
 }
 

@@ -142,7 +142,7 @@ TEST_CASE("ECBS-8 describes itself") {
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
   CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_8);
-  CHECK(descriptor->planner_flags == 0);
+  CHECK(descriptor->flags == 0);
 }
 
 TEST_CASE("ECBS-8: one robot") {

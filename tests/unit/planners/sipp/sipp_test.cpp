@@ -102,7 +102,7 @@ TEST_CASE("SIPP describes itself") {
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
   CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
-  CHECK(descriptor->planner_flags == 0);
+  CHECK(descriptor->flags == 0);
 }
 
 TEST_CASE("SIPP solves nearly all random small problems, and its proofs are right") {
