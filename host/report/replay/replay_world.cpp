@@ -66,14 +66,13 @@ json replay_robot(const dmrp_robot& robot) {
   json goals = json::array();
   for (std::uint32_t i = 0; i < robot.goal_count; ++i) goals.push_back(goal_json(robot.goals[i]));
   const dmrp_footprint& footprint = *robot.footprint;
-  json parts = json::array();
+  json to = {{"name", robot.name},
+             {"radius", thousandths(footprint.radius_m)},
+             {"v_max", thousandths(robot.limits->v_max)},
+             {"goals", std::move(goals)}};
   for (std::uint32_t i = 0; i < footprint.part_count; ++i)
-    parts.push_back(points(footprint.parts[i].vertices, footprint.parts[i].vertex_count));
-  return {{"name", robot.name},
-          {"radius", thousandths(footprint.radius_m)},
-          {"parts", std::move(parts)},
-          {"v_max", thousandths(robot.limits->v_max)},
-          {"goals", std::move(goals)}};
+    to["parts"].push_back(points(footprint.parts[i].vertices, footprint.parts[i].vertex_count));
+  return to;
 }
 
 json replay_plans(const std::deque<core::TracePlan>& plans) {

@@ -59,7 +59,7 @@ function robot(packed, index, count) {
     index,
     name: packed.name,
     radius: packed.radius / 1000,
-    parts: packed.parts.map(points), // convex polygons, of a robot that is no disc
+    parts: (packed.parts || []).map(points), // convex polygons; none: a disc
     v_max: packed.v_max / 1000,
     goals: packed.goals.map((goal) => ({
       at: point(goal.at),

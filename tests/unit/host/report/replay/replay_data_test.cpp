@@ -76,7 +76,9 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
 
   const json& second = replay["robots"][1];  // finished from the beginning
   CHECK(second["speed"].size() == 1);
-  CHECK(second["outline"].size() == 6);
+  REQUIRE(second["parts"].size() == 2);
+  CHECK(second["parts"][0].size() == 6);
+  CHECK(second["parts"][1].size() == 8);
   CHECK(second["arrival"] == 0);
   CHECK(replay["end"]["reason"] == "time limit");
 }
@@ -159,7 +161,12 @@ TEST_CASE("scans are in centimetres, with at most 180 beams", "[report]") {
 TEST_CASE("contacts are events with fault and depth, besides metric events", "[report]") {
   TrialRecord trial;
   trial.id = 5;
-  trial.events = {{"blocking", 1'500'000'000, 2'250'000'000, {0, 1}, "they block each other"}};
+  MetricEvent& event = trial.events.emplace_back();
+  event.metric = "blocking";
+  event.from_ns = 1'500'000'000;
+  event.to_ns = 2'250'000'000;
+  event.robots = {0, 1};
+  event.text = "they block each other";
   const json replay = replay_of(test::example_trace(4), trial);  // contacts in samples 0 and 3
   const json& contacts = replay["contacts"];
   REQUIRE(contacts.size() == 4);  // the first begins anew each time; the person is another one each time
