@@ -39,6 +39,7 @@ void stage_cells(const dmrp_world& world, const Experiment& experiment, StagedPr
     robot.goal_count = 1;
     robot.goals = problem.goals[i].data();
     robot.goal_stride = sizeof(dmrp_goal);
+    robot.grid = &problem.grid;
     robot.robot = &body;
     robot.pose = body.start;
     robot.start = {body.start.x, body.start.y};
@@ -76,10 +77,9 @@ std::unique_ptr<PlanTask> cell_task(const core::CellMap& map, const std::vector<
   task->geometry = std::make_shared<core::StaticGeometry>(scenario);
   core::RobotSettings point = experiment.robot;
   point.radius_m = 0.0;
-  // without people, the walking grid is unused: the planning grid serves
   const core::PlanningGrid grid = core::planning_grid_of(map, cell_m);
   task->cell_view = std::make_unique<core::WorldView>(scenario, point, experiment.simulation, *task->geometry, grid,
-                                                      grid, nanoseconds(experiment.limits.step_time_s));
+                                                      nanoseconds(experiment.limits.step_time_s));
   stage_cells(task->cell_view->world(), experiment, task->problem);
   return task;
 }
