@@ -269,7 +269,7 @@ TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one o
   CHECK(links[3].obstacle == 1);  // left, 0.9 m
   CHECK(links[4].obstacle == 2);  // right, 0.8 m
   tuning.include_dynamic_obstacles = false;
-  linker.link(band, disc(0.2), obstacles, tuning, links);
+  linker.link(band, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
   for (const ObstacleLink& link : links) CHECK_FALSE(link.is_dynamic);
 }
 
