@@ -74,7 +74,7 @@ class CarrotFollower final : public dmrp::LocalController {
     double speed = now.limits.v_max;
     for (const dmrp::Agent& other : now.agents) {
       const double aside = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, other.pose));
-      if (other.kind != DMRP_AGENT_PERSON || std::abs(aside) > toolkit::pi / 3.0) continue;
+      if (other.kind == DMRP_AGENT_ROBOT || std::abs(aside) > toolkit::pi / 3.0) continue;
       const double gap_m = toolkit::distance(toolkit::position(now.pose), toolkit::position(other.pose)) -
                            now.footprint.radius_m - other.radius_m;
       if (gap_m < speed * headway) speed = std::max(0.0, gap_m) / headway;
