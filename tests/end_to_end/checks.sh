@@ -39,6 +39,7 @@ values_of() {
                 coalesce(printf('%!.17g', value.value), 'NULL'), value.value IS NULL
                 FROM value JOIN metric ON metric.name = value.metric WHERE wall_clock = 0
                 ORDER BY trial_id, metric, subject_kind, subject, coordinate;
-              SELECT trial_id, metric, printf('%!.17g', from_s), printf('%!.17g', to_s), subjects, text
-                FROM event ORDER BY trial_id, metric, from_s, subjects, text;"
+              SELECT trial_id, metric, printf('%!.17g', from_s), printf('%!.17g', to_s), subjects, text,
+                people, severity, printf('%!.17g', x_m), printf('%!.17g', y_m)
+                FROM event ORDER BY trial_id, metric, from_s, subjects, text, people;"
 }

@@ -24,8 +24,8 @@ run_with_faults alone 0
 trials() { query "$scratch/$1" "SELECT id, outcome, sim_time_s FROM trial ORDER BY id"; }
 values() {
   query "$scratch/$1" "SELECT trial_id, metric, subject_kind, subject, printf('%!.17g', value) FROM value
-    WHERE metric NOT LIKE 'test_%' ORDER BY 1, 2, 3, 4; SELECT trial_id, metric, from_s, to_s, subjects, text FROM event
-    ORDER BY 1, 2, 3, 4, 5"
+    WHERE metric NOT LIKE 'test_%' ORDER BY 1, 2, 3, 4; SELECT trial_id, metric, from_s, to_s, subjects, text,
+    people, severity, x_m, y_m FROM event ORDER BY 1, 2, 3, 4, 5, 6, 7"
 }
 [[ $(trials faults) == "$(trials alone)" ]] || fail "faults of metrics change the trials"
 [[ -n $(values alone) && $(values faults) == "$(values alone)" ]] || fail "faults of metrics change others' values"

@@ -20,9 +20,7 @@ class FaultyController final : public dmrp::LocalController {
   dmrp::Param<std::int64_t> robot = param("robot", 1).range(0, 1000).doc("whose controller does it, in step()");
   dmrp::Param<double> at_s = param("at_s", 1.0).range(0.0, 1000.0).unit("s").doc("when it does it, in step()");
 
-  dmrp::Status start(const dmrp::World&, std::uint64_t) override {
-    return *where == "start" ? do_wrong() : dmrp::Status::ok;
-  }
+  dmrp::Status start(const dmrp::Start&) override { return *where == "start" ? do_wrong() : dmrp::Status::ok; }
   void set_path(dmrp::Path, std::uint64_t) override {
     if (*where == "set_path") do_wrong();
   }

@@ -16,11 +16,10 @@ class FaultyPedestrians final : public dmrp::PedestrianModel {
 
   dmrp::Param<std::string> fault = param("fault", "none").doc("what is wrong with them");
 
-  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Vec2* velocities) override {
-    for (std::size_t i = 0; i < crowd.people.size(); ++i) velocities[i] = {0.0, 0.0};
+  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
     if (dmrp::seconds(crowd.t_ns) < 1.0) return dmrp::Status::ok;
-    if (*fault == "nan") velocities[1].y = std::numeric_limits<double>::quiet_NaN();
-    if (*fault == "too_fast") velocities[1].x = 5.5;
+    if (*fault == "nan") motions[1].velocity.y = std::numeric_limits<double>::quiet_NaN();
+    if (*fault == "too_fast") motions[1].velocity.x = 5.5;
     return misbehave(fault);
   }
 };

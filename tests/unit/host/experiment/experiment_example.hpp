@@ -126,7 +126,9 @@ inline std::vector<host::PluginInfo> fake_plugins() {
 
   host::PluginInfo controller = plugin("test.controller", DMRP_KIND_LOCAL_CONTROLLER, "Controller");
   controller.needs = {"dmrp.lidar/1"};
+  controller.kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL;
   host::PluginInfo blind = plugin("test.psychic", DMRP_KIND_LOCAL_CONTROLLER, "Psychic");
+  blind.kinematics = controller.kinematics;
   blind.needs = {"org.example.telepathy/1"};
   host::PluginInfo model = plugin("test.model", DMRP_KIND_PEDESTRIAN_MODEL, "Model");
   host::PluginInfo metric = plugin("test.length", DMRP_KIND_METRIC, "Length");
@@ -141,13 +143,13 @@ inline std::vector<host::PluginInfo> fake_plugins() {
 inline host::Probe fake_probe(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   if (name == "libbad.so") throw std::runtime_error("not a dmrp v1 plugin");
-  if (name == "libfake.so") return {fake_plugins(), ""};
-  if (name == "libtwin.so") return {{plugin("test.model", DMRP_KIND_PEDESTRIAN_MODEL, "Model")}, ""};
-  if (name == "libsick.so") return {fake_plugins(), "", "its init() failed: no licence"};
+  if (name == "libfake.so") return {fake_plugins()};
+  if (name == "libtwin.so") return {{plugin("test.model", DMRP_KIND_PEDESTRIAN_MODEL, "Model")}};
+  if (name == "libsick.so") return {fake_plugins(), {}, "its init() failed: no licence"};
   if (name == "librival.so") {
     host::PluginInfo metric = plugin("rival.length", DMRP_KIND_METRIC, "Length");
     metric.values = {{"length", "m", "", DMRP_DIRECTION_LOWER, 1, false, false}};
-    return {{metric}, "changes the rounding mode"};
+    return {{metric}, {"changes the rounding mode"}};
   }
   return {};
 }

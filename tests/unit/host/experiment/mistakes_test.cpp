@@ -323,7 +323,7 @@ TEST_CASE("ordered execution needs conflict-free plans on cells") {
       dmrp::host::load_experiment("experiment.toml", 0, [&](const std::filesystem::path& file) {
         dmrp::host::Probe probe = fake_probe(file);
         probe.plugins.front().connectivity = connectivity;
-        probe.plugins.front().planner_flags = flags;
+        probe.plugins.front().flags = flags;
         return probe;
       });
     } catch (const InputError& error) {
@@ -333,7 +333,7 @@ TEST_CASE("ordered execution needs conflict-free plans on cells") {
   };
   CHECK(message(DMRP_CONNECTIVITY_4, 0).empty());
   CHECK(message(DMRP_CONNECTIVITY_8, 0).empty());
-  CHECK(message(DMRP_CONNECTIVITY_4, DMRP_PLANNER_UNCOORDINATED) ==
+  CHECK(message(DMRP_CONNECTIVITY_4, DMRP_FLAG_UNCOORDINATED) ==
         "experiment.toml:20:13: 'execution' = 'ordered' needs plans without conflicts, which test.planner does not "
         "make");
   CHECK(message(DMRP_CONNECTIVITY_ANY, 0) ==

@@ -52,7 +52,13 @@ void check_same(const TrialRecord& a, const TrialRecord& b) {
     CHECK(a.events[i].from_ns == b.events[i].from_ns);
     CHECK(a.events[i].to_ns == b.events[i].to_ns);
     CHECK(a.events[i].robots == b.events[i].robots);
+    CHECK(a.events[i].people == b.events[i].people);
     CHECK(a.events[i].text == b.events[i].text);
+    CHECK(a.events[i].severity == b.events[i].severity);
+    REQUIRE(a.events[i].place.has_value() == b.events[i].place.has_value());
+    if (!a.events[i].place) continue;
+    CHECK(same_bits(a.events[i].place->x, b.events[i].place->x));
+    CHECK(same_bits(a.events[i].place->y, b.events[i].place->y));
   }
   REQUIRE(a.faults.size() == b.faults.size());
   for (std::size_t i = 0; i < a.faults.size(); ++i) {
@@ -77,8 +83,15 @@ TrialRecord full_trial(std::uint64_t id) {
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, 0.1, 5e-324});
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, 0.2, std::numeric_limits<double>::max()});
   trial.values.push_back({"cpu", DMRP_SUBJECT_PEDESTRIAN, 0x8000'0000'0000'0001u, std::nullopt, std::nullopt});
-  trial.events.push_back({"touches", 20'000'000, 1'999'999'999, {0, 1}, "it's \"close\""});
-  trial.events.push_back({"touches", 179'980'000'000, 180'000'000'000, {}, ""});
+  trial.events.push_back({"touches",
+                          20'000'000,
+                          1'999'999'999,
+                          {0, 1},
+                          {3, 0x8000'0000'0000'0001u},
+                          "it's \"close\"",
+                          DMRP_SEVERITY_SERIOUS,
+                          dmrp_vec2{0.1 + 0.2, -1.0 / 3.0}});
+  trial.events.push_back({"touches", 179'980'000'000, 180'000'000'000, {}, {}, "", DMRP_SEVERITY_INFO, {}});
   trial.faults.push_back({"crash", "org.example.x", "step", 812, 1, 11, "SIGSEGV", "dmrp-host x.toml --trials 7"});
   trial.faults.push_back({"exit", "", "", 0, -1, 0, "", ""});
   return trial;
@@ -175,5 +188,5 @@ TEST_CASE("unusable databases are reported with the reason", "[results]") {
   CHECK_THROWS_AS(ResultsDatabase::open(folder / "text.sqlite"), SqliteError);
   CHECK_THROWS_WITH(ResultsDatabase::create(folder / "text.sqlite", example_metrics()), Catch::Contains("exists"));
   SqliteConnection(folder / "other.sqlite", SqliteMode::create).execute("PRAGMA user_version = 7");
-  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 1"));
+  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 2"));
 }

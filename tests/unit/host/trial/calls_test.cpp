@@ -21,12 +21,18 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 struct Guarded {
   CallNote note{};
   CallGuard guard{note};
+  const dmrp_host host{};  // whose call it is: only its address counts
+
+  template <class Function>
+  CallGuard::Result call(const CallSite& site, std::int64_t budget_ns, Answers answers, Function&& function) {
+    return guard.call(&host, site, budget_ns, answers, function);
+  }
 
   // The fault that a call of `function` becomes.
   template <class Function>
   PluginFault fault(Function&& function) {
     try {
-      guard.call({"test.plugin", "step", 7, 3}, second_ns, function);
+      call({"test.plugin", "step", 7, 3}, second_ns, Answers::no_other, function);
     } catch (const PluginFault& fault) {
       return fault;
     }
@@ -39,7 +45,8 @@ struct Guarded {
 TEST_CASE("statuses that leave the plugin usable come back with the time that the call took") {
   Guarded guarded;
   for (const std::int32_t status : {DMRP_OK, DMRP_WARNING, DMRP_NO_SOLUTION, DMRP_TIMEOUT}) {
-    const auto result = guarded.guard.call({"test.plugin", "plan", 0, -1}, second_ns, [&] { return status; });
+    const auto result = guarded.call({"test.plugin", "plan", 0, -1}, second_ns, Answers::no_solution_or_timeout,
+                                     [&] { return status; });
     CHECK(result.status == status);
     CHECK(result.duration_ns >= 0);
   }
@@ -48,7 +55,8 @@ TEST_CASE("statuses that leave the plugin usable come back with the time that th
 TEST_CASE("statuses that end a trial are faults with the plugin's own words") {
   Guarded guarded;
   const auto says = [&](std::int32_t status) {
-    return guarded.fault([&guarded, status] { return guarded.guard.set_error("the tank is empty"), status; });
+    return guarded.fault(
+        [&guarded, status] { return guarded.guard.set_error(&guarded.host, "the tank is empty"), status; });
   };
   const PluginFault error = says(DMRP_ERROR);
   CHECK(error.kind() == std::string(fault_kind::error_status));
@@ -83,21 +91,23 @@ TEST_CASE("changed floating-point control bits are a fault, and are put back") {
   CHECK(std::fegetround() == FE_TONEAREST);
 
   // exception flags, which arithmetic raises, are no fault
-  CHECK_NOTHROW(guarded.guard.call({"test.plugin", "step", 0, 0}, second_ns,
-                                   [] { return std::feraiseexcept(FE_DIVBYZERO | FE_INEXACT), DMRP_OK; }));
+  CHECK_NOTHROW(guarded.call({"test.plugin", "step", 0, 0}, second_ns, Answers::no_other,
+                             [] { return std::feraiseexcept(FE_DIVBYZERO | FE_INEXACT), DMRP_OK; }));
 }
 
 TEST_CASE("should_stop says yes when the budget is used up, and that is remembered") {
   Guarded guarded;
   const CallSite site = {"test.plugin", "plan", 0, -1};
   bool says = true;
-  guarded.guard.call(site, 3600 * second_ns, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  guarded.call(site, 3600 * second_ns, Answers::no_other,
+               [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK_FALSE(says);
   CHECK_FALSE(guarded.guard.stopped());
 
-  guarded.guard.call(site, 0, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  guarded.call(site, 0, Answers::no_other, [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK(says);
-  guarded.guard.call(site, 3600 * second_ns, [&] { return says = guarded.guard.should_stop(), DMRP_OK; });
+  guarded.call(site, 3600 * second_ns, Answers::no_other,
+               [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK_FALSE(says);
   CHECK(guarded.guard.stopped());
   guarded.guard.reset_stopped();
@@ -107,7 +117,7 @@ TEST_CASE("should_stop says yes when the budget is used up, and that is remember
 TEST_CASE("the note says who is being called") {
   Guarded guarded;
   const std::string long_id(300, 'x');
-  guarded.guard.call({long_id, "step", 12, 5}, second_ns, [&] {
+  guarded.call({long_id, "step", 12, 5}, second_ns, Answers::no_other, [&] {
     const CallNote& note = guarded.note;
     CHECK(note.call_number.load() % 2 == 1);
     CHECK(std::string(note.plugin.data()) == std::string(note.plugin.size() - 1, 'x'));

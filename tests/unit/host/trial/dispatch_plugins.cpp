@@ -33,7 +33,7 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
   }
   dmrp::Param<bool> once = param("once", false).doc("finds no plan but the first");
 
-  dmrp::Status start(const dmrp::World&, std::uint64_t) override {
+  dmrp::Status start(const dmrp::Start&) override {
     plans_ = 0;
     return dmrp::Status::ok;
   }
@@ -70,18 +70,21 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
 // Drives along its path as far as it is released, and writes a note for each path.
 class Follower final : public dmrp::LocalController {
  public:
-  static dmrp::Descriptor describe() { return dmrp::Descriptor("test.controller.follower", "Follower", "1.0.0"); }
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.controller.follower", "Follower", "1.0.0").uses(DMRP_EXT_ANNOTATE);
+  }
   dmrp::Param<bool> by_waypoint = param("by_waypoint", false).doc("expects a waypoint at a time");
   dmrp::Param<bool> dawdles = param("dawdles", false).doc("has a speed of its own, and stops now and then");
   dmrp::Param<bool> gives_up = param("gives_up", false).doc("has no command in the second lane from x = 3.2 m on");
   dmrp::Param<bool> strays = param("strays", false).doc("turns left from 3 s on for two seconds");
 
-  dmrp::Status start(const dmrp::World&, std::uint64_t seed) override {
-    annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
-    random_.emplace(seed, "dawdling");
+  dmrp::Status start(const dmrp::Start& now) override {
+    annotate_ = &extension<dmrp_annotate>();
+    random_.emplace(now.seed, "dawdling");
     speed_ = dawdles ? random_->uniform(0.3, 0.8) : 0.6;
     rest_until_ns_ = 0;
     revision_ = 0;
+    robot_ = static_cast<std::uint32_t>(now.robot);
     return dmrp::Status::ok;
   }
 
@@ -91,7 +94,8 @@ class Follower final : public dmrp::LocalController {
     path_.assign(path.begin(), path.end());
     toolkit::arc_lengths(path_, arcs_);
     const std::string text = std::to_string(path.size()) + " to " + std::to_string(path_.back().x);
-    annotate_->note(annotate_, text.c_str());
+    const dmrp_note note = {sizeof(note), robot_, text.c_str()};
+    annotate_->note(annotate_, &note);
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
@@ -134,6 +138,7 @@ class Follower final : public dmrp::LocalController {
   }
 
   const dmrp_annotate* annotate_ = nullptr;
+  std::uint32_t robot_ = 0;
   std::optional<toolkit::Stream> random_;
   double speed_ = 0.6;
   std::int64_t rest_until_ns_ = 0;

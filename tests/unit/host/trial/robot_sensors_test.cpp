@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "host/trial/sensor_extensions.hpp"
+
 using namespace dmrp;
 using namespace dmrp::host;
 
@@ -48,21 +50,39 @@ struct Hall {
   }
 };
 
-template <class Extension>
-const Extension* ask(RobotSensors& sensors, const char* id) {
-  return static_cast<const Extension*>(sensors.extension(id));
-}
+// The sensors of one of its robots, and the extensions of the controller that drives it.
+struct Sensors {
+  explicit Sensors(Hall& hall, std::uint64_t trial_seed = seed, std::uint32_t robot = 0)
+      : readings(std::make_shared<RobotSensors>(*hall.world, robot, *hall.lidar, trial_seed)),
+        extensions(by_robot(readings, robot)) {}
 
-std::vector<float> ranges_of(RobotSensors& sensors) {
-  const auto* lidar = ask<dmrp_lidar>(sensors, DMRP_EXT_LIDAR);
-  const dmrp_scan& scan = *lidar->scan(lidar);
+  static std::vector<std::shared_ptr<RobotSensors>> by_robot(std::shared_ptr<RobotSensors> readings,
+                                                             std::uint32_t robot) {
+    std::vector<std::shared_ptr<RobotSensors>> all(robot);
+    all.push_back(std::move(readings));
+    return all;
+  }
+  RobotSensors* operator->() const { return readings.get(); }
+
+  template <class Extension>
+  const Extension* ask(const char* id) {
+    return static_cast<const Extension*>(extensions.extension(id));
+  }
+
+  std::shared_ptr<RobotSensors> readings;
+  SensorExtensions extensions;
+};
+
+std::vector<float> ranges_of(Sensors& sensors) {
+  const auto* lidar = sensors.ask<dmrp_lidar>(DMRP_EXT_LIDAR);
+  const dmrp_scan& scan = *lidar->scan(lidar, 0);
   return {scan.ranges, scan.ranges + scan.count};
 }
 
 // The number of clusters within a distance of a point.
-int clusters_near(RobotSensors& sensors, dmrp_vec2 point, double reach_m) {
-  const auto* extension = ask<dmrp_obstacle_clusters>(sensors, DMRP_EXT_OBSTACLE_CLUSTERS);
-  const dmrp_obstacle_cluster_list& list = *extension->clusters(extension);
+int clusters_near(Sensors& sensors, dmrp_vec2 point, double reach_m) {
+  const auto* extension = sensors.ask<dmrp_obstacle_clusters>(DMRP_EXT_OBSTACLE_CLUSTERS);
+  const dmrp_obstacle_cluster_list& list = *extension->clusters(extension, 0);
   int count = 0;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const auto& cluster = *DMRP_AT(dmrp_obstacle_cluster, list.clusters, list.stride, i);
@@ -80,14 +100,14 @@ TEST_CASE("a visible robot comes as an agent, a hidden one not at all; without t
   Hall hall;
   hall.simulation.tracking = GENERATE(core::Tracking::visible, core::Tracking::none);
   hall.open();
-  RobotSensors sensors(*hall.world, 0, *hall.lidar, seed);
+  Sensors sensors(hall);
   const bool told = hall.simulation.tracking == core::Tracking::visible;
-  REQUIRE(sensors.agents().size() == (told ? 1 : 0));
-  if (told) CHECK(sensors.agents()[0].id == 1);
+  REQUIRE(sensors->agents().size() == (told ? 1 : 0));
+  if (told) CHECK(sensors->agents()[0].id == 1);
 
   // its front is lethal either way
-  const auto* extension = ask<dmrp_local_costmap>(sensors, DMRP_EXT_LOCAL_COSTMAP);
-  const dmrp_costmap& costmap = *extension->costmap(extension);
+  const auto* extension = sensors.ask<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
+  const dmrp_costmap& costmap = *extension->costmap(extension, 0);
   int lethal = 0;
   for (std::uint32_t row = 0; row < costmap.height; ++row)
     for (std::uint32_t column = 0; column < costmap.width; ++column) {
@@ -105,10 +125,10 @@ TEST_CASE("robots that have arrived or failed are still told of, as what they ar
   hall.open();
   hall.world->fail(1);
   hall.world->step({});
-  RobotSensors sensors(*hall.world, 0, *hall.lidar, seed);
-  REQUIRE(sensors.agents().size() == 1);
-  CHECK(sensors.agents()[0].state == DMRP_ROBOT_FAILED);
-  CHECK(sensors.agents()[0].velocity == dmrp_vec2{0.0, 0.0});
+  Sensors sensors(hall);
+  REQUIRE(sensors->agents().size() == 1);
+  CHECK(sensors->agents()[0].state == DMRP_ROBOT_FAILED);
+  CHECK(sensors->agents()[0].velocity == dmrp_vec2{0.0, 0.0});
 }
 
 TEST_CASE("noise depends on the seed, the robot and the time alone, not on who asked before") {
@@ -118,25 +138,25 @@ TEST_CASE("noise depends on the seed, the robot and the time alone, not on who a
   hall.simulation.tracking = core::Tracking::all;
   hall.simulation.tracking_velocity_noise_sd = 0.2;
   hall.open();
-  RobotSensors eager(*hall.world, 0, *hall.lidar, seed);
-  RobotSensors lazy(*hall.world, 0, *hall.lidar, seed);
-  RobotSensors other_seed(*hall.world, 0, *hall.lidar, seed + 1);
-  eager.extension(DMRP_EXT_DISTANCE_FIELD);
+  Sensors eager(hall);
+  Sensors lazy(hall);
+  Sensors other_seed(hall, seed + 1);
+  eager.extensions.extension(DMRP_EXT_DISTANCE_FIELD);
   const std::vector<float> first = ranges_of(eager);
   for (int i = 0; i < 4; ++i) {
     hall.control_period();
-    for (RobotSensors* sensors : {&eager, &lazy, &other_seed}) sensors->tick();
+    for (Sensors* sensors : {&eager, &lazy, &other_seed}) (*sensors)->tick();
     ranges_of(eager);
-    eager.agents();
-    eager.agents();
+    eager->agents();
+    eager->agents();
   }
   CHECK(ranges_of(eager) == ranges_of(lazy));
   CHECK(ranges_of(eager) != first);
   CHECK(ranges_of(eager) != ranges_of(other_seed));
-  REQUIRE(eager.agents().size() == 2);
-  CHECK(std::memcmp(eager.agents().data(), lazy.agents().data(), 2 * sizeof(dmrp_agent)) == 0);
-  CHECK(eager.agents()[0].velocity != lazy.agents()[1].velocity);
-  CHECK(eager.agents()[0].velocity != other_seed.agents()[0].velocity);
+  REQUIRE(eager->agents().size() == 2);
+  CHECK(std::memcmp(eager->agents().data(), lazy->agents().data(), 2 * sizeof(dmrp_agent)) == 0);
+  CHECK(eager->agents()[0].velocity != lazy->agents()[1].velocity);
+  CHECK(eager->agents()[0].velocity != other_seed->agents()[0].velocity);
 }
 
 TEST_CASE("noise leaves the world as it is") {
@@ -147,13 +167,13 @@ TEST_CASE("noise leaves the world as it is") {
   noisy.robot.lidar.dropout_share = 0.3;
   noisy.simulation.tracking_velocity_noise_sd = 1.0;
   noisy.open();
-  RobotSensors sensors(*noisy.world, 0, *noisy.lidar, seed);
-  sensors.extension(DMRP_EXT_LOCAL_COSTMAP);
+  Sensors sensors(noisy);
+  sensors.extensions.extension(DMRP_EXT_LOCAL_COSTMAP);
   for (int i = 0; i < 10; ++i) {
     quiet.control_period();
     noisy.control_period();
-    sensors.tick();
-    sensors.agents();
+    sensors->tick();
+    sensors->agents();
   }
   CHECK(std::memcmp(&quiet.world->robots()[0].pose, &noisy.world->robots()[0].pose, sizeof(dmrp_pose)) == 0);
   CHECK(quiet.world->robot_agents()[1].velocity == noisy.world->robot_agents()[1].velocity);

@@ -72,7 +72,8 @@ struct Stage {
   }
 
   MetricResult measured() {
-    return measure(*reader, pool->get(experiment.metrics[0], -1), experiment.metrics[0].info, 3, 1, 1'000'000'000);
+    return measure(*reader, variant->walking_grids, pool->get(experiment.metrics[0], DMRP_NO_ROBOT),
+                   experiment.metrics[0].info, 3, 1, 1'000'000'000);
   }
 
   CallNote note{};
@@ -282,6 +283,11 @@ TEST_CASE("a metric's values are taken as they are declared") {
   REQUIRE(result.events.size() == 1);
   CHECK(result.events[0].metric == "samples");
   CHECK(result.events[0].robots == std::vector<std::uint32_t>{0, 1});
+  CHECK(result.events[0].people == std::vector<std::uint64_t>{9});
+  CHECK(result.events[0].severity == DMRP_SEVERITY_SERIOUS);
+  REQUIRE(result.events[0].place);
+  CHECK(result.events[0].place->x == 1.5);
+  CHECK(result.events[0].place->y == 2.5);
   for (const MetricValue& value : result.values) CHECK(value.value.has_value() == (value.metric != "undefined"));
 
   // again from the start, and the same

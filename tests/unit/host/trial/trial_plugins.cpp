@@ -24,15 +24,19 @@ constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 class StraightPlanner final : public dmrp::GlobalPlanner {
  public:
   static dmrp::Descriptor describe() {
-    return dmrp::Descriptor("test.planner.straight", "Straight", "1.0.0").connectivity(DMRP_CONNECTIVITY_8);
+    return dmrp::Descriptor("test.planner.straight", "Straight", "1.0.0")
+        .connectivity(DMRP_CONNECTIVITY_8)
+        .uses(DMRP_EXT_ANNOTATE)
+        .uses(DMRP_EXT_LIDAR);
   }
   dmrp::Param<std::string> does = param("does", "plan").doc("plan, half, nothing, timeout, late, wait or fatal");
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     expect(problem.revision == 1 && problem.in_force.empty(), "the first plan");
-    const auto* annotate = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
-    expect(annotate && !extension<void>(DMRP_EXT_LIDAR), "planners may annotate, and have no sensors");
-    annotate->note(annotate, "straight");
+    const auto* annotate = find_extension<dmrp_annotate>();
+    expect(annotate && !find_extension<dmrp_lidar>(), "planners may annotate, and have no sensors");
+    const dmrp_note note = {sizeof(note), 7, "straight"};  // the robot is ignored
+    annotate->note(annotate, &note);
     if (*does == "fatal") return set_error("the library is lost"), dmrp::Status::fatal;
     if (*does == "nothing") return dmrp::Status::no_solution;
     if (*does == "timeout") return dmrp::Status::timeout;
@@ -59,18 +63,24 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
 class CarefulController final : public dmrp::LocalController {
  public:
   static dmrp::Descriptor describe() {
-    return dmrp::Descriptor("test.controller.careful", "Careful", "1.0.0").uses(DMRP_EXT_LIDAR);
+    return dmrp::Descriptor("test.controller.careful", "Careful", "1.0.0")
+        .uses(DMRP_EXT_ANNOTATE)
+        .uses(DMRP_EXT_LIDAR)
+        .uses(DMRP_EXT_LOCAL_COSTMAP)
+        .uses(DMRP_EXT_OBSTACLE_CLUSTERS)
+        .uses("draft/unknown");
   }
   dmrp::Param<std::string> does = param("does", "drive").doc("drive, nothing or nan");
 
-  dmrp::Status start(const dmrp::World& world, std::uint64_t seed) override {
-    expect(world->self >= 0 && world->self < static_cast<std::int32_t>(world->robot_count), "world.self");
-    expect(seed != 0, "a seed");
-    annotate_ = extension<dmrp_annotate>(DMRP_EXT_ANNOTATE);
-    expect(extension<void>("draft/unknown") == nullptr, "unknown extensions are NULL");
-    lidar_ = extension<dmrp_lidar>(DMRP_EXT_LIDAR);
-    costmap_ = extension<dmrp_local_costmap>(DMRP_EXT_LOCAL_COSTMAP);
-    clusters_ = extension<dmrp_obstacle_clusters>(DMRP_EXT_OBSTACLE_CLUSTERS);
+  dmrp::Status start(const dmrp::Start& now) override {
+    expect(now.robot >= 0 && now.robot < static_cast<std::int32_t>(now.world->robot_count), "start.robot");
+    robot_ = static_cast<std::uint32_t>(now.robot);
+    expect(now.seed != 0, "a seed");
+    annotate_ = find_extension<dmrp_annotate>();
+    expect(host().c()->get_extension(host().c(), "draft/unknown") == nullptr, "unknown extensions are NULL");
+    lidar_ = find_extension<dmrp_lidar>();
+    costmap_ = find_extension<dmrp_local_costmap>();
+    clusters_ = find_extension<dmrp_obstacle_clusters>();
     expect(annotate_ && lidar_ && costmap_ && clusters_, "extensions are offered");
     path_.clear();
     last_t_ns_ = -1;
@@ -81,12 +91,12 @@ class CarefulController final : public dmrp::LocalController {
   void set_path(dmrp::Path path, std::uint64_t revision) override {
     expect(revision == 1 && !path.empty() && last_t_ns_ < 0, "one path, before the first step");
     path_.assign(path.begin(), path.end());
-    const dmrp::Robot& robot = world().robots()[static_cast<std::size_t>(world()->self)];
+    const dmrp::Robot& robot = world().robots()[robot_];
     expect(path_.back().x == robot.goals->pose.x && path_.back().y == robot.goals->pose.y, "the path ends at the goal");
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    expect(static_cast<std::int32_t>(now.robot) == world()->self, "observation.robot");
+    expect(now.robot == robot_, "observation.robot");
     expect(now.t_ns == (last_t_ns_ < 0 ? 0 : last_t_ns_ + now.dt_ns), "one call a control period");
     last_t_ns_ = now.t_ns;
     expect(now.dt_ns == world()->control_period_ns, "dt");
@@ -96,11 +106,11 @@ class CarefulController final : public dmrp::LocalController {
     expect(now.progress_waypoint < path_.size(), "progress on the path");
     for (const dmrp::Agent& agent : now.agents)
       expect(agent.kind != DMRP_AGENT_ROBOT || agent.id != now.robot, "nobody sees itself");
-    const dmrp_scan& scan = *lidar_->scan(lidar_);
+    const dmrp_scan& scan = *lidar_->scan(lidar_, robot_);
     expect(scan.t_ns == now.t_ns && scan.count > 0, "a scan of now");
-    expect(costmap_->costmap(costmap_)->t_ns == now.t_ns, "a costmap of now");
-    const dmrp_obstacle_cluster_list* clusters = clusters_->clusters(clusters_);
-    expect(clusters->t_ns == now.t_ns && clusters == clusters_->clusters(clusters_), "clusters of now");
+    expect(costmap_->costmap(costmap_, robot_)->t_ns == now.t_ns, "a costmap of now");
+    const dmrp_obstacle_cluster_list* clusters = clusters_->clusters(clusters_, robot_);
+    expect(clusters->t_ns == now.t_ns && clusters == clusters_->clusters(clusters_, robot_), "clusters of now");
     if (annotate_->wanted(annotate_)) annotate(now);
 
     if (*does == "nothing") return dmrp::Status::no_solution;
@@ -114,22 +124,38 @@ class CarefulController final : public dmrp::LocalController {
   void annotate(const dmrp::Observation& now) const {
     const dmrp_pose nowhere = {any_heading, 0.0, 0.0};
     const dmrp_pose poses[] = {now.pose, {now.pose.x + 1.0, now.pose.y, 0.0}, nowhere};
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, poses, 3, 100'000'000);
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_PREDICTED, &nowhere, 1, 100'000'000);
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, nullptr, 7, 100'000'000);
-    annotate_->trajectory(annotate_, 77, poses, 2, 100'000'000);
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, poses, 2, -1);
+    draw(DMRP_ANNOTATE_PREDICTED, robot_, poses, 3);
+    draw(DMRP_ANNOTATE_PREDICTED, robot_, &nowhere, 1);
+    draw(DMRP_ANNOTATE_CANDIDATE, robot_, nullptr, 7);
+    draw(77, robot_, poses, 2);
+    draw(DMRP_ANNOTATE_CANDIDATE, robot_, poses, 2, -1);
+    draw(DMRP_ANNOTATE_PREDICTED, 1 - robot_, poses, 2);  // another's robot
+    annotate_->trajectory(annotate_, nullptr);
+    write(robot_, nullptr);
+    write(1 - robot_, "about another's robot");
     annotate_->note(annotate_, nullptr);
     if (now.t_ns > 0) return;
     const std::vector<dmrp_pose> many(1500, now.pose);
-    annotate_->trajectory(annotate_, DMRP_ANNOTATE_CANDIDATE, many.data(), 1500, 0);
-    annotate_->note(annotate_, (std::string(999, 'n') + "\u00e9 and so on").c_str());
+    draw(DMRP_ANNOTATE_CANDIDATE, robot_, many.data(), 1500, 0);
+    write(robot_, (std::string(999, 'n') + "\u00e9 and so on").c_str());
+  }
+
+  void draw(std::uint32_t role, std::uint32_t robot, const dmrp_pose* poses, std::uint32_t count,
+            std::int64_t step_ns = 100'000'000) const {
+    const dmrp_trajectory trajectory = {sizeof(trajectory), role, robot, count, poses, step_ns};
+    annotate_->trajectory(annotate_, &trajectory);
+  }
+
+  void write(std::uint32_t robot, const char* text) const {
+    const dmrp_note note = {sizeof(note), robot, text};
+    annotate_->note(annotate_, &note);
   }
 
   const dmrp_annotate* annotate_ = nullptr;
   const dmrp_lidar* lidar_ = nullptr;
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
+  std::uint32_t robot_ = 0;
   std::vector<dmrp::Waypoint> path_;
   std::int64_t last_t_ns_ = -1;
   double progress_m_ = 0.0;
@@ -165,7 +191,13 @@ class SinkMetric final : public dmrp::Metric {
     sink.curve("curve", 1.0, 1.0);
     sink.curve("curve", 2.0, 4.0);
     if (!silent) sink.system("undefined", dmrp::undefined);
-    sink.event("samples", 5, 5, {0, 1}, "both");
+    sink.event({"samples",
+                5,
+                5,
+                {dmrp::robot_subject(0), dmrp::person_subject(9), dmrp::robot_subject(1)},
+                "both",
+                {1.5, 2.5},
+                dmrp::Severity::serious});
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
     int refused = 0;
@@ -176,18 +208,18 @@ class SinkMetric final : public dmrp::Metric {
         ++refused;
       }
     };
-    refuses([&] { sink.system("samples", 3.0); });           // twice
-    refuses([&] { sink.robot("samples", 1, 2.0); });         // twice
-    refuses([&] { sink.curve("curve", 2.0, 5.0); });         // twice
-    refuses([&] { sink.system("undeclared", 1.0); });        //
-    refuses([&] { sink.robot("refused", 0, 1.0); });         // no such subject
-    refuses([&] { sink.robot("samples", 2, 1.0); });         // no such robot
-    refuses([&] { sink.pedestrian("samples", 0, 1.0); });    // no such subject
-    refuses([&] { sink.curve("samples", 1.0, 1.0); });       // no curve
-    refuses([&] { sink.curve("curve", 3.0, infinity); });    //
-    refuses([&] { sink.curve("curve", infinity, 3.0); });    //
-    refuses([&] { sink.event("samples", 6, 5, {}, ""); });   // ends before it begins
-    refuses([&] { sink.event("samples", 5, 6, {2}, ""); });  // no such robot
+    refuses([&] { sink.system("samples", 3.0); });                                  // twice
+    refuses([&] { sink.robot("samples", 1, 2.0); });                                // twice
+    refuses([&] { sink.curve("curve", 2.0, 5.0); });                                // twice
+    refuses([&] { sink.system("undeclared", 1.0); });                               //
+    refuses([&] { sink.robot("refused", 0, 1.0); });                                // no such subject
+    refuses([&] { sink.robot("samples", 2, 1.0); });                                // no such robot
+    refuses([&] { sink.pedestrian("samples", 0, 1.0); });                           // no such subject
+    refuses([&] { sink.curve("samples", 1.0, 1.0); });                              // no curve
+    refuses([&] { sink.curve("curve", 3.0, infinity); });                           //
+    refuses([&] { sink.curve("curve", infinity, 3.0); });                           //
+    refuses([&] { sink.event({"samples", 6, 5, {}, ""}); });                        // ends before it begins
+    refuses([&] { sink.event({"samples", 5, 6, {dmrp::robot_subject(2)}, ""}); });  // no such robot
     sink.system("refused", refused);
   }
 

@@ -20,8 +20,12 @@ T through_text(const T& value) {
 }  // namespace
 
 TEST_CASE("messages keep all their fields") {
-  const Job job = through_text(
-      Job{1ull << 40, "traces/trial_000007.mcap", "trial_000007.scratch", false, {2, 5}, {{"sto", 1, 2, {3}, "near"}}});
+  const Job job = through_text(Job{1ull << 40,
+                                   "traces/trial_000007.mcap",
+                                   "trial_000007.scratch",
+                                   false,
+                                   {2, 5},
+                                   {{"sto", 1, 2, {3}, {}, "near", 0, {}}}});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
   CHECK(job.scratch_file == "trial_000007.scratch");
@@ -53,7 +57,15 @@ TEST_CASE("metric values keep their bits, and what is undefined stays so") {
   sent.index = 4;
   for (const double value : odd) sent.values.push_back({"length", DMRP_SUBJECT_ROBOT, 7, value, value});
   sent.values.push_back({"length", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, std::nullopt});
-  sent.events.push_back({"sto", 10, 9'000'000'000'000'000'001, {0, 3}, "near"});
+  sent.events.push_back({"sto",
+                         10,
+                         9'000'000'000'000'000'001,
+                         {0, 3},
+                         {0xFFFF'FFFF'FFFF'FFFFu},
+                         "near",
+                         DMRP_SEVERITY_WARNING,
+                         dmrp_vec2{0.1 + 0.2, -1.0 / 3.0}});
+  sent.events.push_back({"sto", 10, 20, {}, {}, "", DMRP_SEVERITY_INFO, {}});
   const MetricResult got = through_text(sent);
   CHECK(got.index == 4);
   REQUIRE(got.values.size() == sent.values.size());
@@ -68,7 +80,14 @@ TEST_CASE("metric values keep their bits, and what is undefined stays so") {
   CHECK_FALSE(got.values.back().subject);
   CHECK_FALSE(got.values.back().coordinate);
   CHECK_FALSE(got.values.back().value);
-  REQUIRE(got.events.size() == 1);
+  REQUIRE(got.events.size() == 2);
   CHECK(got.events[0].to_ns == 9'000'000'000'000'000'001);
   CHECK(got.events[0].robots == std::vector<std::uint32_t>{0, 3});
+  CHECK(got.events[0].people == std::vector<std::uint64_t>{0xFFFF'FFFF'FFFF'FFFFu});
+  CHECK(got.events[0].text == "near");
+  CHECK(got.events[0].severity == DMRP_SEVERITY_WARNING);
+  REQUIRE(got.events[0].place);
+  CHECK(got.events[0].place->x == 0.1 + 0.2);
+  CHECK(got.events[0].place->y == -1.0 / 3.0);
+  CHECK_FALSE(got.events[1].place);
 }
