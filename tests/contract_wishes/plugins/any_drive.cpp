@@ -45,9 +45,10 @@ class AnyDrive final : public dmrp::LocalController {
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
-    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.6, arcs_.back()));
+    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.6, end_m));
     const dmrp::Vec2 offset = toolkit::to_local(now.pose, ahead);
-    const double left_m = arcs_.back() - now.progress_m;
+    const double left_m = std::max(0.0, end_m - now.progress_m);
     const double speed = std::min({now.limits.v_max, std::sqrt(now.limits.a_max * left_m), clear_speed(now, offset)});
     switch (kinematics_) {
       case DMRP_KINEMATICS_HOLONOMIC:

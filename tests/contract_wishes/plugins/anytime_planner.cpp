@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -132,9 +133,12 @@ class AnytimePlanner final : public dmrp::GlobalPlanner {
     read_tasks(problem);
     std::optional<std::vector<Cells>> plan = rest_of_plan_in_force(problem);
     if (plan) {
+      const std::string rest = std::to_string(cost_of(*plan));
       for (int i = 0; i < attempts && !should_stop(); ++i) try_next_pair(*plan);
+      log(dmrp::LogLevel::info, "kept " + rest + " " + std::to_string(cost_of(*plan)));
     } else {
       plan = first_plan();
+      log(dmrp::LogLevel::info, "planned anew");
     }
     if (!plan) return dmrp::Status::timeout;  // a plan may exist: prioritised planning is not complete
     for (std::size_t i = 0; i < plan->size(); ++i) write(problem, i, (*plan)[i], sink);

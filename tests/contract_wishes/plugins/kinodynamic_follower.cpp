@@ -7,7 +7,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
-#include "waypoint_with_velocity.h"
+#include "tests/contract_wishes/plugins/waypoint_with_velocity.h"
 
 namespace {
 
@@ -28,6 +28,8 @@ class KinodynamicFollower final : public dmrp::LocalController {
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
     const waypoint_with_velocity& next = path_[std::min<std::size_t>(now.progress_waypoint + 1, path_.size() - 1)];
+    if (now.progress_waypoint >= now.released_waypoint && now.progress_waypoint + 1 < path_.size())
+      return dmrp::Status::ok;  // stands until the way is free
     const double left_m = toolkit::distance(toolkit::position(now.pose), toolkit::position(path_.back().known));
     const double error =
         left_m < 0.1 ? 0.0 : toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, next.known));

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "waypoint_with_velocity.h"
+#include "tests/contract_wishes/plugins/waypoint_with_velocity.h"
 
 #define WAYPOINT_NS 250000000
 

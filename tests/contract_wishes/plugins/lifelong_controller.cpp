@@ -33,12 +33,14 @@ class LifelongController final : public dmrp::LocalController {
     // a goal without a way to it yet: a new path will come
     if (path_.back().goal_index < now.goal_index) return dmrp::Status::ok;
 
-    const double ahead_m = std::min(now.progress_m + 0.6, arcs_.back());
+    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const double ahead_m = std::min(now.progress_m + 0.6, end_m);
     const double error =
         toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, toolkit::point_at(path_, arcs_, ahead_m)));
-    const double to_stop_m = now.goal_index + 1 < now.goal_count
-                                 ? arcs_.back() - now.progress_m  // there is another goal behind this one
-                                 : toolkit::distance(toolkit::position(now.pose), toolkit::position(now.goal.pose));
+    const double to_stop_m =
+        now.goal_index + 1 < now.goal_count
+            ? std::max(0.0, end_m - now.progress_m)  // there is another goal behind this one
+            : toolkit::distance(toolkit::position(now.pose), toolkit::point_at(path_, arcs_, end_m));
     command.omega = 2.0 * error;
     command.v_x = std::min(now.limits.v_max, std::sqrt(now.limits.a_max * to_stop_m)) * std::max(0.0, std::cos(error));
     return dmrp::Status::ok;

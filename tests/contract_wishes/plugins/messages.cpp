@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robots that tell each other how far they still have to go: near each other, the one with the longer way goes first.
 // Without messages the others' ways are unknown, and the robot with the lower id goes first.
-#include "messages.h"
+#include "tests/contract_wishes/plugins/messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,8 @@ class Messages final : public dmrp::LocalController {
     });
     if (waits) return dmrp::Status::ok;  // stands
 
-    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.5, arcs_.back()));
+    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.5, end_m));
     const double error = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, ahead));
     const double to_m = toolkit::distance(toolkit::position(now.pose), ahead);
     command.v_x = std::min(now.limits.v_max, std::sqrt(now.limits.a_max * to_m)) * std::max(0.0, std::cos(error));

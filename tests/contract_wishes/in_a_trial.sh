@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What dmrp-host supports of the wishes already, in real trials: the robots arrive, without a fault, and with the same bits
+# in a second run. Called as: in_a_trial.sh DMRP_HOST LIBRARY_FOLDER
+source "$(dirname "${BASH_SOURCE[0]}")/../end_to_end/checks.sh"
+export DMRP_SCENARIO_PATH=$here/../end_to_end/worlds
+folder=$(realpath "$2")
+cd "$scratch" || exit 1
+
+# experiment NAME PLANNER CONTROLLER PEDESTRIANS LIBRARIES [SETTINGS [ROBOTS]]
+experiment() {
+  local libraries="" library
+  for library in $5; do libraries+=", \"$folder/libwish_$library.so\""; done
+  cat >"$1.toml" <<END
+[experiment]
+name    = "$1"
+seed    = 7
+trials  = 2
+plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians.so", "libdmrp_metrics.so"$libraries]
+
+[[scenario]]
+use = "crossing"
+robots = ${7:-2}
+
+[[global_planner]]
+use = "$2"
+
+[[local_controller]]
+use = "$3"
+
+[[pedestrian_model]]
+use = "$4"
+
+[simulation]
+$6
+END
+}
+cbs=dmrp.planner.cbs pure_pursuit=dmrp.controller.pure_pursuit social_force=dmrp.pedestrian.social_force
+ordered='execution = "ordered"'
+experiment anytime org.example.anytime $pure_pursuit $social_force anytime_planner "$ordered
+replan_period_s = 1.0"
+experiment grid_of_each org.example.grid_of_each $pure_pursuit $social_force grid_of_each "" 1
+experiment lifelong $cbs org.example.lifelong $social_force lifelong_controller "$ordered"
+experiment policy $cbs org.example.policy $social_force learned_policy "$ordered"
+experiment any_drive $cbs org.example.any_drive $social_force any_drive "$ordered"
+experiment central $cbs org.example.one_at_a_time $social_force one_at_a_time "$ordered"
+experiment kinodynamic org.example.kinodynamic org.example.kinodynamic_follower $social_force \
+  "kinodynamic_planner kinodynamic_follower" "" 1
+experiment messages $cbs org.example.messages $social_force messages "$ordered"
+experiment reactions $cbs $pure_pursuit org.example.reactions reactions "$ordered"
+
+for name in anytime grid_of_each lifelong policy any_drive central kinodynamic messages reactions; do
+  expect_status 0 "$host" "$name.toml" --quiet --out "$name"
+  [[ $(query "$name" "SELECT count(*), min(outcome), max(outcome), min(repeatable), (SELECT count(*) FROM fault) FROM trial") == \
+    "2|succeeded|succeeded|1|0" ]] || fail "$name: $(query "$name" "SELECT * FROM trial; SELECT * FROM fault")"
+done
+
+# a planner and a controller that keep something between their calls, in other workers
+for name in anytime central; do
+  expect_status 0 "$host" "$name.toml" --quiet --jobs 1 --out "${name}_again"
+  [[ $(values_of "$name") == "$(values_of "${name}_again")" ]] || fail "$name has other values in a second run"
+done
+
+# the plan in force was the start of most calls, and never became more expensive
+kept=$(awk '/kept/ { n++; if ($NF > $(NF - 1)) exit 1 } END { print n + 0 }' anytime/log.txt) ||
+  fail "the anytime planner made a plan more expensive: $(cat anytime/log.txt)"
+((kept >= 10)) || fail "the anytime planner should have kept plans: $(cat anytime/log.txt)"
+
+# weights that are not there are found before the run begins
+cp "$folder/libwish_learned_policy.so" .
+sed "s|$folder/libwish_learned|./libwish_learned|" policy.toml >without_weights.toml
+expect_status 2 "$host" without_weights.toml --quiet --out without_weights
+grep -q 'without_weights.toml:.*/learned_policy.weights: 17 weights are expected' "$scratch/stderr" ||
+  fail "the host should say which file is missing: $(cat "$scratch/stderr")"
