@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads a trace of format version 1: the channel dmrp/trace of v1_trial/, run by dmrp-host of commit e7aacf7, the last
-// before version 2. Expected values were printed by the reader of that commit. tests/same_bits/ compares all others.
+// Reads a trace of format version 1: the channel dmrp/trace of tests/same_bits/v1_trial/, run by dmrp-host of commit
+// e7aacf7, the last before version 2. Expected values were printed by the reader of that commit; the tests of
+// tests/same_bits/ compare all others.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
