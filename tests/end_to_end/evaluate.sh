@@ -97,8 +97,9 @@ for kept in failed none; do
 done
 
 # a library that has changed since the run
-cp "$metrics" "$scratch/libmine.so"
-sed 's|libdmrp_metrics|./libmine|' "$here/crossing.toml" >"$scratch/mine.toml"
+cp "$faults" "$scratch/libmine.so"
+sed 's|"libdmrp_metrics.so"|&, "./libmine.so"|; $a [[metric]]\nuse = "test.metric.none"' "$here/crossing.toml" \
+  >"$scratch/mine.toml"
 expect_status 0 "$host" "$scratch/mine.toml" --trials 1 --quiet --out "$scratch/mine"
 printf 'x' >>"$scratch/libmine.so"
 expect_status 0 "$host" evaluate "$scratch/mine" --csv "$some"
@@ -108,5 +109,5 @@ expect_same "$scratch/mine" "$some"
 mv "$scratch/libmine.so" "$scratch/libyours.so"
 expect_status 2 "$host" evaluate "$scratch/mine"
 expect_line "the run's library .*/libmine.so is gone"
-expect_status 0 "$host" evaluate "$scratch/mine" --plugin "$scratch/libyours.so" --csv "$some"
+expect_status 0 "$host" evaluate "$scratch/mine" --metric test.metric.none --plugin "$scratch/libyours.so" --csv "$some"
 expect_same "$scratch/mine" "$some"
