@@ -14,7 +14,6 @@ errors_of() {
   shift
   {
     cat <<'END'
-#include <dmrp/plugin.hpp>
 namespace {
 struct other_extension {
   int number;
@@ -28,11 +27,16 @@ END
     printf '  %s\n' "$@"
     printf '};\n}\nDMRP_PLUGINS(Mine)\n'
   } >"$scratch/mine.cpp"
-  "$compiler" -std=c++17 -fsyntax-only -I "$include" "$scratch/mine.cpp" 2>&1 | grep -E '(^|: )(fatal )?error: ' || true
+  "$compiler" -std=c++17 -fsyntax-only -include "$scratch/$compiler/layer.hpp" "$scratch/mine.cpp" 2>&1 | grep -E '(^|: )(fatal )?error: ' || true
 }
 
 compilers=(g++)
 ! command -v clang++ >/dev/null || compilers+=(clang++)
+for compiler in "${compilers[@]}"; do
+  mkdir "$scratch/$compiler"
+  echo '#include <dmrp/plugin.hpp>' >"$scratch/$compiler/layer.hpp"
+  "$compiler" -std=c++17 -I "$include" -x c++-header "$scratch/$compiler/layer.hpp" -o "$scratch/$compiler/layer.hpp.gch"
+done
 
 expect_error() {
   local text=$1 compiler errors
