@@ -22,7 +22,7 @@ struct TraceElementSize {
 };
 
 template <class Element>
-inline constexpr TraceElementSize trace_element_size = Element::unknown;
+inline constexpr TraceElementSize trace_element_size = Element::not_stored_as_in_memory;
 template <>
 inline constexpr TraceElementSize trace_element_size<dmrp_goal> = {56, 56};
 template <>
