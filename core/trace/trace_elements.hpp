@@ -28,7 +28,7 @@ inline constexpr TraceElementSize trace_element_size<dmrp_goal> = {56, 56};
 template <>
 inline constexpr TraceElementSize trace_element_size<dmrp_waypoint> = {36, 40};
 template <>
-inline constexpr TraceElementSize trace_element_size<dmrp_robot_sample> = {88, 88};
+inline constexpr TraceElementSize trace_element_size<dmrp_robot_sample> = {88, 96};
 template <>
 inline constexpr TraceElementSize trace_element_size<dmrp_person> = {112, 120};
 template <>

@@ -148,7 +148,7 @@ class Run {
     for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
       robots_.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index,
-                         dispatcher_.progress()[i].progress_m()});
+                         dispatcher_.progress()[i].progress_m(), 0.0});
     }
     const auto people = world_.people();
     const auto calls = plugins_.take_calls();

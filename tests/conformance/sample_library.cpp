@@ -104,8 +104,8 @@ class SampleController final : public dmrp::LocalController {
     return leave(does);
   }
 
-  void trial_end(const dmrp_trial_end& end) override {
-    seen().numbers = {1.0 * end.ending, dmrp::seconds(end.t_ns), 1.0 * end.robot_count};
+  void trial_end(const dmrp::TrialEnd& end) override {
+    seen().numbers = {1.0 * end.ending, dmrp::seconds(end.t_ns), 1.0 * static_cast<double>(end.robots.size())};
     leave(does);
   }
 

@@ -10,7 +10,8 @@
 //   New fields are appended. The maker of a struct sets struct_size to the sizeof it was compiled with; the reader
 //   checks DMRP_HAS(pointer, field) for every field newer than v1.0.
 // - *Array elements* cross as pointer, count and the owner's stride in bytes; access them with DMRP_AT, never with [].
-//   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS).
+//   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS). Only the contract
+//   appends fields: what a plugin appends for itself is not passed on.
 // - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size, nor past
 //   the stride of an output array (DMRP_AT_OUT). Nothing that may grow is embedded in another struct.
 // - `reserved` fields are zero and ignored: a later minor version may give them a meaning in which zero is as before.

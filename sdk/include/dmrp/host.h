@@ -25,7 +25,7 @@ struct dmrp_host {
   void* context;             // the host's own
   const char* name;          // "dmrp-host"
   const char* version;       // of the host, semantic
-  const char* library_path;  // absolute path of this plugin's library: data files (weights) are installed beside it
+  const char* library_path;  // of this plugin's library, absolute, symbolic links resolved: weights lie beside it
 
   // Writes a line to the log. `text` is copied; the host escapes control characters and bytes that are not UTF-8.
   // [any]
@@ -36,8 +36,9 @@ struct dmrp_host {
   // [any]
   void (*set_error)(const dmrp_host* host, const char* text);
 
-  // Returns 1 once the time budget of the current call is used up: the call should then return soon; 0 before. Returns
-  // 1 outside a call of this instance, so that a thread of the plugin that outlives its call ends.
+  // Returns 1 once the time budget of the current call is used up: the call should then return soon; 0 before. Every
+  // function with a tag but [any] is a call, init() and create() too. Returns 1 outside a call of this instance, so that
+  // a thread of the plugin that outlives its call ends.
   // Costs a few nanoseconds; ask at least every millisecond. A trial in which this returned 1 is not repeatable.
   // [any]
   int32_t (*should_stop)(const dmrp_host* host);

@@ -48,7 +48,7 @@ typedef struct dmrp_local_controller {
   uint32_t struct_size;
   uint32_t reserved;
 
-  // A new path, or the continued path after a replan.
+  // A new path, or the continued path after a replan. Called for active robots alone, as the functions below.
   // The path leads to the exact goals, which may lie off the centres of their cells; observation.progress_* and
   // released_waypoint refer to it. After a replan it begins at the cell that the robot was driving to.
   // With dispatch = "waypoint" it is a single waypoint, to be approached like a final goal.

@@ -15,7 +15,7 @@ extern "C" {
 
 // A moving robot or person. Array element.
 typedef struct dmrp_agent {
-  uint64_t id;         // stable through the trial, unique within its kind; a respawned person has a new one
+  uint64_t id;         // a robot's index; a person's id, as in dmrp_person: a respawned person has a new one
   uint32_t kind;       // DMRP_AGENT_*
   uint32_t state;      // robots: DMRP_ROBOT_*
   dmrp_pose pose;      // a person's theta is the direction of motion
@@ -42,6 +42,7 @@ typedef struct dmrp_observation {
   uint32_t goal_index;
   uint32_t goal_count;         // of the goals known so far
   double progress_m;           // arc length along the path of the point that the robot has reached; never decreases
+                               // on one path
   uint32_t progress_waypoint;  // last waypoint passed
   uint32_t released_waypoint;  // last waypoint that may be passed; the last of the path with execution = "free"
   const dmrp_limits* limits;
@@ -49,10 +50,11 @@ typedef struct dmrp_observation {
   const dmrp_agent* agents;  // other agents that `tracking` makes visible, with its noise; ordered by kind, then id
   uint32_t agent_count;
   uint32_t agent_stride;
+  double steering_angle;  // rad, present, left is positive; Ackermann only, otherwise 0
 } dmrp_observation;
 
 DMRP_ASSERT_SIZE(dmrp_agent, 64);
-DMRP_ASSERT_SIZE(dmrp_observation, 160);
+DMRP_ASSERT_SIZE(dmrp_observation, 168);
 
 #ifdef __cplusplus
 }

@@ -15,7 +15,7 @@ typedef struct dmrp_waypoint {
   double y;             // m
   double theta;         // heading on arrival; NaN: any
   int64_t t_ns;         // planned time of arrival since the start of the trial; for cost see global_planner.h
-  uint32_t goal_index;  // the goal that this waypoint leads to (increases along a tour)
+  uint32_t goal_index;  // the goal that this waypoint leads to (increases along a tour); ignored for inactive robots
   uint32_t reserved;
 } dmrp_waypoint;
 

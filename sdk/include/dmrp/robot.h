@@ -13,6 +13,7 @@ extern "C" {
 #define DMRP_KINEMATICS_DIFFERENTIAL 1  // commands (v_x, omega)
 #define DMRP_KINEMATICS_HOLONOMIC 2     // commands (v_x, v_y, omega)
 #define DMRP_KINEMATICS_ACKERMANN 3     // commands (v_x, omega); omega = v_x tan(steering angle) / wheelbase_m
+// The wheels of an Ackermann drive point ahead at the start, and keep their angle where v_x = 0.
 
 // What a robot does. Open list. A finished robot becomes active again if it is given another goal.
 #define DMRP_ROBOT_ACTIVE 0    // still has a goal

@@ -14,11 +14,12 @@ extern "C" {
 // A robot at one sample. Array element.
 typedef struct dmrp_robot_sample {
   dmrp_pose pose;
-  dmrp_twist velocity;  // actual
-  dmrp_twist command;   // in force, clipped to the velocity limits; `velocity` follows it within a_max, alpha_max
-  uint32_t state;       // DMRP_ROBOT_*
-  uint32_t goal_index;  // the current goal
-  double progress_m;    // along its path in force
+  dmrp_twist velocity;    // actual
+  dmrp_twist command;     // in force, clipped to the velocity limits; `velocity` follows it within a_max, alpha_max
+  uint32_t state;         // DMRP_ROBOT_*
+  uint32_t goal_index;    // the current goal
+  double progress_m;      // along its path in force
+  double steering_angle;  // rad; Ackermann only, otherwise 0
 } dmrp_robot_sample;
 
 // Kinds of contact. Open list: a reader skips a contact of a kind that it does not know.
@@ -77,7 +78,7 @@ typedef struct dmrp_sample {
   uint32_t call_stride;
 } dmrp_sample;
 
-DMRP_ASSERT_SIZE(dmrp_robot_sample, 88);
+DMRP_ASSERT_SIZE(dmrp_robot_sample, 96);
 DMRP_ASSERT_SIZE(dmrp_contact, 40);
 DMRP_ASSERT_SIZE(dmrp_call, 24);
 DMRP_ASSERT_SIZE(dmrp_sample, 96);

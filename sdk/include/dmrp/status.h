@@ -18,7 +18,7 @@
 //
 //   every function that returns a status   DMRP_OK, DMRP_WARNING, DMRP_OUT_OF_MEMORY, DMRP_ERROR, DMRP_FATAL
 //   plan() of a global planner             also DMRP_NO_SOLUTION and DMRP_TIMEOUT
-//   step() of a local controller           also DMRP_NO_SOLUTION
+//   step() of a local controller           also DMRP_NO_SOLUTION; step_all() says so in each command's status
 //
 // Any other status, known or not, is a fault (abi_breach): the host uses no output of that call.
 // This list is closed: no minor version adds a status.

@@ -130,7 +130,7 @@ class Library {
   static void destroy(dmrp_instance* self) { delete &detail::from_instance<Plugin>(self); }
   static std::int32_t trial_end(dmrp_instance* self, const dmrp_trial_end* end) {
     auto& plugin = detail::from_instance<Plugin>(self);
-    return PluginAccess::guarded(plugin, [&] { return plugin.trial_end(*end), Status::ok; });
+    return PluginAccess::guarded(plugin, [&] { return plugin.trial_end(TrialEnd(*end)), Status::ok; });
   }
 };
 

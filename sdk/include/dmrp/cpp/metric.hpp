@@ -15,7 +15,6 @@ using Person = dmrp_person;
 using RobotSample = dmrp_robot_sample;
 using Contact = dmrp_contact;
 using Call = dmrp_call;
-using RobotEnd = dmrp_robot_end;
 using Statistic = dmrp_statistic;
 using Subject = dmrp_subject;
 
@@ -56,16 +55,6 @@ struct Sample {
   Span<Person> people;
   Span<Contact> contacts;
   Span<Call> calls;
-};
-
-// dmrp_trial_end with a span.
-struct TrialEnd {
-  explicit TrialEnd(const dmrp_trial_end& c)
-      : ending(c.ending), t_ns(c.t_ns), robots(c.robots, c.robot_count, c.robot_stride) {}
-
-  std::uint32_t ending;  // DMRP_ENDING_*
-  std::int64_t t_ns;
-  Span<RobotEnd> robots;
 };
 
 enum class Severity : std::uint32_t {

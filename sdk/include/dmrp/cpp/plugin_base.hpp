@@ -3,10 +3,12 @@
 #pragma once
 
 #include <exception>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "extensions.hpp"
 #include "parameters.hpp"
 #include "span.hpp"
+#include "trial_end.hpp"
 
 namespace dmrp {
 
@@ -108,7 +111,7 @@ class Plugin {
   virtual Status start(const Start&) { return Status::ok; }
 
   // The trial has ended, without a fault: the place to free what belongs to it. Not called for metrics.
-  virtual void trial_end(const dmrp_trial_end&) {}
+  virtual void trial_end(const TrialEnd&) {}
 
   // An extension that the plugin provides to the host, or nullptr.
   virtual const void* offered_extension(const char* /*id*/) { return nullptr; }
@@ -118,10 +121,18 @@ class Plugin {
 
  protected:
   ParamBuilder<bool> param(const char* key, bool value) { return {parameters_, key, value}; }
-  ParamBuilder<std::int64_t> param(const char* key, int value) { return {parameters_, key, value}; }
-  ParamBuilder<std::int64_t> param(const char* key, std::int64_t value) { return {parameters_, key, value}; }
+  template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
+  ParamBuilder<std::int64_t> param(const char* key, Integer value) {
+    return {parameters_, key, static_cast<std::int64_t>(value)};
+  }
   ParamBuilder<double> param(const char* key, double value) { return {parameters_, key, value}; }
   ParamBuilder<std::string> param(const char* key, const char* value) { return {parameters_, key, value}; }
+  ParamBuilder<std::vector<double>> param(const char* key, std::initializer_list<double> value) {
+    return {parameters_, key, std::vector<double>(value)};
+  }
+  ParamBuilder<std::vector<std::string>> param(const char* key, std::initializer_list<const char*> value) {
+    return {parameters_, key, std::vector<std::string>(value.begin(), value.end())};
+  }
   ParamBuilder<std::vector<double>> param(const char* key, std::vector<double> value) {
     return {parameters_, key, std::move(value)};
   }
