@@ -117,8 +117,8 @@ struct ExampleSample {
 
   ExampleSample(std::int64_t k, const dmrp_plan* plan) {
     const double x = static_cast<double>(k) / 3.0;
-    robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x};
-    robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0};
+    robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x, 0.0};
+    robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0, -0.3};
     people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}, DMRP_REACTION_CURIOUS,
                  0};
     people[1] = {

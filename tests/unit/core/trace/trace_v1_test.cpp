@@ -123,6 +123,8 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   CHECK(sample.robots[1].pose.theta == -2.8558694748812634);
   CHECK(sample.robots[1].velocity.omega == 0.34293210125129875);
   CHECK(sample.robots[1].command.v_x == 0.57835284632714878);
+  CHECK(sample.robots[1].state == DMRP_ROBOT_ACTIVE);
+  CHECK(sample.robots[1].steering_angle == 0.0);
   REQUIRE(sample.person_count == 2);
   REQUIRE(sample.person_stride == sizeof(dmrp_person));
   CHECK(sample.people[0].id == 2);
