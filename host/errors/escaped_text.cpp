@@ -56,8 +56,10 @@ void append_escape(std::string& out, std::uint8_t byte) {
 std::string escaped(const char* text) {
   std::string out;
   std::string_view rest = text ? std::string_view(text, strnlen(text, most_bytes)) : std::string_view();
+  const bool is_cut = rest.size() == most_bytes;
   while (!rest.empty()) {
     const Character character = first_character(rest);
+    if (character.bytes == 0 && is_cut && rest.size() < 4) break;  // the rest of that character was cut off
     const std::size_t bytes = character.bytes == 0 ? 1 : character.bytes;
     if (character.bytes == 0 || is_control(character.code_point))
       for (std::size_t i = 0; i < bytes; ++i) append_escape(out, static_cast<std::uint8_t>(rest[i]));

@@ -62,7 +62,8 @@ dmrp_entry copy_entry(const dmrp_entry& theirs) {
 
 }  // namespace
 
-Library::Library(const std::filesystem::path& file) : handle_(std::make_unique<Handle>()), file_(file) {
+Library::Library(const std::filesystem::path& file)
+    : handle_(std::make_unique<Handle>()), file_(std::filesystem::absolute(file)) {
   const std::uint32_t control_bits = fp_control();
   try {
     handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);

@@ -24,7 +24,7 @@ class Library {
 
   const dmrp_entry& entry() const { return entry_; }
   const std::vector<PluginInfo>& plugins() const { return plugins_; }  // those that this host knows
-  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& file() const { return file_; }          // absolute
 
   // One line each: that it changed the process when it was loaded, that a plugin of it is unknown to this host.
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -39,7 +39,8 @@ const core::PlanningGrid* WalkingGrids::find(double resolution_m, double radius_
 }
 
 WalkingGrids::Grid* WalkingGrids::grid(double resolution_m, double radius_m) {
-  if (!(resolution_m > 0.0 && radius_m >= 0.0 && std::isfinite(radius_m))) return nullptr;
+  if (!(resolution_m > 0.0 && std::isfinite(resolution_m) && radius_m >= 0.0 && std::isfinite(radius_m)))
+    return nullptr;
   std::unique_ptr<Grid>& known = grids_[{resolution_m, radius_m}];
   if (known) return known.get();
   if (!geometry_) geometry_ = std::make_shared<const core::StaticGeometry>(*world_);
