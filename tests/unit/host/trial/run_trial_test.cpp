@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "core/trace/trace_reader.hpp"
-#include "host/trial/measure.hpp"
-#include "tests/unit/core/trace/trace_in_memory.hpp"
+#include "tests/unit/host/trial/stage.hpp"
 
 using namespace dmrp::host;
 namespace core = dmrp::core;
@@ -21,79 +20,17 @@ namespace test = dmrp::test;
 
 namespace {
 
-constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
-
-PluginUse use_of(const std::vector<PluginInfo>& plugins, const std::string& id) {
-  for (const PluginInfo& info : plugins) {
-    if (info.id != id) continue;
-    PluginUse use = {0, info, id, {}};
-    for (const ParameterSpec& spec : info.parameters) use.parameters.push_back(spec.fallback);
-    return use;
-  }
-  throw std::runtime_error("no plugin " + id);
-}
-
-// An empty hall of 10 x 6 m; the goal of the first robot lies off its cell's centre.
-core::Scenario hall(std::size_t robots) {
-  core::Scenario scenario;
-  scenario.name = "hall";
-  scenario.upper = {10.0, 6.0};
-  scenario.time_limit_s = 40.0;
-  for (std::size_t i = 0; i < robots; ++i) {
-    const double y = 1.5 + 2.0 * static_cast<double>(i);
-    scenario.robots.push_back({"r" + std::to_string(i), {1.5, y, 0.0}, {{i == 0 ? 8.8 : 8.5, y, any_heading}}});
-  }
-  return scenario;
-}
-
-// Runs trials one after the other with the same instances, as a worker does.
-struct Stage {
-  explicit Stage(std::size_t robots = 2, const std::string& planner_does = "plan",
-                 const std::string& controller_does = "drive", double planner_time_s = 60.0) {
-    experiment.libraries = {{"trial plugins", DMRP_TRIAL_PLUGINS, {}}};
-    const Library library(DMRP_TRIAL_PLUGINS);
-    experiment.global_planners = {use_of(library.plugins(), "test.planner.straight")};
-    experiment.local_controllers = {use_of(library.plugins(), "test.controller.careful")};
-    experiment.metrics = {use_of(library.plugins(), "test.metric.sink")};
+// Plugins that check what the host gives them.
+struct CheckedStage : test::Stage {
+  explicit CheckedStage(std::size_t robots = 2, const std::string& planner_does = "plan",
+                        const std::string& controller_does = "drive", double planner_time_s = 60.0)
+      : Stage(DMRP_TRIAL_PLUGINS, {"test.planner.straight", "test.controller.careful", "", "test.metric.sink"},
+              test::hall(robots)) {
     experiment.global_planners[0].parameters[0].text = planner_does;
     experiment.local_controllers[0].parameters[0].text = controller_does;
-    experiment.scenarios = {{hall(robots), "hall", ""}};
-    experiment.robot.lidar.beams = 36;
     experiment.limits.planner_time_s = planner_time_s;
-    variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0]);
-    pool = std::make_unique<InstancePool>(experiment.libraries, guard, [](auto, const auto&, const auto&) {});
   }
-
-  TrialEnding run() {
-    trace = std::make_unique<test::TraceInMemory>(variant->view.world());
-    const TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, **trace);
-    reader = std::make_unique<core::TraceReader>(trace->bytes());
-    return ending;
-  }
-
-  MetricResult measured() {
-    return measure(*reader, variant->walking_grids, pool->get(experiment.metrics[0], DMRP_NO_ROBOT),
-                   experiment.metrics[0].info, 3, 1, 1'000'000'000);
-  }
-
-  CallNote note{};
-  CallGuard guard{note};
-  Experiment experiment;
-  Combination combination;
-  std::unique_ptr<VariantWorld> variant;
-  std::unique_ptr<InstancePool> pool;
-  std::unique_ptr<test::TraceInMemory> trace;
-  std::unique_ptr<core::TraceReader> reader;
 };
-
-PluginFault fault_of(Stage& stage) {
-  try {
-    stage.run();
-  } catch (const PluginFault& fault) {
-    return fault;
-  }
-  throw std::runtime_error("no fault");
-}
 
 // All robots at all samples.
 std::vector<dmrp_robot_sample> motion(core::TraceReader& trace) {
@@ -116,7 +53,7 @@ double system_of(const MetricResult& result, const std::string& name) {
 
 TEST_CASE("a trial keeps its word to every plugin, and the next one does not remember it") {
   const std::size_t robots = GENERATE(std::size_t{1}, std::size_t{2});
-  Stage stage(robots);
+  CheckedStage stage(robots);
   const TrialEnding ending = stage.run();
   CHECK(ending.succeeded);
   CHECK_FALSE(stage.guard.stopped());
@@ -134,12 +71,12 @@ TEST_CASE("a trial keeps its word to every plugin, and the next one does not rem
 }
 
 TEST_CASE("what plugins say goes to the trace where it is wanted, and changes nothing else") {
-  Stage silent;
+  CheckedStage silent;
   silent.run();
   CHECK(silent.reader->trajectories().empty());
   CHECK(silent.reader->notes().empty());
 
-  Stage open;
+  CheckedStage open;
   open.experiment.annotations = true;
   open.run();
   const auto& trajectories = open.reader->trajectories();
@@ -178,7 +115,7 @@ TEST_CASE("what plugins say goes to the trace where it is wanted, and changes no
 
 TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   const std::string does = GENERATE("nothing", "timeout");
-  Stage stage(2, does);
+  CheckedStage stage(2, does);
   CHECK_FALSE(stage.run().succeeded);
   CHECK(stage.reader->end()->ending == DMRP_ENDING_NO_PLAN);
   CHECK(stage.reader->first_plan() == nullptr);
@@ -200,10 +137,9 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
 }
 
 TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {
-  Stage stage(0);
+  CheckedStage stage(0);
   stage.experiment.scenarios[0].scenario.tracks = {{{{0, {1.0, 1.0}}, {2'000'000'000, {3.0, 1.0}}}},
                                                    {{{1'000'000'000, {5.0, 5.0}}, {3'000'000'000, {5.0, 4.0}}}}};
-  stage.variant = std::make_unique<VariantWorld>(stage.experiment, stage.experiment.scenarios[0]);
   stage.combination = {0, -1, -1, -1};
   const TrialEnding ending = stage.run();
   CHECK(ending.succeeded);
@@ -221,7 +157,7 @@ TEST_CASE("a trial without robots plans nothing, and is over when everybody has 
 }
 
 TEST_CASE("a whole plan that came late counts") {
-  Stage stage(2, "late");
+  CheckedStage stage(2, "late");
   CHECK(stage.run().succeeded);
   CHECK(stage.reader->first_plan()->status == DMRP_TIMEOUT);
   REQUIRE(stage.reader->first_plan()->statistic_count == 1);
@@ -229,39 +165,39 @@ TEST_CASE("a whole plan that came late counts") {
 }
 
 TEST_CASE("a planner that was told to stop is remembered") {
-  Stage stage(1, "wait", "drive", 0.01);
+  CheckedStage stage(1, "wait", "drive", 0.01);
   CHECK(stage.run().succeeded);
   CHECK(stage.guard.stopped());
 }
 
 TEST_CASE("what plugins break is a fault with its place, and the pool goes on") {
   SECTION("a plan for one robot of two") {
-    Stage stage(2, "half");
-    const PluginFault fault = fault_of(stage);
+    CheckedStage stage(2, "half");
+    const PluginFault fault = stage.fault();
     CHECK(fault.kind() == std::string(fault_kind::bad_output));
     CHECK(fault.plugin() == "test.planner.straight");
     CHECK(fault.function() == std::string("plan"));
     CHECK_FALSE(fault.fatal());
   }
   SECTION("a command that is no number") {
-    Stage stage(2, "plan", "nan");
-    const PluginFault fault = fault_of(stage);
+    CheckedStage stage(2, "plan", "nan");
+    const PluginFault fault = stage.fault();
     CHECK(fault.kind() == std::string(fault_kind::bad_output));
     CHECK(fault.plugin() == "test.controller.careful");
     CHECK(fault.step() == 5);  // the second control tick
     CHECK(fault.robot() == 0);
-    CHECK(fault_of(stage).step() == 5);
+    CHECK(stage.fault().step() == 5);
   }
   SECTION("a library that is lost") {
-    Stage stage(2, "fatal");
-    const PluginFault fault = fault_of(stage);
+    CheckedStage stage(2, "fatal");
+    const PluginFault fault = stage.fault();
     CHECK(fault.fatal());
     CHECK(fault.what() == std::string("the library is lost"));
   }
 }
 
 TEST_CASE("controllers that find no command fail their robots, not the trial") {
-  Stage stage(2, "plan", "nothing");
+  CheckedStage stage(2, "plan", "nothing");
   CHECK_FALSE(stage.run().succeeded);
   const dmrp_trial_end& end = *stage.reader->end();
   CHECK(end.t_ns < 30'000'000'000);
@@ -274,7 +210,7 @@ TEST_CASE("controllers that find no command fail their robots, not the trial") {
 }
 
 TEST_CASE("a metric's values are taken as they are declared") {
-  Stage stage;
+  CheckedStage stage;
   stage.run();
   const MetricResult result = stage.measured();
   CHECK(system_of(result, "samples") == static_cast<double>(stage.reader->sample_count()));
@@ -295,14 +231,15 @@ TEST_CASE("a metric's values are taken as they are declared") {
 }
 
 TEST_CASE("a metric that is silent about a declared value is at fault") {
-  Stage stage;
+  CheckedStage stage;
   stage.experiment.metrics[0].parameters[0].integer = 1;
   stage.run();
   CHECK_THROWS_WITH(stage.measured(), "gave no system value of undefined");
 }
 
 TEST_CASE("a trace that was cut short is not measured") {
-  Stage stage;
+  CheckedStage stage;
+  stage.open();
   const test::TraceInMemory cut(stage.variant->view.world());
   stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);

@@ -111,6 +111,10 @@ class CarefulController final : public dmrp::LocalController {
     expect(costmap_->costmap(costmap_, robot_)->t_ns == now.t_ns, "a costmap of now");
     const dmrp_obstacle_cluster_list* clusters = clusters_->clusters(clusters_, robot_);
     expect(clusters->t_ns == now.t_ns && clusters == clusters_->clusters(clusters_, robot_), "clusters of now");
+    for (const std::uint32_t other : {1 - robot_, 2u, ~0u})
+      expect(
+          !lidar_->scan(lidar_, other) && !costmap_->costmap(costmap_, other) && !clusters_->clusters(clusters_, other),
+          "no readings of a robot that it does not drive");
     if (annotate_->wanted(annotate_)) annotate(now);
 
     if (*does == "nothing") return dmrp::Status::no_solution;

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// The descriptors of a library: what the host reads of them, leaves out, and refuses.
+#include <dmrp/ext/annotate.h>
+#include <dmrp/ext/lidar.h>
+#include <dmrp/ext/walking_grid.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/plugins/offered_extensions.hpp"
+#include "tests/unit/host/plugins/odd_library.hpp"
+#include "tests/unit/host/plugins/odd_plugins/grown.hpp"
+
+using namespace dmrp::host;
+using namespace dmrp::test;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+dmrp_param_spec parameter(const char* key, std::uint32_t type) {
+  dmrp_param_spec spec{};
+  spec.key = key;
+  spec.type = type;
+  spec.minimum = -infinity;
+  spec.maximum = infinity;
+  return spec;
+}
+
+dmrp_metric_value_spec value(const char* name) {
+  return {name, "m", "what it is", DMRP_DIRECTION_LOWER, 1u << DMRP_SUBJECT_SYSTEM, 0, 0};
+}
+
+// Gives a descriptor an array.
+template <class Element>
+void give(dmrp_descriptor& descriptor, const GrownArray<Element>& elements) {
+  if constexpr (std::is_same_v<Element, dmrp_param_spec>) {
+    descriptor.params = elements.data();
+    descriptor.param_count = elements.count();
+    descriptor.param_stride = elements.stride();
+  } else {
+    descriptor.values = elements.data();
+    descriptor.value_count = elements.count();
+    descriptor.value_stride = elements.stride();
+  }
+}
+
+template <class Element>
+GrownArray<Element> array_of(const std::vector<Element>& elements, int extra = 0) {
+  GrownArray<Element> out(extra);
+  for (const Element& element : elements) out.push_back(element);
+  return out;
+}
+
+const PluginInfo& info_of(const Library& library, const std::string& id) {
+  for (const PluginInfo& info : library.plugins())
+    if (info.id == id) return info;
+  throw std::runtime_error("no plugin " + id);
+}
+
+// Why the host refuses the library when its controller has this parameter.
+std::string refusal_of(const std::function<void(dmrp_param_spec&)>& spoil, std::uint32_t type = DMRP_PARAM_DOUBLE) {
+  const OddLibrary odd;
+  dmrp_param_spec spec = parameter("gain", type);
+  spoil(spec);
+  const auto specs = array_of(std::vector{spec});
+  give(odd.descriptor(odd_controller), specs);
+  return OddLibrary::refusal();
+}
+
+// Why the host refuses the library when its controller has this descriptor.
+std::string refusal_of_descriptor(const std::function<void(dmrp_descriptor&)>& spoil) {
+  const OddLibrary odd;
+  spoil(odd.descriptor(odd_controller));
+  return OddLibrary::refusal();
+}
+
+}  // namespace
+
+TEST_CASE("the known part of a newer plugin's descriptor is read") {
+  const int extra = GENERATE(8, 12, 1);  // array elements: a stride need not be a multiple of 8
+  const OddLibrary odd;
+  dmrp_param_spec gain = parameter("gain", DMRP_PARAM_DOUBLE);
+  gain.number = 0.5;
+  gain.unit = "1/s";
+  const double weights_of[] = {1.0, 2.5};
+  dmrp_param_spec weights = parameter("weights", DMRP_PARAM_DOUBLE_ARRAY);
+  weights.numbers = weights_of;
+  weights.count = 2;
+  const char* const choices[] = {"left", "right"};
+  dmrp_param_spec side = parameter("side", DMRP_PARAM_CHOICE);
+  side.choices = choices;
+  side.choice_count = 2;
+  side.text = "right";
+  const auto specs = array_of(std::vector{gain, weights, side}, extra);
+  give(odd.descriptor(odd_metric), specs);
+  const auto values = array_of(std::vector{value("first"), value("second")}, extra);
+  give(odd.descriptor(odd_metric), values);
+  const Grown<dmrp_descriptor> newer(odd.descriptor(odd_metric), 16);
+  static const dmrp_descriptor* shown;
+  shown = newer.get();
+  odd.entry().plugin_count = []() -> std::uint32_t { return 1; };
+  odd.entry().descriptor = [](std::uint32_t) { return shown; };
+  odd.entry().struct_size += 8;
+
+  const Library library(DMRP_ODD_PLUGINS);
+  CHECK(library.warnings().empty());
+  const PluginInfo& info = info_of(library, "test.odd.metric");
+  REQUIRE(info.parameters.size() == 3);
+  CHECK(info.parameters[0].fallback.key == "gain");
+  CHECK(info.parameters[0].fallback.number == 0.5);
+  CHECK(info.parameters[0].unit == "1/s");
+  CHECK(info.parameters[1].fallback.numbers == std::vector<double>{1.0, 2.5});
+  CHECK(info.parameters[2].fallback.text == "right");
+  CHECK(info.parameters[2].choices == std::vector<std::string>{"left", "right"});
+  REQUIRE(info.values.size() == 2);
+  CHECK(info.values[0].name == "first");
+  CHECK(info.values[1].name == "second");
+  CHECK(info.values[1].unit == "m");
+}
+
+TEST_CASE("what is shorter than v1.0's is refused") {
+  const OddLibrary odd;
+  dmrp_descriptor& metric = odd.descriptor(odd_metric);
+  SECTION("the entry") {
+    odd.entry().struct_size -= 8;
+    CHECK(OddLibrary::refusal() == "its dmrp_entry_v1 is shorter than v1.0's");
+  }
+  SECTION("an entry of a few bytes") {
+    odd.entry().struct_size = 8;
+    CHECK(OddLibrary::refusal() == "its dmrp_entry_v1 is shorter than v1.0's");
+  }
+  SECTION("a descriptor") {
+    metric.struct_size -= 8;
+    CHECK(OddLibrary::refusal() == "has a descriptor that is shorter than v1.0's");
+  }
+  SECTION("its parameters") {
+    metric.param_stride -= 8;
+    CHECK(OddLibrary::refusal() == "has a descriptor with parameters that are shorter than v1.0's");
+  }
+  SECTION("its values") {
+    metric.value_stride = 0;
+    CHECK(OddLibrary::refusal() == "has a descriptor with values that are shorter than v1.0's");
+  }
+}
+
+TEST_CASE("a library of another draft, or for a newer host, gets one line") {
+  const OddLibrary odd;
+  SECTION("draft 1") {
+    odd.entry().abi_draft = 1;
+    odd.entry().struct_size = 48;  // whatever else that draft had
+    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 2: build it again");
+  }
+  SECTION("a newer host") {
+    odd.entry().min_host_minor = 3;
+    CHECK(OddLibrary::refusal() == "needs a host of ABI 1.3 or newer, this is 1.0");
+  }
+}
+
+TEST_CASE("a plugin that this host does not know is left out with a note, and the others are loaded") {
+  const OddLibrary odd;
+  const auto expect_note = [](const std::string& note) {
+    const Library library(DMRP_ODD_PLUGINS);
+    REQUIRE(library.warnings().size() == 1);
+    CHECK(library.warnings()[0] == note);
+    CHECK(library.plugins().size() == 5);
+    CHECK_NOTHROW(info_of(library, "test.odd.controller"));
+  };
+  dmrp_descriptor& stranger = odd.descriptor(odd_stranger);
+  SECTION("a kind") {
+    expect_note("its plugin 'test.odd.stranger' is left out: it is of kind 77, which this host does not know");
+  }
+  SECTION("a connectivity") {
+    stranger.kind = DMRP_KIND_GLOBAL_PLANNER;
+    stranger.connectivity = 16;
+    expect_note(
+        "its plugin 'test.odd.stranger' is left out: it plans with connectivity 16, which this host does not know");
+  }
+  SECTION("the type of a parameter") {
+    stranger.kind = DMRP_KIND_PEDESTRIAN_MODEL;
+    const auto specs = array_of(std::vector{parameter("gain", DMRP_PARAM_DOUBLE), parameter("when", 99)});
+    give(stranger, specs);
+    expect_note(
+        "its plugin 'test.odd.stranger' is left out: it has parameter 'when' of type 99, which this host does not "
+        "know");
+  }
+}
+
+TEST_CASE("a parameter's mistake is refused with the plugin, the key and the reason") {
+  const std::string subject = "test.odd.controller: parameter 'gain' ";
+  const auto range = [](double minimum, double maximum, double fallback) {
+    return [=](dmrp_param_spec& spec) {
+      spec.minimum = minimum;
+      spec.maximum = maximum;
+      spec.number = fallback;
+      spec.integer = static_cast<std::int64_t>(fallback);
+    };
+  };
+  CHECK(refusal_of(range(-1.0, 1.0, 0.5)).empty());
+  CHECK(refusal_of(range(-1.0, 1.0, 2.0)) == subject + "has the default 2.0, which is not in -1 to 1");
+  CHECK(refusal_of(range(1.0, 5.0, 0.0), DMRP_PARAM_INT) == subject + "has the default 0, which is not in 1 to 5");
+  CHECK(refusal_of(range(-1.0, 1.0, undefined)) == subject + "has the default nan, which is not in -1 to 1");
+  CHECK(refusal_of(range(undefined, 1.0, 0.5)) == subject + "has the range nan to 1");
+  CHECK(refusal_of(range(0.0, undefined, 0.5)) == subject + "has the range 0 to nan");
+  CHECK(refusal_of(range(2.0, 1.0, 1.5)) == subject + "has the range 2 to 1");
+  for (const std::uint32_t type : {DMRP_PARAM_INT, DMRP_PARAM_DOUBLE, DMRP_PARAM_DOUBLE_ARRAY})
+    CHECK(refusal_of(range(0.0, 0.0, 0.0), type) ==
+          subject + "has minimum = maximum = 0 (no bound is -INFINITY and INFINITY)");
+  CHECK(refusal_of(range(0.0, 0.0, 0.0), DMRP_PARAM_STRING).empty());  // texts have no range
+
+  const double some[] = {0.5, 7.0};
+  CHECK(refusal_of(
+            [&](dmrp_param_spec& spec) {
+              range(0.0, 1.0, 0.0)(spec);
+              spec.numbers = some;
+              spec.count = 2;
+            },
+            DMRP_PARAM_DOUBLE_ARRAY) == subject + "has the default [0.5, 7.0], which is not in 0 to 1");
+
+  const char* const choices[] = {"left", "right"};
+  const auto choose = [&](const char* fallback) {
+    return [&choices, fallback](dmrp_param_spec& spec) {
+      spec.choices = choices;
+      spec.choice_count = 2;
+      spec.text = fallback;
+    };
+  };
+  CHECK(refusal_of(choose("left"), DMRP_PARAM_CHOICE).empty());
+  CHECK(refusal_of(choose("up"), DMRP_PARAM_CHOICE) ==
+        subject + "has the default \"up\", which is not one of its choices");
+  CHECK(refusal_of([](auto&) {}, DMRP_PARAM_CHOICE) ==
+        subject + "has the default \"\", which is not one of its choices");
+  CHECK(refusal_of([](auto& spec) { spec.integer = 2; }, DMRP_PARAM_BOOL) == subject + "is a bool with the default 2");
+  CHECK(refusal_of([](auto& spec) { spec.text = "a\nb"; }, DMRP_PARAM_STRING) ==
+        subject + "has a text with control characters or bytes that are not UTF-8");
+  CHECK(refusal_of([](auto& spec) { spec.text = "\xff"; }, DMRP_PARAM_STRING) ==
+        subject + "has a text with control characters or bytes that are not UTF-8");
+  CHECK(refusal_of([](auto& spec) { spec.type = 0; }) ==
+        "test.odd.controller: declares parameter 'gain' without a type");
+
+  for (const auto& [key, shown] : {std::pair("", ""), {"a b", "a b"}, {"a\nb", "a\\nb"}, {"\x1b[2J", "\\x1b[2J"}})
+    CHECK(refusal_of([key = key](auto& spec) { spec.key = key; }) ==
+          std::string("test.odd.controller: parameter '") + shown +
+              "' has a key that is not made of letters, digits and '_'");
+}
+
+TEST_CASE("what is declared twice is refused") {
+  const OddLibrary odd;
+  dmrp_descriptor& metric = odd.descriptor(odd_metric);
+  SECTION("a parameter") {
+    const auto specs =
+        array_of(std::vector{parameter("gain", DMRP_PARAM_DOUBLE), parameter("gain", DMRP_PARAM_STRING)});
+    give(metric, specs);
+    CHECK(OddLibrary::refusal() == "test.odd.metric: declares parameter 'gain' twice");
+  }
+  SECTION("a value") {
+    const auto values = array_of(std::vector{value("length"), value("length")});
+    give(metric, values);
+    CHECK(OddLibrary::refusal() == "test.odd.metric: declares the value 'length' twice");
+  }
+}
+
+TEST_CASE("a metric's value needs a plain name and the system") {
+  const OddLibrary odd;
+  dmrp_metric_value_spec spec = value("length");
+  SECTION("a name with a space") {
+    spec.name = "the length";
+    const auto values = array_of(std::vector{spec});
+    give(odd.descriptor(odd_metric), values);
+    CHECK(OddLibrary::refusal() ==
+          "test.odd.metric: has a value whose name 'the length' is not made of letters, digits and '_'");
+  }
+  SECTION("robots alone") {
+    spec.subjects = 1u << DMRP_SUBJECT_ROBOT;
+    const auto values = array_of(std::vector{spec});
+    give(odd.descriptor(odd_metric), values);
+    CHECK(OddLibrary::refusal() ==
+          "test.odd.metric: declares the value 'length' without the system among its subjects");
+  }
+}
+
+TEST_CASE("an id is a plain name, and not one of the built-in plugins'") {
+  const auto refusal = [](const char* id) {
+    return refusal_of_descriptor([id](dmrp_descriptor& descriptor) { descriptor.id = id; });
+  };
+  CHECK(refusal("org.example.Mine_2-b").empty());
+  CHECK(refusal("") == "has a plugin without an id");
+  CHECK(refusal(nullptr) == "has a plugin without an id");
+  for (const auto& [id, shown] :
+       {std::pair("my plugin", "my plugin"), {"mine!", "mine!"}, {"a\nb", "a\\nb"}, {"caf\xe9", "caf\\xe9"}})
+    CHECK(refusal(id) ==
+          std::string("has a plugin with the id '") + shown + "': an id is made of letters, digits, '.', '_' and '-'");
+  CHECK(refusal("dmrp.controller.mine") ==
+        "has a plugin with the id 'dmrp.controller.mine': ids that begin with 'dmrp.' are for the built-in plugins");
+  CHECK(refusal("dmrpx.controller").empty());
+  CHECK_NOTHROW(Library(DMRP_PLUGIN_DIR "/libdmrp_metrics.so"));
+}
+
+TEST_CASE("texts for display may be any bytes") {
+  const OddLibrary odd;
+  dmrp_descriptor& controller = odd.descriptor(odd_controller);
+  controller.name =
+      "M\xfc"
+      "ller\n\x1b[2J";
+  controller.summary = "\xed\xa0\x80";
+  controller.vendor = nullptr;
+  dmrp_param_spec spec = parameter("gain", DMRP_PARAM_DOUBLE);
+  spec.unit = "\xb0";
+  spec.doc = "caf\xc3\xa9\x07";
+  const auto specs = array_of(std::vector{spec});
+  give(controller, specs);
+  const Library library(DMRP_ODD_PLUGINS);
+  const PluginInfo& info = info_of(library, "test.odd.controller");
+  CHECK(info.name == "M\\xfcller\\n\\x1b[2J");
+  CHECK(info.summary == "\\xed\\xa0\\x80");
+  CHECK(info.vendor.empty());
+  CHECK(info.parameters[0].unit == "\\xb0");
+  CHECK(info.parameters[0].doc == "caf\u00e9\\x07");
+  CHECK_NOTHROW(nlohmann::json(library.plugins()).dump());
+}
+
+TEST_CASE("extensions in `requires` and `uses` that the host lacks are told with the nearest") {
+  const OddLibrary odd;
+  dmrp_descriptor& controller = odd.descriptor(odd_controller);
+  const char* const misspelt[] = {"dmrp.lidr/1"};
+  const char* const others[] = {"org.example.telepathy/1", DMRP_EXT_LIDAR};
+  SECTION("required") {
+    controller.requires_ = misspelt;
+    controller.requires_count = 1;
+    const Library library(DMRP_ODD_PLUGINS);
+    CHECK(missing_extension(info_of(library, "test.odd.controller")) ==
+          "needs the extension dmrp.lidr/1, which this host does not offer to a local_controller (offered: "
+          "dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, dmrp.distance_field/1, dmrp.obstacle_clusters/1) (did "
+          "you mean 'dmrp.lidar/1'?)");
+  }
+  SECTION("required, by a plugin of another kind") {
+    dmrp_descriptor& metric = odd.descriptor(odd_metric);
+    metric.requires_ = &others[1];
+    const Library library(DMRP_ODD_PLUGINS);
+    CHECK_THAT(missing_extension(info_of(library, "test.odd.metric")),
+               Catch::StartsWith("needs the extension dmrp.lidar/1, which this host does not offer to a metric"));
+  }
+  SECTION("used, and misspelt") {
+    controller.uses = misspelt;
+    controller.uses_count = 1;
+    const Library library(DMRP_ODD_PLUGINS);
+    REQUIRE(library.warnings().size() == 2);  // and the plugin of unknown kind
+    CHECK(library.warnings()[0] ==
+          "test.odd.controller uses the extension 'dmrp.lidr/1', which this host does not offer to a local_controller "
+          "(did you mean 'dmrp.lidar/1'?)");
+  }
+  SECTION("used where there is one") {
+    controller.uses = others;
+    controller.uses_count = 2;
+    const Library library(DMRP_ODD_PLUGINS);
+    CHECK(library.warnings().size() == 1);
+    CHECK(missing_extension(info_of(library, "test.odd.controller")).empty());
+  }
+}
