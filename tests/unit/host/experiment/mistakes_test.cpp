@@ -340,3 +340,26 @@ TEST_CASE("ordered execution needs conflict-free plans on cells") {
         "experiment.toml:20:13: 'execution' = 'ordered' needs plans from cell to cell, which test.planner does not "
         "make");
 }
+
+TEST_CASE("a plugin that needs what the host lacks is refused where it is used") {
+  const ExperimentFolder folder;
+  const auto message = [](std::size_t plugin, const auto& change) -> std::string {
+    write_file("experiment.toml", experiment_text);
+    try {
+      dmrp::host::load_experiment("experiment.toml", 0, [&](const std::filesystem::path& file) {
+        dmrp::host::Probe probe = fake_probe(file);
+        change(probe.plugins.at(plugin));
+        return probe;
+      });
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using dmrp::host::PluginInfo;
+  CHECK(message(0, [](PluginInfo& planner) { planner.needs = {"dmrp.anotate/1"}; }) ==
+        "experiment.toml:11:7: test.planner needs the extension dmrp.anotate/1, which this host does not offer to a "
+        "global_planner (offered: dmrp.annotate/1) (did you mean 'dmrp.annotate/1'?)");
+  CHECK(message(1, [](PluginInfo& controller) { controller.kinematics = 1u << DMRP_KINEMATICS_ACKERMANN; }) ==
+        "experiment.toml:15:7: test.controller cannot drive robots with a differential drive");
+}
