@@ -7,7 +7,8 @@ InstancePool::InstancePool(const std::vector<LibraryUse>& libraries, CallGuard& 
     : guard_(guard), log_(std::move(log)) {
   for (const LibraryUse& use : libraries) {
     auto library = std::make_unique<Library>(use.file);
-    auto host = std::make_unique<PluginHost>("library", use.file.string(), std::vector<std::string>(), guard_, log_);
+    auto host =
+        std::make_unique<PluginHost>("library", library->file().string(), std::vector<std::string>(), guard_, log_);
     guard_.call(host->c(), {use.written, "init", 0, -1}, init_budget_ns, Answers::no_other,
                 [&] { return library->entry().init(host->c()); });
     libraries_.push_back({std::move(library), std::move(host)});

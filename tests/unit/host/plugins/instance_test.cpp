@@ -161,12 +161,17 @@ TEST_CASE("a plugin gets the extensions that it declares, and no others") {
 }
 
 TEST_CASE("a plugin knows the host's version of the contract and its own file") {
-  // as an experiment names it: relative to the working directory
-  const auto relative = std::filesystem::relative(DMRP_ODD_PLUGINS);
   OddInstances odd;
   odd.start(odd.make("describe the host"));
   REQUIRE(odd.log.size() == 1);
   CHECK(odd.log[0].text == std::to_string(DMRP_ABI_MINOR) + " " DMRP_ODD_PLUGINS);
-  const Library library(relative);
-  CHECK(library.file().is_absolute());
+
+  // and so does its library, however it is named
+  const OddLibrary changed;
+  static std::string path;
+  changed.entry().init = [](const dmrp_host* host) -> std::int32_t { return path = host->library_path, DMRP_OK; };
+  const std::vector<LibraryUse> uses = {{"odd", std::filesystem::relative(DMRP_ODD_PLUGINS), {}}};
+  const InstancePool pool(uses, odd.guard, [](auto, const auto&, const auto&) {});
+  CHECK(std::filesystem::path(path).is_absolute());
+  CHECK(std::filesystem::equivalent(path, DMRP_ODD_PLUGINS));
 }
