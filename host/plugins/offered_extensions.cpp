@@ -11,7 +11,6 @@
 
 #include <algorithm>
 
-#include "host/errors/escaped_text.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
@@ -34,8 +33,8 @@ std::string missing_extension(const PluginInfo& info) {
   const std::vector<std::string> offered = offered_extensions(info.kind);
   for (const std::string& id : info.needs)
     if (std::find(offered.begin(), offered.end(), id) == offered.end())
-      return fmt::format("needs the extension {}, which this host does not offer to a {} (offered: {}){}",
-                         escaped(id.c_str()), kind_name(info.kind), join_names(offered), did_you_mean(id, offered));
+      return fmt::format("needs the extension {}, which this host does not offer to a {} (offered: {}){}", id,
+                         kind_name(info.kind), join_names(offered), did_you_mean(id, offered));
   return "";
 }
 
@@ -45,8 +44,8 @@ std::vector<std::string> doubtful_extensions(const PluginInfo& info) {
   for (const std::string& id : info.uses) {
     if (std::find(offered.begin(), offered.end(), id) != offered.end()) continue;
     if (const std::string hint = did_you_mean(id, offered); !hint.empty())
-      out.push_back(fmt::format("{} uses the extension '{}', which this host does not offer to a {}{}", info.id,
-                                escaped(id.c_str()), kind_name(info.kind), hint));
+      out.push_back(fmt::format("{} uses the extension '{}', which this host does not offer to a {}{}", info.id, id,
+                                kind_name(info.kind), hint));
   }
   return out;
 }

@@ -24,6 +24,12 @@ std::vector<std::string> texts_of(const char* const* texts, std::uint32_t count)
   return out;
 }
 
+std::vector<std::string> escaped_texts(const char* const* texts, std::uint32_t count) {
+  std::vector<std::string> out;
+  for (std::uint32_t i = 0; i < count; ++i) out.push_back(escaped(texts[i]));
+  return out;
+}
+
 ParameterSpec copy_parameter(const dmrp_param_spec& c) {
   ParameterSpec out;
   out.fallback = {text_of(c.key), c.type, c.integer, c.number, text_of(c.text), {}, {}};
@@ -173,8 +179,8 @@ PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
   out.license = escaped(c.license);
   out.summary = escaped(c.summary);
   out.source = escaped(c.source);
-  out.needs = texts_of(c.requires_, c.requires_count);
-  out.uses = texts_of(c.uses, c.uses_count);
+  out.needs = escaped_texts(c.requires_, c.requires_count);
+  out.uses = escaped_texts(c.uses, c.uses_count);
   out.parameters = copy_all(c.params, c.param_count, c.param_stride, "parameters", copy_parameter);
   out.values = copy_all(c.values, c.value_count, c.value_stride, "values", copy_value);
   out.connectivity = c.connectivity;

@@ -308,6 +308,11 @@ TEST_CASE("texts for display may be any bytes") {
       "ller\n\x1b[2J";
   controller.summary = "\xed\xa0\x80";
   controller.vendor = nullptr;
+  const char* const extensions[] = {"caf\xe9/1"};
+  controller.uses = extensions;
+  controller.uses_count = 1;
+  controller.requires_ = extensions;
+  controller.requires_count = 1;
   dmrp_param_spec spec = parameter("gain", DMRP_PARAM_DOUBLE);
   spec.unit = "\xb0";
   spec.doc = "caf\xc3\xa9\x07";
@@ -318,6 +323,8 @@ TEST_CASE("texts for display may be any bytes") {
   CHECK(info.name == "M\\xfcller\\n\\x1b[2J");
   CHECK(info.summary == "\\xed\\xa0\\x80");
   CHECK(info.vendor.empty());
+  CHECK(info.uses == std::vector<std::string>{"caf\\xe9/1"});
+  CHECK(info.needs == info.uses);
   CHECK(info.parameters[0].unit == "\\xb0");
   CHECK(info.parameters[0].doc == "caf\u00e9\\x07");
   CHECK_NOTHROW(nlohmann::json(library.plugins()).dump());
