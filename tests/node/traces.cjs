@@ -104,7 +104,7 @@ function checkChannels(trace) {
     topics.add(channel.topic);
     if (channel.topic === 'dmrp/trace') {
       assert.equal(channel.messageEncoding, 'dmrp');
-      assert.equal(channel.metadata.get('version'), '1');
+      assert.equal(channel.metadata.get('version'), '2');
       continue;
     }
     const schema = trace.reader.schemasById.get(channel.schemaId);

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-// Kinds of shape. Open list: a reader uses the segments of a shape that it does not know.
+// Kinds of shape. Open list: a shape of a kind that a reader does not know has the vertices of a polygon that contains it.
 #define DMRP_SHAPE_CIRCLE 1
 #define DMRP_SHAPE_POLYGON 2
 
@@ -21,7 +21,7 @@ typedef struct dmrp_shape {
   uint32_t vertex_count;      // polygon
   dmrp_vec2 center;           // circle
   double radius_m;            // circle
-  const dmrp_vec2* vertices;  // polygon: convex, counter-clockwise
+  const dmrp_vec2* vertices;  // polygon: convex, counter-clockwise; NULL for a circle
   double height_m;
 } dmrp_shape;
 

@@ -6,7 +6,7 @@
 namespace dmrp::rimea {
 
 Descriptor Bottleneck::describe() {
-  return describe_rimea("dmrp.rimea.bottleneck", "Bottleneck")
+  return describe_rimea("rimea.bottleneck", "Bottleneck")
       .summary("density and speed of a crowd before and behind a bottleneck")
       .value("density_before", "1/m2", Direction::none, Subjects::system, "in the area before the bottleneck")
       .value("speed_before", "m/s", Direction::none, Subjects::system, "of the people there")

@@ -6,7 +6,7 @@
 namespace dmrp::rimea {
 
 Descriptor Evacuation::describe() {
-  return describe_rimea("dmrp.rimea.evacuation", "Evacuation")
+  return describe_rimea("rimea.evacuation", "Evacuation")
       .summary("time until all people have left")
       .value("evacuation_time", "s", Direction::none, Subjects::system,
              "time until the last person left; undefined if somebody stayed")

@@ -6,7 +6,7 @@
 namespace dmrp::rimea {
 
 Descriptor FundamentalDiagram::describe() {
-  return describe_rimea("dmrp.rimea.fundamental_diagram", "Fundamental diagram")
+  return describe_rimea("rimea.fundamental_diagram", "Fundamental diagram")
       .summary("density and speed of a crowd in a measurement area, by the classical method")
       .value("density", "1/m2", Direction::none, Subjects::system,
              "people in the area over its extent, mean over time (1/m where the extent is a length)")

@@ -32,7 +32,7 @@ TEST_CASE("travel times run between two lines, interpolated between samples") {
   trial.sample(1.0, {}).crowd({person(1, {1.5, 0.0}), person(2, {0.5, 1.0})});
   trial.sample(2.0, {}).crowd({person(1, {3.5, 0.0}), person(2, {1.5, 1.0})});
   trial.end(2.0);
-  const Measurement m = measure_people("dmrp.rimea.travel_time", trial, {{"from_x_m", 1.0}, {"to_x_m", 2.5}});
+  const Measurement m = measure_people("rimea.travel_time", trial, {{"from_x_m", 1.0}, {"to_x_m", 2.5}});
   CHECK(m.values.at({"travel_time", DMRP_SUBJECT_PEDESTRIAN, 1}) == Approx(1.0));  // 0.5 s to 1.5 s
   CHECK(std::isnan(m.values.at({"travel_time", DMRP_SUBJECT_PEDESTRIAN, 2})));
   CHECK(m.system("travel_time") == Approx(1.0));
@@ -44,13 +44,13 @@ TEST_CASE("an evacuation ends when the last person left") {
   trial.sample(1.0, {}).crowd({person(2, {1.0, 0.0})});
   SECTION("everybody out") {
     trial.sample(3.0, {}).end(3.0);
-    const Measurement m = measure_people("dmrp.rimea.evacuation", trial);
+    const Measurement m = measure_people("rimea.evacuation", trial);
     CHECK(m.system("evacuation_time") == 3.0);
     CHECK(m.system("people_left_behind") == 0.0);
   }
   SECTION("one stays") {
     trial.end(1.0);
-    const Measurement m = measure_people("dmrp.rimea.evacuation", trial);
+    const Measurement m = measure_people("rimea.evacuation", trial);
     CHECK(std::isnan(m.system("evacuation_time")));
     CHECK(m.system("people_left_behind") == 1.0);
   }
@@ -64,14 +64,14 @@ TEST_CASE("density and speed are means over the intervals after the beginning") 
   trial.sample(2.0, {}).crowd({person(1, {2.5, 0.5}), person(2, {1.0, 1.0})});  // one is outside
   trial.end(2.0);
   const ParamOverrides all = {{"upper_m", std::vector<double>{2.0, 2.0}}, {"extent", 4.0}, {"from_s", 0.0}};
-  const Measurement m = measure_people("dmrp.rimea.fundamental_diagram", trial, all);
+  const Measurement m = measure_people("rimea.fundamental_diagram", trial, all);
   CHECK(m.system("density") == Approx((2.0 + 1.0) / 2.0 / 4.0));
   CHECK(m.system("walking_speed") == Approx((1.0 + 0.0 + 0.0) / 3.0));
   CHECK(m.system("specific_flow") == Approx(0.375 / 3.0));
 
   ParamOverrides late = all;
   late["from_s"] = 1.0;
-  CHECK(measure_people("dmrp.rimea.fundamental_diagram", trial, late).system("density") == Approx(0.25));
+  CHECK(measure_people("rimea.fundamental_diagram", trial, late).system("density") == Approx(0.25));
 }
 
 TEST_CASE("solidity finds overlaps and people in walls") {
@@ -79,7 +79,7 @@ TEST_CASE("solidity finds overlaps and people in walls") {
   trial.bounds({0.0, 0.0}, {10.0, 10.0}).box("wall", {4.0, 0.0}, {6.0, 5.0});
   trial.sample(0.0, {}).crowd({person(1, {1.0, 1.0}), person(2, {1.37, 1.0}), person(3, {3.85, 2.0})});
   trial.sample(1.0, {}).crowd({person(1, {1.0, 1.0}), person(2, {1.5, 1.0}), person(3, {3.0, 2.0})}).end(1.0);
-  const Measurement before = measure_people("dmrp.rimea.solidity", trial);
+  const Measurement before = measure_people("rimea.solidity", trial);
   CHECK(before.system("people_overlap") == Approx(0.03));
   CHECK(before.system("wall_overlap") == Approx(0.05));
   CHECK(before.system("outside_free_space") == 0.0);
@@ -87,7 +87,7 @@ TEST_CASE("solidity finds overlaps and people in walls") {
   // one in the wall, one outside the world, each at two samples
   trial.sample(2.0, {}).crowd({person(1, {5.0, 4.9}), person(2, {-0.1, 1.0})});
   trial.sample(3.0, {}).crowd({person(1, {5.0, 4.8}), person(2, {-0.1, 1.0})}).end(3.0);
-  const Measurement m = measure_people("dmrp.rimea.solidity", trial);
+  const Measurement m = measure_people("rimea.solidity", trial);
   CHECK(m.system("outside_free_space") == 2.0);
   CHECK(m.system("wall_overlap") == Approx(0.4));  // 0.2 m behind the wall's face, and the radius
 }
@@ -104,7 +104,7 @@ TEST_CASE("a bottleneck is measured while people arrive at it") {
     trial.sample(t, {}).crowd(people);
   }
   trial.end(12.0);
-  const Measurement m = measure_people("dmrp.rimea.bottleneck", trial,
+  const Measurement m = measure_people("rimea.bottleneck", trial,
                                        {{"line_x_m", 5.0},
                                         {"width_m", 2.0},
                                         {"before_lower_m", std::vector<double>{4.0, 0.0}},
@@ -127,6 +127,6 @@ TEST_CASE("an area without two corners in order is refused") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).end(0.0);
   CHECK_THROWS_WITH(
-      measure_people("dmrp.rimea.fundamental_diagram", trial, {{"upper_m", std::vector<double>{-1.0, 2.0}}}),
+      measure_people("rimea.fundamental_diagram", trial, {{"upper_m", std::vector<double>{-1.0, 2.0}}}),
       Catch::Contains("two corners"));
 }

@@ -11,7 +11,7 @@
 namespace dmrp::rimea {
 
 Descriptor Solidity::describe() {
-  return describe_rimea("dmrp.rimea.solidity", "Solidity")
+  return describe_rimea("rimea.solidity", "Solidity")
       .summary("whether people stay out of walls and out of each other, at every sample")
       .value("outside_free_space", "1", Direction::lower_is_better, Subjects::system,
              "people whose centre was ever inside a shape or outside the world; walls are thicker than a step, so this "

@@ -8,7 +8,7 @@
 namespace dmrp::rimea {
 
 Descriptor TravelTime::describe() {
-  return describe_rimea("dmrp.rimea.travel_time", "Travel time")
+  return describe_rimea("rimea.travel_time", "Travel time")
       .summary("time that people take from one line across their way to another")
       .value("travel_time", "s", Direction::none, Subjects::system_and_pedestrians,
              "from the line x = from_x_m to the line x = to_x_m; system: the mean of all who crossed both");

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tests/unit/host/plugins/odd_library.hpp"
-#include "tests/unit/host/plugins/odd_plugins/grown.hpp"
+#include "tests/support/odd_plugins/grown.hpp"
 
 using namespace dmrp::host;
 using namespace dmrp::test;

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-#include "tests/unit/host/plugins/odd_plugins/instance.hpp"
+#include "tests/support/odd_plugins/instance.hpp"
 
 namespace dmrp::test {
 

@@ -7,8 +7,8 @@
 
 #include <limits>
 
-#include "tests/unit/host/plugins/odd_plugins/grown.hpp"
-#include "tests/unit/host/plugins/odd_plugins/instance.hpp"
+#include "tests/support/odd_plugins/grown.hpp"
+#include "tests/support/odd_plugins/instance.hpp"
 
 namespace dmrp::test {
 

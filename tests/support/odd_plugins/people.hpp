@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "tests/unit/host/plugins/odd_plugins/instance.hpp"
+#include "tests/support/odd_plugins/instance.hpp"
 
 namespace dmrp::test {
 

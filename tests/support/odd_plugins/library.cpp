@@ -12,11 +12,11 @@
 #include <iterator>
 #include <memory>
 
-#include "tests/unit/host/plugins/odd_plugins/controller.hpp"
-#include "tests/unit/host/plugins/odd_plugins/life_cycle.hpp"
-#include "tests/unit/host/plugins/odd_plugins/metric.hpp"
-#include "tests/unit/host/plugins/odd_plugins/people.hpp"
-#include "tests/unit/host/plugins/odd_plugins/planner.hpp"
+#include "tests/support/odd_plugins/controller.hpp"
+#include "tests/support/odd_plugins/life_cycle.hpp"
+#include "tests/support/odd_plugins/metric.hpp"
+#include "tests/support/odd_plugins/people.hpp"
+#include "tests/support/odd_plugins/planner.hpp"
 
 namespace dmrp::test {
 namespace {
