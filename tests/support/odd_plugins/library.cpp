@@ -93,7 +93,9 @@ std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* pa
     out->start = &start;
     out->destroy = &destroy;
     out->trial_end = &trial_end;
-    if (status <= DMRP_WARNING) out->self = self.release();
+    if (status > DMRP_WARNING) return status;
+    out->self = self.get();
+    living[out->self] = std::move(self);
     return status;
   }
   return DMRP_ERROR;

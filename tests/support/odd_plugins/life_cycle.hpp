@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <map>
+#include <memory>
 #include <thread>
 
 #include "tests/support/odd_plugins/instance.hpp"
@@ -70,8 +72,11 @@ inline std::int32_t trial_end(dmrp_instance* self, const dmrp_trial_end* end) {
   return self->status_of("trial_end");
 }
 
+// All that were not destroyed: the host does not destroy an instance whose create() broke the contract.
+inline std::map<dmrp_instance*, std::unique_ptr<dmrp_instance>> living;
+
 inline void destroy(dmrp_instance* self) {
-  delete self;
+  living.erase(self);
 }
 
 }  // namespace dmrp::test
