@@ -53,6 +53,15 @@ void append_escape(std::string& out, std::uint8_t byte) {
 
 }  // namespace
 
+bool is_plain(std::string_view text) {
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    if (character.bytes == 0 || is_control(character.code_point)) return false;
+    text.remove_prefix(character.bytes);
+  }
+  return true;
+}
+
 std::string escaped(const char* text) {
   std::string out;
   std::string_view rest = text ? std::string_view(text, strnlen(text, most_bytes)) : std::string_view();

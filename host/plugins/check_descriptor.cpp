@@ -42,10 +42,6 @@ bool is_within(const ParameterSpec& spec) {
   return std::all_of(value.numbers.begin(), value.numbers.end(), within);
 }
 
-bool is_plain(const std::string& text) {
-  return escaped(text.c_str()) == text;
-}
-
 // Why the parameter is invalid; "" if it is not.
 std::string mistake_in(const ParameterSpec& spec) {
   const ParameterValue& value = spec.fallback;

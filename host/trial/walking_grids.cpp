@@ -48,6 +48,7 @@ WalkingGrids::Grid* WalkingGrids::grid(double resolution_m, double radius_m) {
   if (!(size.x / resolution_m * (size.y / resolution_m) <= most_cells)) return nullptr;
   auto made = std::make_unique<Grid>();
   made->grid = core::build_planning_grid(*geometry_, resolution_m, radius_m, 0.0);
+  if (made->grid.width == 0 || made->grid.height == 0) return nullptr;  // cells that are larger than any world
   made->view = made->grid.view();
   known = std::move(made);
   return known.get();

@@ -34,7 +34,7 @@ typedef struct dmrp_entry {
 
   // Creates an instance of the plugin `id`. `host` belongs to this instance and is valid until its destroy() returns;
   // `params` has every declared key and is valid until the call returns; the plugin fills in `out` before it returns
-  // DMRP_OK. No destroy() follows another status.
+  // DMRP_OK. No destroy() follows another status, or an `out` that lacks a part, which is a fault.
   // [main]
   int32_t (*create)(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out);
 } dmrp_entry;

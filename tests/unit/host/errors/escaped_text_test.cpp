@@ -6,6 +6,12 @@
 
 using dmrp::host::escaped;
 
+TEST_CASE("a text is plain if nothing of it is escaped, however long it is") {
+  CHECK(dmrp::host::is_plain(std::string(10'000, 'x') + "\u00e9"));
+  CHECK_FALSE(dmrp::host::is_plain(std::string(10'000, 'x') + "\n"));
+  CHECK_FALSE(dmrp::host::is_plain("\xff"));
+}
+
 TEST_CASE("text in UTF-8 stays as it is") {
   const std::string text = "caf\u00e9 \u4e2d\u6587 \U0001F916 \"quoted\" back\\slash ~\u00a0";
   CHECK(escaped(text.c_str()) == text);

@@ -64,7 +64,7 @@ TEST_CASE("equal requests get the same grid, others another one") {
 
 TEST_CASE("requests out of range get no grid") {
   WalkingGrids grids(std::make_shared<const core::StaticGeometry>(furnished_hall()));
-  for (const double resolution_m : {0.0, -0.5, nan_value, infinity, 5e-4, 1e-300})
+  for (const double resolution_m : {0.0, -0.5, nan_value, infinity, 1e12, 5e-4, 1e-300})
     CHECK(ask(grids, resolution_m, 0.3) == nullptr);
   for (const double radius_m : {-0.1, nan_value, infinity}) CHECK(ask(grids, 0.5, radius_m) == nullptr);
   CHECK(ask(grids, 0.5, 0.3, -8) == nullptr);  // shorter than v1.0's
