@@ -126,7 +126,6 @@ TEST_CASE("a bottleneck is measured while people arrive at it") {
 TEST_CASE("an area without two corners in order is refused") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).end(0.0);
-  CHECK_THROWS_WITH(
-      measure_people("rimea.fundamental_diagram", trial, {{"upper_m", std::vector<double>{-1.0, 2.0}}}),
-      Catch::Contains("two corners"));
+  CHECK_THROWS_WITH(measure_people("rimea.fundamental_diagram", trial, {{"upper_m", std::vector<double>{-1.0, 2.0}}}),
+                    Catch::Contains("two corners"));
 }
