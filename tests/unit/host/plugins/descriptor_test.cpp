@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/plugins/offered_extensions.hpp"
-#include "tests/unit/host/plugins/odd_library.hpp"
 #include "tests/support/odd_plugins/grown.hpp"
+#include "tests/unit/host/plugins/odd_library.hpp"
 
 using namespace dmrp::host;
 using namespace dmrp::test;

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "tests/unit/host/plugins/odd_library.hpp"
 #include "tests/support/odd_plugins/grown.hpp"
+#include "tests/unit/host/plugins/odd_library.hpp"
 
 using namespace dmrp::host;
 using namespace dmrp::test;
