@@ -17,10 +17,10 @@ InstancePool::InstancePool(const std::vector<LibraryUse>& libraries, CallGuard& 
 
 InstancePool::~InstancePool() {
   clear();
-  for (const auto& [library, host] : libraries_) {
+  for (const LoadedLibrary& loaded : libraries_) {
     try {
-      guard_.call(host->c(), {"library", "deinit", 0, -1}, init_budget_ns, Answers::no_other,
-                  [&] { return library->entry().deinit(), DMRP_OK; });
+      guard_.call(loaded.host->c(), {"library", "deinit", 0, -1}, init_budget_ns, Answers::no_other,
+                  [&] { return loaded.library->entry().deinit(), DMRP_OK; });
     } catch (const PluginFault& fault) {
       log_(DMRP_LOG_ERROR, "library", std::string("deinit: ") + fault.what());
     }
