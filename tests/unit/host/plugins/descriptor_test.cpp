@@ -197,7 +197,7 @@ TEST_CASE("a parameter's mistake is refused with the plugin, the key and the rea
       spec.minimum = minimum;
       spec.maximum = maximum;
       spec.number = fallback;
-      spec.integer = static_cast<std::int64_t>(fallback);
+      spec.integer = std::isnan(fallback) ? 0 : static_cast<std::int64_t>(fallback);
     };
   };
   CHECK(refusal_of(range(-1.0, 1.0, 0.5)).empty());
