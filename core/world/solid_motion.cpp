@@ -34,6 +34,20 @@ dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
 
 using ContactResponse = SolidBody::ContactResponse;
 
+// The farthest that a body can move in this step, pushed or not.
+double reach_of(const SolidBody& body, double max_push_m) {
+  const double own_m = toolkit::norm(body.displacement);
+  return body.response == ContactResponse::yield ? std::max(own_m, max_push_m) : own_m;
+}
+
+// Adds to a displacement without exceeding the body's reach.
+void push(SolidBody& body, dmrp_vec2 change, double max_push_m) {
+  const double at_most_m = reach_of(body, max_push_m);
+  body.displacement += change;
+  const double length_m = toolkit::norm(body.displacement);
+  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
+}
+
 }  // namespace
 
 SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns)
@@ -49,34 +63,22 @@ void SolidMotion::resolve(std::span<SolidBody> bodies) {
   stop_violators(bodies);
 }
 
-// The farthest that a body can move in this step, pushed or not.
-double SolidMotion::reach_of(const SolidBody& body) const {
-  const double own_m = toolkit::norm(body.displacement);
-  return body.response == ContactResponse::yield ? std::max(own_m, max_push_m_) : own_m;
-}
-
-// Adds to a displacement without exceeding the body's reach.
-void SolidMotion::push(SolidBody& body, dmrp_vec2 change) const {
-  const double at_most_m = reach_of(body);
-  body.displacement += change;
-  const double length_m = toolkit::norm(body.displacement);
-  if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
-}
-
 bool SolidMotion::neighbours_are_fresh(std::span<const SolidBody> bodies) const {
   if (bodies.size() != found_at_.size()) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double moved_m = toolkit::distance(bodies[i].position, found_at_[i]);
-    if (bodies[i].radius_m != found_radii_m_[i] || moved_m + reach_of(bodies[i]) > reach_m_) return false;
+    if (bodies[i].radius_m != found_radii_m_[i] || moved_m + reaches_m_[i] > reach_m_) return false;
   }
   return true;
 }
 
 void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
+  reaches_m_.clear();
+  for (const SolidBody& body : bodies) reaches_m_.push_back(reach_of(body, max_push_m_));
   if (neighbours_are_fresh(bodies)) return;
 
   double furthest_m = 0.0;
-  for (const SolidBody& body : bodies) furthest_m = std::max(furthest_m, reach_of(body));
+  for (const double reach_m : reaches_m_) furthest_m = std::max(furthest_m, reach_m);
   reach_m_ = neighbour_reach_m + furthest_m;
   found_at_.clear();
   found_radii_m_.clear();
@@ -100,10 +102,9 @@ void SolidMotion::find_neighbours(std::span<const SolidBody> bodies) {
   }
 }
 
-void SolidMotion::constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
-                            double gap_m) {
+void SolidMotion::constrain(std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m) {
   const double allowed_m = std::max(0.0, gap_m + solid_depth_m);
-  if (reach_of(bodies[a]) + (b == no_body ? 0.0 : reach_of(bodies[b])) > allowed_m)
+  if (reaches_m_[a] + (b == no_body ? 0.0 : reaches_m_[b]) > allowed_m)
     constraints_.push_back({a, b, normal, allowed_m});
 }
 
@@ -113,7 +114,7 @@ void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint3
   if (bodies[stoppable].response == ContactResponse::ignore) return;
   const double comes_m = toolkit::dot(bodies[other].displacement, normal);
   const double allowed_m = std::max(0.0, std::max(0.0, gap_m + solid_depth_m) - comes_m);
-  if (reach_of(bodies[stoppable]) > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
+  if (reaches_m_[stoppable] > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
 }
 
 // A half-plane that separates two convex bodies on the line of their nearest points keeps them apart for every motion
@@ -123,12 +124,12 @@ void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
   for (const auto& [body, shape] : shape_neighbours_) {
     if (bodies[body].response == ContactResponse::ignore) continue;
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
-    constrain(bodies, body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
+    constrain(body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].response == ContactResponse::ignore) continue;
     for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
-      constrain(bodies, i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
+      constrain(i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
   }
   for (const auto& [a, b] : body_neighbours_) {
     const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
@@ -139,7 +140,7 @@ void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
     else if (bodies[a].response == ContactResponse::ignore)
       constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
     else
-      constrain(bodies, a, b, normal, gap_m);
+      constrain(a, b, normal, gap_m);
   }
 }
 
@@ -155,8 +156,8 @@ bool SolidMotion::sweep_once(std::span<SolidBody> bodies, bool pushing) const {
     if (excess_m <= tolerance_m) continue;
     all_held = false;
     if (pushing && b != nullptr && a.response == ContactResponse::yield && b->response == ContactResponse::yield) {
-      push(a, constraint.normal * (0.5 * excess_m));
-      push(*b, constraint.normal * (-0.5 * excess_m));
+      push(a, constraint.normal * (0.5 * excess_m), max_push_m_);
+      push(*b, constraint.normal * (-0.5 * excess_m), max_push_m_);
       continue;
     }
     // the approaching body loses approach; a receding body makes room

@@ -78,20 +78,19 @@ class SolidMotion {
     double allowed_m;
   };
 
-  double reach_of(const SolidBody& body) const;
-  void push(SolidBody& body, dmrp_vec2 change) const;
   void find_neighbours(std::span<const SolidBody> bodies);
   bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
   void collect_constraints(std::span<const SolidBody> bodies);
   void constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
                         dmrp_vec2 normal, double gap_m);
-  void constrain(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
+  void constrain(std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
   bool sweep_once(std::span<SolidBody> bodies, bool pushing) const;
   void stop_violators(std::span<SolidBody> bodies) const;
 
   std::shared_ptr<const StaticGeometry> geometry_;
   double max_push_m_;  // in a step
   BodyPairs pairs_;
+  std::vector<double> reaches_m_;  // the farthest that each body can move in this step
 
   // Pairs that can meet as long as no body is farther than reach_m_ from its position at the search.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> body_neighbours_;
