@@ -20,7 +20,6 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_exact = 8;
 constexpr std::uint64_t draws = 5'000;
 constexpr std::uint32_t resamples = 1'000;
-constexpr double equal_within = 1e-12;  // rounding of the mean of products, which is zero with one block
 
 using Ranks = std::vector<std::int64_t>;
 
@@ -61,36 +60,31 @@ double exact_p(const Ranks& x, Ranks y) {
   return static_cast<double>(as_far) / static_cast<double>(orders);
 }
 
-// Both are ordered by block. The mean product over all permutations within blocks is that of the blocks' means.
+// The observations of each block, as indices into the whole.
+std::vector<std::vector<std::size_t>> members_of(std::size_t n, std::span<const std::uint32_t> block) {
+  std::map<std::uint32_t, std::vector<std::size_t>> found;
+  for (std::size_t i = 0; i < n; ++i) found[block.empty() ? 0 : block[i]].push_back(i);
+  std::vector<std::vector<std::size_t>> blocks;
+  for (auto& [id, members] : found) blocks.push_back(std::move(members));
+  return blocks;
+}
+
+// The sum over blocks. All ranks are centred in their block, so its mean over all permutations within blocks is zero.
+std::int64_t product(const std::vector<Ranks>& a, const std::vector<Ranks>& b) {
+  std::int64_t sum = 0;
+  for (std::size_t block = 0; block < a.size(); ++block) sum += product(a[block], b[block]);
+  return sum;
+}
+
 double drawn_p(const std::vector<Ranks>& x, std::vector<Ranks> y, std::uint64_t seed) {
-  const auto product_of_all = [&] {
-    std::int64_t sum = 0;
-    for (std::size_t block = 0; block < x.size(); ++block) sum += product(x[block], y[block]);
-    return static_cast<double>(sum);
-  };
-  double mean = 0.0;
-  for (std::size_t block = 0; block < x.size(); ++block)
-    mean += static_cast<double>(std::accumulate(x[block].begin(), x[block].end(), std::int64_t{0})) *
-            static_cast<double>(std::accumulate(y[block].begin(), y[block].end(), std::int64_t{0})) /
-            static_cast<double>(x[block].size());
-  const double observed = std::abs(product_of_all() - mean);
-  const double as_good_as = observed - equal_within * (observed + std::abs(mean));
+  const std::int64_t observed = std::abs(product(x, y));
   toolkit::Stream random(seed, "statistics.rank_correlation");
   std::uint64_t as_far = 1;
   for (std::uint64_t draw = 0; draw < draws; ++draw) {
     for (Ranks& of_block : y) random.shuffle(of_block);
-    if (std::abs(product_of_all() - mean) >= as_good_as) ++as_far;
+    if (std::abs(product(x, y)) >= observed) ++as_far;
   }
   return static_cast<double>(as_far) / static_cast<double>(draws + 1);
-}
-
-std::vector<Ranks> by_block(const Ranks& ranks, std::span<const std::uint32_t> block) {
-  if (block.empty()) return {ranks};
-  std::map<std::uint32_t, Ranks> found;
-  for (std::size_t i = 0; i < ranks.size(); ++i) found[block[i]].push_back(ranks[i]);
-  std::vector<Ranks> blocks;
-  for (auto& [id, of_block] : found) blocks.push_back(std::move(of_block));
-  return blocks;
 }
 
 // The index of each value among the distinct values; the ranks of a resample then follow by counting.
@@ -119,52 +113,85 @@ void rank_by_counts(const std::vector<std::uint32_t>& place, const std::vector<s
   for (std::size_t i = 0; i < place.size(); ++i) ranks[i] = at[place[i]];
 }
 
-double weighted_correlation(const Ranks& x, const Ranks& y, const std::vector<std::uint32_t>& count) {
+// A block in a resample: the place of each value, how often the resample holds it, and its rank there.
+struct ResampledBlock {
+  std::vector<std::size_t> members;
+  std::vector<std::uint32_t> place_x;
+  std::vector<std::uint32_t> place_y;
+  std::vector<std::uint32_t> count;
+  Ranks x;
+  Ranks y;
+};
+
+double weighted_correlation(const std::vector<ResampledBlock>& blocks) {
   std::int64_t xx = 0;
   std::int64_t xy = 0;
   std::int64_t yy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += count[i] * x[i] * x[i];
-    xy += count[i] * x[i] * y[i];
-    yy += count[i] * y[i] * y[i];
+  for (const ResampledBlock& block : blocks) {
+    for (std::size_t i = 0; i < block.count.size(); ++i) {
+      xx += block.count[i] * block.x[i] * block.x[i];
+      xy += block.count[i] * block.x[i] * block.y[i];
+      yy += block.count[i] * block.y[i] * block.y[i];
+    }
   }
   return correlation_of(xx, xy, yy);
 }
 
-Interval bootstrap(std::span<const double> x, std::span<const double> y, std::span<const std::uint64_t> cluster,
-                   std::uint64_t seed) {
+// The index of each observation's cluster, counted from 0.
+std::vector<std::uint32_t> indices_of(std::span<const std::uint64_t> cluster) {
   std::map<std::uint64_t, std::uint32_t> index_of;
   for (const std::uint64_t id : cluster) index_of.emplace(id, 0);
-  if (index_of.size() < 2) return {undefined, undefined};
   std::uint32_t next = 0;
   for (auto& [id, index] : index_of) index = next++;
-  std::vector<std::uint32_t> cluster_of;
-  for (const std::uint64_t id : cluster) cluster_of.push_back(index_of.at(id));
-  const BootstrapDraws drawn(index_of.size(), {resamples, seed});
-  const auto place_x = places(x);
-  const auto place_y = places(y);
-  std::vector<std::uint32_t> of_cluster(index_of.size());
-  std::vector<std::uint32_t> count(x.size());
-  Ranks ranks_x(x.size());
-  Ranks ranks_y(y.size());
+  std::vector<std::uint32_t> indices;
+  for (const std::uint64_t id : cluster) indices.push_back(index_of.at(id));
+  return indices;
+}
+
+std::vector<double> selected(std::span<const double> values, const std::vector<std::size_t>& members) {
+  std::vector<double> found;
+  for (const std::size_t i : members) found.push_back(values[i]);
+  return found;
+}
+
+Interval bootstrap(std::span<const double> x, std::span<const double> y, std::span<const std::uint64_t> cluster,
+                   const std::vector<std::vector<std::size_t>>& members, std::uint64_t seed) {
+  const std::vector<std::uint32_t> cluster_of = indices_of(cluster);
+  const std::size_t clusters = 1 + *std::max_element(cluster_of.begin(), cluster_of.end());
+  if (clusters < 2) return {undefined, undefined};
+  std::vector<ResampledBlock> blocks;
+  for (const auto& of_block : members) {
+    const std::size_t n = of_block.size();
+    blocks.push_back({of_block, places(selected(x, of_block)), places(selected(y, of_block)),
+                      std::vector<std::uint32_t>(n), Ranks(n), Ranks(n)});
+  }
+  const BootstrapDraws drawn(clusters, {resamples, seed});
+  std::vector<std::uint32_t> of_cluster(clusters);
   std::vector<double> correlations;
   for (std::size_t i = 0; i < drawn.resamples(); ++i) {
     std::fill(of_cluster.begin(), of_cluster.end(), 0);
     for (const std::uint32_t draw : drawn.resample(i)) ++of_cluster[draw];
-    for (std::size_t k = 0; k < count.size(); ++k) count[k] = of_cluster[cluster_of[k]];
-    rank_by_counts(place_x, count, ranks_x);
-    rank_by_counts(place_y, count, ranks_y);
-    correlations.push_back(weighted_correlation(ranks_x, ranks_y, count));
+    for (ResampledBlock& block : blocks) {
+      for (std::size_t k = 0; k < block.count.size(); ++k) block.count[k] = of_cluster[cluster_of[block.members[k]]];
+      rank_by_counts(block.place_x, block.count, block.x);
+      rank_by_counts(block.place_y, block.count, block.y);
+    }
+    correlations.push_back(weighted_correlation(blocks));
   }
   return percentile_interval(std::move(correlations));
 }
 
-double share_of_ties(std::span<const double> x, std::span<const double> y) {
+// Undefined without a pair.
+double share_of_ties(std::span<const double> x, std::span<const double> y,
+                     const std::vector<std::vector<std::size_t>>& members) {
   std::uint64_t tied = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (x[i] == x[j] || y[i] == y[j]) ++tied;
-  return static_cast<double>(2 * tied) / (static_cast<double>(x.size()) * static_cast<double>(x.size() - 1));
+  std::uint64_t pairs = 0;
+  for (const auto& of_block : members) {
+    for (auto i = of_block.begin(); i != of_block.end(); ++i)
+      for (auto j = of_block.begin(); j != i; ++j, ++pairs)
+        if (x[*i] == x[*j] || y[*i] == y[*j]) ++tied;
+  }
+  return pairs == 0 ? undefined : static_cast<double>(tied) / static_cast<double>(pairs);
 }
 
 }  // namespace
@@ -179,15 +206,19 @@ RankCorrelation rank_correlation(std::span<const double> x, std::span<const doub
   RankCorrelation result{
       static_cast<std::uint32_t>(x.size()), undefined, {undefined, undefined}, undefined, true, undefined};
   if (x.size() < 2) return result;
-  result.ties_share = share_of_ties(x, y);
-  const Ranks ranks_x = centered_ranks(x);
-  const Ranks ranks_y = centered_ranks(y);
-  result.rho = correlation(ranks_x, ranks_y);
+  const std::vector<std::vector<std::size_t>> members = members_of(x.size(), block);
+  result.ties_share = share_of_ties(x, y, members);
+  std::vector<Ranks> ranks_x;
+  std::vector<Ranks> ranks_y;
+  for (const auto& of_block : members) {
+    ranks_x.push_back(centered_ranks(selected(x, of_block)));
+    ranks_y.push_back(centered_ranks(selected(y, of_block)));
+  }
+  result.rho = correlation_of(product(ranks_x, ranks_x), product(ranks_x, ranks_y), product(ranks_y, ranks_y));
   if (std::isnan(result.rho)) return result;
-  const std::vector<Ranks> blocks_x = by_block(ranks_x, block);
-  result.exact = x.size() <= most_exact && blocks_x.size() == 1;
-  result.p = result.exact ? exact_p(ranks_x, ranks_y) : drawn_p(blocks_x, by_block(ranks_y, block), seed);
-  result.interval = bootstrap(x, y, cluster, seed);
+  result.exact = x.size() <= most_exact && members.size() == 1;
+  result.p = result.exact ? exact_p(ranks_x[0], ranks_y[0]) : drawn_p(ranks_x, ranks_y, seed);
+  result.interval = bootstrap(x, y, cluster, members, seed);
   return result;
 }
 

@@ -17,14 +17,14 @@ struct RankCorrelation {
   double rho;
   Interval interval;  // 95 %, by the bootstrap over clusters (1,000 resamples); needs at least two clusters
   double p;           // two-sided: the share of permutations of y within its blocks whose correlation is at least as
-                      // far from their mean, which is zero with one block
+                      // far from zero
   bool exact;         // p counts all permutations (up to n = 8, one block); otherwise 5,000, with the observed one
-  double ties_share;  // of the pairs of observations that are equal in x or in y
+  double ties_share;  // of the pairs of observations of a block that are equal in x or in y
 };
 
-// `cluster`: the cluster of each pair, a seed. `block`: y is permuted within blocks only, so that differences between
-// blocks alone do not give a small p; empty: one block. rho is computed over all pairs. Deterministic: draws come from
-// named streams.
+// `cluster`: the cluster of each pair, a seed. `block`: everything is computed within blocks, so that differences between
+// blocks count for nothing; empty: one block. rho is the correlation of the ranks within blocks, each minus its block's
+// mean rank. Deterministic: draws come from named streams.
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
                                  std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block = {},
                                  std::uint64_t seed = 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// report_correlations.hpp: rank correlations of metrics, within one scenario, planner and pedestrian model each, because
-// pooling planners can cause Simpson's paradox.
+// report_correlations.hpp: rank correlations of metrics, within one scenario, planner and pedestrian model each, and
+// within controllers, because pooling can cause Simpson's paradox.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct StratumCorrelation {
   CombinationLabels stratum;  // without a controller: includes the trials of all controllers
   std::size_t x;              // metrics
   std::size_t y;
-  core::RankCorrelation correlation;  // over the trials in which both are defined; permutes within a controller
+  core::RankCorrelation correlation;  // over the trials in which both are defined, within controllers
 };
 
 std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes);

@@ -86,10 +86,10 @@ function correlation_table(data, strata) {
   if (pairs.length === 0) return null;
   const title = ([x, y]) => `${labels.metric_title(data, x)}, ${labels.metric_title(data, y)}`;
   const note =
-    'Spearman\u2019s ρ over the trials of all controllers in which both metrics are defined; 95 % intervals over ' +
-    'seeds. p is from permutations within each controller: differences between controllers enlarge ρ, but do not ' +
-    'lower p. ' +
-    'Ties: the share of pairs of trials with equal values of one of the metrics.';
+    'Spearman\u2019s ρ over the trials in which both metrics are defined. Each controller\u2019s trials are ranked ' +
+    'on their own: differences between controllers count for nothing. 95 % intervals are over seeds; p is from ' +
+    'permutations within each controller. ' +
+    'Ties: the share of pairs of a controller\u2019s trials with equal values of one of the metrics.';
   return titled_table(
     'title-correlations',
     'Rank correlations',

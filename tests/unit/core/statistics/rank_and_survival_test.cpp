@@ -81,14 +81,25 @@ TEST_CASE("the p value of a rank correlation counts permutations", "[statistics]
     const std::vector<double> y{3, 1, 2, 13, 11, 12};
     const std::vector<std::uint32_t> block{0, 0, 0, 1, 1, 1};
     const RankCorrelation found = rank_correlation(x, y, each_its_own(6), block);
-    CHECK(found.rho == Approx(1.0 - 6.0 * 12.0 / 210.0));  // of all six
+    // products of a block's centered ranks: -1 here, of at most 2; of its six orders 2, 1, 1, -1, -1, -2. Of the 36 sums
+    // of two, 18 are at least as far from 0 as -2
+    CHECK(found.rho == Approx(-0.5));
     CHECK_FALSE(found.exact);
-    // products of a block's centered ranks: -1 here; of its six orders 2, 1, 1, -1, -1, -2. Of the 36 sums of two, 18
-    // are at least as far from 0 as -2
     CHECK(found.p == Approx(0.5).margin(0.03));
+    CHECK(rank_correlation(x, y, each_its_own(6)).rho == Approx(1.0 - 6.0 * 12.0 / 210.0));
     CHECK(rank_correlation(x, y, each_its_own(6)).p < 0.2);
-    // a block of one has no other order
-    CHECK(rank_correlation(x, y, each_its_own(6), std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}).p == 1.0);
+    // no block has two
+    CHECK(std::isnan(rank_correlation(x, y, each_its_own(6), std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}).rho));
+  }
+  SECTION("pairs of different blocks are neither ordered nor tied") {
+    const std::vector<double> x{1, 2, 3, 1, 2, 3};
+    const std::vector<double> y{1, 2, 3, 30, 10, 20};
+    const RankCorrelation found = rank_correlation(x, y, std::vector<std::uint64_t>{1, 2, 3, 1, 2, 3},
+                                                   std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1});
+    CHECK(found.rho == Approx((8.0 - 4.0) / 16.0));
+    CHECK(found.ties_share == 0.0);
+    CHECK(found.interval.low <= found.rho);
+    CHECK(found.interval.high >= found.rho);
   }
 }
 
