@@ -55,7 +55,8 @@ Scene with_heading(const Scene& scene, double heading, const OscillationGuard& o
           scene.follow,
           scene.align,
           oscillation,
-          nullptr};
+          nullptr,
+          scene.room};
 }
 
 int simulation_steps(const Sample& sample, const Tuning& tuning) {
@@ -71,6 +72,7 @@ double score(const Sample& sample, const Scene& scene, const Tuning& tuning, Foo
   const int obstacle = obstacle_cost(sample, scene, tuning, footprint, end);
   if (obstacle == in_collision) return rejected;
   double sum = tuning.occdist_scale * obstacle;
+  if (scene.room && scene.room->is_too_close(end)) sum += stay_cost;
   if (sum > best) return sum;
 
   // the four grid critics, first at the robot's nose, then at its centre

@@ -54,12 +54,17 @@ struct Scene {
   bool align = true;            // whether to apply the alignment critic
   const OscillationGuard& oscillation;
   const Ramp* ramp = nullptr;  // NULL: velocities are constant along arcs
+  // Not NULL: the robot leaves an obstacle, and arcs that end too close to one by this check cost stay_cost.
+  const FootprintCheck* room = nullptr;
 };
 
 // The same scene with another heading of the robot and another oscillation history.
 Scene with_heading(const Scene& scene, double heading, const OscillationGuard& oscillation);
 
 inline constexpr double rejected = -1.0;
+
+// More than the critics of any two arcs can differ by.
+inline constexpr double stay_cost = 1e4;
 
 // A robot that moves away from an obstacle which came too close may be this far from the free cells.
 inline constexpr std::int32_t escape_reach_cells = 8;

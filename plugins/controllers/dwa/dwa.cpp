@@ -62,6 +62,7 @@ Status Dwa::start(const Start& start) {
   oscillation_.reset();
   standing_ns_ = 0;
   turn_to_.reset();
+  leaving_ = false;
   return Status::ok;
 }
 
@@ -93,12 +94,15 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   sample_window(now);
   const Vec2 robot = toolkit::position(now.pose);
   const dwa::FrontSettings settings = {now.footprint.inscribed_radius_m + footprint_padding,
-                                       max_global_plan_lookahead_dist, forward_point_distance};
+                                       max_global_plan_lookahead_dist, forward_point_distance, enforce_path_inversion,
+                                       return_to_path};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
 
-  update_oscillation(now);
+  const bool stalled = is_stalled(now);
+  update_oscillation(now, stalled);
+  const std::optional<FootprintCheck> room = room_to_leave_for(now, map, stalled && !goal.is_cut);
   // paths are not replanned around people: past an obstacle on the path, the goal critics alone guide the robot
   const bool follow = goal.path_is_free;
   const bool align = to_goal_m > forward_point_distance;
@@ -114,7 +118,8 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                             follow,
                             align,
                             oscillation_,
-                            use_dwa ? nullptr : &ramp};
+                            use_dwa ? nullptr : &ramp,
+                            room ? &*room : nullptr};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
@@ -175,13 +180,31 @@ std::array<dwa::Box, 2> Dwa::reachable_boxes(const Observation& now) const {
 
 // Clears the oscillation history of a robot that has moved on or stalled. For a stalled robot the forbidden direction
 // may be the only way on; upstream, the oscillation recovery of move_base clears it.
-void Dwa::update_oscillation(const Observation& now) {
+void Dwa::update_oscillation(const Observation& now, bool stalled) {
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
+  if (stalled) oscillation_.reset();
+}
+
+// A footprint with a cell more of padding, while the robot leaves an obstacle: from a stall beside it until it is
+// clear. Beside the end of a wall, all free arcs may lead away from the goal; by the goal critics alone, the robot
+// would stand there for ever.
+std::optional<FootprintCheck> Dwa::room_to_leave_for(const Observation& now, const CostmapView& map, bool begins) {
+  leaving_ = leave_padding && (leaving_ || begins);
+  if (!leaving_) return {};
+  const StopPoint& stop = tracker_.stop();
+  const FootprintCheck room(map, now.footprint, footprint_padding + map.resolution_m(), now.pose);
+  leaving_ =
+      room.starts_too_close() && toolkit::distance(toolkit::position(now.pose), stop.position) > stop.tolerance_m;
+  return leaving_ ? std::optional(room) : std::nullopt;
+}
+
+// True once each time that the robot has stood for stall_ns.
+bool Dwa::is_stalled(const Observation& now) {
   const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
   standing_ns_ = is_standing ? standing_ns_ + now.dt_ns : 0;
-  if (standing_ns_ < stall_ns) return;
+  if (standing_ns_ < stall_ns) return false;
   standing_ns_ = 0;
-  oscillation_.reset();
+  return true;
 }
 
 // Called if standing still scores best: the slow arcs of the window may be too short to show a way on. Scores a
@@ -202,7 +225,8 @@ std::optional<double> Dwa::better_heading(const dwa::Scene& scene, FootprintChec
     best = cost;
     aside = angle;
   }
-  if (!(std::abs(aside) > turn_begin_rad)) return {};
+  // a robot that leaves an obstacle has no other way
+  if (!(std::abs(aside) > (scene.room ? turn_end_rad : turn_begin_rad))) return {};
   return toolkit::wrap(scene.pose.theta + aside);
 }
 

@@ -14,6 +14,7 @@
 #include "controllers/dwa/critics.hpp"
 #include "controllers/dwa/path_fronts.hpp"
 #include "controllers/motion/annotations.hpp"
+#include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/path_tracker.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 
@@ -65,6 +66,12 @@ class Dwa final : public LocalController {
                                                      .unit("m")
                                                      .range(0.5, 100.0)
                                                      .doc("length of the path considered, inside the window");
+  Param<bool> enforce_path_inversion =
+      param("enforce_path_inversion", false).doc("consider the path only up to where it turns back");
+  Param<bool> return_to_path =
+      param("return_to_path", false).doc("drive straight to a path that lies outside the window; off: stand");
+  Param<bool> leave_padding =
+      param("leave_padding", false).doc("after standing beside an obstacle for 2 s, drive clear of it first");
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
@@ -74,7 +81,9 @@ class Dwa final : public LocalController {
   Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
   void sample_window(const Observation& now);
   std::array<dwa::Box, 2> reachable_boxes(const Observation& now) const;
-  void update_oscillation(const Observation& now);
+  bool is_stalled(const Observation& now);
+  void update_oscillation(const Observation& now, bool stalled);
+  std::optional<FootprintCheck> room_to_leave_for(const Observation& now, const CostmapView& map, bool begins);
   std::optional<double> better_heading(const dwa::Scene& scene, FootprintCheck& footprint) const;
   Command turn(const Observation& now, double heading, FootprintCheck& footprint) const;
   Command approach(const Observation& now, const dwa::Sample& choice) const;
@@ -90,6 +99,7 @@ class Dwa final : public LocalController {
   dwa::OscillationGuard oscillation_;
   std::int64_t standing_ns_ = 0;
   std::optional<double> turn_to_;  // the heading of a turn in place
+  bool leaving_ = false;           // driving clear of an obstacle
 
   // buffers, filled anew in every cycle
   dwa::VelocityWindow window_;

@@ -16,6 +16,9 @@ constexpr std::size_t most_plan_points = 1024;
 // Cells closer to obstacles than this, beyond the clearance that the robot needs, cost close_effort.
 constexpr double easy_m = 0.15;
 
+// The path turns back where it comes nearer to the place reached by more than this. (inversion_xy_tolerance in nav2)
+constexpr double inversion_tolerance_m = 0.2;
+
 }  // namespace
 
 void PathFronts::reserve() {
@@ -26,7 +29,7 @@ LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double head
                              const std::array<Box, 2>& boxes, const FrontSettings& settings) {
   terrain_.read(map, map.highest_cost_at(settings.needed_m), map.highest_cost_at(settings.needed_m + easy_m));
   request(map, robot, boxes);
-  lay_out_plan(tracker, map, settings.look_ahead_m);
+  lay_out_plan(tracker, robot, map, settings);
   const std::int32_t home = terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);
   spread_path(tracker, map, home, settings);
 
@@ -48,15 +51,49 @@ void PathFronts::request(const CostmapView& map, Vec2 robot, const std::array<Bo
 }
 
 // The path ahead in the window, in steps of half a cell.
-void PathFronts::lay_out_plan(const PathTracker& tracker, const CostmapView& map, double look_ahead_m) {
+void PathFronts::lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map,
+                              const FrontSettings& settings) {
   plan_.clear();
   const double step_m = 0.5 * map.resolution_m();
-  const double ahead_m = std::min(look_ahead_m, tracker.remaining_m());
+  const double ahead_m = std::min(settings.look_ahead_m, tracker.remaining_m());
   const int steps = static_cast<int>(ahead_m / step_m);
   for (int i = 0; i <= steps + 1; ++i) {
     const Vec2 at = tracker.point_at(tracker.progress_m() + std::min(i * step_m, ahead_m));
     const std::int32_t index = terrain_.index_of(map, at);
     if (index < 0) break;  // outside the window
+    plan_.push_back({at, index});
+  }
+  if (settings.ends_at_inversion) end_at_inversion();
+  if (settings.returns_to_path && plan_.empty()) lay_out_return(robot, tracker.point_at(tracker.progress_m()), map);
+}
+
+// Ends the plan at its farthest point if it turns back there. Otherwise the local goal of an out-and-back path lies
+// where the robot already is, and the robot stays.
+void PathFronts::end_at_inversion() {
+  std::size_t farthest = 0;
+  double farthest_m = 0.0;
+  for (std::size_t i = 1; i < plan_.size(); ++i) {
+    const double distance_m = toolkit::distance(plan_[0].at, plan_[i].at);
+    if (distance_m > farthest_m) {
+      farthest = i;
+      farthest_m = distance_m;
+    } else if (distance_m < farthest_m - inversion_tolerance_m) {
+      plan_.resize(farthest + 1);
+      return;
+    }
+  }
+}
+
+// The straight line to the path, as far as it is in the window: for a robot that a detour has led so far from its path
+// that the window holds none of it.
+void PathFronts::lay_out_return(Vec2 from, Vec2 to, const CostmapView& map) {
+  const double step_m = 0.5 * map.resolution_m();
+  const Vec2 step = step_m * toolkit::normalized(to - from);
+  const int steps = static_cast<int>(toolkit::distance(from, to) / step_m);
+  for (int i = 0; i <= steps; ++i) {
+    const Vec2 at = from + i * step;
+    const std::int32_t index = terrain_.index_of(map, at);
+    if (index < 0) return;
     plan_.push_back({at, index});
   }
 }

@@ -11,9 +11,11 @@
 namespace dmrp::controllers::dwa {
 
 struct FrontSettings {
-  double needed_m = 0.0;      // clearance that the robot's centre needs
-  double look_ahead_m = 0.0;  // length of the path considered
-  double nose_m = 0.0;        // from the robot's centre to its nose
+  double needed_m = 0.0;           // clearance that the robot's centre needs
+  double look_ahead_m = 0.0;       // length of the path considered
+  double nose_m = 0.0;             // from the robot's centre to its nose
+  bool ends_at_inversion = false;  // the path considered ends where it turns back
+  bool returns_to_path = false;    // a path outside the window is considered from the robot's position on
 };
 
 // An axis-aligned rectangle.
@@ -56,7 +58,9 @@ class PathFronts {
   };
 
   void request(const CostmapView& map, Vec2 robot, const std::array<Box, 2>& boxes);
-  void lay_out_plan(const PathTracker& tracker, const CostmapView& map, double look_ahead_m);
+  void lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map, const FrontSettings& settings);
+  void end_at_inversion();
+  void lay_out_return(Vec2 from, Vec2 to, const CostmapView& map);
   void spread_path(const PathTracker& tracker, const CostmapView& map, std::int32_t home,
                    const FrontSettings& settings);
   void seed_beyond_end(const PathTracker& tracker, const CostmapView& map, double nose_m);

@@ -60,6 +60,12 @@ int FootprintCheck::tolerated(Vec2 center, int cost) const {
   return std::min(cost, DMRP_COST_INSCRIBED - 1);
 }
 
+bool FootprintCheck::is_too_close(const DirectedPoint& robot) const {
+  FootprintCheck strict = *this;
+  strict.start_collides_ = false;
+  return strict.cost(robot) == in_collision;
+}
+
 int FootprintCheck::arc_cost(const Pose& from, double v, double omega, double duration_s, int steps) const {
   DirectedPoint at = directed(from);
   const ArcStepper stepper(v, omega, duration_s / steps);

@@ -30,6 +30,10 @@ class FootprintCheck {
     return cost <= highest_ ? cost : tolerated(robot.at, cost);
   }
 
+  // Whether the robot is too close to an obstacle at its pose now, and whether it would be at another one.
+  bool starts_too_close() const { return start_collides_; }
+  bool is_too_close(const DirectedPoint& robot) const;
+
   // The maximum cost over the arc of a constant (v, omega), at `steps` poses after the first one; in_collision if one
   // of them is.
   int arc_cost(const Pose& from, double v, double omega, double duration_s, int steps) const;

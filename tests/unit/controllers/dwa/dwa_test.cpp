@@ -336,3 +336,32 @@ TEST_CASE("The choice equals that of an exhaustive search over the samples") {
   CHECK(choices > 50);
   CHECK(refusals > 5);
 }
+
+TEST_CASE("A path that weighs more than twice the goal stops the robot before a right angle") {
+  // upstream's critics: past the corner, the nose loses path_distance_bias per metre and both goal critics together
+  // win at most twice goal_distance_bias
+  const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  Bench bench;
+  bench.read();
+  const CostmapView map(bench.c);
+  std::vector<dmrp_vec2> path;
+  for (int i = 0; i <= 40; ++i) path.push_back({2.025 + 0.05 * i, 2.025});
+  for (int i = 1; i <= 40; ++i) path.push_back({4.025, 2.025 + 0.05 * i});
+  bench.spread(path, {4.025, 4.325});
+  const dmrp_pose pose = {4.025 - bench.tuning.forward_point_distance - 0.05, 2.025, 0.0};
+  const Scene scene = {pose,        0.8, map,  bench.terrain, bench.path,       bench.goal,
+                       bench.front, 0.3, true, true,          bench.oscillation};
+  FootprintCheck footprint(map, disc, 0.01, pose);
+  VelocityWindow window;
+  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, 3, 20);
+  const auto moves = [&](double path_distance_bias, double goal_distance_bias) {
+    bench.tuning.path_distance_bias = path_distance_bias;
+    bench.tuning.goal_distance_bias = goal_distance_bias;
+    const double standing = score({0.0, 0.0}, scene, bench.tuning, footprint, infinity);
+    const std::optional<Sample> best = cheapest(window, scene, bench.tuning, footprint);
+    return score(*best, scene, bench.tuning, footprint, infinity) < standing;
+  };
+  CHECK(moves(0.6, 0.8));        // the defaults
+  CHECK_FALSE(moves(5.0, 0.8));  // the paper
+  CHECK_FALSE(moves(5.0, 1.0));  // its released code
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Worlds in which DWA stood for ever with its way free, each driven from 20 starts. Without the switch that mends it,
+// the robot does not arrive from all of them.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <functional>
+
+#include "tests/unit/controllers/controllers.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+constexpr int starts = 20;
+
+// The number of starts from which the tuned robot arrives without touching anything.
+int arrivals(const std::function<Course(dmrp::toolkit::Stream&)>& draw, const char* switched_off = nullptr) {
+  ParamOverrides parameters = tuned_parameters("dmrp.controller.dwa");
+  if (switched_off) parameters.erase(switched_off);
+  dmrp::toolkit::Stream random(17, "starts");
+  int arrived = 0;
+  for (int i = 0; i < starts; ++i) {
+    const Drive drive = run("dmrp.controller.dwa", draw(random), parameters);
+    arrived += drive.arrived && drive.static_clearance_m > 0.0;
+  }
+  return arrived;
+}
+
+dmrp_pose jittered(dmrp_pose pose, dmrp::toolkit::Stream& random) {
+  return {pose.x + random.uniform(-0.1, 0.1), pose.y + random.uniform(-0.1, 0.1),
+          pose.theta + random.uniform(-0.2, 0.2)};
+}
+
+// Beside the end of a wall 0.1 to 0.4 m thick, at a gap of about the padding, and facing along it; the path leads to
+// the wall's other side.
+Course wall_end(dmrp::toolkit::Stream& random) {
+  constexpr double radius_m = 0.25;
+  Course course;
+  const double half_m = 0.5 * random.uniform(0.1, 0.4);
+  course.boxes = {{{-4.0, -half_m}, {0.0, half_m}}};
+  const double away_m = radius_m + random.uniform(0.03, 0.08);
+  const double angle = random.uniform(0.4, 0.9);
+  course.start = {away_m * std::cos(angle), half_m + away_m * std::sin(angle),
+                  angle - 1.57 + random.uniform(-0.2, 0.2)};
+  course.path = {{course.start.x, course.start.y}, {0.35, 0.0}, {0.35, -1.0}, {-1.0, -1.0}, {-3.0, -1.0}};
+  course.time_limit_s = 60.0;
+  return course;
+}
+
+}  // namespace
+
+TEST_CASE("DWA drives a path that steps aside and comes back") {
+  const auto draw = [](dmrp::toolkit::Stream& random) {
+    Course course;
+    course.path = metre_path({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {0.0, -4.0}});
+    course.start = jittered({0.0, 0.0, 0.0}, random);
+    course.time_limit_s = 40.0;
+    return course;
+  };
+  CHECK(arrivals(draw) == starts);
+  CHECK(arrivals(draw, "enforce_path_inversion") < starts);
+}
+
+TEST_CASE("DWA returns to a path that its window does not hold") {
+  const auto draw = [](dmrp::toolkit::Stream& random) {
+    Course course;
+    course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
+    course.start = jittered({0.0, 3.5, 0.0}, random);
+    course.time_limit_s = 40.0;
+    return course;
+  };
+  CHECK(arrivals(draw) == starts);
+  CHECK(arrivals(draw, "return_to_path") == 0);
+}
+
+TEST_CASE("DWA leaves the end of a wall that it stands beside") {
+  CHECK(arrivals(wall_end) == starts);
+  CHECK(arrivals(wall_end, "leave_padding") < starts);
+}
