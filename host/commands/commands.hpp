@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/evaluate/evaluation.hpp"
+#include "host/results/manifest.hpp"
 
 namespace dmrp::host {
 
@@ -21,17 +22,12 @@ inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memor
 inline constexpr int interrupted = 130;
 }  // namespace exit_status
 
-// Trials k with k % count == index.
-struct Shard {
-  std::uint64_t index = 0;
-  std::uint64_t count = 1;
-};
-
 struct RunOptions {
   std::filesystem::path experiment;
   std::filesystem::path out;  // empty: runs/NAME, or runs/NAME-2, ...
   unsigned jobs = 1;
   bool resume = false;
+  bool retry_faults = false;  // resume: trials with faults, too
   Shard shard;
   std::uint32_t trials = 0;  // 0: as the file says
   bool quiet = false;

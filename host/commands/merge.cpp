@@ -66,9 +66,32 @@ void check_apart(const std::vector<Part>& parts) {
         throw InputError(fmt::format("{}: trial {} is in {} already", part.shown, trial.id, owner->second->shown));
 }
 
+// A shard that is missing would look like an experiment with fewer repetitions.
+void check_whole(const std::vector<Part>& parts) {
+  const Part& first = parts.front();
+  const std::uint64_t count = first.manifest.experiment.shard.count;
+  std::map<std::uint64_t, const Part*> found;
+  for (const Part& part : parts) {
+    const Shard& shard = part.manifest.experiment.shard;
+    if (shard.count != count)
+      throw InputError(fmt::format("{}: is {}, but {} is {}", part.shown, shard_text(shard), first.shown,
+                                   shard_text(first.manifest.experiment.shard)));
+    if (count == 0) continue;  // unknown
+    if (const auto [other, is_new] = found.emplace(shard.index, &part); !is_new)
+      throw InputError(fmt::format("{}: is {}, as is {}", part.shown, shard_text(shard), other->second->shown));
+  }
+  std::vector<std::string> missing;
+  for (std::uint64_t i = 0; i < count && missing.size() < 10; ++i)
+    if (!found.contains(i)) missing.push_back(fmt::format("{}/{}", i, count));
+  if (!missing.empty())
+    throw InputError(fmt::format("{} {} missing: {}", missing.size() == 1 ? "a shard" : "shards",
+                                 missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
+}
+
 Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::string>& command_line) {
   Manifest manifest = parts.front().manifest;
   manifest.command_line = command_line;
+  manifest.experiment.shard = {};
   for (const Part& part : parts) {
     if (&part == &parts.front()) continue;
     manifest.experiment.trials_planned += part.manifest.experiment.trials_planned;
@@ -105,6 +128,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   for (const fs::path& path : options.runs) parts.push_back(read_part(path));
   for (const Part& part : parts) check_same(parts.front(), part);
   check_apart(parts);
+  check_whole(parts);
   if (std::error_code ignored; fs::exists(options.out, ignored) && !fs::is_empty(options.out, ignored))
     throw InputError(fmt::format("{}: exists already and is not empty", options.out.string()));
   const RunDirectory made = RunDirectory::make(options.out, "");

@@ -57,18 +57,21 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   return out + " · " + plural(trials, "trial");
 }
 
-// A line for the terminal about a trial's fault; "" if it has none.
-std::string fault_note(const TrialRecord& trial) {
-  if (trial.faults.empty()) return "";
-  const FaultRecord& fault = trial.faults.front();
-  std::string note = fmt::format("trial {}: {}", trial.id, fault.kind);
+// A line for the terminal.
+std::string fault_note(std::uint64_t trial, const FaultRecord& fault) {
+  std::string note = fmt::format("trial {}: {}", trial, fault.kind);
   if (!fault.plugin.empty()) note += fmt::format(" in {} {}()", fault.plugin, fault.function);
   if (fault.robot >= 0) note += fmt::format(", robot {}", fault.robot);
   return note + ": " + fault.detail;
 }
 
-ExperimentFacts facts_of(const Experiment& experiment, std::uint64_t trials_planned) {
-  ExperimentFacts facts{experiment.name, experiment.seed, experiment.trials, trials_planned, {}};
+// "" if the trial has none.
+std::string fault_note(const TrialRecord& trial) {
+  return trial.faults.empty() ? "" : fault_note(trial.id, trial.faults.front());
+}
+
+ExperimentFacts facts_of(const Experiment& experiment, const Shard& shard, std::uint64_t trials_planned) {
+  ExperimentFacts facts{experiment.name, experiment.seed, experiment.trials, shard, trials_planned, {}};
   for (const ScenarioVariant& variant : experiment.scenarios) {
     const core::Scenario& scenario = variant.scenario;
     const double time_limit_s = experiment.time_limit_set
@@ -81,10 +84,10 @@ ExperimentFacts facts_of(const Experiment& experiment, std::uint64_t trials_plan
 }
 
 // The files and settings that the run depends on, beside the experiment's text.
-Manifest manifest_of(const Experiment& experiment, std::uint64_t trials_planned,
+Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint64_t trials_planned,
                      const std::vector<std::string>& command_line) {
   Manifest manifest = new_manifest(version, command_line, std::chrono::system_clock::now());
-  manifest.experiment = facts_of(experiment, trials_planned);
+  manifest.experiment = facts_of(experiment, shard, trials_planned);
   for (const LibraryUse& library : experiment.libraries)
     manifest.files.push_back(hashed_file("plugin library", library.file));
   std::set<fs::path> scenarios;
@@ -134,7 +137,11 @@ class RunFiles {
     if (read_file(effective, effective.string()) != effective_toml(experiment))
       throw InputError(
           fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory().string()));
-    const auto reasons = differences(read_manifest(directory() / "manifest.json"), manifest);
+    const Manifest before = read_manifest(directory() / "manifest.json");
+    if (const Shard& shard = before.experiment.shard; shard.count > 0 && !(shard == manifest.experiment.shard))
+      throw InputError(fmt::format("--out {}: is a run of {}, not of {}", directory().string(), shard_text(shard),
+                                   shard_text(manifest.experiment.shard)));
+    const auto reasons = differences(before, manifest);
     if (!reasons.empty())
       throw InputError(fmt::format("--out {}: cannot be continued: {}", directory().string(), reasons.front()));
   }
@@ -152,20 +159,24 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   std::vector<std::uint64_t> trials = trials_of_shard(count, options.shard);
-  const RunFiles files(options, experiment, manifest_of(experiment, trials.size(), command_line));
+  const RunFiles files(options, experiment, manifest_of(experiment, options.shard, trials.size(), command_line));
   ResultsDatabase database = ResultsDatabase::open(files.database());
-  const auto finished = database.finished_trials();
+  const auto finished = database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
+                                                                      : ResultsDatabase::Finished::all);
   std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
 
   Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet);
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
-  const RunEnding ending = supervise(
-      experiment, trials, settings,
-      [&](TrialRecord&& trial) {
-        database.write(trial);
-        progress.add(fault_note(trial));
-      },
-      [&] { progress.refresh(); });
+  const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
+                                   database.write(trial);
+                                   progress.add(fault_note(trial));
+                                 },
+                                 [&](std::uint64_t trial, const FaultRecord& fault) {
+                                   database.add_fault(trial, fault);
+                                   progress.note(fault_note(trial, fault));
+                                 },
+                                 [&] { progress.refresh(); }};
+  const RunEnding ending = supervise(experiment, trials, settings, sinks);
   progress.finish();
   const RunResults results = read_results(database, layout);
   write_tables(results, files.directory());

@@ -2,12 +2,15 @@
 #include "host/plugins/call_guard.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/fp_control.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/own_process.hpp"
 #include "host/program/monotonic_time.hpp"
 
 namespace dmrp::host {
@@ -17,6 +20,9 @@ namespace {
 // A call counts as hanging only long after should_stop() has returned true: a slow machine must not cause faults.
 constexpr std::int64_t grace_factor = 2;
 constexpr std::int64_t grace_ns = 5'000'000'000;
+
+// To start a process takes longer than this: shorter calls are spared system calls.
+constexpr std::int64_t shortest_start_ns = 10'000;
 
 template <std::size_t n>
 void copy_text(std::array<char, n>& to, std::string_view from) {
@@ -56,6 +62,13 @@ std::string CallGuard::error() const {
   return error_;
 }
 
+void CallGuard::check_no_children() const {
+  if (processes_allowed_ || !own_process::has_children()) return;
+  const NotedCall last = read_call(note_);
+  throw PluginFault(fault_kind::abi_breach, {last.plugin, last.function.c_str(), last.step, last.robot},
+                    "after it had returned: a plugin has left a process behind", true);
+}
+
 void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns) {
   {
     const std::lock_guard lock(error_mutex_);
@@ -67,6 +80,7 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
   note_.robot.store(site.robot, std::memory_order_relaxed);
   note_.limit_ns.store(budget_ns * grace_factor + grace_ns, std::memory_order_relaxed);
   control_bits_ = fp_control();
+  copies_before_ = own_process::copies_made();
   start_ns_ = monotonic_ns();
   deadline_ns_ = start_ns_ + budget_ns;
   caller_ = caller;
@@ -75,16 +89,24 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
 }
 
 CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::int32_t status, bool threw) {
+  if (own_process::is_copy()) _exit(0);
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
   {
     const std::lock_guard lock(error_mutex_);
     caller_ = nullptr;
   }
+  const bool is_long = duration_ns > shortest_start_ns;
+  // nothing can be reported any more: the supervisor reads the call note
+  if (is_long && !own_process::has_descriptors()) _exit(channel_closed_exit);
   note_.call_number.fetch_add(1);  // before the note of the next call
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
     throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");
   }
+  if (!processes_allowed_ && own_process::copies_made() != copies_before_)
+    throw PluginFault(fault_kind::abi_breach, site, "copied the process with fork()", true);
+  if (!processes_allowed_ && is_long && own_process::has_children())
+    throw PluginFault(fault_kind::abi_breach, site, "left a process behind", true);
   if (threw) throw PluginFault(fault_kind::abi_breach, site, "let a C++ exception out");
   switch (status) {
     case DMRP_OK:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // call_guard.hpp: the only way to call a plugin function. Records the call in the call note, measures its time, checks the
-// floating-point control bits, and turns statuses that end the trial into a PluginFault.
+// floating-point control bits, and turns statuses that end the trial into a PluginFault. A copy of the process that a plugin
+// made with fork() ends as it returns from the plugin.
 #pragma once
 
 #include <dmrp/host.h>
@@ -31,7 +32,7 @@ class CallGuard {
 
   // Calls `function`, which returns a status. `caller`: the host of the library or instance; should_stop() of that host
   // returns true after `budget_ns`. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, statuses that the function may
-  // not return, changed control bits and exceptions.
+  // not return, changed control bits, exceptions and copies of the process.
   template <class Function>
   Result call(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns, Answers answers,
               Function&& function) {
@@ -55,6 +56,12 @@ class CallGuard {
   bool stopped() const { return stopped_; }
   void reset_stopped() { stopped_ = false; }
 
+  // Throws PluginFault, in the name of the last call, if a plugin has left a process behind.
+  void check_no_children() const;
+
+  // Plugins may start processes.
+  void allow_processes() { processes_allowed_ = true; }
+
   // The last text of set_error() in this call, or in the last one; escaped.
   std::string error() const;
 
@@ -69,6 +76,8 @@ class CallGuard {
   std::atomic<const dmrp_host*> caller_ = nullptr;  // of the call that runs
   std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
+  std::uint64_t copies_before_ = 0;
+  bool processes_allowed_ = false;
   std::atomic<bool> stopped_ = false;
 };
 

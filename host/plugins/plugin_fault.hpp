@@ -37,7 +37,7 @@ class PluginFault : public std::runtime_error {
         fatal_(fatal) {}
   const char* kind() const { return kind_; }
   const std::string& plugin() const { return plugin_; }
-  const char* function() const { return function_; }
+  const std::string& function() const { return function_; }
   std::int64_t step() const { return step_; }
   std::int32_t robot() const { return robot_; }
   bool fatal() const { return fatal_; }
@@ -47,7 +47,7 @@ class PluginFault : public std::runtime_error {
  private:
   const char* kind_;
   std::string plugin_;
-  const char* function_;
+  std::string function_;
   std::int64_t step_;
   std::int32_t robot_;
   bool fatal_;

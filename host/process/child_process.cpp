@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <string_view>
 
 #include "host/errors/machine_error.hpp"
 #include "host/process/resource_limits.hpp"
@@ -24,10 +25,20 @@ namespace {
 
 constexpr int start_failed_exit = 127;  // as a shell's
 
+// Only async-signal-safe functions. Where it fails, the kernel chooses as it likes.
+void be_killed_first() {
+  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  constexpr std::string_view score = "500";
+  [[maybe_unused]] const ssize_t written = write(file, score.data(), score.size());
+  close(file);
+}
+
 // In the child.
 [[noreturn]] void run_child(pid_t parent, int output, const std::function<void()>& function) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
+  be_killed_first();
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
@@ -58,6 +69,7 @@ void execute_program(const char* const* arguments, const ChildProcess::Program& 
 
 const char* ProcessEnding::fault_kind() const {
   if (signal != 0) return fault_kind::crash;
+  if (exit_status == channel_closed_exit) return fault_kind::abi_breach;
   return exit_status == out_of_memory_exit ? fault_kind::out_of_memory : fault_kind::exit;
 }
 
@@ -89,6 +101,12 @@ ChildProcess::ChildProcess(int output, const std::function<void()>& function) {
   if (pid_ < 0) throw MachineError("fork", errno);
   if (pid_ == 0) run_child(parent, output, function);
   ended_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
+  if (!ended_.is_open()) {
+    const int reason = errno;
+    kill();
+    wait();
+    throw MachineError("pidfd_open", reason);
+  }
 }
 
 ChildProcess::~ChildProcess() {
@@ -97,8 +115,10 @@ ChildProcess::~ChildProcess() {
 }
 
 // The number stays the child's until it has been waited for.
-void ChildProcess::kill() const {
-  if (pid_ > 0) ::kill(pid_, SIGKILL);
+void ChildProcess::kill() {
+  if (pid_ < 0) return;
+  killed_ = true;
+  ::kill(pid_, SIGKILL);
 }
 
 const ProcessEnding& ChildProcess::wait() {
@@ -112,6 +132,7 @@ const ProcessEnding& ChildProcess::wait() {
     ending_.signal = WTERMSIG(status);
   else
     ending_.exit_status = WEXITSTATUS(status);
+  ending_.killed_from_outside = ending_.signal == SIGKILL && !killed_;
   ending_.peak_rss_mb = static_cast<double>(used.ru_maxrss) / 1024.0;
   return ending_;
 }

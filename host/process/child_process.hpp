@@ -2,7 +2,7 @@
 // child_process.hpp: starts, stops and explains the processes that run plugins.
 //
 // A child reads from /dev/null, and is killed when its parent ends. A plugin that crashes, hangs or takes all memory
-// ends its child only.
+// ends its child only. When memory is short, the kernel kills children before their parent.
 #pragma once
 
 #include <sys/types.h>
@@ -21,15 +21,19 @@ namespace dmrp::host {
 // Exit status of a child that ran out of memory outside a plugin call.
 inline constexpr int out_of_memory_exit = 86;
 
+// Exit status of a worker whose channel was closed under it.
+inline constexpr int channel_closed_exit = 87;
+
 // How a child ended.
 struct ProcessEnding {
-  int signal = 0;       // that killed it; 0: it exited
-  int exit_status = 0;  // if it exited
+  int signal = 0;                    // that killed it; 0: it exited
+  int exit_status = 0;               // if it exited
+  bool killed_from_outside = false;  // by SIGKILL, and not by kill(): the kernel, when memory is short, or a person
   double peak_rss_mb = 0.0;
 
   bool succeeded() const { return signal == 0 && exit_status == 0; }
 
-  // Of the plugin that ended the process: crash, out_of_memory or exit.
+  // Of the plugin that ended the process: crash, out_of_memory, abi_breach or exit.
   const char* fault_kind() const;
 
   // "crashed (signal 11, Segmentation fault)", "needs more than 400 MB of memory" or "ended the process with status 0".
@@ -57,10 +61,13 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Readable once the process has ended. Not open on kernels older than 5.3.
+  // Readable once the process has ended.
   const Descriptor& ended() const { return ended_; }
 
-  void kill() const;
+  void kill();
+
+  // Its number; -1 once it has been waited for.
+  pid_t number() const { return pid_; }
 
   // Waits for its end. Call it as often as you like.
   const ProcessEnding& wait();
@@ -70,6 +77,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;  // -1: it has been waited for
   Descriptor ended_;
+  bool killed_ = false;
   ProcessEnding ending_;
 };
 

@@ -8,6 +8,7 @@ namespace dmrp::host::fault_kind {
 inline constexpr const char* crash = "crash";
 inline constexpr const char* hang = "hang";
 inline constexpr const char* exit = "exit";
+inline constexpr const char* worker_error = "worker_error";  // its process could not go on, for instance write a file
 
 inline constexpr const char* out_of_memory = "out_of_memory";
 inline constexpr const char* bad_output = "bad_output";

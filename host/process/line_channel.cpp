@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/line_channel.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,6 +18,11 @@ bool LineChannel::send(const nlohmann::json& message) {
   return write_end_.write(message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+bool LineChannel::has_input() const {
+  pollfd watched = {read_end_.number(), POLLIN, 0};
+  return poll(&watched, 1, 0) > 0;
+}
+
 bool LineChannel::fill() {
   std::array<char, 65536> chunk;
   ssize_t count;
@@ -29,7 +35,8 @@ bool LineChannel::fill() {
 }
 
 std::optional<nlohmann::json> LineChannel::take() {
-  const auto end = buffer_.find('\n');
+  const auto end = buffer_.find('\n', searched_);
+  searched_ = end == std::string::npos ? buffer_.size() : 0;
   if (end == std::string::npos) return std::nullopt;
   nlohmann::json message =
       nlohmann::json::parse(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);

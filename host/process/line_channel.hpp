@@ -21,6 +21,12 @@ class LineChannel {
   // Blocks until the message is written; false if the other side has closed.
   bool send(const nlohmann::json& message);
 
+  // Whether fill() would not block.
+  bool has_input() const;
+
+  // Whether a message has begun that is longer than any is meant to be.
+  bool is_flooded() const { return buffer_.size() > most_bytes; }
+
   // Closes the write end: receive() of the other side returns nothing.
   void close_write_end() { write_end_.close(); }
 
@@ -35,9 +41,12 @@ class LineChannel {
   std::optional<nlohmann::json> take();
 
  private:
+  static constexpr std::size_t most_bytes = std::size_t{1} << 28;
+
   Descriptor read_end_;
   Descriptor write_end_;
   std::string buffer_;
+  std::size_t searched_ = 0;  // so many bytes of the buffer have no line end
 };
 
 }  // namespace dmrp::host

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "host/errors/machine_error.hpp"
+
 namespace dmrp::host {
 namespace {
 
@@ -146,10 +148,10 @@ void write_events(const SqliteConnection& connection, const TrialRecord& trial) 
   }
 }
 
-void write_faults(const SqliteConnection& connection, const TrialRecord& trial) {
+void write_faults(const SqliteConnection& connection, std::uint64_t trial, std::span<const FaultRecord> faults) {
   SqliteStatement insert(connection, "INSERT INTO fault VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  for (const FaultRecord& fault : trial.faults) {
-    insert.bind(as_signed(trial.id)).bind(fault.kind).bind(fault.plugin).bind(fault.function).bind(fault.step);
+  for (const FaultRecord& fault : faults) {
+    insert.bind(as_signed(trial)).bind(fault.kind).bind(fault.plugin).bind(fault.function).bind(fault.step);
     if (fault.robot >= 0)
       insert.bind(std::int64_t{fault.robot});
     else
@@ -185,7 +187,7 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
   return trials;
 }
 
-// Calls `take` with every row of `select`, which is ordered by trial, and its trial.
+// Calls `take` with every row of `select`, which is ordered by trial as the trials are, and its trial.
 template <class Take>
 void read_rows(const SqliteConnection& connection, std::string_view select_sql, std::vector<TrialRecord>& trials,
                Take take) {
@@ -193,7 +195,11 @@ void read_rows(const SqliteConnection& connection, std::string_view select_sql, 
   auto trial = trials.begin();
   while (select.step()) {
     const std::uint64_t id = as_unsigned(select.column_integer(0));
-    while (trial->id != id) ++trial;  // exists: the column is a foreign key
+    while (trial != trials.end() && trial->id != id) ++trial;
+    // the column is a foreign key, but another program can have deleted the trial
+    if (trial == trials.end())
+      throw SqliteError(connection.file() + ": has results of trial " + std::to_string(id) +
+                        ", which is not in its table 'trial': it was changed after the run");
     take(select, *trial);
   }
 }
@@ -236,7 +242,10 @@ std::int64_t version_of(const SqliteConnection& connection) {
   return pragma.step() ? pragma.column_integer(0) : 0;
 }
 
-void check_schema_version(const SqliteConnection& connection, const std::filesystem::path& path) {
+void check_file(const SqliteConnection& connection, const std::filesystem::path& path) {
+  SqliteStatement check(connection, "PRAGMA quick_check(1)");
+  if (!check.step() || check.column_text(0) != "ok")
+    throw SqliteError(path.string() + ": is damaged: " + check.column_text(0));
   const std::int64_t version = version_of(connection);
   if (version != schema_version && version != 1)
     throw SqliteError(path.string() + ": results of version " + std::to_string(version) + ", not " +
@@ -267,7 +276,7 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
 
 ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
-  check_schema_version(database.connection_, path);
+  check_file(database.connection_, path);
   if (version_of(database.connection_) == 1) {
     SqliteTransaction transaction(database.connection_);
     database.connection_.execute(upgrade_from_version_1);
@@ -278,22 +287,38 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
 
 ResultsDatabase ResultsDatabase::open_read_only(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_only)};
-  check_schema_version(database.connection_, path);
+  check_file(database.connection_, path);
   return database;
 }
 
 void ResultsDatabase::write(const TrialRecord& trial) {
   SqliteTransaction transaction(connection_);
   SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
+  // and what another program left of it when it deleted the trial alone
+  for (const char* rest : {"DELETE FROM value WHERE trial_id = ?", "DELETE FROM event WHERE trial_id = ?",
+                           "DELETE FROM fault WHERE trial_id = ?"})
+    SqliteStatement(connection_, rest).bind(as_signed(trial.id)).run();
   write_trial(connection_, trial);
   write_values(connection_, trial);
   write_events(connection_, trial);
-  write_faults(connection_, trial);
+  write_faults(connection_, trial.id, trial.faults);
+  transaction.commit();
+  if (connection_.has_moved())
+    throw MachineError(connection_.file() + ": was deleted or replaced while results were written to it");
+}
+
+void ResultsDatabase::add_fault(std::uint64_t trial, const FaultRecord& fault) {
+  SqliteTransaction transaction(connection_);
+  write_faults(connection_, trial, {&fault, 1});
   transaction.commit();
 }
 
-std::vector<std::uint64_t> ResultsDatabase::finished_trials() const {
-  SqliteStatement select(connection_, "SELECT id FROM trial WHERE outcome <> 'skipped' ORDER BY id");
+std::vector<std::uint64_t> ResultsDatabase::finished_trials(Finished which) const {
+  SqliteStatement select(connection_,
+                         which == Finished::all
+                             ? "SELECT id FROM trial WHERE outcome <> 'skipped' ORDER BY id"
+                             : "SELECT id FROM trial WHERE outcome <> 'skipped' AND id NOT IN (SELECT trial_id FROM "
+                               "fault) ORDER BY id");
   std::vector<std::uint64_t> ids;
   while (select.step()) ids.push_back(as_unsigned(select.column_integer(0)));
   return ids;

@@ -12,22 +12,26 @@
 
 namespace dmrp::host {
 
-// Throws SqliteError. Numbers keep their bits, except that SQLite returns -0.0 as 0.0; an undefined value is NULL. Seeds
+// Throws SqliteError, and MachineError if the disk fails or the file is gone. Numbers keep their bits, except that SQLite returns -0.0 as 0.0; an undefined value is NULL. Seeds
 // of 2^63 and more are stored as the negative number with the same bits, because SQLite's integers are signed.
 class ResultsDatabase {
  public:
   // Creates a file, which must not exist, for trials with these metrics.
   static ResultsDatabase create(const std::filesystem::path& path, std::span<const MetricColumn> metrics);
 
-  // Opens an existing file.
+  // Opens an existing file, and checks it.
   static ResultsDatabase open(const std::filesystem::path& path);
   static ResultsDatabase open_read_only(const std::filesystem::path& path);
 
   // Writes the whole trial or nothing; replaces a trial with the same id.
   void write(const TrialRecord& trial);
 
-  // Sorted ids of the trials that a resumed run does not repeat: all except skipped ones.
-  std::vector<std::uint64_t> finished_trials() const;
+  // Adds a fault to a trial that has been written.
+  void add_fault(std::uint64_t trial, const FaultRecord& fault);
+
+  // Sorted ids of the trials that a resumed run does not repeat: all except skipped ones, or all without faults.
+  enum class Finished { all, without_faults };
+  std::vector<std::uint64_t> finished_trials(Finished which = Finished::all) const;
 
   std::vector<MetricColumn> metrics() const;  // in the order of declaration
   std::vector<TrialRecord> trials() const;    // complete, by id

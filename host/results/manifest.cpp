@@ -46,6 +46,7 @@ Json to_json(const ExperimentFacts& experiment) {
   return {{"name", experiment.name},
           {"seed", experiment.seed},
           {"repetitions", experiment.repetitions},
+          {"shard", {{"index", experiment.shard.index}, {"count", experiment.shard.count}}},
           {"trials_planned", experiment.trials_planned},
           {"scenarios", std::move(scenarios)}};
 }
@@ -56,6 +57,10 @@ ExperimentFacts parse_experiment(const Json& json) {
   json.at("seed").get_to(experiment.seed);
   json.at("repetitions").get_to(experiment.repetitions);
   json.at("trials_planned").get_to(experiment.trials_planned);
+  if (json.contains("shard"))
+    experiment.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
+  else
+    experiment.shard.count = 0;
   for (const Json& scenario : json.at("scenarios"))
     experiment.scenarios.push_back({scenario.at("name"), scenario.at("title"), scenario.at("description"),
                                     scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")});
@@ -68,6 +73,7 @@ Manifest parse(const Json& json) {
   json.at("abi").get_to(manifest.abi);
   json.at("command_line").get_to(manifest.command_line);
   json.at("started_at").get_to(manifest.started_at);
+  manifest.experiment.shard.count = 0;
   if (json.contains("experiment")) manifest.experiment = parse_experiment(json.at("experiment"));
   const Json& machine = json.at("machine");
   machine.at("libc").get_to(manifest.machine.libc);
@@ -113,6 +119,11 @@ Manifest new_manifest(std::string dmrp_version, std::vector<std::string> command
   manifest.started_at = utc_text(started_at);
   manifest.machine = this_machine();
   return manifest;
+}
+
+std::string shard_text(const Shard& shard) {
+  if (shard.count == 1) return "the whole experiment";
+  return "shard " + std::to_string(shard.index) + "/" + std::to_string(shard.count);
 }
 
 HashedFile hashed_file(std::string role, const std::filesystem::path& path) {

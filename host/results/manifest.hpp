@@ -29,11 +29,23 @@ struct ScenarioFacts {
   double time_limit_s = 0.0;
 };
 
+// Trials k with k % count == index.
+struct Shard {
+  std::uint64_t index = 0;
+  std::uint64_t count = 1;  // 0: unknown, in manifests of older versions
+
+  bool operator==(const Shard& other) const { return index == other.index && count == other.count; }
+};
+
+// "0/3", or "the whole experiment".
+std::string shard_text(const Shard& shard);
+
 // The plan of the run, whether or not it was completed.
 struct ExperimentFacts {
   std::string name;
   std::uint64_t seed = 0;
   std::uint32_t repetitions = 0;
+  Shard shard;
   std::uint64_t trials_planned = 0;  // of this run's shard
   std::vector<ScenarioFacts> scenarios;
 };

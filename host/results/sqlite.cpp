@@ -25,7 +25,7 @@ namespace {
 
 // Throws the connection's last message with the file's name.
 [[noreturn]] void fail(sqlite3* connection, const std::string& what) {
-  const char* file = sqlite3_db_filename(connection, "main");
+  const char* const file = sqlite3_db_filename(connection, "main");
   fail(sqlite3_errcode(connection), std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
 }
 
@@ -47,6 +47,21 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   if (code != SQLITE_OK) fail(code, path.string() + ": " + sqlite3_errstr(code));
   sqlite3_extended_result_codes(connection, 1);
   sqlite3_busy_timeout(connection, 10'000);
+  // as SQLite's guide "Defense Against The Dark Arts" says of files from strangers
+  sqlite3_db_config(connection, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  execute("PRAGMA cell_size_check = ON");
+  execute("PRAGMA mmap_size = 0");
+}
+
+bool SqliteConnection::has_moved() const {
+  int moved = 0;
+  return sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK && moved != 0;
+}
+
+std::string SqliteConnection::file() const {
+  const char* const name = sqlite3_db_filename(handle(), "main");
+  return name ? name : "";
 }
 
 void SqliteConnection::execute(const std::string& sql) {

@@ -28,6 +28,11 @@ class SqliteConnection {
   // Runs statements that return no rows.
   void execute(const std::string& sql);
 
+  // Whether the file was deleted or renamed: what is written is lost.
+  bool has_moved() const;
+
+  std::string file() const;
+
   sqlite3* handle() const { return handle_.get(); }
 
  private:

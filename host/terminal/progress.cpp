@@ -83,15 +83,15 @@ void Progress::refresh() {
   drawn_ns_ = monotonic_ns();
 }
 
-void Progress::add(const std::string& note) {
+void Progress::note(const std::string& line) {
+  if (!quiet_) fmt::print("{}{}\n", terminal_ ? "\r\x1b[2K" : "  ", line);
+}
+
+void Progress::add(const std::string& text) {
   ++done_;
   if (quiet_) return;
-  if (terminal_) {
-    if (!note.empty()) fmt::print("\r\x1b[2K{}\n", note);
-    draw();
-    return;
-  }
-  if (!note.empty()) fmt::print("  {}\n", note);
+  if (!text.empty()) note(text);
+  if (terminal_) return draw();
   fmt::print("  {}/{}  {}\n", done_, total_, duration(elapsed_s()));
   std::fflush(stdout);
 }

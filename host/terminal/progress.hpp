@@ -15,8 +15,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Counts a finished trial. `note`: a line to print above the bar, or "".
-  void add(const std::string& note);
+  // Counts a finished trial. `text`: for note(), or "".
+  void add(const std::string& text);
+
+  // Prints a line above the bar.
+  void note(const std::string& line);
 
   // Redraws the bar, at most five times a second.
   void refresh();

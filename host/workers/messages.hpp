@@ -3,13 +3,18 @@
 //
 //   worker     -> {"type": "ready", "digest"}        of the experiment as the worker reads it
 //   supervisor -> Job                                one trial
+//   worker     -> {"type": "began"}                  the worker begins it
 //   worker     -> {"type": "measuring", "index"}     a metric begins
 //   worker     -> {"type": "metric"} + MetricResult  a metric has finished
 //   worker     -> {"type": "fault", "fatal"} + FaultRecord   a plugin broke its contract. The worker continues unless the
 //                                                    fault is fatal: no function of the library may be called again
 //   worker     -> {"type": "done"} + TrialDone       the trial is over
-//   worker     -> {"type": "error", "text", "machine"}   the run cannot continue. machine: the machine failed (the disk
-//                                                    is full); otherwise the input is at fault (a file is gone)
+//   worker     -> {"type": "error", "text", "machine", "number"}   the worker cannot continue. machine: the machine failed
+//                                                    (the disk is full), with the value of errno; otherwise the input is
+//                                                    at fault (a file is gone)
+//
+// Messages about a trial carry "trial" and "stamp" of its job. Copies of the worker that a plugin makes do not know the
+// stamp.
 //
 // A worker whose plugin crashes sends nothing: the supervisor reads the plugin and the function from the call note.
 #pragma once
@@ -25,6 +30,7 @@ namespace dmrp::host {
 
 struct Job {
   std::uint64_t trial = 0;
+  std::uint64_t stamp = 0;   // another one for each attempt, not 0
   std::string trace_file;    // "" for none
   std::string scratch_file;  // where a large trace goes until it has been measured
   bool keep_trace_of_success = true;

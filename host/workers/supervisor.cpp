@@ -3,9 +3,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cerrno>
 #include <deque>
 #include <dmrp/toolkit/random.hpp>
 #include <memory>
@@ -17,9 +18,13 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/digest.hpp"
+#include "host/files/try_to_write.hpp"
+#include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
 #include "host/process/watchdog.hpp"
 #include "host/workers/messages.hpp"
+#include "host/workers/open_trial.hpp"
+#include "host/workers/worker_fault.hpp"
 #include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {
@@ -30,6 +35,8 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
+constexpr int most_kills = 4;  // of one trial: then a plugin of it is to blame, not somebody outside
+constexpr int most_kills_between_trials = 20;
 constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
 
 std::string quoted_for_shell(const std::string& word) {
@@ -39,42 +46,52 @@ std::string quoted_for_shell(const std::string& word) {
   return quoted + "'";
 }
 
-// A trial that is not over: its results so far.
-struct OpenTrial {
-  TrialRecord record;
-  std::vector<std::uint32_t> skip_metrics;  // that are measured, or ended in a fault
-  std::int64_t started_ns = 0;
-  std::optional<std::uint32_t> measuring;  // the metric that runs
-};
-
 struct Slot {
   std::unique_ptr<WorkerProcess> worker;
   std::int64_t worker_started_ns = 0;
   bool ready = false;
+  bool listening = true;  // the worker's end of the channel is open
+  int trials_begun = 0;   // by this worker
   std::optional<OpenTrial> trial;
+  std::optional<std::uint64_t> last_trial;  // that this worker finished
 };
+
+std::uint64_t new_stamp() {
+  std::uint64_t stamp = 0;
+  while (stamp == 0)
+    if (getrandom(&stamp, sizeof(stamp), 0) != sizeof(stamp)) throw MachineError("getrandom", errno);
+  return stamp;
+}
 
 class Supervisor {
  public:
   Supervisor(const Experiment& experiment, const std::vector<std::uint64_t>& trials, const SupervisorSettings& settings,
-             const std::function<void(TrialRecord&&)>& on_trial)
-      : experiment_(experiment), settings_(settings), on_trial_(on_trial), digest_(experiment_digest(experiment)) {
+             const SupervisorSinks& sinks)
+      : experiment_(experiment), settings_(settings), sinks_(sinks), digest_(experiment_digest(experiment)) {
     const fs::path log = settings.run_directory / "log.txt";
     log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());
-    for (const std::uint64_t trial : trials) waiting_.push_back({blank_record(experiment, trial), {}, 0, {}});
+    for (const std::uint64_t trial : trials) waiting_.emplace_back(experiment, blank_record(experiment, trial));
+    adopt_orphans();
     open_trials_ = trials.size();
     slots_.resize(std::min<std::size_t>(settings.jobs, trials.size()));
   }
 
-  RunEnding run(const std::function<void()>& on_idle) {
+  ~Supervisor() {
+    slots_.clear();
+    kill_orphans({});
+  }
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  RunEnding run() {
     const StopSignals stop;
     while (open_trials_ > 0) {
       for (Slot& slot : slots_) assign_work(slot);
-      if (wait_for_messages(stop.descriptor())) return RunEnding::interrupted;
+      if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
-      on_idle();
+      sinks_.on_idle();
     }
     shut_down_workers();
     return RunEnding::done;
@@ -85,126 +102,158 @@ class Supervisor {
   void assign_work(Slot& slot) {
     if (slot.trial || waiting_.empty()) return;
     if (!slot.worker) {
+      slot = Slot();
       slot.worker = std::make_unique<WorkerProcess>(experiment_.file, experiment_.trials, log_.number());
       slot.worker_started_ns = monotonic_ns();
-      slot.ready = false;
     }
     if (!slot.ready) return;
     slot.trial = std::move(waiting_.front());
     waiting_.pop_front();
     slot.trial->started_ns = monotonic_ns();
-    slot.trial->measuring.reset();
-    // a worker that has died is noticed by its closed pipe
+    // a worker that has died is noticed by its end
     slot.worker->channel().send(job_of(*slot.trial));
   }
 
-  // Lets the workers call destroy() and deinit() of the plugins.
-  void shut_down_workers() {
-    for (Slot& slot : slots_)
-      if (slot.worker) slot.worker->channel().close_write_end();
-    const std::int64_t until_ns = monotonic_ns() + shutdown_limit_ns;
-    for (Slot& slot : slots_)
-      if (slot.worker)
-        watchdog_.wait(slot.worker->process().ended().number(), [&] { return monotonic_ns() >= until_ns; });
-  }
-
-  nlohmann::json job_of(const OpenTrial& trial) const {
-    Job job;
-    job.trial = trial.record.id;
-    job.skip_metrics = trial.skip_metrics;
-    job.known_events = trial.record.events;
+  nlohmann::json job_of(OpenTrial& trial) const {
+    Job job = trial.begin(new_stamp());
     job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
     const fs::path directory = fs::absolute(settings_.run_directory);
     if (experiment_.traces != RecordTraces::none)
-      job.trace_file = (directory / "traces" / fmt::format("trial_{:06}.mcap", trial.record.id)).string();
-    job.scratch_file = (directory / fmt::format("trial_{:06}.scratch", trial.record.id)).string();
+      job.trace_file = (directory / "traces" / fmt::format("trial_{:06}.mcap", job.trial)).string();
+    job.scratch_file = (directory / fmt::format("trial_{:06}.scratch", job.trial)).string();
     return job;
   }
 
   // True when a signal asks to stop.
-  bool wait_for_messages(int stop) {
+  bool wait_for_workers(int stop) {
     std::vector<pollfd> watched = {{stop, POLLIN, 0}};
-    for (const Slot& slot : slots_)
-      if (slot.worker) watched.push_back({slot.worker->channel().read_end(), POLLIN, 0});
+    for (const Slot& slot : slots_) {
+      if (!slot.worker) continue;
+      watched.push_back({slot.worker->process().ended().number(), POLLIN, 0});
+      watched.push_back({slot.listening ? slot.worker->channel().read_end() : -1, POLLIN, 0});
+    }
     watchdog_.wait(watched);
     std::size_t next = 1;
     for (Slot& slot : slots_) {
       if (!slot.worker) continue;
-      if (watched[next++].revents != 0) read_messages(slot);
+      const bool ended = watched[next++].revents != 0;
+      const bool said_something = watched[next++].revents != 0;
+      if (said_something || ended) read_messages(slot, ended);
+      if (ended && slot.worker) worker_ended(slot);
     }
     return (watched[0].revents & POLLIN) != 0;
   }
 
-  void read_messages(Slot& slot) {
-    const bool open = slot.worker->channel().fill();
+  // `all`: what an ended worker has left in the channel. A copy of the worker can keep the channel open.
+  void read_messages(Slot& slot, bool all) {
+    LineChannel& channel = slot.worker->channel();
+    if (slot.listening && channel.has_input()) slot.listening = channel.fill();
+    while (all && slot.listening && !channel.is_flooded() && channel.has_input()) slot.listening = channel.fill();
     try {
-      while (slot.worker)
-        if (const auto message = slot.worker->channel().take())
+      const WorkerProcess* const sender = slot.worker.get();
+      while (slot.worker.get() == sender)
+        if (const auto message = channel.take())
           read_message(slot, *message);
         else
           break;
+      if (slot.worker.get() == sender && channel.is_flooded()) throw UnbelievableMessage("longer than any may be");
     } catch (const nlohmann::json::exception&) {
-      FaultRecord fault = fault_at(slot.worker->last_call());
-      fault.kind = fault_kind::abi_breach;
-      fault.detail = "the worker process sent a message that cannot be read";
-      return end_by_fault(slot, std::move(fault));
+      breach(slot, "that cannot be read");
+    } catch (const UnbelievableMessage& message) {
+      breach(slot, message.what());
     }
-    if (!open && slot.worker) reap(slot);
+  }
+
+  void breach(Slot& slot, const std::string& text) {
+    FaultRecord fault = fault_at(slot.worker->last_call());
+    fault.kind = fault_kind::abi_breach;
+    // the plugin that runs now need not be the one
+    fault.detail += fmt::format("a plugin of this trial wrote to the channel of its worker: a message {}", text);
+    end_worker(slot, std::move(fault), slot.trials_begun > 1);
   }
 
   void read_message(Slot& slot, const nlohmann::json& message) {
     const auto type = message.at("type").get<std::string>();
-    if (type == "ready") {
-      if (message.at("digest").get<std::string>() != digest_)
-        throw InputError(experiment_.file.string() + ": changed (it, a scenario or a plugin) while it was being run");
-      slot.ready = true;
-      failed_starts_ = 0;
-    } else if (type == "error") {
-      const auto text = message.at("text").get<std::string>();
-      if (message.at("machine").get<bool>()) throw MachineError(text);
-      throw InputError(text);
-    } else if (slot.trial) {
+    if (!slot.ready)
+      read_start(slot, type, message);
+    else if (!slot.trial)
+      throw UnbelievableMessage("without a trial");
+    else if (type == "error")
+      worker_gave_up(slot, message);
+    else
       read_trial_message(slot, type, message);
-    }
+  }
+
+  void read_start(Slot& slot, const std::string& type, const nlohmann::json& message) {
+    if (type == "error") throw_error(message);
+    if (type != "ready") throw UnbelievableMessage("before it was ready");
+    if (message.at("digest").get<std::string>() != digest_)
+      throw InputError(experiment_.file.string() + ": changed (it, a scenario or a plugin) while it was being run");
+    slot.ready = true;
+    failed_starts_ = 0;
+  }
+
+  [[noreturn]] static void throw_error(const nlohmann::json& message) {
+    const auto text = message.at("text").get<std::string>();
+    if (message.at("machine").get<bool>()) throw MachineError(text);
+    throw InputError(text);
   }
 
   void read_trial_message(Slot& slot, const std::string& type, const nlohmann::json& message) {
-    OpenTrial& trial = *slot.trial;
-    if (type == "measuring") {
-      trial.measuring = message.at("index").get<std::uint32_t>();
-    } else if (type == "metric") {
-      auto result = message.get<MetricResult>();
-      std::move(result.values.begin(), result.values.end(), std::back_inserter(trial.record.values));
-      std::move(result.events.begin(), result.events.end(), std::back_inserter(trial.record.events));
-      trial.skip_metrics.push_back(result.index);
-    } else if (type == "fault") {
-      if (message.at("fatal").get<bool>()) return end_by_fault(slot, message.get<FaultRecord>());
-      add_fault(trial, message.get<FaultRecord>());
-      // should a later metric kill the worker, this one is not measured a second time
-      if (trial.measuring) trial.skip_metrics.push_back(*trial.measuring);
-    } else if (type == "done") {
-      const auto done = message.get<TrialDone>();
-      trial.record.outcome = done.outcome;
-      trial.record.repeatable = done.repeatable;
-      trial.record.sim_time_s = done.sim_time_s;
-      finish(slot);
+    const OpenTrial::State state = slot.trial->take(message);
+    if (type == "began") {
+      ++slot.trials_begun;
+      kills_between_trials_ = 0;
     }
+    if (type == "fault" && state != OpenTrial::State::running) end_process(slot);  // fatal
+    settle(slot, state);
   }
 
-  void add_fault(OpenTrial& trial, FaultRecord fault) const {
-    fault.rerun = fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}",
-                              quoted_for_shell(experiment_.file.string()), experiment_.trials, trial.record.id,
-                              settings_.trial_count, trial.record.id);
-    trial.record.faults.push_back(std::move(fault));
+  void settle(Slot& slot, OpenTrial::State state) {
+    if (state == OpenTrial::State::done) finish(slot);
+    if (state == OpenTrial::State::ended_by_fault) run_again(slot);
+  }
+
+  // The worker cannot write a file, or the like. The machine has failed if it fails in a fresh worker, and here too.
+  void worker_gave_up(Slot& slot, const nlohmann::json& message) {
+    slot.trial->check_sender(message);
+    const auto text = message.at("text").get<std::string>();
+    if (slot.trial->worker_failed && message.at("machine").get<bool>() &&
+        machine_fails(message.at("number").get<int>()))
+      throw MachineError(text);
+    FaultRecord fault = fault_at(slot.worker->last_call());
+    fault.kind = fault_kind::worker_error;
+    fault.detail += text;
+    const bool again = !std::exchange(slot.trial->worker_failed, true);
+    end_worker(slot, std::move(fault), again);
+  }
+
+  bool machine_fails(int error_number) const {
+    if (error_number == ENOSPC || error_number == EDQUOT || error_number == EIO) return true;
+    if (error_number == EFBIG && files_are_limited()) return true;
+    return !can_write_in(settings_.run_directory) ||
+           (experiment_.traces != RecordTraces::none && !can_write_in(settings_.run_directory / "traces"));
   }
 
   void finish(Slot& slot) {
-    slot.trial->record.wall_time_s =
-        static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
-    TrialRecord record = std::move(slot.trial->record);
+    TrialRecord record = slot.trial->take_record();
+    record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
+    for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(record.id);
     slot.trial.reset();
+    slot.last_trial = record.id;
     --open_trials_;
-    on_trial_(std::move(record));
+    sinks_.on_trial(std::move(record));
+  }
+
+  void run_again(Slot& slot) {
+    waiting_.push_front(std::move(*slot.trial));
+    slot.trial.reset();
+  }
+
+  std::string rerun_command(std::uint64_t trial) const {
+    return fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}",
+                       quoted_for_shell(experiment_.file.string()), experiment_.trials, trial, settings_.trial_count,
+                       trial);
   }
 
   // Ends a worker whose call, trial or start takes too long.
@@ -217,74 +266,97 @@ class Supervisor {
     FaultRecord fault = fault_at(call);
     fault.kind = fault_kind::hang;
     if (watchdog_.elapsed_ns(began_ns) > longest_ns) {
-      fault.detail = fmt::format("the {} took longer than trial_wall_time_s = {} s",
-                                 slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
-      return end_by_fault(slot, std::move(fault));
+      fault.detail += fmt::format("the {} took longer than trial_wall_time_s = {} s",
+                                  slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
+      return end_worker(slot, std::move(fault), false);
     }
     const std::int64_t limit_ns = call.limit_ns > 0 ? std::min(call.limit_ns, longest_ns) : longest_ns;
-    if (!watchdog_.is_overdue(call, began_ns, limit_ns)) return;
+    if (!watchdog_.is_overdue(call, slot.worker_started_ns, limit_ns)) return;
     fault.detail =
         fmt::format("did not return within {:.1f} s", static_cast<double>(monotonic_ns() - call.start_ns) * 1e-9);
-    end_by_fault(slot, std::move(fault));
+    end_worker(slot, std::move(fault), false);
   }
 
-  // The worker ended by itself.
-  void reap(Slot& slot) {
-    FaultRecord fault = fault_at(slot.worker->last_call());
-    ChildProcess& process = slot.worker->process();
-    process.kill();  // it can have closed its channel and live on; one that is dying keeps its status
-    const ProcessEnding& ending = process.wait();
-    fault.kind = ending.fault_kind();
-    if (ending.signal != 0) {
-      fault.signal = ending.signal;
-      fault.detail = strsignal(fault.signal);
-    } else if (ending.exit_status == out_of_memory_exit) {
-      fault.detail = fmt::format("more than memory_mb = {}", experiment_.limits.memory_mb);
-    } else {
-      fault.detail = fmt::format("the process ended with status {}", ending.exit_status);
-    }
-    end_by_fault(slot, std::move(fault));
+  // The worker ended by itself, or was killed from outside.
+  void worker_ended(Slot& slot) {
+    FaultRecord fault = fault_of_end(*slot.worker, experiment_.limits.memory_mb);
+    const bool killed = slot.worker->process().wait().killed_from_outside;
+    const bool has_begun = slot.trial && slot.trial->has_begun();
+    if (killed && !has_begun && ++kills_between_trials_ < most_kills_between_trials) return drop_worker(slot);
+    const bool again = killed && has_begun ? ++slot.trial->killed < most_kills : slot.trials_begun > 1;
+    end_worker(slot, std::move(fault), again);
   }
 
-  // Kills the worker, and ends its trial.
-  void end_by_fault(Slot& slot, FaultRecord fault) {
+  // Kills the worker, and processes that its plugins have started.
+  void end_process(Slot& slot) {
     slot.worker.reset();
-    if (slot.trial)
-      conclude(slot, std::move(fault));
-    else if (!slot.ready && (fault.kind == fault_kind::hang || ++failed_starts_ >= start_attempts))
-      throw std::runtime_error(fmt::format("worker processes fail as they start: {}{}; see {}",
-                                           fault.plugin.empty() ? "" : fault.plugin + " " + fault.function + "(): ",
-                                           fault.detail, (settings_.run_directory / "log.txt").string()));
+    std::vector<pid_t> workers;
+    for (const Slot& other : slots_)
+      if (other.worker) workers.push_back(other.worker->process().number());
+    kill_orphans(workers);
   }
 
-  static FaultRecord fault_at(const NotedCall& call) {
-    FaultRecord fault;
-    if (!call.inside) return fault;
-    fault.plugin = call.plugin;
-    fault.function = call.function;
-    fault.step = std::max<std::int64_t>(call.step, 0);
-    fault.robot = std::max(call.robot, -1);
-    return fault;
+  // Between two trials.
+  void drop_worker(Slot& slot) {
+    end_process(slot);
+    if (slot.trial) run_again(slot);
   }
 
-  // A trial whose metric killed the worker is run again without that metric. Otherwise the trial is over.
-  void conclude(Slot& slot, FaultRecord fault) {
-    OpenTrial& trial = *slot.trial;
-    if (fault.kind == fault_kind::hang) trial.record.repeatable = false;
-    add_fault(trial, std::move(fault));
-    if (trial.measuring) {
-      trial.skip_metrics.push_back(*trial.measuring);
-      waiting_.push_front(std::move(trial));
-      slot.trial.reset();
-    } else {
-      trial.record.outcome = trial_outcome::fault;
-      finish(slot);
+  // Kills the worker. Its trial is run again from its beginning, or ends by the fault.
+  void end_worker(Slot& slot, FaultRecord fault, bool again) {
+    if (!slot.trial || !slot.trial->has_begun()) {
+      drop_worker(slot);
+      return blame_last_trial(slot, std::move(fault));
+    }
+    end_process(slot);
+    if (again) {
+      // of an instance of an earlier trial
+      if (fault.function == "destroy" && slot.last_trial) blame_last_trial(slot, fault);
+      note(fmt::format("trial {} is run again: {}", slot.trial->record().id, text_of(fault)));
+      slot.trial->restart();
+      return run_again(slot);
+    }
+    settle(slot, slot.trial->end_attempt(std::move(fault)));
+  }
+
+  // The worker ended between two trials.
+  void blame_last_trial(const Slot& slot, FaultRecord fault) {
+    if (slot.last_trial) {
+      fault.rerun = rerun_command(*slot.last_trial);
+      return sinks_.on_late_fault(*slot.last_trial, fault);
+    }
+    if ((fault.kind == fault_kind::hang && !slot.ready) || ++failed_starts_ >= start_attempts)
+      throw std::runtime_error(fmt::format("worker processes fail as they start: {}; see {}", text_of(fault),
+                                           (settings_.run_directory / "log.txt").string()));
+  }
+
+  // Lets the workers call destroy() and deinit() of the plugins.
+  void shut_down_workers() {
+    for (Slot& slot : slots_)
+      if (slot.worker) slot.worker->channel().close_write_end();
+    const std::int64_t until_ns = monotonic_ns() + shutdown_limit_ns;
+    for (Slot& slot : slots_) {
+      if (!slot.worker) continue;
+      const bool ended =
+          watchdog_.wait(slot.worker->process().ended().number(), [&] { return monotonic_ns() >= until_ns; });
+      FaultRecord fault =
+          ended ? fault_of_end(*slot.worker, experiment_.limits.memory_mb) : fault_at(slot.worker->last_call());
+      if (!ended) {
+        fault.kind = fault_kind::hang;
+        fault.detail += fmt::format("did not return within {} s", shutdown_limit_ns / second_ns);
+      }
+      const bool is_fault = !ended || slot.worker->last_call().inside || slot.worker->process().wait().signal != 0;
+      if (is_fault && slot.last_trial && !slot.worker->process().wait().killed_from_outside)
+        blame_last_trial(slot, std::move(fault));
     }
   }
+
+  // A line in log.txt.
+  void note(const std::string& text) const { log_.write("[info] dmrp-host: " + text + "\n"); }
 
   const Experiment& experiment_;
   const SupervisorSettings& settings_;
-  const std::function<void(TrialRecord&&)>& on_trial_;
+  const SupervisorSinks& sinks_;
   const std::string digest_;
   Descriptor log_;
   Watchdog watchdog_;
@@ -292,14 +364,14 @@ class Supervisor {
   std::vector<Slot> slots_;
   std::size_t open_trials_ = 0;
   int failed_starts_ = 0;
+  int kills_between_trials_ = 0;
 };
 
 }  // namespace
 
 RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_t>& trials,
-                    const SupervisorSettings& settings, const std::function<void(TrialRecord&&)>& on_trial,
-                    const std::function<void()>& on_idle) {
-  return Supervisor(experiment, trials, settings, on_trial).run(on_idle);
+                    const SupervisorSettings& settings, const SupervisorSinks& sinks) {
+  return Supervisor(experiment, trials, settings, sinks).run();
 }
 
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // supervisor.hpp: runs trials in worker processes. One poll loop, no threads; loads no plugin.
 //
-// Each job has one worker, which runs many trials under resource limits. If a worker dies, hangs or sends an invalid
-// message, its trial ends as a fault and another worker takes its place.
+// Each job has one worker, which runs many trials under resource limits. If a worker dies, hangs or sends a message that
+// its state does not allow, another worker takes its place. A trial that was killed from outside, or whose worker had run
+// other trials before, is run again by a fresh worker; otherwise it ends as a fault.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +23,18 @@ struct SupervisorSettings {
   std::uint64_t trial_count = 0;        // of the whole experiment; the commands that rerun one trial need it
 };
 
+struct SupervisorSinks {
+  std::function<void(TrialRecord&&)> on_trial;  // as each ends, in no fixed order
+  // Of a trial that has ended already: destroy() and deinit() are called later.
+  std::function<void(std::uint64_t trial, const FaultRecord&)> on_late_fault;
+  std::function<void()> on_idle;  // every 100 ms or more often
+};
+
 enum class RunEnding { done, interrupted };
 
-// Runs the trials with these numbers. Calls `on_trial` as each ends, in no fixed order, and `on_idle` every 100 ms or
-// more often. Throws InputError if the experiment's files change during the run, and MachineError.
+// Runs the trials with these numbers. Throws InputError if the experiment's files change during the run, and MachineError.
 RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_t>& trials,
-                    const SupervisorSettings& settings, const std::function<void(TrialRecord&&)>& on_trial,
-                    const std::function<void()>& on_idle);
+                    const SupervisorSettings& settings, const SupervisorSinks& sinks);
 
 // The record of a trial that has not run: its place in the experiment.
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial);

@@ -10,6 +10,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -17,6 +19,8 @@
 #include "host/experiment/digest.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/line_channel.hpp"
+#include "host/process/orphans.hpp"
+#include "host/process/own_process.hpp"
 #include "host/process/resource_limits.hpp"
 #include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
@@ -48,18 +52,46 @@ nlohmann::json typed(const char* type, nlohmann::json message) {
   return message;
 }
 
+// What the worker says. Copies of it say nothing.
+class Sender {
+ public:
+  explicit Sender(LineChannel& channel) : channel_(channel) {}
+
+  void begin(const Job& job) {
+    trial_ = job.trial;
+    own_process::set_stamp(job.stamp);
+    send({{"type", "began"}});
+  }
+
+  void send(nlohmann::json message) {
+    if (own_process::is_other_process()) _exit(0);
+    message["trial"] = trial_;
+    message["stamp"] = own_process::stamp();
+    if (!channel_.send(message)) _exit(channel_closed_exit);
+  }
+
+ private:
+  LineChannel& channel_;
+  std::uint64_t trial_ = 0;
+};
+
 class Worker {
  public:
-  Worker(const Experiment& experiment, LineChannel& channel, CallNote& note)
+  Worker(const Experiment& experiment, LineChannel& channel, Sender& sender, CallNote& note)
       : experiment_(experiment),
         combinations_(combinations(experiment)),
         channel_(channel),
+        sender_(sender),
         guard_(note),
         pool_(experiment.libraries, guard_, &log_line) {}
 
   void serve() {
-    channel_.send({{"type", "ready"}, {"digest", experiment_digest(experiment_)}});
-    while (const auto message = channel_.receive()) run(message->get<Job>());
+    sender_.send({{"type", "ready"}, {"digest", experiment_digest(experiment_)}});
+    while (const auto message = channel_.receive()) {
+      const auto job = message->get<Job>();
+      sender_.begin(job);
+      run(job);
+    }
   }
 
  private:
@@ -89,6 +121,7 @@ class Worker {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
       done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
       done.sim_time_s = ending.sim_time_s;
+      guard_.check_no_children();
     } catch (const PluginFault& fault) {
       done.outcome = trial_outcome::fault;
       kept.finish();
@@ -103,8 +136,8 @@ class Worker {
     done.repeatable = !guard_.stopped();
     if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && kept.is_recorded())
       std::filesystem::remove(job.trace_file);
+    sender_.send(typed("done", done));
     if (own) pool_.clear();  // instances may keep pointers into their world
-    channel_.send(typed("done", done));
   }
 
   static void finish(KeptTrace& kept, std::vector<MetricEvent> events) {
@@ -119,7 +152,7 @@ class Worker {
   void report(const PluginFault& fault) {
     nlohmann::json message = typed("fault", record_of(fault));
     message["fatal"] = fault.fatal();
-    channel_.send(message);
+    sender_.send(std::move(message));
     // no function of the library may be called, not even destroy(): another worker continues
     if (fault.fatal()) _exit(1);
   }
@@ -129,12 +162,13 @@ class Worker {
     core::TraceReader reader(kept.records(), core::TraceExtent::samples);
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
       if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
-      channel_.send({{"type", "measuring"}, {"index", i}});
+      sender_.send({{"type", "measuring"}, {"index", i}});
       const PluginUse& use = experiment_.metrics[i];
       try {
         const MetricResult result = measure(reader, world.walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i,
                                             seed, static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
-        channel_.send(typed("metric", result));
+        guard_.check_no_children();
+        sender_.send(typed("metric", result));
         events.insert(events.end(), result.events.begin(), result.events.end());
       } catch (const PluginFault& fault) {
         report(fault);
@@ -145,6 +179,7 @@ class Worker {
   const Experiment& experiment_;
   std::vector<Combination> combinations_;
   LineChannel& channel_;
+  Sender& sender_;
   CallGuard guard_;
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
   InstancePool pool_;
@@ -156,27 +191,37 @@ Probe read_descriptors(const std::filesystem::path& file) {
   return {library.plugins(), library.warnings(), ""};
 }
 
+void send_error(Sender& sender, const std::string& text, const std::exception& error) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  sender.send({{"type", "error"},
+               {"text", text},
+               {"machine", is_machine_failure(error)},
+               {"number", system ? system->code().value() : 0}});
+}
+
 }  // namespace
 
 int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
   // processes that a plugin starts do not inherit them
   for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   LineChannel channel{Descriptor(read_end), Descriptor(write_end)};
+  Sender sender(channel);
   try {
+    own_process::watch({read_end, write_end});
+    adopt_orphans();
     const Experiment experiment = load_experiment(file, trials, &read_descriptors);
     set_resource_limits(experiment.limits.memory_mb);
     const SharedCallNote shared{Descriptor(note)};
-    Worker(experiment, channel, shared.note()).serve();
+    Worker(experiment, channel, sender, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;
   } catch (const PluginFault& fault) {
-    channel.send({{"type", "error"}, {"text", fault.text()}, {"machine", false}});
-    return 1;
+    send_error(sender, fault.text(), fault);
   } catch (const std::exception& error) {
-    channel.send({{"type", "error"}, {"text", error_text(error)}, {"machine", is_machine_failure(error)}});
-    return 1;
+    send_error(sender, error_text(error), error);
   }
+  return 1;
 }
 
 }  // namespace dmrp::host

@@ -33,13 +33,21 @@ mv "$scratch/stdout" "$scratch/of_joined"
 expect_status 0 "$host" evaluate "$scratch/whole" --metric dmrp.metric.path_length
 cmp -s "$scratch/stdout" "$scratch/of_joined" || fail "the traces differ"
 
-# --resume runs missing trials
-expect_status 0 "$host" merge "$scratch/part" "$scratch/a" "$scratch/b"
+# shards with unfinished trials are joined; --resume runs what is missing
+cp -r "$scratch/b" "$scratch/unfinished"
+query "$scratch/unfinished" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id = 4"
+expect_status 0 "$host" merge "$scratch/part" "$scratch/a" "$scratch/unfinished" "$scratch/c"
+grep -q "7 of 8 trials are finished: continue with --resume" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 run --resume --out "$scratch/part"
 [[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
 expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"
-expect_refusal "$scratch/joined: exists already and is not empty" "$scratch/joined" "$scratch/a" "$scratch/b"
+expect_refusal "$scratch/joined: exists already and is not empty" "$scratch/joined" "$scratch/a" "$scratch/b" "$scratch/c"
+expect_refusal "a shard is missing: 2/3" "$scratch/none" "$scratch/a" "$scratch/b"
+expect_refusal "shards are missing: 0/3, 2/3" "$scratch/none" "$scratch/b"
+run --shard 0/2 --out "$scratch/half"
+query "$scratch/b" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id = 4"
+expect_refusal "$scratch/b: is shard 1/3, but $scratch/half is shard 0/2" "$scratch/none" "$scratch/half" "$scratch/b"
 mkdir "$scratch/empty"
 expect_refusal "$scratch/empty: is no run directory" "$scratch/none" "$scratch/a" "$scratch/empty"
 sed 's/^seed .*/seed = 8/' "$source_file" >"$scratch/other.toml"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/results/database.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 
+#include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
@@ -283,4 +285,68 @@ TEST_CASE("results of schema version 1 are read, and upgraded where they are wri
   REQUIRE(read.size() == 2);
   check_old_trial(read[0]);
   check_same(read[1], added);
+}
+
+TEST_CASE("values of a trial that was deleted are refused, and not doubled when it runs again") {
+  const ScratchFolder folder;
+  {
+    ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+    for (const std::uint64_t id : {1, 2}) database.write(full_trial(id));
+  }
+  SqliteConnection(folder / "results.sqlite", SqliteMode::read_write).execute("DELETE FROM trial WHERE id = 2");
+  CHECK_THROWS_WITH(ResultsDatabase::open_read_only(folder / "results.sqlite").trials(),
+                    Catch::Contains("results of trial 2"));
+  ResultsDatabase database = ResultsDatabase::open(folder / "results.sqlite");
+  CHECK(database.finished_trials() == std::vector<std::uint64_t>{1});
+  database.write(full_trial(2));
+  REQUIRE(database.trials().size() == 2);
+  check_same(database.trials()[1], full_trial(2));
+}
+
+TEST_CASE("a file that was deleted or replaced is noticed") {
+  const ScratchFolder folder;
+  ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+  database.write(full_trial(1));
+  SECTION("deleted") {
+    std::filesystem::remove(folder / "results.sqlite");
+  }
+  SECTION("replaced") {
+    std::filesystem::rename(folder / "results.sqlite", folder / "old");
+    std::filesystem::copy_file(folder / "old", folder / "results.sqlite");
+  }
+  CHECK_THROWS_AS(database.write(full_trial(2)), MachineError);
+}
+
+TEST_CASE("a damaged file is refused") {
+  const ScratchFolder folder;
+  {
+    ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+    for (std::uint64_t id = 0; id < 100; ++id) database.write(full_trial(id));
+  }
+  std::string bytes = content_of(folder / "results.sqlite");
+  SECTION("cut short") {
+    bytes.resize(bytes.size() / 2);
+  }
+  SECTION("overwritten") {
+    std::fill(bytes.begin() + 8192, bytes.end() - 4096, 'x');
+  }
+  SECTION("another file") {
+    bytes = "hello";
+  }
+  std::ofstream(folder / "results.sqlite", std::ios::binary) << bytes;
+  CHECK_THROWS_AS(ResultsDatabase::open(folder / "results.sqlite"), SqliteError);
+}
+
+TEST_CASE("a fault is added to a trial that has ended, and makes it one to try again") {
+  const ScratchFolder folder;
+  ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+  TrialRecord trial = full_trial(3);
+  trial.faults.clear();
+  database.write(trial);
+  CHECK(database.finished_trials(ResultsDatabase::Finished::without_faults) == std::vector<std::uint64_t>{3});
+  trial.faults = {{"crash", "org.example.x", "destroy", 0, -1, 11, "Segmentation fault", "dmrp-host x.toml"}};
+  database.add_fault(3, trial.faults[0]);
+  check_same(database.trials()[0], trial);
+  CHECK(database.finished_trials() == std::vector<std::uint64_t>{3});
+  CHECK(database.finished_trials(ResultsDatabase::Finished::without_faults).empty());
 }

@@ -40,7 +40,7 @@ ReportLayouts example_layouts() {
 ReportRun example_run(std::vector<TrialRecord> trials) {
   ReportRun run;
   run.manifest.dmrp_version = "0.1.0";
-  run.manifest.experiment = {"example", 18446744073709551615u, 3, 6, {{"mall", "Mall", "of shops", 2, 12, 180.0}}};
+  run.manifest.experiment = {"example", 18446744073709551615u, 3, {}, 6, {{"mall", "Mall", "of shops", 2, 12, 180.0}}};
   run.manifest_json = R"({"dmrp_version": "0.1.0"})";
   run.effective_toml = "[experiment]\n";
   run.metrics = example_metrics();

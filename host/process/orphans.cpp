@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "host/process/orphans.hpp"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr int most_rounds = 100;  // an orphan can start others while it is being killed
+
+// Of the thread that calls; the host has no other. Empty where the kernel does not say.
+std::vector<pid_t> children() {
+  std::ifstream file("/proc/self/task/" + std::to_string(gettid()) + "/children");
+  std::vector<pid_t> found;
+  for (pid_t child = 0; file >> child;) found.push_back(child);
+  return found;
+}
+
+}  // namespace
+
+void adopt_orphans() {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+void kill_orphans(const std::vector<pid_t>& keep) {
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<pid_t> orphans = children();
+    std::erase_if(orphans, [&](pid_t child) { return std::find(keep.begin(), keep.end(), child) != keep.end(); });
+    if (orphans.empty()) return;
+    for (const pid_t orphan : orphans) kill(orphan, SIGKILL);
+    for (const pid_t orphan : orphans) waitpid(orphan, nullptr, __WALL);
+  }
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Attacks of a plugin on its worker, its supervisor and other workers end in a fault that names the plugin, or do nothing.
+# Other trials have the values of a run without it, and nothing is left behind.
+# Called as: hostile.sh DMRP_HOST LIBRARY_OF_ATTACKS [SANITIZERS]
+source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
+
+# begin NAME: the crossing with one planner and the controller whose values are compared
+begin() {
+  begin_experiment "$1" local_controller global_planner
+  use "$1" metric dmrp.metric.success
+  use "$1" metric dmrp.metric.path_length
+  use "$1" global_planner dmrp.planner.cbs
+  use "$1" local_controller dmrp.controller.pure_pursuit
+  echo 'label = "pursuit"' >>"$scratch/$1.toml"
+  sed -i 's/^trials .*/trials = 2/' "$scratch/$1.toml"
+}
+hostile() {
+  printf '\n[[local_controller]]\nuse = "test.controller.hostile"\nlabel = "%s"\nparams = { attack = "%s" }\n' "$2" "$2" \
+    >>"$scratch/$1.toml"
+}
+values() {
+  query "$1" "SELECT trial.repetition, outcome, repeatable, metric, subject_kind, subject, printf('%!.17g', value.value)
+    FROM value JOIN trial ON trial.id = trial_id WHERE local_controller = 'pursuit' ORDER BY 1, 4, 5, 6"
+}
+expect_same() {
+  [[ $(values "$scratch/$1") == "$(values "$scratch/alone")" ]] || fail "$1: attacks change the values of others"
+}
+
+begin alone
+run_with_faults alone 0
+[[ -n $(values "$scratch/alone") ]] || fail "there should be values to compare"
+
+# all in one run: attack|kind|function|detail|whether the fault is noticed later, when another plugin may run
+attacks=(
+  'fork and return|abi_breach|step|fork'
+  'fork and stay|abi_breach|step|fork'
+  'clone and return|abi_breach|.*|process behind'
+  'forged end|abi_breach|.*|a plugin of this trial wrote to the channel|late'
+  'forged error|abi_breach|.*|a plugin of this trial wrote to the channel|late'
+  'no message|abi_breach|.*|a plugin of this trial wrote to the channel|late'
+  'closed channel|abi_breach|step|channel .* was closed'
+  'closed trace|worker_error|.*|Bad file descriptor|late'
+  'all closed|abi_breach|step|channel .* was closed'
+  'files limited|worker_error|.*|File too large|late'
+  'kills itself|crash|step|SIGKILL'
+  'traps numbers|abi_breach|step|floating-point control'
+  'late thread|crash|.*|Segmentation fault|late'
+)
+begin attacks
+for row in "${attacks[@]}"; do hostile attacks "${row%%|*}"; done
+run_with_faults attacks 1
+for row in "${attacks[@]}"; do
+  IFS='|' read -r attack kind function detail late <<<"$row"
+  is_late=0
+  [[ -z ${late:-} ]] || is_late=1
+  found=$(query "$scratch/attacks" "SELECT kind, function, detail FROM fault JOIN trial ON trial.id = trial_id
+    WHERE local_controller = '$attack' AND ($is_late OR plugin = 'test.controller.hostile') ORDER BY trial_id LIMIT 1")
+  grep -Eq "^$kind\|$function\|.*$detail" <<<"$found" || fail "$attack: '$found' does not match $kind, $function, $detail"
+done
+expect_same attacks
+
+# faults that were a plugin's are tried again on demand
+before=$(query "$scratch/attacks" "SELECT count(*) FROM fault")
+expect_status 1 "$host" "$scratch/attacks.toml" --quiet --resume --out "$scratch/attacks"
+expect_status 2 "$host" "$scratch/attacks.toml" --quiet --retry-faults --out "$scratch/attacks"
+expect_status 1 "$host" "$scratch/attacks.toml" --quiet --resume --retry-faults --out "$scratch/attacks"
+[[ $(query "$scratch/attacks" "SELECT count(*) FROM fault") == "$before" ]] || fail "--retry-faults should find them again"
+expect_same attacks
+
+# destroy() is called when the trials are over
+begin destroy
+hostile destroy "crash in destroy"
+run_with_faults destroy 1
+[[ $(query "$scratch/destroy" "SELECT kind, plugin, function, signal, local_controller FROM fault
+  JOIN trial ON trial.id = trial_id LIMIT 1") == "crash|test.controller.hostile|destroy|11|"* ]] ||
+  fail "a crash in destroy() should be a fault: $(query "$scratch/destroy" "SELECT * FROM fault")"
+expect_same destroy
+
+# attacks that do nothing, or leave no trace in the results
+begin harmless
+for attack in none umask "all descriptors taken" "kills siblings"; do hostile harmless "$attack"; done
+status=0
+"$host" "$scratch/harmless.toml" --quiet --jobs 2 --out "$scratch/harmless" || status=$?
+((status <= 1)) || fail "exit status $status"
+expect_same harmless
+
+! pgrep -f "worker $scratch/" >/dev/null || fail "processes are left: $(pgrep -af "worker $scratch/")"
+! compgen -G "$scratch/*/*scratch*" >/dev/null || fail "scratch files are left"

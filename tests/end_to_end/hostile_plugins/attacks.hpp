@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// attacks.hpp: what a plugin can do to the process that it runs in, and to others. Each starts one process at most.
+#pragma once
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fenv.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace dmrp::test {
+
+inline std::vector<int> open_descriptors() {
+  std::vector<int> numbers;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    numbers.push_back(std::stoi(entry.path().filename()));
+  return numbers;
+}
+
+inline std::string target_of(int descriptor) {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), ignored);
+}
+
+// To every pipe that this process can write to.
+inline void write_to_pipes(const std::string& text) {
+  for (const int descriptor : open_descriptors())
+    if (descriptor > 2 && target_of(descriptor).rfind("pipe:", 0) == 0) [[maybe_unused]]
+      const ssize_t written = write(descriptor, text.data(), text.size());
+}
+
+inline void close_those(const std::string& part_of_target) {
+  for (const int descriptor : open_descriptors())
+    if (descriptor > 2 && target_of(descriptor).find(part_of_target) != std::string::npos) close(descriptor);
+}
+
+// Workers of the same run.
+inline void kill_siblings() {
+  const std::string parent = std::to_string(getppid());
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const int process = std::atoi(entry.path().filename().c_str());
+    const std::string status = "/proc/" + std::to_string(process) + "/stat";
+    const int file = process > 0 && process != getpid() ? open(status.c_str(), O_RDONLY) : -1;
+    if (file < 0) continue;
+    char text[512] = {};
+    [[maybe_unused]] const ssize_t count = read(file, text, sizeof(text) - 1);
+    close(file);
+    const char* const after_name = std::strrchr(text, ')');
+    if (after_name && std::string(after_name + 4).rfind(parent + " ", 0) == 0) kill(process, SIGKILL);
+  }
+}
+
+inline void limit(int resource, rlim_t most) {
+  const rlimit both = {most, most};
+  setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+inline void crash() {
+  std::signal(SIGSEGV, SIG_DFL);
+  std::raise(SIGSEGV);
+}
+
+inline void attack(const std::string& what) {
+  if (what == "fork and return") fork();
+  if (what == "fork and stay" && fork() == 0)
+    for (;;) pause();
+  if (what == "clone and return") syscall(SYS_clone, SIGCHLD, nullptr, nullptr, nullptr, nullptr);
+  if (what == "forged end")
+    write_to_pipes("{\"type\":\"done\",\"outcome\":\"succeeded\",\"repeatable\":true,\"sim_time_s\":1.0}\n");
+  if (what == "forged error")
+    write_to_pipes("{\"type\":\"error\",\"text\":\"forged\",\"machine\":true,\"number\":28}\n");
+  if (what == "no message") write_to_pipes("hello\n");
+  if (what == "closed channel") close_those("pipe:");
+  if (what == "closed trace") close_those(".mcap");
+  if (what == "all closed") close_range(3, ~0u, 0);
+  if (what == "all descriptors taken")
+    while (dup(2) >= 0) {
+    }
+  if (what == "files limited") limit(RLIMIT_FSIZE, 4096);
+  if (what == "kills itself") std::raise(SIGKILL);
+  if (what == "kills siblings") kill_siblings();
+  if (what == "umask") umask(0777);
+  if (what == "traps numbers") feenableexcept(FE_DIVBYZERO | FE_INVALID);
+  if (what == "late thread")
+    std::thread([] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      crash();
+    }).detach();
+}
+
+}  // namespace dmrp::test

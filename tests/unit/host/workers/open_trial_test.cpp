@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// The supervisor believes only what fits the state of the worker.
+#include "host/workers/open_trial.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "host/process/fault_kind.hpp"
+
+namespace {
+
+using namespace dmrp::host;
+using nlohmann::json;
+using State = OpenTrial::State;
+
+constexpr std::uint64_t stamp = 77;
+
+Experiment two_metrics() {
+  Experiment experiment;
+  for (const char* name : {"length", "speed"}) {
+    PluginUse use;
+    use.info.id = name;
+    MetricValueSpec spec;
+    spec.name = name;
+    spec.subjects = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT;
+    use.info.values = {spec};
+    experiment.metrics.push_back(use);
+  }
+  return experiment;
+}
+
+class Conversation {
+ public:
+  Conversation() : trial_(experiment_, blank()) { trial_.begin(stamp); }
+
+  State say(json message, std::uint64_t from = stamp) {
+    message["trial"] = 5;
+    message["stamp"] = from;
+    return trial_.take(message);
+  }
+  State began() { return say({{"type", "began"}}); }
+  State measuring(unsigned index) { return say({{"type", "measuring"}, {"index", index}}); }
+  State metric(unsigned index, std::vector<MetricValue> values) {
+    json message = MetricResult{index, std::move(values), {}};
+    message["type"] = "metric";
+    return say(message);
+  }
+  State fault(bool fatal, const char* kind = fault_kind::bad_output) {
+    json message = FaultRecord{kind, "length", "finish", 0, -1, 0, "", ""};
+    message["type"] = "fault";
+    message["fatal"] = fatal;
+    return say(message);
+  }
+  State done(const char* outcome) {
+    return say({{"type", "done"}, {"outcome", outcome}, {"repeatable", true}, {"sim_time_s", 1.5}});
+  }
+  void measure_both() {
+    measuring(0);
+    metric(0, {system("length")});
+    measuring(1);
+    metric(1, {system("speed")});
+  }
+  OpenTrial& trial() { return trial_; }
+
+  static MetricValue system(const char* name) { return {name, DMRP_SUBJECT_SYSTEM, {}, {}, 1.0}; }
+
+ private:
+  static TrialRecord blank() {
+    TrialRecord record;
+    record.id = 5;
+    record.robots = 2;
+    return record;
+  }
+
+  Experiment experiment_ = two_metrics();
+  OpenTrial trial_;
+};
+
+}  // namespace
+
+TEST_CASE("a trial that goes as it should is believed") {
+  Conversation worker;
+  CHECK(worker.began() == State::running);
+  CHECK(worker.trial().has_begun());
+  worker.measure_both();
+  CHECK(worker.done(trial_outcome::failed) == State::done);
+  CHECK(worker.trial().record().outcome == "failed");
+  CHECK(worker.trial().record().values.size() == 2);
+  CHECK(worker.trial().record().sim_time_s == 1.5);
+}
+
+TEST_CASE("messages of other processes and of earlier attempts are not believed") {
+  Conversation worker;
+  CHECK_THROWS_AS(worker.say({{"type", "began"}}, 0), UnbelievableMessage);  // a copy of the worker has no stamp
+  CHECK_THROWS_AS(worker.say({{"type", "began"}}, 76), UnbelievableMessage);
+  worker.began();
+  CHECK_THROWS_AS(worker.began(), UnbelievableMessage);
+  CHECK_THROWS_AS(worker.trial().take({{"type", "measuring"}, {"index", 0}}), json::exception);
+}
+
+TEST_CASE("messages out of order are not believed") {
+  Conversation worker;
+  CHECK_THROWS_AS(worker.done(trial_outcome::succeeded), UnbelievableMessage);
+  worker.began();
+  CHECK_THROWS_AS(worker.done(trial_outcome::succeeded), UnbelievableMessage);  // before the metrics
+  CHECK_THROWS_AS(worker.done(trial_outcome::fault), UnbelievableMessage);      // without a fault
+  CHECK_THROWS_AS(worker.metric(0, {}), UnbelievableMessage);
+  worker.measuring(1);
+  CHECK_THROWS_AS(worker.measuring(0), UnbelievableMessage);
+  CHECK_THROWS_AS(worker.metric(0, {}), UnbelievableMessage);
+  CHECK_THROWS_AS(worker.say({{"type", "dine"}}), UnbelievableMessage);
+}
+
+TEST_CASE("a metric gives only what it declares, and that once") {
+  Conversation worker;
+  worker.began();
+  worker.measuring(0);
+  const MetricValue good = Conversation::system("length");
+  MetricValue bad = good;
+  SECTION("another metric's value") { bad.metric = "speed"; }
+  SECTION("a robot that is not there") { bad = {"length", DMRP_SUBJECT_ROBOT, 2, {}, 1.0}; }
+  SECTION("a subject that it does not declare") { bad = {"length", DMRP_SUBJECT_PEDESTRIAN, 0, {}, 1.0}; }
+  SECTION("a robot without a number") { bad = {"length", DMRP_SUBJECT_ROBOT, {}, {}, 1.0}; }
+  SECTION("an unknown subject") { bad.subject_kind = 40; }
+  SECTION("a coordinate without a curve") { bad.coordinate = 0.5; }
+  SECTION("twice") {}
+  CHECK_THROWS_AS(worker.metric(0, {good, bad}), UnbelievableMessage);
+}
+
+TEST_CASE("a metric's fault loses its values alone, another's ends the trial") {
+  Conversation worker;
+  worker.began();
+  SECTION("of a metric") {
+    worker.measuring(0);
+    CHECK(worker.fault(false) == State::running);
+    worker.measuring(1);
+    worker.metric(1, {Conversation::system("speed")});
+    CHECK(worker.done(trial_outcome::succeeded) == State::done);
+  }
+  SECTION("of a metric that ends the worker") {
+    worker.measuring(0);
+    CHECK(worker.fault(true) == State::ended_by_fault);
+    CHECK(worker.trial().begin(78).skip_metrics == std::vector<std::uint32_t>{0});
+  }
+  SECTION("of a controller") {
+    CHECK(worker.fault(false) == State::running);
+    CHECK_THROWS_AS(worker.measuring(0), UnbelievableMessage);
+    CHECK_THROWS_AS(worker.done(trial_outcome::succeeded), UnbelievableMessage);
+    CHECK(worker.done(trial_outcome::fault) == State::done);
+  }
+  SECTION("of a kind that only a supervisor finds") {
+    CHECK_THROWS_AS(worker.fault(false, fault_kind::crash), UnbelievableMessage);
+  }
+}
+
+TEST_CASE("an attempt that is repeated begins anew, without metrics that had a fault") {
+  Conversation worker;
+  worker.began();
+  worker.measuring(0);
+  worker.fault(false);
+  worker.measuring(1);
+  worker.metric(1, {Conversation::system("speed")});
+  worker.trial().restart();
+  CHECK(worker.trial().record().values.empty());
+  CHECK(worker.trial().record().faults.size() == 1);
+  CHECK(worker.trial().begin(78).skip_metrics == std::vector<std::uint32_t>{0});
+  CHECK_FALSE(worker.trial().has_begun());
+}
