@@ -117,12 +117,24 @@ TEST_CASE("a metric gives only what it declares, and that once") {
   worker.measuring(0);
   const MetricValue good = Conversation::system("length");
   MetricValue bad = good;
-  SECTION("another metric's value") { bad.metric = "speed"; }
-  SECTION("a robot that is not there") { bad = {"length", DMRP_SUBJECT_ROBOT, 2, {}, 1.0}; }
-  SECTION("a subject that it does not declare") { bad = {"length", DMRP_SUBJECT_PEDESTRIAN, 0, {}, 1.0}; }
-  SECTION("a robot without a number") { bad = {"length", DMRP_SUBJECT_ROBOT, {}, {}, 1.0}; }
-  SECTION("an unknown subject") { bad.subject_kind = 40; }
-  SECTION("a coordinate without a curve") { bad.coordinate = 0.5; }
+  SECTION("another metric's value") {
+    bad.metric = "speed";
+  }
+  SECTION("a robot that is not there") {
+    bad = {"length", DMRP_SUBJECT_ROBOT, 2, {}, 1.0};
+  }
+  SECTION("a subject that it does not declare") {
+    bad = {"length", DMRP_SUBJECT_PEDESTRIAN, 0, {}, 1.0};
+  }
+  SECTION("a robot without a number") {
+    bad = {"length", DMRP_SUBJECT_ROBOT, {}, {}, 1.0};
+  }
+  SECTION("an unknown subject") {
+    bad.subject_kind = 40;
+  }
+  SECTION("a coordinate without a curve") {
+    bad.coordinate = 0.5;
+  }
   SECTION("twice") {}
   CHECK_THROWS_AS(worker.metric(0, {good, bad}), UnbelievableMessage);
 }
