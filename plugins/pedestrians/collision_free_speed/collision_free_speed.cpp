@@ -49,8 +49,8 @@ Status CollisionFreeSpeed::start(const Start& start) {
   const World& world = start.world;
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   side_preference_.start(start.seed);
-  walkers_.start();
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
+  walkers_.start(start.seed, ways_.grid());
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);

@@ -9,6 +9,7 @@
 
 #include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/right_of_way.hpp"
+#include "pedestrians/crowd/ways_past_robots.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -24,7 +25,11 @@ struct Walker {
 // at random.
 class Walkers {
  public:
-  void start() { right_of_way_.start(); }
+  // `grid`: the one that people walk on. Its arrays must outlive this object.
+  void start(std::uint64_t seed, const toolkit::GridView& grid) {
+    right_of_way_.start();
+    past_robots_.start(seed, grid);
+  }
 
   // Fills `neighbors` with all people and, unless `robot_awareness` is 0, with the robots. Calls way_of(slot, person)
   // once for each person, in the order of slots. Allocates only if there are more people than in all steps before.
@@ -33,11 +38,14 @@ class Walkers {
     bodies_.clear();
     ways_.clear();
     right_of_way_.begin_step();
+    past_robots_.begin_step();
     const double step_s = seconds(crowd.dt_ns);
     for (std::uint32_t slot = 0; slot < crowd.people.size(); ++slot) {
       const Person& person = crowd.people[slot];
       bodies_.push_back({person.position, person.velocity, person.radius_m, 1.0, slot});
-      ways_.push_back(way_of(slot, person));
+      Vec2 way = way_of(slot, person);
+      if (robot_awareness > 0.0) way = past_robots_.direction(person, way, crowd.robots, step_s);
+      ways_.push_back(way);
       right_of_way_.update(person, ways_.back(), step_s);
     }
     if (robot_awareness > 0.0)
@@ -59,6 +67,7 @@ class Walkers {
   std::vector<Body> bodies_;
   std::vector<Vec2> ways_;  // by slot
   RightOfWay right_of_way_;
+  WaysPastRobots past_robots_;
   std::vector<Walker> by_place_;
 };
 

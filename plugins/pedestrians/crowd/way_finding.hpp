@@ -27,6 +27,8 @@ class WayFinder {
 
   void start(const Grid& grid);
 
+  const toolkit::GridView& grid() const { return grid_; }
+
   // The desired direction of the person in this slot, a unit vector; zero on the target. Leads straight to the target
   // where no way exists.
   Vec2 direction(std::size_t slot, const Person& person);

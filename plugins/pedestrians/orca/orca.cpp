@@ -42,8 +42,8 @@ Descriptor Orca::describe() {
 Status Orca::start(const Start& start) {
   const World& world = start.world;
   side_preference_.start(start.seed);
-  walkers_.start();
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
+  walkers_.start(start.seed, ways_.grid());
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));

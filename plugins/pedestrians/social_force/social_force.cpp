@@ -52,8 +52,8 @@ Status SocialForce::start(const Start& start) {
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = start.seed;
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
+  walkers_.start(start.seed, ways_.grid());
   groups_.start();
-  walkers_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
