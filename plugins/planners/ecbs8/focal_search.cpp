@@ -76,12 +76,18 @@ void FocalSearch::begin_detours(const Task& task, StopSignal& stop) {
   for (const Constraint& closed : task.constraints.closed_for_good()) {
     Closing closing{0, closed.from};
     const auto widen = [&](Location location) {
-      if (location < 0 || location >= graph_.location_count()) return;
+      if (location == nowhere) return;
       for (std::int32_t leg = 0; leg <= task.agent.last_leg(); ++leg)
         if (const Cost distance = task.distances.distance(leg, location); distance < unreachable)
           closing.farthest = std::max(closing.farthest, distance);
     };
-    for (const Location step : {0, 1, -1, graph_.width(), -graph_.width()}) widen(closed.location + step);
+    const std::int32_t column = graph_.column(closed.location);
+    const std::int32_t row = graph_.row(closed.location);
+    widen(closed.location);
+    for (const std::int32_t step : {1, -1}) {
+      widen(graph_.at(column + step, row));
+      widen(graph_.at(column, row + step));
+    }
     closings_.push_back(closing);
     graph_without_closed_->block(closed.location);
   }

@@ -28,13 +28,15 @@ Occupancy::Step Occupancy::step_of(Location from, Location to, Direction d) cons
   return {from, to, true, graph_.beside(from, d)};
 }
 
-// Compares columns, because on narrow grids the difference of two locations is ambiguous.
 Occupancy::Step Occupancy::step_of(PathView path, std::int32_t t) const {
   const Location from = where(path, t - 1);
   const Location to = where(path, t);
-  const Location columns = to % graph_.width() - from % graph_.width();
-  if (columns == 0 || to - from == columns) return {from, to, false, {nowhere, nowhere}};
-  return {from, to, true, {from + columns, to - columns}};
+  const std::int32_t from_column = graph_.column(from);
+  const std::int32_t to_column = graph_.column(to);
+  const std::int32_t from_row = graph_.row(from);
+  const std::int32_t to_row = graph_.row(to);
+  if (from_column == to_column || from_row == to_row) return {from, to, false, {nowhere, nowhere}};
+  return {from, to, true, {graph_.at(to_column, from_row), graph_.at(from_column, to_row)}};
 }
 
 void Occupancy::set(std::int32_t agent, PathView path) {

@@ -9,8 +9,8 @@ namespace dmrp::planners {
 // The fewest turns from one location to another, ignoring walls and other robots, for a robot whose last move had
 // direction `heading` (or no_direction).
 inline std::int32_t fewest_turns(const GridGraph& graph, Location from, Location to, Direction heading) {
-  const std::int32_t east = to % graph.width() - from % graph.width();
-  const std::int32_t north = to / graph.width() - from / graph.width();
+  const std::int32_t east = graph.column(to) - graph.column(from);
+  const std::int32_t north = graph.row(to) - graph.row(from);
   if (heading == GridGraph::no_direction) return east != 0 && north != 0 ? 1 : 0;
   const bool runs_north = heading % 2 == 1;
   const std::int32_t along = runs_north ? north : east;

@@ -11,34 +11,32 @@ BasicGridGraph<connectivity>::BasicGridGraph(const dmrp_grid& grid)
       height_(static_cast<std::int32_t>(grid.height)),
       resolution_m_(grid.resolution_m),
       origin_(grid.origin),
-      open_(grid.free, grid.free + static_cast<std::size_t>(grid.width) * grid.height),
-      neighbors_(open_.size() * direction_count, nowhere),
-      predecessors_(open_.size() * direction_count, nowhere) {
-  for (Location from = 0; from < location_count(); ++from) {
-    if (!is_open(from)) continue;
+      numbers_(static_cast<std::size_t>(grid.width) * grid.height, nowhere) {
+  std::vector<std::uint8_t> edges;  // by location
+  for (std::size_t cell = 0; cell < numbers_.size(); ++cell) {
+    if (!grid.free[cell]) continue;
+    numbers_[cell] = static_cast<Location>(places_.size());
+    places_.push_back({static_cast<std::int32_t>(cell % grid.width), static_cast<std::int32_t>(cell / grid.width)});
+    edges.push_back(grid.edges[cell]);
+  }
+  open_.assign(places_.size(), 1);
+  neighbors_.assign(places_.size() * direction_count, nowhere);
+  predecessors_.assign(places_.size() * direction_count, nowhere);
+  for (Location from = 0; from < location_count(); ++from)
     for (Direction d = 0; d < direction_count; ++d) {
       const Move& move = moves[static_cast<std::size_t>(d)];
-      if (!is_open_move(grid, from, move)) continue;
-      const Location to = from + move.columns + move.rows * width_;
+      if (!is_open_move(edges[index(from)], from, move)) continue;
+      const Location to = offset(from, move.columns, move.rows);
       neighbors_[slot(from, d)] = to;
       predecessors_[slot(to, d)] = from;
     }
-  }
 }
 
 template <Direction connectivity>
-Location BasicGridGraph<connectivity>::offset(Location from, std::int32_t columns, std::int32_t rows) const {
-  const std::int32_t column = from % width_ + columns;
-  const std::int32_t row = from / width_ + rows;
-  return column >= 0 && column < width_ && row >= 0 && row < height_ ? row * width_ + column : nowhere;
-}
-
-template <Direction connectivity>
-bool BasicGridGraph<connectivity>::is_open_move(const dmrp_grid& grid, Location from, const Move& move) const {
-  if (!(grid.edges[index(from)] & move.bit)) return false;
-  const Location to = offset(from, move.columns, move.rows);
-  if (to == nowhere || !is_open(to)) return false;
-  return move.columns == 0 || move.rows == 0 || (is_open(from + move.columns) && is_open(from + move.rows * width_));
+bool BasicGridGraph<connectivity>::is_open_move(std::uint8_t edges, Location from, const Move& move) const {
+  if (!(edges & move.bit) || offset(from, move.columns, move.rows) == nowhere) return false;
+  return move.columns == 0 || move.rows == 0 ||
+         (offset(from, move.columns, 0) != nowhere && offset(from, 0, move.rows) != nowhere);
 }
 
 template <Direction connectivity>
@@ -80,13 +78,13 @@ Location BasicGridGraph<connectivity>::locate(dmrp_vec2 point) const {
   const double column = std::floor((point.x - origin_.x) / resolution_m_);
   const double row = std::floor((point.y - origin_.y) / resolution_m_);
   if (!(column >= 0 && row >= 0 && column < width_ && row < height_)) return nowhere;
-  const Location location = static_cast<Location>(row) * width_ + static_cast<Location>(column);
-  return is_open(location) ? location : nowhere;
+  const Location location = at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
+  return location != nowhere && is_open(location) ? location : nowhere;
 }
 
 template <Direction connectivity>
 dmrp_vec2 BasicGridGraph<connectivity>::center(Location location) const {
-  return {origin_.x + (location % width_ + 0.5) * resolution_m_, origin_.y + (location / width_ + 0.5) * resolution_m_};
+  return {origin_.x + (column(location) + 0.5) * resolution_m_, origin_.y + (row(location) + 0.5) * resolution_m_};
 }
 
 template class BasicGridGraph<4>;

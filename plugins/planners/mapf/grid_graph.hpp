@@ -11,7 +11,8 @@
 
 namespace dmrp::planners {
 
-// A cell of the grid by its row-major index.
+// A free cell of the grid. Free cells are numbered from 0 in row-major order, so that tables over all locations do not
+// grow with walls.
 using Location = std::int32_t;
 constexpr Location nowhere = -1;
 
@@ -34,6 +35,7 @@ class BasicGridGraph {
   void block(Location location);
 
   Location location_count() const { return static_cast<Location>(open_.size()); }
+  // False after block().
   bool is_open(Location location) const { return open_[index(location)] != 0; }
 
   // The destination of the move, or nowhere.
@@ -48,14 +50,20 @@ class BasicGridGraph {
   // The two cells beside an open diagonal: those that share an edge with both its ends.
   std::array<Location, 2> beside(Location from, Direction diagonal) const {
     const Move& move = moves[static_cast<std::size_t>(diagonal)];
-    return {from + move.columns, from + move.rows * width_};
+    return {at(column(from) + move.columns, row(from)), at(column(from), row(from) + move.rows)};
   }
 
   // Whether the opposite of every move is a move.
   bool is_symmetric() const;
 
-  // Columns: the number of locations in a row.
-  std::int32_t width() const { return width_; }
+  std::int32_t column(Location location) const { return places_[index(location)].column; }
+  std::int32_t row(Location location) const { return places_[index(location)].row; }
+  // The location in this column and row, or nowhere.
+  Location at(std::int32_t column, std::int32_t row) const {
+    if (column < 0 || row < 0 || column >= width_ || row >= height_) return nowhere;
+    return numbers_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(column)];
+  }
 
   // The open cell that contains the point, or nowhere.
   Location locate(dmrp_vec2 point) const;
@@ -82,19 +90,28 @@ class BasicGridGraph {
   }
   static constexpr std::array<Move, connectivity> moves = all_moves();
 
+  struct Place {
+    std::int32_t column;
+    std::int32_t row;
+  };
+
   static std::size_t index(Location location) { return static_cast<std::size_t>(location); }
   static std::size_t slot(Location location, Direction d) {
     return index(location) * static_cast<std::size_t>(direction_count) + static_cast<std::size_t>(d);
   }
-  // The cell so many columns and rows away, or nowhere beyond the border.
-  Location offset(Location from, std::int32_t columns, std::int32_t rows) const;
-  bool is_open_move(const dmrp_grid& grid, Location from, const Move& move) const;
+  // The location so many columns and rows away, or nowhere.
+  Location offset(Location from, std::int32_t columns, std::int32_t rows) const {
+    return at(column(from) + columns, row(from) + rows);
+  }
+  bool is_open_move(std::uint8_t edges, Location from, const Move& move) const;
   void close(Location from, Direction d);
 
   std::int32_t width_;
   std::int32_t height_;
   double resolution_m_;
   dmrp_vec2 origin_;
+  std::vector<Location> numbers_;  // by cell in row-major order; nowhere if it is not free
+  std::vector<Place> places_;      // by location, as all that follow
   std::vector<std::uint8_t> open_;
   std::vector<Location> neighbors_;
   std::vector<Location> predecessors_;

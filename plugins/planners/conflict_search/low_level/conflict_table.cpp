@@ -32,7 +32,7 @@ void ConflictTable::put_in(std::int32_t agent) {
   next.resize(path.size());
   for (std::int32_t t = 0; t <= cost_of(path); ++t) {
     const auto step = static_cast<std::size_t>(t);
-    Link& first = first_[cell(path[step], t)];
+    Link& first = first_with_space(path[step], t);
     next[step] = is_passed(path[step], t) ? first : Link{0};
     first = static_cast<Link>(agent + 1);
     passed_[word(path[step], t)] |= std::uint64_t{1} << (t % 64);
@@ -46,7 +46,7 @@ void ConflictTable::take_out(std::int32_t agent) {
   if (path.empty()) return;
   for (std::int32_t t = 0; t <= cost_of(path); ++t) {
     const auto step = static_cast<std::size_t>(t);
-    Link& first = first_[cell(path[step], t)];
+    Link& first = first_with_space(path[step], t);
     Link* link = &first;
     while (*link != agent + 1) link = &next_[*link - 1u][step];
     *link = next_[static_cast<std::size_t>(agent)][step];
@@ -60,9 +60,18 @@ void ConflictTable::take_out(std::int32_t agent) {
 void ConflictTable::grow(std::int32_t horizon) {
   horizon_ = std::max(2 * horizon_, (horizon + 63) / 64 * 64);
   passed_.assign(location_count_ * static_cast<std::size_t>(horizon_) / 64, 0);
-  first_.reset();  // before the allocation, as the array is large
-  first_ = std::make_unique_for_overwrite<Link[]>(location_count_ * static_cast<std::size_t>(horizon_));
+  block_.assign(passed_.size(), 0);
+  first_.assign(64, 0);
   for (std::size_t agent = 0; agent < paths_.size(); ++agent) put_in(static_cast<std::int32_t>(agent));
+}
+
+ConflictTable::Link& ConflictTable::first_with_space(Location location, std::int32_t t) {
+  std::uint32_t& block = block_[word(location, t)];
+  if (block == 0) {
+    block = static_cast<std::uint32_t>(first_.size() / 64);
+    first_.resize(first_.size() + 64);
+  }
+  return first_[std::size_t{block} * 64 + static_cast<std::size_t>(t % 64)];
 }
 
 std::int32_t ConflictTable::rest_from() const {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "planners/conflict_search/low_level/constraint.hpp"
@@ -79,7 +78,7 @@ class ConflictTable {
   template <class Visit>
   void visit_passing(Location location, std::int32_t t, Visit visit) const {
     if (!is_passed(location, t)) return;
-    for (Link link = first_[cell(location, t)]; link != 0; link = next_[link - 1u][static_cast<std::size_t>(t)])
+    for (Link link = first(location, t); link != 0; link = next_[link - 1u][static_cast<std::size_t>(t)])
       visit(static_cast<std::int32_t>(link) - 1);
   }
   std::size_t cell(Location location, std::int32_t t) const {
@@ -89,11 +88,18 @@ class ConflictTable {
   void put_in(std::int32_t agent);
   void take_out(std::int32_t agent);
   void grow(std::int32_t horizon);
+  // The first agent of the list at a place and time; valid if the bit is set.
+  Link first(Location location, std::int32_t t) const {
+    return first_[std::size_t{block_[word(location, t)]} * 64 + static_cast<std::size_t>(t % 64)];
+  }
+  // The same, with space for it.
+  Link& first_with_space(Location location, std::int32_t t);
 
   std::size_t location_count_;
   std::int32_t horizon_ = 0;                // number of times in the table, a multiple of 64
   std::vector<std::uint64_t> passed_;       // by location and time, one bit: whether an agent passes
-  std::unique_ptr<Link[]> first_;           // by location and time: first agent of the list; valid if the bit is set
+  std::vector<std::uint32_t> block_;        // by the words of passed_: where 64 steps are in first_; 0: nowhere
+  std::vector<Link> first_;                 // first agents of the lists; the first 64 are not used
   std::vector<std::vector<Link>> next_;     // by agent and time: the next agent of the same list
   std::vector<Link> resting_;               // by location: the agent that ends there ...
   std::vector<std::int32_t> resting_from_;  // ... and when; or forever

@@ -113,8 +113,7 @@ void SpaceTimeSearch::offer_end(Id id) {
 // Whether the agent can still reach the next landmark in time.
 bool SpaceTimeSearch::can_keep_landmarks(Location location, std::int32_t t) const {
   const auto steps_to = [&](Location to) {
-    const std::int32_t width = graph_.width();
-    return std::abs(location % width - to % width) + std::abs(location / width - to / width);
+    return std::abs(graph_.column(location) - graph_.column(to)) + std::abs(graph_.row(location) - graph_.row(to));
   };
   for (const ConstraintTable::Landmark& landmark : request_->constraints.landmarks())
     if (landmark.t >= t) return steps_to(landmark.location) <= landmark.t - t;

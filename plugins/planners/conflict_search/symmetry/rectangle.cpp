@@ -20,25 +20,26 @@ struct Coordinates {
 
 // The coordinates of one agent: u along its own step into the conflict, w along the other agent's.
 struct Frame {
-  std::int32_t width;
+  const GridGraph* graph;
   Location origin;
   std::int32_t t;  // of the conflict
   Step along_u;
   Step along_w;
 
   Coordinates at(Location location) const {
-    const std::int32_t columns = location % width - origin % width;
-    const std::int32_t rows = location / width - origin / width;
+    const std::int32_t columns = graph->column(location) - graph->column(origin);
+    const std::int32_t rows = graph->row(location) - graph->row(origin);
     return {columns * along_u.columns + rows * along_u.rows, columns * along_w.columns + rows * along_w.rows};
   }
   Location location(Coordinates c) const {
-    return origin + c.u * along_u.columns + c.w * along_w.columns + (c.u * along_u.rows + c.w * along_w.rows) * width;
+    return graph->at(graph->column(origin) + c.u * along_u.columns + c.w * along_w.columns,
+                     graph->row(origin) + c.u * along_u.rows + c.w * along_w.rows);
   }
   std::int32_t time(Coordinates c) const { return t + c.u + c.w; }
   bool in_phase(Coordinates c, std::int32_t time_there) const { return time(c) == time_there; }
 
   // The frame of the other agent, whose step into the conflict is perpendicular to this agent's.
-  Frame of_the_other() const { return {width, origin, t, along_w, along_u}; }
+  Frame of_the_other() const { return {graph, origin, t, along_w, along_u}; }
 };
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min() / 2;
@@ -91,7 +92,7 @@ bool holds(std::span<const Mdd::Node> level, Location location) {
 Step last_step(const GridGraph& graph, PathView path, std::int32_t t) {
   const Location from = path[static_cast<std::size_t>(t - 1)];
   const Location to = path[static_cast<std::size_t>(t)];
-  return {to % graph.width() - from % graph.width(), to / graph.width() - from / graph.width()};
+  return {graph.column(to) - graph.column(from), graph.row(to) - graph.row(from)};
 }
 
 // The frame of conflict.a, if both agents step into the conflict at a right angle.
@@ -100,7 +101,7 @@ std::optional<Frame> frame_of(const GridGraph& graph, const Conflict& conflict, 
   const Step b = last_step(graph, path_b, conflict.t);
   const bool moved = (a.columns != 0 || a.rows != 0) && (b.columns != 0 || b.rows != 0);
   if (!moved || a.columns * b.columns + a.rows * b.rows != 0) return std::nullopt;
-  return Frame{graph.width(), conflict.location, conflict.t, a, b};
+  return Frame{&graph, conflict.location, conflict.t, a, b};
 }
 
 // The highest u of the nodes in phase.

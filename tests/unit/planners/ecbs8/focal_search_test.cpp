@@ -35,13 +35,26 @@ struct LowLevelCase {
   static std::vector<std::string> open_rows() { return {"....", "....", "...."}; }
   static std::vector<std::string> narrow_rows() { return {"....", ".##.", "...."}; }
 
-  CellXY cell(Location location) const { return {location % grid.width, location / grid.width}; }
-  Location location(CellXY c) const { return static_cast<Location>(grid.index(c)); }
+  // Locations are the free cells in row-major order.
+  CellXY cell(Location location) const {
+    CellXY at{-1, 0};
+    for (Location next = 0; next <= location; next += grid.is_free(at) ? 1 : 0)
+      at = at.x + 1 < grid.width ? CellXY{at.x + 1, at.y} : CellXY{0, at.y + 1};
+    return at;
+  }
+  Location location(CellXY c) const {
+    Location free_before = 0;
+    for (std::size_t i = 0; i < grid.index(c); ++i) free_before += grid.free[i];
+    return grid.is_free(c) ? free_before : nowhere;
+  }
+  CellXY draw_free(Random& random) const {
+    for (;;)
+      if (const CellXY at{random.below(grid.width), random.below(grid.height)}; grid.is_free(at)) return at;
+  }
 
   void walk_others(Random& random) {
     while (others.size() < 2) {
-      std::vector<Location> walk = {random.below(12)};
-      if (!grid.is_free(cell(walk[0]))) continue;
+      std::vector<Location> walk = {location(draw_free(random))};
       for (int steps = random.below(9); steps > 0; --steps) {
         const CellXY from = cell(walk.back());
         const CellXY to{from.x + random.below(3) - 1, from.y + random.below(3) - 1};
@@ -53,7 +66,8 @@ struct LowLevelCase {
     }
   }
   void add_constraint(Random& random) {
-    const Location where = random.below(12);
+    const CellXY place = draw_free(random);
+    const Location where = location(place);
     const int t = random.below(8);
     const int until = random.one_in(3) ? t + random.below(4) : t;
     switch (random.below(6)) {
@@ -64,7 +78,8 @@ struct LowLevelCase {
       case 2:
         return constraints.push_back({Constraint::Use::touch, where, nowhere, t, dmrp::planners::forever});
       case 3: {
-        const Location other = where + (random.one_in(2) && where % 4 < 3 ? 1 : 4);
+        const CellXY beside = random.one_in(2) ? CellXY{place.x + 1, place.y} : CellXY{place.x, place.y + 1};
+        const Location other = grid.is_free(beside) ? location(beside) : nowhere;
         return constraints.push_back({Constraint::Use::edge, where, other, t, until});
       }
       case 4:

@@ -28,6 +28,30 @@ TEST_CASE("a graph follows the edge mask both ways") {
   CHECK(problem.agents.size() == 1);
 }
 
+TEST_CASE("a graph numbers the free cells only") {
+  PlanningCase c({"#.#.", "....", "#.##"});
+  const Problem problem = problem_of(c);
+  const GridGraph& graph = problem.graph;
+  REQUIRE(graph.location_count() == 7);
+  CHECK(graph.at(0, 0) == nowhere);
+  CHECK(graph.at(-1, 1) == nowhere);
+  CHECK(graph.at(4, 1) == nowhere);
+  CHECK(graph.at(1, 3) == nowhere);
+  Location next = 0;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      if (!c.is_free({column, row})) continue;
+      REQUIRE(graph.at(column, row) == next);
+      CHECK(graph.column(next) == column);
+      CHECK(graph.row(next) == row);
+      CHECK(graph.locate(graph.center(next)) == next);
+      CHECK(graph.locate(c.center({column, row})) == next);
+      ++next;
+    }
+  CHECK(graph.neighbor(graph.at(1, 0), 1) == graph.at(1, 1));
+  CHECK(graph.neighbor(graph.at(1, 0), 0) == nowhere);
+}
+
 TEST_CASE("joint positions prove that there is no plan, up to their limit") {
   // A T: three robots cannot all exchange their places around one branch of one cell.
   PlanningCase c({"...", "#.#"});

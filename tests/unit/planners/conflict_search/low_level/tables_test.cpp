@@ -14,7 +14,7 @@ namespace {
 
 // A walk on the case's grid. Some are long, so that tables have to grow.
 std::vector<Location> draw_walk(Random& random, const LowLevelCase& c) {
-  std::vector<Location> walk = {random.one_in(2) ? 0 : 11};
+  std::vector<Location> walk = {random.one_in(2) ? 0 : c.problem.graph.location_count() - 1};
   for (int steps = random.one_in(10) ? 60 + random.below(100) : random.below(10); steps > 0; --steps) {
     const std::vector<Location> reach = c.reach(walk.back());
     walk.push_back(reach[static_cast<std::size_t>(random.below(static_cast<int>(reach.size())))]);

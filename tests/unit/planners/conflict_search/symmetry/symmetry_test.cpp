@@ -287,7 +287,7 @@ TEST_CASE("a corridor split loses no pair of paths without conflict and reports 
 
 namespace {
 
-// A corridor of five steps from (1, 1) to (6, 1), which is 9 to 14.
+// A corridor of five steps from (1, 1) to (6, 1), which is 5 to 10.
 PlanningCase narrow_grid() {
   return PlanningCase({"..####..", "........", "..####.."});
 }
@@ -308,37 +308,37 @@ void check_corridor(const ConflictCase& c, const Constraint& of_a, const Constra
 }  // namespace
 
 TEST_CASE("two agents that meet in a corridor are split by the times at which each can leave it") {
-  const TwoAgents::Path east = {8, 9, 10, 11, 12, 13, 14, 15};
-  const TwoAgents::Path west = {15, 14, 13, 12, 11, 10, 9, 8};
+  const TwoAgents::Path east = {4, 5, 6, 7, 8, 9, 10, 11};
+  const TwoAgents::Path west = {11, 10, 9, 8, 7, 6, 5, 4};
   const ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}), east, west);
   // Each can be at its exit at 6. Then the other one enters at 7 and leaves at 12.
-  check_corridor(c, avoid_vertex_range(0, 14, 0, 12), avoid_vertex_range(1, 9, 0, 12), {true, true});
+  check_corridor(c, avoid_vertex_range(0, 10, 0, 12), avoid_vertex_range(1, 5, 0, 12), {true, true});
 }
 
 TEST_CASE("two agents that meet in a corridor are split by the times of the other way") {
   // The corridor is the row y = 2. The other way, row y = 0, is four steps longer.
   PlanningCase grid({"........", "..####..", "........", "..####.."});
   grid.robot({0, 2}, {{7, 2}}).robot({7, 2}, {{0, 2}});
-  const ConflictCase c = conflict_case(grid, {16, 17, 18, 19, 20, 21, 22, 23}, {23, 22, 21, 20, 19, 18, 17, 16});
-  check_corridor(c, avoid_vertex_range(0, 22, 0, 10), avoid_vertex_range(1, 17, 0, 10), {true, true});
+  const ConflictCase c = conflict_case(grid, {12, 13, 14, 15, 16, 17, 18, 19}, {19, 18, 17, 16, 15, 14, 13, 12});
+  check_corridor(c, avoid_vertex_range(0, 18, 0, 10), avoid_vertex_range(1, 13, 0, 10), {true, true});
 }
 
 TEST_CASE("an agent whose goal is in a corridor comes after the other or leaves for it") {
   const ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{2, 1}}),
-                                       {8, 9, 10, 11, 12, 13, 14, 15}, {15, 14, 13, 12, 11, 10});
+                                       {4, 5, 6, 7, 8, 9, 10, 11}, {11, 10, 9, 8, 7, 6});
   // b can leave at 6, give way for two steps and return in one. There is no other way for a.
-  check_corridor(c, avoid_vertex_range(0, 14, 0, 6 + 64), finish_after(1, 10, 8), {true, true});
+  check_corridor(c, avoid_vertex_range(0, 10, 0, 6 + 64), finish_after(1, 6, 8), {true, true});
 }
 
 TEST_CASE("an agent that waits inside a corridor meets the other in the part that it passes") {
-  // b must not be at its exit 9 before 12, and waits at 11.
-  const TwoAgents::Path west = {15, 14, 13, 12, 11, 11, 11, 11, 11, 11, 11, 10, 9, 8};
+  // b must not be at its exit 5 before 12, and waits at 7.
+  const TwoAgents::Path west = {11, 10, 9, 8, 7, 7, 7, 7, 7, 7, 7, 6, 5, 4};
   ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}),
-                                 {8, 9, 10, 11, 12, 13, 14, 15}, west);
-  c.pair.constraints[1] = {avoid_vertex_range(1, 9, 0, 12)};
+                                 {4, 5, 6, 7, 8, 9, 10, 11}, west);
+  c.pair.constraints[1] = {avoid_vertex_range(1, 5, 0, 12)};
   c.least[1] = 13;
-  // The three steps from 11 to 14: a can leave at 6, b at 4. b can also be at 11 at 10.
-  check_corridor(c, avoid_vertex_range(0, 14, 0, 8), avoid_vertex_range(1, 11, 0, 10), {true, false});
+  // The three steps from 7 to 10: a can leave at 6, b at 4. b can also be at 7 at 10.
+  check_corridor(c, avoid_vertex_range(0, 10, 0, 8), avoid_vertex_range(1, 7, 0, 10), {true, false});
 }
 
 TEST_CASE("two agents that swap on open ground are split as in a corridor of one step") {
@@ -354,17 +354,17 @@ TEST_CASE("no corridor split for agents that have passed each other, go the same
     return find_passage(Corridors(c.pair.problem.graph), *c.conflict, a, b);
   };
   const PlanningCase meeting = narrow_grid().robot({2, 1}, {{7, 1}}).robot({3, 1}, {{0, 1}});
-  CHECK(passage(meeting, {10, 11, 12, 13, 14, 15}, {11, 10, 9, 8})->ways[0].length == 5);
+  CHECK(passage(meeting, {6, 7, 8, 9, 10, 11}, {7, 6, 5, 4})->ways[0].length == 5);
   // They have passed each other in the corridor and swap twice on one edge.
   const PlanningCase passed = narrow_grid().robot({3, 1}, {{7, 1}}).robot({2, 1}, {{0, 1}});
-  const auto edge = passage(passed, {11, 10, 11, 12, 13, 14, 15}, {10, 11, 10, 9, 8});
+  const auto edge = passage(passed, {7, 6, 7, 8, 9, 10, 11}, {6, 7, 6, 5, 4});
   REQUIRE(edge);
   CHECK(edge->ways[0].length == 1);
-  CHECK(edge->ways[0].exit == 10);
+  CHECK(edge->ways[0].exit == 6);
   const PlanningCase following = narrow_grid().robot({1, 1}, {{7, 1}}).robot({0, 1}, {{6, 1}});
-  CHECK_FALSE(passage(following, {9, 10, 10, 11, 12, 13, 14, 15}, {8, 9, 10, 11, 12, 13, 14}));
+  CHECK_FALSE(passage(following, {5, 6, 6, 7, 8, 9, 10, 11}, {4, 5, 6, 7, 8, 9, 10}));
   const PlanningCase one_way = PlanningCase(meeting).close_one_way({1, 0}, {0, 0});
-  CHECK_FALSE(passage(one_way, {10, 11, 12, 13, 14, 15}, {11, 10, 9, 8}));
+  CHECK_FALSE(passage(one_way, {6, 7, 8, 9, 10, 11}, {7, 6, 5, 4}));
 }
 
 TEST_CASE("the earliest arrival is that of exhaustive search") {
