@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace dmrp::host {
+#include "host/trial/plan_conflicts.hpp"
 
-// The paths of a plan, one per robot.
-using PlannedPaths = std::vector<std::vector<dmrp_waypoint>>;
+namespace dmrp::host {
 
 // Whether a disc swept from one point to another stays clear of the static geometry; for any-angle plans.
 using SweepIsFree = std::function<bool(dmrp_vec2 from, dmrp_vec2 to, double radius_m)>;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// plan_conflicts.hpp: the conflicts between the robots of a plan, found by cell and step.
+#pragma once
+
+#include <dmrp/global_planner.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dmrp::host {
+
+// The paths of a plan, one per robot.
+using PlannedPaths = std::vector<std::vector<dmrp_waypoint>>;
+
+// A cell of the grid.
+struct PlanCell {
+  std::int32_t column = 0;
+  std::int32_t row = 0;
+  bool operator==(const PlanCell&) const = default;
+};
+
+struct PlanConflicts {
+  std::uint32_t count = 0;
+  std::string first;  // of the pair of robots with the lowest numbers, its earliest; in one line
+};
+
+// Of paths on the grid, one cell for each step: vertex, swap, crossing and passing conflicts, one for each pair and
+// step, and pairs that share a start. A robot rests in its last cell. Takes time proportional to robots x steps and to
+// the number of conflicts.
+PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cells);
+
+// Of discs that move linearly between waypoints and rest at the last one: one for each pair and each interval between
+// waypoints of either in which they overlap. All positions are finite.
+PlanConflicts find_disc_conflicts(const PlannedPaths& paths, const std::vector<double>& radii_m);
+
+}  // namespace dmrp::host
