@@ -47,6 +47,15 @@ bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, s
   return agent_at(from, t) == there[i].agent;  // a swap
 }
 
+void SafeIntervals::list_step_conflicts(Location from, Location to, std::int32_t t,
+                                        std::vector<std::int32_t>& agents) const {
+  agents.clear();
+  if (const std::int32_t there = agent_at(to, t); there >= 0) agents.push_back(there);
+  if (from == to) return;
+  const std::int32_t before = agent_at(to, t - 1);
+  if (before >= 0 && before == agent_at(from, t)) agents.push_back(before);
+}
+
 void SafeIntervals::list_conflicts(PathView path, std::vector<std::int32_t>& agents) const {
   agents.clear();
   const auto note = [&](std::int32_t agent) {

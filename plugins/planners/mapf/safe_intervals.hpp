@@ -53,6 +53,9 @@ class SafeIntervals {
   // Whether a move or wait that arrives at time t > 0 conflicts with a robot other than `agent`.
   bool is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const;
 
+  // The robots with which a move or wait that arrives at time t > 0 conflicts.
+  void list_step_conflicts(Location from, Location to, std::int32_t t, std::vector<std::int32_t>& agents) const;
+
   // The robots with which a path conflicts, each once, by ascending time.
   void list_conflicts(PathView path, std::vector<std::int32_t>& agents) const;
 

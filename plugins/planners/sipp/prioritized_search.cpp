@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <dmrp/toolkit/random.hpp>
+#include <limits>
 #include <numeric>
 
 #include "planners/mapf/solvability.hpp"
@@ -35,7 +36,7 @@ PrioritizedSearch::PrioritizedSearch(const Problem& problem, const std::vector<T
 
 PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
   for (std::int64_t restart = 0; restart <= restart_limit; ++restart) {
-    const Attempt result = attempt(restart);
+    const Attempt result = attempt(restart, std::numeric_limits<std::int64_t>::max());
     if (result == Attempt::succeeded) return Result::solved;
     if (result == Attempt::stopped) return Result::stopped;
     if (restart > 0) continue;
@@ -45,8 +46,14 @@ PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
   return Result::restart_limit;
 }
 
+PrioritizedSearch::Result PrioritizedSearch::run_once(std::int64_t expansions) {
+  const Attempt result = attempt(0, expansions);
+  if (result == Attempt::succeeded) return Result::solved;
+  return result == Attempt::stopped ? Result::stopped : Result::restart_limit;
+}
+
 // Plans all robots, in the first order or in a random one.
-PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
+PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart, std::int64_t expansions) {
   begin(restart);
   const std::int64_t limit =
       statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
@@ -55,7 +62,8 @@ PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart) {
     order_.pop_front();
     const SippSearch::Result result = plan(agent);
     if (result == SippSearch::Result::stopped) return Attempt::stopped;
-    if (result == SippSearch::Result::none || statistics_.displaced > limit) return Attempt::failed;
+    if (result == SippSearch::Result::none || statistics_.displaced > limit || low_level_.expanded() > expansions)
+      return Attempt::failed;
   }
   return restart == 0 ? Attempt::succeeded : tighten();
 }

@@ -9,9 +9,10 @@
 namespace dmrp::planners {
 
 SippSearch::Result SippSearch::search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices,
-                                      std::int32_t delay, StopSignal& stop, std::vector<Location>& path) {
+                                      std::int32_t delay, StopSignal& stop, std::vector<Location>& path,
+                                      std::int32_t latest) {
   const auto at_goal = others_.occupations(agent.last_goal());
-  const Task task{agent, table, prices, stop, at_goal.empty() ? 0 : at_goal.back().to + 1};
+  const Task task{agent, table, prices, stop, at_goal.empty() ? 0 : at_goal.back().to + 1, latest};
   begin(task, delay);
   for (;;) {
     if (is_open_empty()) {
@@ -43,7 +44,8 @@ void SippSearch::start_displacing(const Task& task) {
 
 void SippSearch::begin(const Task& task, std::int32_t delay) {
   ++epoch_;
-  states_.clear();
+  states_.resize(block_size);
+  blocks_.clear();
   labels_.clear();
   open_.clear();
   latest_.label = none;
@@ -106,6 +108,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
   const Label from = labels_[static_cast<std::size_t>(departure.label)];
   const std::int32_t earliest = from.t + 1;
   const std::int32_t latest = departure.last_t + 1;
+  const std::int32_t in_time = std::min(latest, task.latest - task.table.distance(departure.leg, to));
   const bool turn = from.heading != GridGraph::no_direction && from.heading != d;
   const auto there = others_.occupations(to);
   Label label{
@@ -114,7 +117,7 @@ void SippSearch::move(const Task& task, const Departure& departure, Direction d,
     // gap i, then occupation i
     const std::int32_t left = i > 0 ? there[i - 1].to + 1 : 0;
     const std::int32_t gap_end = i < there.size() ? there[i].from - 1 : forever;
-    if (left > latest) return;
+    if (left > in_time) return;
     // the robot that comes the other way if this one leaves at the last moment
     const std::int32_t swapper =
         departure.follower >= 0 && i > 0 && left == latest && there[i - 1].agent == departure.follower
@@ -170,6 +173,7 @@ void SippSearch::push(const Task& task, Label label) {
   const std::int32_t to_go = task.table.distance(label.leg, label.location);
   // a free path cannot end before the last of the others has crossed the goal
   const std::int32_t steps = label.price > 0 ? label.t + to_go : std::max(label.t + to_go, task.rest_from);
+  if (steps > task.latest) return;
   const std::int32_t turns =
       label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading);
   // a robot with time to spare should first make progress
@@ -208,12 +212,24 @@ std::int32_t SippSearch::pop_open() {
 SippSearch::State& SippSearch::state_of(const Task& task, const Label& label) {
   LocationStates& at = intervals_[static_cast<std::size_t>(label.location)];
   const std::size_t intervals = 2 * others_.occupations(label.location).size() + 1;
+  const std::size_t count = intervals * task.agent.goals.size();
+  const bool is_in_a_row = count <= block_size;
   if (at.epoch != epoch_) {
     at.epoch = epoch_;
-    at.first = static_cast<std::uint32_t>(states_.size());
-    states_.resize(states_.size() + intervals * task.agent.goals.size());
+    at.first = static_cast<std::uint32_t>(is_in_a_row ? states_.size() : blocks_.size());
+    if (is_in_a_row)
+      states_.resize(states_.size() + count);
+    else
+      blocks_.resize(blocks_.size() + (count + block_size - 1) / block_size);
   }
-  return states_[at.first + static_cast<std::size_t>(label.leg) * intervals + static_cast<std::size_t>(label.interval)];
+  const std::size_t index = static_cast<std::size_t>(label.leg) * intervals + static_cast<std::size_t>(label.interval);
+  if (is_in_a_row) return states_[at.first + index];
+  std::uint32_t& block = blocks_[at.first + index / block_size];
+  if (block == 0) {
+    block = static_cast<std::uint32_t>(states_.size());
+    states_.resize(states_.size() + block_size);
+  }
+  return states_[block + index % block_size];
 }
 
 // Fills in the waits: a robot leaves one step before it arrives elsewhere.

@@ -25,9 +25,10 @@ class SippSearch {
 
   // The agent itself must not be among the others. `prices` has the positive price of displacing each robot; if it is
   // empty no robot may be displaced. Result::displacing: the path conflicts with some robots. The robot stays at its
-  // start for `delay` steps, or as long as it can if that is less.
+  // start for `delay` steps, or as long as it can if that is less. The path ends at `latest` or before; Result::none if
+  // there is no such path.
   Result search(const Agent& agent, const TourTable& table, std::span<const std::int32_t> prices, std::int32_t delay,
-                StopSignal& stop, std::vector<Location>& path);
+                StopSignal& stop, std::vector<Location>& path, std::int32_t latest = forever);
 
   std::int64_t expanded() const { return expanded_; }
 
@@ -66,17 +67,20 @@ class SippSearch {
     std::int32_t generated_t = forever;
     std::int32_t generated_price = forever;
   };
-  // The first state of a location. Set at the first visit of a search.
+  // The states of a location. Set at the first visit of a search. Locations with few states have them in a row from
+  // `first` on, the others in blocks that are made at their first visit, whose indices are in blocks_ from `first` on.
   struct LocationStates {
     std::uint32_t epoch = 0;
     std::uint32_t first = 0;
   };
+  static constexpr std::size_t block_size = 16;
   struct Task {
     const Agent& agent;
     const TourTable& table;
     std::span<const std::int32_t> prices;
     StopSignal& stop;
     std::int32_t rest_from;  // begin of the last goal's last gap
+    std::int32_t latest;     // end of the path
   };
   // The data of an expanded label that all its successors use.
   struct Departure {
@@ -109,7 +113,8 @@ class SippSearch {
   const GridGraph& graph_;
   const SafeIntervals& others_;
   std::vector<LocationStates> intervals_;
-  std::vector<State> states_;
+  std::vector<State> states_;          // the first block_size are not used
+  std::vector<std::uint32_t> blocks_;  // where a block is in states_; 0: not made yet
   std::vector<Label> labels_;
   std::vector<OpenEntry> open_;  // a heap; without `latest_`, the best of the new entries, which is often expanded next
   OpenEntry latest_ = {0, 0, none};

@@ -6,6 +6,7 @@
 #include "planners/mapf/safe_intervals.hpp"
 #include "tests/support/test_data.hpp"
 #include "tests/unit/planners/joint_optimum.hpp"
+#include "tests/unit/planners/large_case.hpp"
 #include "tests/unit/planners/movingai.hpp"
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/random_case.hpp"
@@ -19,45 +20,6 @@ namespace {
 
 const char* const library = "libdmrp_planners.so";
 const char* const sipp = "dmrp.planner.sipp";
-
-// Robots with distinct starts and distinct goals on free cells of the whole grid.
-void scatter(PlanningCase& c, Random& random, int robots) {
-  const auto draw = [&](auto is_taken) {
-    for (;;) {
-      const CellXY cell{random.below(c.width), random.below(c.height)};
-      if (c.is_free(cell) && !is_taken(cell)) return cell;
-    }
-  };
-  for (int i = 0; i < robots; ++i) {
-    const auto among = [&](auto end_of) {
-      return [&c, end_of](CellXY cell) {
-        for (const CaseRobot& robot : c.robots)
-          if (end_of(robot) == cell) return true;
-        return false;
-      };
-    };
-    const CellXY start = draw(among([](const CaseRobot& robot) { return robot.start; }));
-    std::vector<CellXY> goals;
-    if (random.one_in(5)) goals.push_back(draw([](CellXY) { return false; }));
-    goals.push_back(draw(among([](const CaseRobot& robot) { return robot.goals.back(); })));
-    c.robot(start, goals);
-  }
-}
-
-PlanningCase large_case(uint64_t seed, int robots) {
-  Random random(seed);
-  std::vector<std::string> rows(18, std::string(24, '.'));
-  for (auto& row : rows)
-    for (char& cell : row)
-      if (random.one_in(12)) cell = '#';
-  rows[0].assign(24, '.');
-  PlanningCase c(rows);
-  for (int y = 0; y < 18; ++y)
-    for (int x = 0; x + 1 < 24; ++x)
-      if (random.one_in(15)) c.thin_wall({x, y}, {x + 1, y});
-  scatter(c, random, robots);
-  return c;
-}
 
 // Steps from one cell to another among resting robots only; nothing if it is cut off.
 std::optional<int> steps_between(const PlanningCase& c, CellXY from, CellXY to) {

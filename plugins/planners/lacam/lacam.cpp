@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "planners/lacam/lacam.hpp"
+
+#include "planners/lacam/lacam_search.hpp"
+#include "planners/mapf/preparation.hpp"
+#include "planners/mapf/straighten.hpp"
+
+namespace dmrp::planners {
+
+Descriptor Lacam::describe() {
+  return Descriptor("dmrp.planner.lacam", "LaCAM*", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("complete, for thousands of robots: a lazy search over configurations, with PIBT as their generator")
+      .source(
+          "Okumura: LaCAM: Search-based algorithm for quick multi-agent pathfinding, AAAI 2023; Improving LaCAM for "
+          "scalable eventually optimal multi-agent pathfinding, IJCAI 2023")
+      .connectivity(DMRP_CONNECTIVITY_4);
+}
+
+Status Lacam::start(const Start& start) {
+  seed_ = start.seed;
+  return Status::ok;
+}
+
+Status Lacam::plan(const PlanningProblem& host_problem, PlanSink& sink) {
+  StopSignal stop([this] { return should_stop(); });
+  const auto prepared = prepare(host_problem, stop);
+  if (!prepared) return Status::timeout;
+  if (!prepared->obstruction.empty()) {
+    set_error(prepared->obstruction);
+    return Status::no_solution;
+  }
+  LacamSearch search(prepared->problem, prepared->tables, seed_, stop);
+  const LacamSearch::Result result = search.run(*iterations > 0 ? *iterations : -1);
+  const LacamSearch::Statistics& statistics = search.statistics();
+  sink.statistic("high_level_expanded", static_cast<double>(statistics.iterations));
+  sink.statistic("high_level_generated", static_cast<double>(statistics.configurations));
+  sink.statistic("plans", static_cast<double>(statistics.plans));
+  if (!search.has_plan()) {
+    sink.statistic("lower_bound", prepared->lower_bound());
+    if (result == LacamSearch::Result::unsolvable) {
+      set_error("all configurations that the robots can reach were visited");
+      return Status::no_solution;
+    }
+    set_error(result == LacamSearch::Result::stopped ? "stopped by the host" : "the search takes more than 2 GB");
+    return Status::timeout;
+  }
+
+  std::vector<std::vector<Location>>& paths = search.paths();
+  double cost = 0;
+  for (const auto& path : paths) cost += cost_of(path);
+  sink.statistic("cost", cost);
+  sink.statistic("lower_bound", result == LacamSearch::Result::optimal ? cost : prepared->lower_bound());
+  const auto moves = static_cast<std::int64_t>(cost);
+  straighten(prepared->problem, prepared->tables, paths, straightening_limit(paths.size(), moves), stop);
+  write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
+  return Status::ok;
+}
+
+}  // namespace dmrp::planners

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "planners/pibt/pibt.hpp"
+
+#include "planners/mapf/preparation.hpp"
+#include "planners/mapf/straighten.hpp"
+#include "planners/pibt/pibt_step.hpp"
+
+namespace dmrp::planners {
+
+namespace {
+
+// The configurations from the start to rest; without rest at the end after `step_limit` steps or a stop.
+std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t step_limit, std::uint64_t seed,
+                                    StopSignal& stop) {
+  const auto agents = static_cast<std::int32_t>(prepared.problem.agents.size());
+  PibtStep pibt(prepared.problem, prepared.tables);
+  const Priorities priorities(prepared.problem, prepared.tables);
+  toolkit::Stream random(seed, "pibt.ties");
+  std::vector<Configuration> configurations = {start_configuration(prepared.problem)};
+  std::vector<std::int32_t> steps_underway(prepared.problem.agents.size(), 0);
+  std::vector<std::int32_t> order;
+  for (std::int64_t step = 0; step < step_limit && !stop.poll_now(); ++step) {
+    const Configuration& now = configurations.back();
+    bool all_rest = true;
+    for (std::int32_t agent = 0; agent < agents; ++agent) {
+      const bool rests = pibt.distance(now, agent) == 0;
+      std::int32_t& steps = steps_underway[static_cast<std::size_t>(agent)];
+      steps = rests ? 0 : steps + 1;
+      all_rest = all_rest && rests;
+    }
+    if (all_rest) break;
+    priorities.sort(steps_underway, order);
+    Configuration next;
+    if (!pibt.step(now, order, {}, random, next)) break;
+    configurations.push_back(std::move(next));
+  }
+  return configurations;
+}
+
+}  // namespace
+
+Descriptor Pibt::describe() {
+  return Descriptor("dmrp.planner.pibt", "PIBT", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("all robots step by step, by priority; the fastest for thousands of robots, with expensive plans")
+      .source(
+          "Okumura, Machida, Defago, Tamura: Priority inheritance with backtracking for iterative multi-agent path "
+          "finding, Artificial Intelligence 310, 2022; swap: Okumura: Improving LaCAM for scalable eventually optimal "
+          "multi-agent pathfinding, IJCAI 2023")
+      .connectivity(DMRP_CONNECTIVITY_4);
+}
+
+Status Pibt::start(const Start& start) {
+  seed_ = start.seed;
+  return Status::ok;
+}
+
+Status Pibt::plan(const PlanningProblem& host_problem, PlanSink& sink) {
+  StopSignal stop([this] { return should_stop(); });
+  const auto prepared = prepare(host_problem, stop);
+  if (!prepared) return Status::timeout;
+  if (!prepared->obstruction.empty()) {
+    set_error(prepared->obstruction);
+    return Status::no_solution;
+  }
+  sink.statistic("lower_bound", prepared->lower_bound());
+  const std::vector<Configuration> configurations = run_pibt(*prepared, *step_limit, seed_, stop);
+  std::vector<const Configuration*> sequence;
+  for (const Configuration& configuration : configurations) sequence.push_back(&configuration);
+  std::vector<std::vector<Location>> paths = paths_of(sequence, prepared->tables);
+  double cost = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    cost += cost_of(paths[i]);
+    if (prepared->tables[i].distance(configurations.back().legs[i], configurations.back().locations[i]) == 0) continue;
+    set_error(stop.raised() ? "stopped by the host"
+                            : "robots are not at rest after " + std::to_string(configurations.size() - 1) +
+                                  " steps (step_limit = " + std::to_string(*step_limit) + ")");
+    return Status::timeout;
+  }
+  sink.statistic("cost", cost);
+  const auto moves = static_cast<std::int64_t>(cost);
+  straighten(prepared->problem, prepared->tables, paths, straightening_limit(paths.size(), moves), stop);
+  write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
+  return Status::ok;
+}
+
+}  // namespace dmrp::planners
