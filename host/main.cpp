@@ -18,6 +18,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/plugins/library.hpp"
+#include "host/process/box.hpp"
 #include "host/program/version.hpp"
 #include "host/workers/worker.hpp"
 
@@ -28,9 +29,13 @@ using namespace dmrp::host;
 // The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "probe") == 0) run_probe(argv[2], std::atoi(argv[3]));
-  if (argc == 7 && std::strcmp(argv[1], "worker") == 0)
-    return run_worker(argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)), std::atoi(argv[4]),
-                      std::atoi(argv[5]), std::atoi(argv[6]));
+  if (argc == 9 && std::strcmp(argv[1], "worker") == 0)
+    return run_worker({argv[2],
+                       static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
+                       {std::atoll(argv[4]), std::strcmp(argv[5], "processes") == 0},
+                       std::atoi(argv[6]),
+                       std::atoi(argv[7]),
+                       std::atoi(argv[8])});
   return std::nullopt;
 }
 
@@ -158,6 +163,9 @@ int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
   app.require_subcommand(1);
+  app.fallthrough();
+  app.add_flag_callback("--no-box", &box::disable,
+                        "let plugins start and reach other processes: for debuggers of plugins");
   app.footer(
       "Exit status: 0 done, 1 some trials ended in a fault, 2 bad input, 3 the machine failed (full disk, no memory),\n"
       "130 interrupted.");

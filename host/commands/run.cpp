@@ -14,6 +14,7 @@
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
+#include "host/process/box.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
 #include "host/results/database.hpp"
@@ -155,6 +156,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const Experiment experiment = load_experiment(options.experiment, options.trials);
   if (!options.quiet)
     for (const std::string& warning : experiment.warnings) warn(warning);
+  if (const std::string gaps = box::gaps(); !options.quiet && !gaps.empty()) warn(gaps);
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;

@@ -133,7 +133,7 @@ class MeasureProcess {
 
  private:
   MeasureProcess(const Evaluation& evaluation, const std::vector<StoredTrial>& trials, Position position, Pipe pipe)
-      : process_(ChildProcess::fork(evaluation.limits.memory_mb,
+      : process_(ChildProcess::fork({evaluation.limits.memory_mb, evaluation.limits.processes},
                                     [&] {
                                       LineChannel to_parent(Descriptor(), std::move(pipe.write_end));
                                       measure(evaluation, trials, position, note_.note(), to_parent);

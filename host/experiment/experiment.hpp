@@ -23,6 +23,7 @@ struct RunLimits {
   double step_time_s = 1.0;      // for every other call
   double trial_wall_time_s = 600.0;
   std::int64_t memory_mb = 4096;  // of a worker; 0: none
+  bool processes = false;         // plugins that declare it may start processes
 };
 
 struct Experiment {

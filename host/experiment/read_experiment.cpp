@@ -92,6 +92,17 @@ void check_ordered_execution(const TomlTable& root, const Experiment& experiment
   }
 }
 
+// The box keeps plugins from starting processes.
+void check_processes(const TomlTable& root, Experiment& experiment) {
+  if (experiment.limits.processes) return;
+  for (const auto& [kind, uses] : lists_by_kind(experiment))
+    for (const PluginUse& use : *uses)
+      if (use.info.has_flag(DMRP_FLAG_PROCESSES))
+        root.find_table("experiment")
+            ->need("plugins")
+            .fail(fmt::format("{} starts processes: '[limits] processes = true' allows that", use.info.id));
+}
+
 }  // namespace
 
 Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source) {
@@ -117,6 +128,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   check_complete(root, experiment, scenario_uses);
   check_ordered_execution(root, experiment);
+  check_processes(root, experiment);
   if (experiment.metrics.empty()) use_every_metric(root.find_table("experiment")->need("plugins"), experiment);
   for (const ScenarioUse& use : scenario_uses) check_world(use.file, experiment, use.random);
   return experiment;

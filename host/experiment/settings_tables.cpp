@@ -242,7 +242,7 @@ Settings limits_settings(RunLimits& to) {
   return {number("planner_time_s", to.planner_time_s, min_time_s, max_time_s),
           number("step_time_s", to.step_time_s, min_time_s, max_time_s),
           number("trial_wall_time_s", to.trial_wall_time_s, min_time_s, max_time_s),
-          integer("memory_mb", to.memory_mb, 0, 1 << 30)};
+          integer("memory_mb", to.memory_mb, 0, 1 << 30), boolean("processes", to.processes)};
 }
 
 }  // namespace

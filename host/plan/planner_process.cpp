@@ -152,8 +152,8 @@ PlannerRun run_planner(const Experiment& experiment, const PlanTask& task) {
   const AnswerFile file;
   const SharedCallNote note(make_call_note());
   const std::int64_t start_ns = monotonic_ns();
-  ChildProcess child =
-      ChildProcess::fork(experiment.limits.memory_mb, [&] { plan(experiment, task, note.note(), file); });
+  ChildProcess child = ChildProcess::fork({experiment.limits.memory_mb, experiment.limits.processes},
+                                          [&] { plan(experiment, task, note.note(), file); });
 
   Watchdog watchdog;
   NotedCall call;

@@ -2,8 +2,12 @@
 // A library is loaded in a child process first: a truncated file raises SIGBUS inside dlopen, static initialisers may do
 // anything, and neither may end the host.
 #include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,8 +16,11 @@
 
 #include "host/plugins/library.hpp"
 #include "host/plugins/plugin_host.hpp"
+#include "host/process/box.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/line_channel.hpp"
+#include "host/process/orphans.hpp"
+#include "host/process/own_process.hpp"
 #include "host/process/watchdog.hpp"
 
 namespace dmrp::host {
@@ -24,6 +31,7 @@ constexpr std::int64_t probe_limit_s = 20;
 
 // Runs `dmrp-host probe FILE` and returns its answer. Throws std::runtime_error if it gives none.
 nlohmann::json answer_of_child(const std::filesystem::path& file) {
+  adopt_orphans();
   Pipe pipe = make_pipe();
   const int write_end = pipe.write_end.number();
   ChildProcess child = ChildProcess::execute({{"probe", file.string(), std::to_string(write_end)}, {write_end}});
@@ -33,14 +41,24 @@ nlohmann::json answer_of_child(const std::filesystem::path& file) {
   Watchdog watchdog;
   const std::int64_t start_ns = monotonic_ns();
   bool late = false;
+  // copies of the child may keep the channel open
   const auto wait = [&] {
-    return watchdog.wait(channel.read_end(),
-                         [&] { return late = watchdog.elapsed_ns(start_ns) > probe_limit_s * 1'000'000'000; });
+    std::array<pollfd, 2> watched = {{{channel.read_end(), POLLIN, 0}, {child.ended().number(), POLLIN, 0}}};
+    while (!watchdog.wait(watched))
+      if (late = watchdog.elapsed_ns(start_ns) > probe_limit_s * 1'000'000'000; late) return false;
+    return watched[0].revents != 0;
   };
   const std::optional<nlohmann::json> answer = channel.receive(wait);
+  const bool closed = !answer && !late && !watchdog.wait(child.ended().number(), [] { return true; });
+  child.kill();
+  child.wait();
+  kill_orphans({});
   if (late) throw std::runtime_error(fmt::format("hangs while it is loaded ({} s)", probe_limit_s));
   if (answer) return *answer;
+  if (closed) throw std::runtime_error("closes its channel to the host while it is loaded");
   const ProcessEnding& ending = child.wait();
+  if (ending.signal == SIGSYS)
+    throw std::runtime_error("makes a system call while it is loaded that the box refuses (see --no-box)");
   if (ending.signal != 0)
     throw std::runtime_error(fmt::format("crashes while it is loaded (signal {}, {}; a truncated file?)", ending.signal,
                                          strsignal(ending.signal)));
@@ -63,6 +81,11 @@ std::string try_init(const Library& library) {
   return "";
 }
 
+bool starts_processes(const Library& library) {
+  return std::any_of(library.plugins().begin(), library.plugins().end(),
+                     [](const PluginInfo& info) { return info.has_flag(DMRP_FLAG_PROCESSES); });
+}
+
 }  // namespace
 
 Probe probe_library(const std::filesystem::path& file) {
@@ -75,11 +98,15 @@ Probe probe_library(const std::filesystem::path& file) {
 void run_probe(const std::filesystem::path& file, int descriptor) {
   nlohmann::json answer;
   try {
+    own_process::watch({descriptor});
+    box::enter(true);  // which plugins may start processes is known only after loading
     const Library library(file);
+    box::enter(starts_processes(library));
     answer = {{"plugins", library.plugins()}, {"warnings", library.warnings()}, {"init_error", try_init(library)}};
   } catch (const std::exception& error) {
     answer = {{"error", error.what()}};
   }
+  if (own_process::is_other_process()) _exit(0);
   const bool sent = LineChannel(Descriptor(), Descriptor(descriptor)).send(answer);
   _exit(sent ? 0 : 1);  // not exit(): that would run destructors of the library's static objects
 }

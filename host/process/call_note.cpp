@@ -28,6 +28,7 @@ NotedCall read_call(const CallNote& note) {
   call.step = note.step.load(std::memory_order_relaxed);
   call.robot = note.robot.load(std::memory_order_relaxed);
   call.start_ns = note.start_ns.load(std::memory_order_relaxed);
+  call.refused = note.refused.load(std::memory_order_relaxed);
   call.limit_ns = note.limit_ns.load(std::memory_order_relaxed);
   // a note that changed while it was read mixes two calls: the first of them has returned
   std::atomic_thread_fence(std::memory_order_acquire);

@@ -18,7 +18,8 @@ struct CallNote {
   std::atomic<std::int64_t> limit_ns;      // a call that takes longer counts as hanging
   std::atomic<std::int64_t> step;
   std::atomic<std::int32_t> robot;
-  std::array<char, 128> plugin;  // NUL-terminated
+  std::atomic<std::int32_t> refused;  // the system call that the box refused, or 0
+  std::array<char, 128> plugin;       // NUL-terminated
   std::array<char, 32> function;
 };
 
@@ -31,6 +32,7 @@ struct NotedCall {
   std::int32_t robot = -1;
   std::int64_t start_ns = 0;
   std::int64_t limit_ns = 0;
+  std::int32_t refused = 0;  // the system call that the box refused; 0: none
 };
 
 NotedCall read_call(const CallNote& note);

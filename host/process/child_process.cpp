@@ -16,7 +16,8 @@
 #include <string_view>
 
 #include "host/errors/machine_error.hpp"
-#include "host/process/resource_limits.hpp"
+#include "host/process/box.hpp"
+#include "host/process/own_process.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -68,12 +69,14 @@ void execute_program(const char* const* arguments, const ChildProcess::Program& 
 }  // namespace
 
 const char* ProcessEnding::fault_kind() const {
+  if (signal == SIGSYS) return fault_kind::abi_breach;
   if (signal != 0) return fault_kind::crash;
   if (exit_status == channel_closed_exit) return fault_kind::abi_breach;
   return exit_status == out_of_memory_exit ? fault_kind::out_of_memory : fault_kind::exit;
 }
 
 std::string ProcessEnding::explain(std::int64_t memory_mb) const {
+  if (signal == SIGSYS) return "made a system call that its process may not make";
   if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
   if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
   return fmt::format("ended the process with status {}", exit_status);
@@ -87,9 +90,11 @@ ChildProcess ChildProcess::execute(const Program& program) {
   return ChildProcess(program.output, [&] { execute_program(arguments.data(), program); });
 }
 
-ChildProcess ChildProcess::fork(std::int64_t memory_mb, const std::function<void()>& function) {
+ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function) {
   return ChildProcess(STDERR_FILENO, [&] {
-    set_resource_limits(memory_mb);
+    set_resource_limits(limits.memory_mb);
+    own_process::watch({});
+    box::enter(limits.processes);
     function();
   });
 }

@@ -15,6 +15,7 @@
 
 #include "host/process/descriptor.hpp"
 #include "host/process/fault_kind.hpp"
+#include "host/process/resource_limits.hpp"
 
 namespace dmrp::host {
 
@@ -52,10 +53,10 @@ class ChildProcess {
   // Starts dmrp-host again. Throws MachineError.
   static ChildProcess execute(const Program& program);
 
-  // Calls `function` in a copy of this process, under set_resource_limits(memory_mb), with standard output redirected
+  // Calls `function` in a copy of this process, within these limits and the box, with standard output redirected
   // to standard error. The copy never returns to the caller and runs no destructors of static objects. Its exit status
   // is 0, or out_of_memory_exit if the function throws std::bad_alloc. Throws MachineError.
-  static ChildProcess fork(std::int64_t memory_mb, const std::function<void()>& function);
+  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function);
 
   ~ChildProcess();  // kills it
   ChildProcess(const ChildProcess&) = delete;

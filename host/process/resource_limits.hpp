@@ -6,6 +6,11 @@
 
 namespace dmrp::host {
 
+struct ProcessLimits {
+  std::int64_t memory_mb = 0;  // 0: no limit
+  bool processes = false;      // plugins may start processes
+};
+
 // Limits the address space of this process to `memory_mb` (0: no limit; never under sanitizers) and disables core
 // dumps. A lower limit that is already set stays.
 void set_resource_limits(std::int64_t memory_mb);

@@ -103,7 +103,7 @@ class Supervisor {
     if (slot.trial || waiting_.empty()) return;
     if (!slot.worker) {
       slot = Slot();
-      slot.worker = std::make_unique<WorkerProcess>(experiment_.file, experiment_.trials, log_.number());
+      slot.worker = std::make_unique<WorkerProcess>(experiment_);
       slot.worker_started_ns = monotonic_ns();
     }
     if (!slot.ready) return;
@@ -130,6 +130,7 @@ class Supervisor {
     for (const Slot& slot : slots_) {
       if (!slot.worker) continue;
       watched.push_back({slot.worker->process().ended().number(), POLLIN, 0});
+      watched.push_back({slot.worker->log().read_end(), POLLIN, 0});
       watched.push_back({slot.listening ? slot.worker->channel().read_end() : -1, POLLIN, 0});
     }
     watchdog_.wait(watched);
@@ -137,6 +138,7 @@ class Supervisor {
     for (Slot& slot : slots_) {
       if (!slot.worker) continue;
       const bool ended = watched[next++].revents != 0;
+      if (watched[next++].revents != 0) slot.worker->log().copy(log_);
       const bool said_something = watched[next++].revents != 0;
       if (said_something || ended) read_messages(slot, ended);
       if (ended && slot.worker) worker_ended(slot);
@@ -289,6 +291,9 @@ class Supervisor {
 
   // Kills the worker, and processes that its plugins have started.
   void end_process(Slot& slot) {
+    slot.worker->process().kill();
+    slot.worker->process().wait();
+    slot.worker->log().copy_rest(log_);
     slot.worker.reset();
     std::vector<pid_t> workers;
     for (const Slot& other : slots_)
@@ -345,6 +350,7 @@ class Supervisor {
         fault.kind = fault_kind::hang;
         fault.detail += fmt::format("did not return within {} s", shutdown_limit_ns / second_ns);
       }
+      slot.worker->log().copy_rest(log_);
       const bool is_fault = !ended || slot.worker->last_call().inside || slot.worker->process().wait().signal != 0;
       if (is_fault && slot.last_trial && !slot.worker->process().wait().killed_from_outside)
         blame_last_trial(slot, std::move(fault));

@@ -2,6 +2,7 @@
 #include "host/workers/worker.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,11 +18,11 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/digest.hpp"
+#include "host/process/box.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/line_channel.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/own_process.hpp"
-#include "host/process/resource_limits.hpp"
 #include "host/trial/kept_trace.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
@@ -50,6 +51,12 @@ FaultRecord record_of(const PluginFault& fault) {
 nlohmann::json typed(const char* type, nlohmann::json message) {
   message["type"] = type;
   return message;
+}
+
+mode_t current_umask() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mask;
 }
 
 // What the worker says. Copies of it say nothing.
@@ -86,6 +93,7 @@ class Worker {
         pool_(experiment.libraries, guard_, &log_line) {}
 
   void serve() {
+    if (experiment_.limits.processes) guard_.allow_processes();
     sender_.send({{"type", "ready"}, {"digest", experiment_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
@@ -110,6 +118,7 @@ class Worker {
       own = std::make_unique<VariantWorld>(experiment_, scenario, shared, seed);
     const VariantWorld& world = own ? *own : shared;
 
+    umask(umask_);  // a plugin of an earlier trial can have changed it
     KeptTrace kept(job.trace_file, job.scratch_file);
     core::TraceEncoder trace(
         world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { kept.write(t_ns, record); },
@@ -180,6 +189,7 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   Sender& sender_;
+  const mode_t umask_ = current_umask();
   CallGuard guard_;
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
   InstancePool pool_;
@@ -201,17 +211,18 @@ void send_error(Sender& sender, const std::string& text, const std::exception& e
 
 }  // namespace
 
-int run_worker(const std::filesystem::path& file, std::uint32_t trials, int read_end, int write_end, int note) {
+int run_worker(const WorkerTask& task) {
   // processes that a plugin starts do not inherit them
-  for (const int descriptor : {read_end, write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
-  LineChannel channel{Descriptor(read_end), Descriptor(write_end)};
+  for (const int descriptor : {task.read_end, task.write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+  LineChannel channel{Descriptor(task.read_end), Descriptor(task.write_end)};
   Sender sender(channel);
   try {
-    own_process::watch({read_end, write_end});
+    own_process::watch({task.read_end, task.write_end});
     adopt_orphans();
-    const Experiment experiment = load_experiment(file, trials, &read_descriptors);
-    set_resource_limits(experiment.limits.memory_mb);
-    const SharedCallNote shared{Descriptor(note)};
+    const SharedCallNote shared{Descriptor(task.note)};
+    set_resource_limits(task.limits.memory_mb);
+    box::enter(task.limits.processes, &shared.note().refused);
+    const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors);
     Worker(experiment, channel, sender, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {

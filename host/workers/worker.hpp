@@ -5,10 +5,20 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "host/process/resource_limits.hpp"
+
 namespace dmrp::host {
 
-// `trials`: repetitions, as in load_experiment(). `read_end`, `write_end`: the channel; `note`: the shared call note.
+struct WorkerTask {
+  std::filesystem::path experiment;
+  std::uint32_t trials = 0;  // repetitions, as in load_experiment()
+  ProcessLimits limits;
+  int read_end = -1;  // of the channel
+  int write_end = -1;
+  int note = -1;  // the shared call note
+};
+
 // Returns the exit status.
-int run_worker(const std::filesystem::path& experiment, std::uint32_t trials, int read_end, int write_end, int note);
+int run_worker(const WorkerTask& task);
 
 }  // namespace dmrp::host

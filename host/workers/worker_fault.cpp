@@ -2,11 +2,13 @@
 #include "host/workers/worker_fault.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "host/errors/escaped_text.hpp"
+#include "host/process/box.hpp"
 
 namespace dmrp::host {
 
@@ -28,6 +30,8 @@ FaultRecord fault_of_end(WorkerProcess& worker, std::int64_t memory_mb) {
   fault.signal = ending.signal;
   if (ending.killed_from_outside)
     fault.detail += "killed by SIGKILL from outside";
+  else if (ending.signal == SIGSYS)
+    fault.detail += fmt::format("the box refuses {}", box::name_of(worker.last_call().refused));
   else if (ending.signal != 0)
     fault.detail += strsignal(ending.signal);
   else if (ending.exit_status == out_of_memory_exit)

@@ -8,11 +8,12 @@ namespace dmrp::host {
 
 namespace {
 
-ChildProcess start(const std::filesystem::path& experiment, std::uint32_t trials, int log, int read_end, int write_end,
-                   int note) {
+ChildProcess start(const Experiment& experiment, int log, std::initializer_list<int> inherited) {
   ChildProcess::Program program;
-  program.arguments = {"worker", experiment.string(), std::to_string(trials)};
-  program.inherited = {read_end, write_end, note};
+  program.arguments = {"worker", experiment.file.string(), std::to_string(experiment.trials),
+                       std::to_string(experiment.limits.memory_mb),
+                       experiment.limits.processes ? "processes" : "no_processes"};
+  program.inherited = inherited;
   for (const int descriptor : program.inherited) program.arguments.push_back(std::to_string(descriptor));
   program.output = log;
   program.ignores_terminal = true;  // the supervisor ends its workers
@@ -21,14 +22,15 @@ ChildProcess start(const std::filesystem::path& experiment, std::uint32_t trials
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log)
-    : WorkerProcess(experiment, trials, log, make_call_note(), make_pipe(), make_pipe()) {}
+WorkerProcess::WorkerProcess(const Experiment& experiment)
+    : WorkerProcess(experiment, make_call_note(), make_pipe(), make_pipe(), make_pipe()) {}
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& experiment, std::uint32_t trials, int log, Descriptor note,
-                             Pipe to_worker, Pipe from_worker)
-    : process_(
-          start(experiment, trials, log, to_worker.read_end.number(), from_worker.write_end.number(), note.number())),
+WorkerProcess::WorkerProcess(const Experiment& experiment, Descriptor note, Pipe to_worker, Pipe from_worker,
+                             Pipe output)
+    : process_(start(experiment, output.write_end.number(),
+                     {to_worker.read_end.number(), from_worker.write_end.number(), note.number()})),
       note_(std::move(note)),
-      channel_(std::move(from_worker.read_end), std::move(to_worker.write_end)) {}
+      channel_(std::move(from_worker.read_end), std::move(to_worker.write_end)),
+      log_(std::move(output.read_end)) {}
 
 }  // namespace dmrp::host

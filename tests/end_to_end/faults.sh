@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by faulty_*.sh, which are called as: TEST.sh DMRP_HOST LIBRARY_OF_FAULTS [SANITIZERS]. Gives them
-#   run_with_faults NAME STATUS   runs $scratch/NAME.toml
+#   run_with_faults NAME STATUS [OPTION...]   runs $scratch/NAME.toml
 #   expect_fault ...              looks for a row of the table `fault`
 #   limited                       whether workers live under a memory limit (not under sanitizers)
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -25,7 +25,7 @@ use() {
 }
 
 run_with_faults() {
-  expect_status "$2" "$host" "$scratch/$1.toml" --quiet --jobs 2 --out "$scratch/$1"
+  expect_status "$2" "$host" "$scratch/$1.toml" --quiet --jobs 2 --out "$scratch/$1" "${@:3}"
   [[ ! -s $scratch/stderr ]] || fail "$1: faults belong in the results, not here: $(cat "$scratch/stderr")"
 }
 

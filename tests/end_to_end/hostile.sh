@@ -47,25 +47,55 @@ attacks=(
   'traps numbers|abi_breach|step|floating-point control'
   'late thread|crash|.*|Segmentation fault|late'
 )
+# expect_faults NAME ROW...
+expect_faults() {
+  local row attack kind function detail late is_late found
+  for row in "${@:2}"; do
+    IFS='|' read -r attack kind function detail late <<<"$row"
+    is_late=0
+    [[ -z ${late:-} ]] || is_late=1
+    found=$(query "$scratch/$1" "SELECT kind, function, detail FROM fault JOIN trial ON trial.id = trial_id
+      WHERE local_controller = '$attack' AND ($is_late OR plugin = 'test.controller.hostile')
+      ORDER BY trial_id LIMIT 1")
+    grep -Eq "^$kind\|$function\|.*$detail" <<<"$found" ||
+      fail "$attack: '$found' does not match $kind, $function, $detail"
+  done
+}
 begin attacks
 for row in "${attacks[@]}"; do hostile attacks "${row%%|*}"; done
-run_with_faults attacks 1
-for row in "${attacks[@]}"; do
-  IFS='|' read -r attack kind function detail late <<<"$row"
-  is_late=0
-  [[ -z ${late:-} ]] || is_late=1
-  found=$(query "$scratch/attacks" "SELECT kind, function, detail FROM fault JOIN trial ON trial.id = trial_id
-    WHERE local_controller = '$attack' AND ($is_late OR plugin = 'test.controller.hostile') ORDER BY trial_id LIMIT 1")
-  grep -Eq "^$kind\|$function\|.*$detail" <<<"$found" || fail "$attack: '$found' does not match $kind, $function, $detail"
-done
+run_with_faults attacks 1 --no-box
+expect_faults attacks "${attacks[@]}"
 expect_same attacks
 
+# in the box, the system call is named
+boxed=(
+  "fork and return|abi_breach|step|refuses fork"
+  "clone and return|abi_breach|step|refuses fork"
+  "runs a program|abi_breach|step|system\(\) or popen"
+  "replaces itself|abi_breach|step|refuses execve"
+  "stops its parent|abi_breach|step|refuses kill"
+  "ends its parent|abi_breach|step|refuses kill"
+  "outlives its parent|abi_breach|step|refuses prctl"
+  "traces its parent|abi_breach|step|refuses ptrace"
+  "kills siblings|abi_breach|step|refuses kill"
+)
+begin boxed
+for row in "${boxed[@]}"; do hostile boxed "${row%%|*}"; done
+for attack in none threads "files limited"; do hostile boxed "$attack"; done
+if $limited; then # the box and sanitizers exclude each other
+  run_with_faults boxed 1
+  expect_faults boxed "${boxed[@]}"
+  [[ $(query "$scratch/boxed" "SELECT count(*) FROM trial WHERE outcome <> 'fault'
+    AND local_controller IN ('none', 'threads', 'files limited')") == 6 ]] || fail "threads may be used in the box"
+  expect_same boxed
+fi
+
 # faults that were a plugin's are tried again on demand
-before=$(query "$scratch/attacks" "SELECT count(*) FROM fault")
-expect_status 1 "$host" "$scratch/attacks.toml" --quiet --resume --out "$scratch/attacks"
+before=$(query "$scratch/attacks" "SELECT count(DISTINCT trial_id) FROM fault")
+expect_status 1 "$host" "$scratch/attacks.toml" --no-box --quiet --resume --out "$scratch/attacks"
 expect_status 2 "$host" "$scratch/attacks.toml" --quiet --retry-faults --out "$scratch/attacks"
-expect_status 1 "$host" "$scratch/attacks.toml" --quiet --resume --retry-faults --out "$scratch/attacks"
-[[ $(query "$scratch/attacks" "SELECT count(*) FROM fault") == "$before" ]] || fail "--retry-faults should find them again"
+expect_status 1 "$host" "$scratch/attacks.toml" --no-box --quiet --resume --retry-faults --out "$scratch/attacks"
+[[ $(query "$scratch/attacks" "SELECT count(DISTINCT trial_id) FROM fault") == "$before" ]] || fail "--retry-faults should find them again"
 expect_same attacks
 
 # destroy() is called when the trials are over
@@ -77,11 +107,39 @@ run_with_faults destroy 1
   fail "a crash in destroy() should be a fault: $(query "$scratch/destroy" "SELECT * FROM fault")"
 expect_same destroy
 
+# what plugins print has an end
+begin loud
+hostile loud "prints much"
+run_with_faults loud 0
+(($(stat -c %s "$scratch/loud/log.txt") < 40000000)) || fail "log.txt has $(stat -c %s "$scratch/loud/log.txt") bytes"
+grep -q "what follows is left out" "$scratch/loud/log.txt" || fail "log.txt should say that lines are left out"
+expect_same loud
+
+# a plugin that says that it starts processes needs the experiment's word
+begin helped
+hostile helped "runs a program"
+sed -i 's/test.controller.hostile/test.controller.helped/' "$scratch/helped.toml"
+expect_status 2 "$host" "$scratch/helped.toml" --quiet --out "$scratch/helped"
+grep -q "test.controller.helped starts processes: '\[limits\] processes = true' allows that" "$scratch/stderr" ||
+  fail "$(cat "$scratch/stderr")"
+sed -i '/^memory_mb/a processes = true' "$scratch/helped.toml"
+run_with_faults helped 0
+expect_same helped
+
+# what a library does while it is loaded
+for what in none fork stay; do
+  expect_status 0 env DMRP_TEST_AT_LOAD=$what timeout 20 "$host" plugins "$library"
+  grep -q test.controller.hostile "$scratch/stdout" || fail "$what: the plugin should be listed"
+done
+expect_status 2 env DMRP_TEST_AT_LOAD=close timeout 20 "$host" plugins "$library"
+grep -q "closes its channel to the host while it is loaded" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+! pgrep -f "probe $library" >/dev/null || fail "processes are left: $(pgrep -af "probe $library")"
+
 # attacks that do nothing, or leave no trace in the results
 begin harmless
-for attack in none umask "all descriptors taken" "kills siblings"; do hostile harmless "$attack"; done
+for attack in none threads umask "all descriptors taken" "kills siblings"; do hostile harmless "$attack"; done
 status=0
-"$host" "$scratch/harmless.toml" --quiet --jobs 2 --out "$scratch/harmless" || status=$?
+"$host" "$scratch/harmless.toml" --no-box --quiet --jobs 2 --out "$scratch/harmless" || status=$?
 ((status <= 1)) || fail "exit status $status"
 expect_same harmless
 

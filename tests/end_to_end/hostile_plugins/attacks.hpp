@@ -5,6 +5,8 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fenv.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -12,6 +14,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -66,6 +69,19 @@ inline void limit(int resource, rlim_t most) {
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
+// As plugins may: of its own, and of OpenMP.
+inline void use_threads() {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) threads.emplace_back([] { std::this_thread::yield(); });
+  for (std::thread& thread : threads) thread.join();
+#ifdef _OPENMP
+  int sum = 0;
+#pragma omp parallel for num_threads(4) reduction(+ : sum)
+  for (int i = 0; i < 1000; ++i) sum += i;
+  if (sum != 499500) std::abort();
+#endif
+}
+
 inline void crash() {
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
@@ -90,6 +106,16 @@ inline void attack(const std::string& what) {
   if (what == "files limited") limit(RLIMIT_FSIZE, 4096);
   if (what == "kills itself") std::raise(SIGKILL);
   if (what == "kills siblings") kill_siblings();
+  if (what == "runs a program") [[maybe_unused]]
+    const int status = std::system("true");
+  if (what == "replaces itself") execl("/bin/true", "true", nullptr);
+  if (what == "stops its parent") kill(getppid(), SIGSTOP);
+  if (what == "ends its parent") kill(getppid(), SIGTERM);
+  if (what == "outlives its parent") prctl(PR_SET_PDEATHSIG, 0);
+  if (what == "traces its parent") ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr);
+  if (what == "prints much")
+    for (int i = 0; i < 10'000; ++i) std::fprintf(stderr, "%s\n", std::string(4096, 'x').c_str());
+  if (what == "threads") use_threads();
   if (what == "umask") umask(0777);
   if (what == "traps numbers") feenableexcept(FE_DIVBYZERO | FE_INVALID);
   if (what == "late thread")

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// libdmrp_test_hostile.so: a controller that attacks the host. It stands still.
+// libdmrp_test_hostile.so: a controller that attacks the host, and one that may start processes. They stand still.
 #include <dmrp/plugin.hpp>
 
 #include "tests/end_to_end/hostile_plugins/attacks.hpp"
 
 namespace dmrp::test {
 
-class HostileController final : public dmrp::LocalController {
+class HostileController : public dmrp::LocalController {
  public:
   static dmrp::Descriptor describe() {
     return dmrp::Descriptor("test.controller.hostile", "Hostile controller", "1.0.0").license("MIT");
@@ -24,7 +24,33 @@ class HostileController final : public dmrp::LocalController {
   }
 };
 
+class HelpedController final : public HostileController {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.controller.helped", "Controller with a helper", "1.0.0")
+        .license("MIT")
+        .flags(DMRP_FLAG_PROCESSES);
+  }
+};
+
 }  // namespace dmrp::test
 
+// As a static initialiser would do it.
+__attribute__((constructor)) static void at_load() {
+  const char* const asked = std::getenv("DMRP_TEST_AT_LOAD");
+  const std::string what = asked ? asked : "";
+  if (what == "fork") fork();
+  if (what == "stay" && fork() == 0)
+    for (;;) pause();
+  if (what == "close") dmrp::test::close_those("pipe:");
+  if (what == "close") {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);
+    for (;;) pause();
+  }
+}
+
+using dmrp::test::HelpedController;
 using dmrp::test::HostileController;
-DMRP_PLUGINS(HostileController)
+DMRP_PLUGINS(HostileController, HelpedController)

@@ -15,10 +15,10 @@ using namespace dmrp::host;
 
 namespace {
 
-constexpr std::int64_t no_limit_mb = 0;
+constexpr ProcessLimits no_limits;
 
 ProcessEnding ending_of(const std::function<void()>& function) {
-  return ChildProcess::fork(no_limit_mb, function).wait();
+  return ChildProcess::fork(no_limits, function).wait();
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ TEST_CASE("the end of a child is explained") {
 }
 
 TEST_CASE("a child is killed, and waited for once") {
-  ChildProcess child = ChildProcess::fork(no_limit_mb, [] { pause(); });
+  ChildProcess child = ChildProcess::fork(no_limits, [] { pause(); });
   child.kill();
   CHECK(child.wait().signal == SIGKILL);
   child.kill();  // not another process that has its number now
@@ -57,7 +57,7 @@ TEST_CASE("a child is killed, and waited for once") {
 
 TEST_CASE("a child reads nothing and sends messages until it ends") {
   Pipe pipe = make_pipe();
-  ChildProcess child = ChildProcess::fork(no_limit_mb, [&] {
+  ChildProcess child = ChildProcess::fork(no_limits, [&] {
     char byte;
     LineChannel channel(Descriptor(), std::move(pipe.write_end));
     channel.send({{"read", read(STDIN_FILENO, &byte, 1)}});
@@ -72,7 +72,7 @@ TEST_CASE("a child reads nothing and sends messages until it ends") {
 TEST_CASE("the parent sees the call that its child has noted") {
   const SharedCallNote note(make_call_note());
   CHECK_FALSE(note.read().inside);
-  ChildProcess::fork(no_limit_mb, [&] {
+  ChildProcess::fork(no_limits, [&] {
     note.note().function = {'p', 'l', 'a', 'n'};
     note.note().call_number = 1;
   }).wait();
@@ -81,7 +81,7 @@ TEST_CASE("the parent sees the call that its child has noted") {
 }
 
 TEST_CASE("a watchdog waits for the end of a child, or until it is late") {
-  ChildProcess sleeper = ChildProcess::fork(no_limit_mb, [] { pause(); });
+  ChildProcess sleeper = ChildProcess::fork(no_limits, [] { pause(); });
   REQUIRE(sleeper.ended().is_open());
   Watchdog watchdog;
   int asked = 0;
