@@ -43,29 +43,39 @@ std::size_t cells_within(const PlanningGrid& grid, double distance_m) {
 
 class TaskSampler {
  public:
-  TaskSampler(const PlanningGrid& grid, const std::vector<std::uint32_t>& cells, std::uint64_t seed, int attempt)
-      : grid_(grid.view()),
-        starts_(shuffled(cells, toolkit::Stream(seed, "robots.starts", attempt))),
-        goals_(shuffled(cells, toolkit::Stream(seed, "robots.goals", attempt))),
-        start_is_taken_(grid.free.size()),
-        goal_is_taken_(grid.free.size()) {}
+  TaskSampler(std::span<const TypeGrid> grids, std::span<const std::vector<std::uint32_t>> parts, std::uint64_t seed,
+              int attempt)
+      : grids_(grids), start_is_taken_(grids[0].grid->free.size()), goal_is_taken_(start_is_taken_.size()) {
+    for (const std::vector<std::uint32_t>& cells : parts) {
+      starts_.push_back(shuffled(cells, toolkit::Stream(seed, "robots.starts", attempt)));
+      goals_.push_back(shuffled(cells, toolkit::Stream(seed, "robots.goals", attempt)));
+    }
+    for (const TypeGrid& grid : grids) largest_m_ = std::max(largest_m_, grid.radius_m);
+  }
 
   // Adds the next robot's task; false if there is no room.
-  bool add_to(std::vector<RobotTask>& tasks) {
+  bool add_to(std::vector<RobotTask>& tasks, std::size_t kind) {
+    const dmrp_grid c_grid = grids_[kind].grid->view();
+    const toolkit::GridView grid(c_grid);
+    const auto& starts = starts_[kind];
+    const auto& goals = goals_[kind];
     const auto start =
-        std::find_if(starts_.begin(), starts_.end(), [&](std::uint32_t cell) { return !start_is_taken_[cell]; });
-    if (start == starts_.end()) return false;
-    const dmrp_vec2 from = grid_.center(*start);
-    const auto goal = std::find_if(goals_.begin(), goals_.end(), [&](std::uint32_t cell) {
-      return !goal_is_taken_[cell] && toolkit::distance(grid_.center(cell), from) >= min_task_length_m;
+        std::find_if(starts.begin(), starts.end(), [&](std::uint32_t cell) { return !start_is_taken_[cell]; });
+    if (start == starts.end()) return false;
+    const dmrp_vec2 from = grid.center(*start);
+    const auto goal = std::find_if(goals.begin(), goals.end(), [&](std::uint32_t cell) {
+      return !goal_is_taken_[cell] && toolkit::distance(grid.center(cell), from) >= min_task_length_m;
     });
-    if (goal == goals_.end()) return false;
-    const dmrp_vec2 to = grid_.center(*goal);
-    take(*start, start_is_taken_);
-    take(*goal, goal_is_taken_);
+    if (goal == goals.end()) return false;
+    const dmrp_vec2 to = grid.center(*goal);
+    const double apart_m = std::max(task_separation_m, grids_[kind].radius_m + largest_m_ + task_gap_m);
+    take(grid, *start, apart_m, start_is_taken_);
+    take(grid, *goal, apart_m, goal_is_taken_);
     constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-    tasks.push_back(
-        {"robot " + std::to_string(tasks.size() + 1), {from.x, from.y, free_heading}, {{to.x, to.y, free_heading}}});
+    tasks.push_back({"robot " + std::to_string(tasks.size() + 1),
+                     {from.x, from.y, free_heading},
+                     {{to.x, to.y, free_heading}},
+                     grids_[kind].type});
     return true;
   }
 
@@ -76,36 +86,68 @@ class TaskSampler {
   }
 
   // Marks the cell and all cells too near to it.
-  void take(std::uint32_t cell, std::vector<bool>& taken) const {
-    const toolkit::Cell middle = grid_.cell(cell);
-    const int reach = static_cast<int>(std::floor(task_separation_m / grid_.resolution_m()));
+  static void take(const toolkit::GridView& grid, std::uint32_t cell, double apart_m, std::vector<bool>& taken) {
+    const toolkit::Cell middle = grid.cell(cell);
+    const int reach = static_cast<int>(std::floor(apart_m / grid.resolution_m()));
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
         const toolkit::Cell other = {middle.column + dx, middle.row + dy};
-        if (grid_.contains(other) && grid_.resolution_m() * std::hypot(dx, dy) <= task_separation_m)
-          taken[grid_.index(other)] = true;
+        if (grid.contains(other) && grid.resolution_m() * std::hypot(dx, dy) <= apart_m)
+          taken[grid.index(other)] = true;
       }
   }
 
-  toolkit::GridView grid_;
-  std::vector<std::uint32_t> starts_;
-  std::vector<std::uint32_t> goals_;
+  std::span<const TypeGrid> grids_;
+  double largest_m_ = 0.0;
+  std::vector<std::vector<std::uint32_t>> starts_;  // by grid
+  std::vector<std::vector<std::uint32_t>> goals_;
   std::vector<bool> start_is_taken_;
   std::vector<bool> goal_is_taken_;
 };
 
+std::size_t grid_of(std::span<const TypeGrid> grids, const std::string& type) {
+  const auto found = std::find_if(grids.begin(), grids.end(), [&](const TypeGrid& grid) { return grid.type == type; });
+  return static_cast<std::size_t>(found - grids.begin());
+}
+
 }  // namespace
 
-std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed) {
-  const std::vector<std::uint32_t> cells = largest_part(grid);
+std::vector<std::string> drawn_types(std::span<const TypeShare> shares, std::size_t count) {
+  if (shares.empty()) return std::vector<std::string>(count);
+  double sum = 0.0;
+  for (const TypeShare& share : shares) sum += share.share;
+  std::vector<double> given(shares.size());
+  std::vector<std::string> types;
+  while (types.size() < count) {
+    std::size_t most_missing = 0;
+    const auto missing = [&](std::size_t i) {
+      return shares[i].share / sum * static_cast<double>(types.size() + 1) - given[i];
+    };
+    for (std::size_t i = 1; i < shares.size(); ++i)
+      if (missing(i) > missing(most_missing)) most_missing = i;
+    given[most_missing] += 1.0;
+    types.push_back(shares[most_missing].type);
+  }
+  return types;
+}
+
+std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
+                                    std::uint64_t seed) {
+  std::vector<std::vector<std::uint32_t>> parts;
+  for (const TypeGrid& grid : grids) parts.push_back(largest_part(*grid.grid));
   std::vector<RobotTask> most;
-  for (int attempt = 0; attempt < attempts && (most.size() < count || attempt == 0); ++attempt) {
-    TaskSampler sampler(grid, cells, seed, attempt);
+  for (int attempt = 0; attempt < attempts && (most.size() < types.size() || attempt == 0); ++attempt) {
+    TaskSampler sampler(grids, parts, seed, attempt);
     std::vector<RobotTask> tasks;
-    while (tasks.size() < count && sampler.add_to(tasks)) continue;
+    while (tasks.size() < types.size() && sampler.add_to(tasks, grid_of(grids, types[tasks.size()]))) continue;
     if (attempt == 0 || tasks.size() > most.size()) most = std::move(tasks);
   }
   return most;
+}
+
+std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed) {
+  const TypeGrid only = {"", 0.0, &grid};
+  return random_tasks({&only, 1}, std::vector<std::string>(count), seed);
 }
 
 bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count) {

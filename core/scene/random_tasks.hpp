@@ -4,14 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/scene/planning_grid.hpp"
+#include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
 
 namespace dmrp::core {
 
 inline constexpr double task_separation_m = 2.0;  // starts, and goals, are farther than this from each other
+inline constexpr double task_gap_m = 0.2;  // so are the circles around their footprints, if they are large
 inline constexpr double min_task_length_m = 5.0;  // a goal is at least this far from its start, as the crow flies
 
 // Starts and goals of `count` robots on the centres of free cells of the largest connected part of the world; headings
@@ -21,6 +25,27 @@ inline constexpr double min_task_length_m = 5.0;  // a goal is at least this far
 // Each task is uniform among the cells that the previous tasks leave: a set of tasks is a sampled instance of the
 // world.
 std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed);
+
+// A share of the drawn robots that have a type. Shares need not sum up to 1.
+struct TypeShare {
+  std::string type;
+  double share = 1.0;
+};
+
+// The types of the first `count` drawn robots, in proportion to the shares at every number of robots.
+std::vector<std::string> drawn_types(std::span<const TypeShare> shares, std::size_t count);
+
+// The grid on which the tasks of a type are drawn.
+struct TypeGrid {
+  std::string type;
+  double radius_m = 0.0;  // of the circle around its footprint
+  const PlanningGrid* grid = nullptr;
+};
+
+// Random tasks of robots with these types, each on the grid of its type. The tasks are those above if there is one type
+// and its robots are not large.
+std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
+                                    std::uint64_t seed);
 
 // Whether random_tasks() finds room for `count` robots with every seed. A sufficient condition: false does not mean
 // that some seed fails.

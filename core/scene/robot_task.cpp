@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/footprint.hpp"
+
 namespace dmrp::core {
 
 dmrp_limits limits_of(const RobotSettings& settings) {
@@ -14,14 +16,30 @@ dmrp_limits limits_of(const RobotSettings& settings) {
   limits.omega_max = settings.omega_max;
   limits.a_max = settings.a_max;
   limits.alpha_max = settings.alpha_max;
+  if (settings.drive == Drive::holonomic) limits.v_y_max = settings.v_y_max;
+  if (settings.drive == Drive::ackermann) {
+    limits.wheelbase_m = settings.wheelbase_m;
+    limits.steering_max = settings.steering_max;
+    limits.steering_rate_max = settings.steering_rate_max;
+  }
   return limits;
 }
 
-dmrp_footprint footprint_of(const RobotSettings& settings) {
+std::vector<dmrp_polygon> polygons_of(const RobotSettings& settings) {
+  std::vector<dmrp_polygon> polygons;
+  for (const ConvexPolygon& part : settings.parts)
+    polygons.push_back({part.data(), static_cast<std::uint32_t>(part.size()), 0});
+  return polygons;
+}
+
+dmrp_footprint footprint_of(const RobotSettings& settings, std::span<const dmrp_polygon> polygons) {
   dmrp_footprint footprint{};
   footprint.struct_size = sizeof(footprint);
+  footprint.part_count = static_cast<std::uint32_t>(polygons.size());
   footprint.radius_m = settings.radius_m;
-  footprint.inscribed_radius_m = settings.radius_m;
+  footprint.inscribed_radius_m = inscribed_radius(settings);
+  footprint.parts = polygons.empty() ? nullptr : polygons.data();
+  footprint.part_stride = polygons.empty() ? 0 : sizeof(dmrp_polygon);
   return footprint;
 }
 

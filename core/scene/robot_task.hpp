@@ -4,6 +4,7 @@
 
 #include <dmrp/robot.h>
 
+#include <span>
 #include <vector>
 
 #include "core/scene/scenario.hpp"
@@ -12,7 +13,11 @@
 namespace dmrp::core {
 
 dmrp_limits limits_of(const RobotSettings& settings);
-dmrp_footprint footprint_of(const RobotSettings& settings);
+
+// Views of the footprint's parts, and the footprint with them; they point into their arguments.
+std::vector<dmrp_polygon> polygons_of(const RobotSettings& settings);
+dmrp_footprint footprint_of(const RobotSettings& settings, std::span<const dmrp_polygon> polygons);
+
 std::vector<dmrp_goal> goals_of(const RobotTask& task, const GoalSettings& settings);
 
 // The start pose. A free heading is set along the dominant axis towards the first goal.

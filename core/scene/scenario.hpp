@@ -29,6 +29,7 @@ struct RobotTask {
   std::string name;
   dmrp_pose start{};
   std::vector<dmrp_pose> goals;  // at least one; several form a tour
+  std::string type{};            // name of the robot's type; "": the default type
 };
 
 // An axis-aligned rectangle where people come from, pass or go to.

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// settings.hpp: the settings of an experiment that hold for all its trials: simulation, robot, sensors.
+// settings.hpp: the settings of an experiment that hold for all its trials: simulation, types of robot, sensors.
 // The defaults are those of the benchmark's method.
 #pragma once
+
+#include <dmrp/robot.h>
 
 #include <array>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace dmrp::core {
 
@@ -37,13 +41,30 @@ struct OdometrySettings {
   std::int64_t fix_period_ns = 0;                      // between two corrections to the true pose; 0: never
 };
 
+enum class Drive : std::uint32_t {
+  differential = DMRP_KINEMATICS_DIFFERENTIAL,
+  holonomic = DMRP_KINEMATICS_HOLONOMIC,
+  ackermann = DMRP_KINEMATICS_ACKERMANN,
+};
+
+// The vertices of a convex polygon, counter-clockwise.
+using ConvexPolygon = std::vector<dmrp_vec2>;
+
+// A type of robot.
 struct RobotSettings {
-  double radius_m = 0.25;
+  std::string type;                       // its name; "": the default type
+  double radius_m = 0.25;                 // of the disc, or of the circle around the origin that contains the parts
+  std::vector<ConvexPolygon> parts;       // the footprint is their union; none: a disc
+  Drive drive = Drive::differential;
   double v_min = 0.0;                     // m/s
   double v_max = 0.8;                     // m/s
+  double v_y_max = 0.0;                   // m/s; holonomic only
   double omega_max = 1.0;                 // rad/s
   double a_max = 1.0;                     // m/s^2
   double alpha_max = 1.0;                 // rad/s^2
+  double wheelbase_m = 0.0;               // Ackermann only, as the next two
+  double steering_max = 0.6;              // rad
+  double steering_rate_max = 1.0;         // rad/s
   std::int64_t actuation_latency_ns = 0;  // from a command to its effect
   OdometrySettings odometry;
   LidarSettings lidar;

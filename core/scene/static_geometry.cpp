@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/convex_separation.hpp"
+
 namespace dmrp::core {
 namespace {
 
@@ -136,6 +138,26 @@ bool StaticGeometry::sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m
     // Even a point must not pass through a shape.
     return distance >= least_m && distance > 0.0;
   });
+}
+
+double StaticGeometry::clearance(toolkit::PolygonView polygon, double at_most_m) const {
+  double nearest_m = at_most_m;
+  toolkit::Rectangle box = {polygon[0], polygon[0]};
+  for (const dmrp_vec2 vertex : polygon) {
+    nearest_m = std::min(nearest_m, toolkit::depth(rectangle(), vertex));
+    box = {{std::min(box.lower.x, vertex.x), std::min(box.lower.y, vertex.y)},
+           {std::max(box.upper.x, vertex.x), std::max(box.upper.y, vertex.y)}};
+  }
+  std::vector<std::uint32_t> near;
+  tree_.touching(box_around(box.lower, box.upper, at_most_m), near);
+  for (const std::uint32_t shape : near) {
+    const dmrp_shape& body = sdk_shapes_[shape];
+    const Separation apart = body.kind == DMRP_SHAPE_CIRCLE
+                                 ? separation(polygon, body.center, body.radius_m)
+                                 : separation(polygon, toolkit::polygon_of(body));
+    nearest_m = std::min(nearest_m, apart.distance_m);
+  }
+  return nearest_m;
 }
 
 bool StaticGeometry::line_of_sight(dmrp_vec2 a, dmrp_vec2 b) const {

@@ -5,6 +5,7 @@
 #include <dmrp/world.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <span>
 #include <string_view>
@@ -60,6 +61,9 @@ class StaticGeometry {
 
   // Whether a disc stays clear along a straight line, exactly (no sampling).
   bool sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const;
+
+  // The distance from a convex polygon to the nearest shape or the border, at most `at_most_m`; negative if it overlaps.
+  double clearance(toolkit::PolygonView polygon, double at_most_m) const;
 
   // Whether no shape lies between the two points.
   bool line_of_sight(dmrp_vec2 a, dmrp_vec2 b) const;

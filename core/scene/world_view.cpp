@@ -13,15 +13,17 @@ struct StoredRobot {
   std::string name;
   std::vector<dmrp_goal> goals;
   dmrp_limits limits{};
-  dmrp_footprint footprint{};
   dmrp_pose start{};
+  RobotSettings type;
+  std::vector<dmrp_polygon> polygons{};  // views of the type's parts
+  dmrp_footprint footprint{};
 };
 
 dmrp_robot sdk_robot_of(const StoredRobot& robot) {
   dmrp_robot view{};
   view.name = robot.name.c_str();
-  view.type = "";
-  view.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
+  view.type = robot.type.type.c_str();
+  view.kinematics = static_cast<std::uint32_t>(robot.type.drive);
   view.goal_count = static_cast<std::uint32_t>(robot.goals.size());
   view.goals = robot.goals.data();
   view.goal_stride = sizeof(dmrp_goal);
@@ -50,7 +52,11 @@ struct WorldView::Storage {
 // From here on the storage must not move; it is on the heap.
 void WorldView::Storage::set_pointers() {
   sdk_shapes = sdk_shapes_of(shapes);
-  for (const StoredRobot& robot : robots) sdk_robots.push_back(sdk_robot_of(robot));
+  for (StoredRobot& robot : robots) {
+    robot.polygons = polygons_of(robot.type);
+    robot.footprint = footprint_of(robot.type, robot.polygons);
+    sdk_robots.push_back(sdk_robot_of(robot));
+  }
   sdk_planning_grid = planning_grid.view();
 
   world.struct_size = sizeof(world);
@@ -65,13 +71,13 @@ void WorldView::Storage::set_pointers() {
   world.planning_grid = &sdk_planning_grid;
 }
 
-WorldView::WorldView(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+WorldView::WorldView(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
                      const StaticGeometry& geometry, const PlanningGrid& planning_grid, std::int64_t call_budget_ns)
     : storage_(std::make_unique<Storage>()) {
   storage_->shapes = geometry.shapes();
   for (const RobotTask& task : scenario.robots) {
-    storage_->robots.push_back(
-        {task.name, goals_of(task, simulation.goal), limits_of(robot), footprint_of(robot), start_of(task)});
+    const RobotSettings& type = types.of(task);
+    storage_->robots.push_back({task.name, goals_of(task, simulation.goal), limits_of(type), start_of(task), type});
   }
   storage_->segments.assign(geometry.segments().begin(), geometry.segments().end());
   storage_->planning_grid = planning_grid;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/scene/planning_grid.hpp"
+#include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/static_geometry.hpp"
@@ -17,7 +18,7 @@ namespace dmrp::core {
 // Owns all data that its dmrp_world points to. All instances of a trial share one.
 class WorldView {
  public:
-  WorldView(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+  WorldView(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
             const StaticGeometry& geometry, const PlanningGrid& planning_grid, std::int64_t call_budget_ns);
   ~WorldView();
   WorldView(WorldView&&) noexcept;

@@ -51,10 +51,15 @@ dmrp_scan Lidar::describe(std::int64_t t_ns, std::span<const float> ranges) cons
   return scan;
 }
 
-void Lidar::scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::span<float> ranges) {
+void Lidar::scan(const dmrp_pose& sensor, std::span<const Disc> discs, std::span<const ConvexPolygon> polygons,
+                 std::span<float> ranges) {
   begin(sensor);
-  for (const Disc& body : bodies)
-    if (toolkit::distance(body.center, origin_) - body.radius_m <= settings_.range_max_m) scan_disc(body);
+  for (const Disc& disc : discs)
+    if (toolkit::distance(disc.center, origin_) - disc.radius_m <= settings_.range_max_m) scan_disc(disc);
+  for (const ConvexPolygon& polygon : polygons) {
+    const double distance_m = toolkit::distance(toolkit::PolygonView(polygon), origin_);
+    if (distance_m <= settings_.range_max_m) scan_polygon(polygon, distance_m);
+  }
   scan_shapes();
 
   for (std::uint32_t i = 0; i < settings_.beams; ++i) {
@@ -92,7 +97,7 @@ void Lidar::scan_shapes() {
     if (shape.kind == DMRP_SHAPE_CIRCLE) {
       scan_disc({shape.center, shape.radius_m});
     } else {
-      scan_polygon(shape, distance_m);
+      scan_polygon(toolkit::polygon_of(shape), distance_m);
     }
   }
 }
@@ -107,8 +112,7 @@ void Lidar::scan_disc(const Disc& disc) {
 }
 
 // The bearings of the corners span the covered angles; from inside, all angles are covered.
-void Lidar::scan_polygon(const dmrp_shape& shape, double distance_m) {
-  const toolkit::PolygonView polygon = toolkit::polygon_of(shape);
+void Lidar::scan_polygon(toolkit::PolygonView polygon, double distance_m) {
   const auto cast = [&](std::uint32_t beam) { return toolkit::ray_to_polygon(rays_[beam], polygon); };
   if (toolkit::contains(polygon, origin_)) return cast_beams(-toolkit::pi, 2.0 * toolkit::pi, 0.0, cast);
   const double first = toolkit::bearing(origin_, polygon[0]);

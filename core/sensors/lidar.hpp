@@ -5,6 +5,7 @@
 #include <dmrp/ext/lidar.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/ray_cast.hpp>
 #include <memory>
 #include <span>
@@ -28,8 +29,10 @@ class Lidar {
 
   std::uint32_t beams() const { return settings_.beams; }
 
-  // Fills the beams() elements of `ranges` as in dmrp_scan. `bodies` must not contain the robot with the sensor.
-  void scan(const dmrp_pose& sensor, std::span<const Disc> bodies, std::span<float> ranges);
+  // Fills the beams() elements of `ranges` as in dmrp_scan. The bodies, discs and convex polygons, must not contain the
+  // robot with the sensor.
+  void scan(const dmrp_pose& sensor, std::span<const Disc> discs, std::span<const ConvexPolygon> polygons,
+            std::span<float> ranges);
 
   // A dmrp_scan for ranges that the caller owns.
   dmrp_scan describe(std::int64_t t_ns, std::span<const float> ranges) const;
@@ -38,7 +41,7 @@ class Lidar {
   void begin(const dmrp_pose& sensor);
   void scan_shapes();
   void scan_disc(const Disc& disc);
-  void scan_polygon(const dmrp_shape& shape, double distance_m);
+  void scan_polygon(toolkit::PolygonView polygon, double distance_m);
   template <class Cast>
   void cast_beams(double from, double width, double distance_m, const Cast& cast);
 

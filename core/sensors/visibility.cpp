@@ -3,17 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::core {
 
 void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<float> ranges) {
-  std::vector<Disc> others;
-  for (const dmrp_agent& agent : world.robot_agents())
-    if (agent.id != robot) others.push_back({toolkit::position(agent.pose), agent.radius_m});
+  std::vector<Disc> discs;
+  std::vector<ConvexPolygon> polygons;
+  for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
+    if (i == robot) continue;
+    const dmrp_pose& pose = world.robots()[i].pose;
+    const RobotSettings& type = world.robot_settings(i);
+    if (type.parts.empty()) discs.push_back({toolkit::position(pose), type.radius_m});
+    for (const ConvexPolygon& part : type.parts) polygons.push_back(toolkit::to_world(pose, part));
+  }
   for (const dmrp_agent& agent : world.person_agents())
-    others.push_back({toolkit::position(agent.pose), agent.radius_m});
-  lidar.scan(world.robots()[robot].pose, others, ranges);
+    discs.push_back({toolkit::position(agent.pose), agent.radius_m});
+  lidar.scan(world.robots()[robot].pose, discs, polygons, ranges);
 }
 
 void visible_agents(const World& world, std::uint32_t robot, std::vector<dmrp_agent>& agents) {

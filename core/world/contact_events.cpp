@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
+#include <utility>
 
 namespace dmrp::core {
 namespace {
@@ -33,10 +34,11 @@ bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
 
 }  // namespace
 
-ContactTracker::ContactTracker(double a_max, double v_max, std::int64_t latency_ns)
-    : a_max_(a_max),
-      latency_ns_(latency_ns),
-      memory_ns_(std::max<std::int64_t>(fault_window_ns, std::llround(1e9 * v_max / a_max) + latency_ns)) {}
+ContactTracker::ContactTracker(std::vector<Braking> robots) : robots_(std::move(robots)) {
+  for (const Braking& robot : robots_)
+    memory_ns_ =
+        std::max<std::int64_t>(memory_ns_, std::llround(1e9 * robot.v_max / robot.a_max) + robot.latency_ns);
+}
 
 void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
                             std::span<dmrp_contact> contacts) {
@@ -96,7 +98,8 @@ ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact
 
 bool ContactTracker::was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns,
                                      double speed) const {
-  const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / a_max_) - latency_ns_;
+  const Braking& robot = robots_[contact.a];
+  const std::int64_t then_ns = t_ns - std::llround(1e9 * speed / robot.a_max) - robot.latency_ns;
   // the latest moment at least a braking time ago, or the first one
   for (auto moment = history_.rbegin(); moment != history_.rend(); ++moment) {
     if (moment->t_ns > then_ns && std::next(moment) != history_.rend()) continue;

@@ -30,8 +30,14 @@ inline constexpr double fault_speed = 0.05;  // m/s toward the other
 // All samples of an event have the same fault.
 class ContactTracker {
  public:
-  // `latency_ns`: from a robot's observation to its reaction.
-  ContactTracker(double a_max, double v_max, std::int64_t latency_ns = 0);
+  // What bounds a robot's braking time.
+  struct Braking {
+    double a_max = 1.0;
+    double v_max = 1.0;           // its greatest speed
+    std::int64_t latency_ns = 0;  // from an observation to the reaction
+  };
+
+  explicit ContactTracker(std::vector<Braking> robots);
 
   // Sets `flags` of the contacts at t_ns, given the bodies at this time. Call it at every step, also without contacts,
   // with increasing times. Robots keep their index; people are identified by id.
@@ -63,9 +69,8 @@ class ContactTracker {
   bool was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns, double speed) const;
   static const dmrp_agent* body_b(const Moment& moment, const dmrp_contact& contact, std::uint64_t b);
 
-  double a_max_;
-  std::int64_t latency_ns_;
-  std::int64_t memory_ns_;
+  std::vector<Braking> robots_;
+  std::int64_t memory_ns_ = fault_window_ns;
   std::deque<Moment> history_;  // before the current step, oldest first
   std::map<Pair, Event> events_;
 };

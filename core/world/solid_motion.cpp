@@ -11,21 +11,10 @@ namespace {
 
 constexpr double neighbour_reach_m = 0.25;  // people walk this far in about 0.2 s, then the search runs again
 constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
+constexpr double outline_tolerance_m = 1e-10;  // polygons stay pressed at the same place: tolerances add up
 constexpr int pushing_sweeps = 200;         // in a jam, most steps need about a dozen
 constexpr int stopping_sweeps = 100;
-
-struct Wall {
-  dmrp_vec2 inward;
-  double distance_m;
-};
-
-// The four sides of the border as seen from a point.
-std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point) {
-  return {{{{1.0, 0.0}, point.x - geometry.lower().x},
-           {{-1.0, 0.0}, geometry.upper().x - point.x},
-           {{0.0, 1.0}, point.y - geometry.lower().y},
-           {{0.0, -1.0}, geometry.upper().y - point.y}}};
-}
+constexpr int turn_halvings = 10;  // then the body does not turn in this step
 
 // From b toward a; an arbitrary direction where they coincide.
 dmrp_vec2 direction_between(dmrp_vec2 b, dmrp_vec2 a, double distance_m) {
@@ -48,13 +37,29 @@ void push(SolidBody& body, dmrp_vec2 change, double max_push_m) {
   if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
 }
 
+// Adds the deepest overlap of two bodies, if it is deeper than `depth_m`.
+void add_deepest(std::uint32_t a, std::uint32_t b, std::span<const Gap> gaps, double depth_m,
+                 std::vector<Overlap>& found) {
+  const auto deepest = std::min_element(gaps.begin(), gaps.end(),
+                                        [](const Gap& one, const Gap& two) { return one.gap_m < two.gap_m; });
+  if (-deepest->gap_m > depth_m) found.push_back({a, b, -deepest->gap_m, deepest->overlap});
+}
+
 }  // namespace
+
+std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point) {
+  return {{{{1.0, 0.0}, point.x - geometry.lower().x},
+           {{-1.0, 0.0}, geometry.upper().x - point.x},
+           {{0.0, 1.0}, point.y - geometry.lower().y},
+           {{0.0, -1.0}, geometry.upper().y - point.y}}};
+}
 
 SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns)
     : geometry_(std::move(geometry)), max_push_m_(max_push_speed * static_cast<double>(step_ns) / 1e9) {}
 
-void SolidMotion::resolve(std::span<SolidBody> bodies) {
+void SolidMotion::resolve(std::span<SolidBody> bodies, std::span<SolidOutline> outlines) {
   find_neighbours(bodies);
+  limit_turns(bodies, outlines);
   collect_constraints(bodies);
   for (int sweep = 0; sweep < pushing_sweeps; ++sweep)
     if (sweep_once(bodies, true)) return;
@@ -117,43 +122,98 @@ void SolidMotion::constrain_beside(std::span<const SolidBody> bodies, std::uint3
   if (reaches_m_[stoppable] > allowed_m) constraints_.push_back({stoppable, no_body, normal, allowed_m});
 }
 
+void SolidMotion::constrain_pair(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
+                                 double gap_m) {
+  if (bodies[b].response == ContactResponse::ignore)
+    constrain_beside(bodies, a, b, normal, gap_m);
+  else if (bodies[a].response == ContactResponse::ignore)
+    constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
+  else
+    constrain(a, b, normal, gap_m);
+}
+
 // A half-plane that separates two convex bodies on the line of their nearest points keeps them apart for every motion
 // that respects it. So no body can jump over another, however fast it moves.
 void SolidMotion::collect_constraints(std::span<const SolidBody> bodies) {
   constraints_.clear();
   for (const auto& [body, shape] : shape_neighbours_) {
-    if (bodies[body].response == ContactResponse::ignore) continue;
+    if (bodies[body].response == ContactResponse::ignore || !outlines_.is_disc(body)) continue;
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
     constrain(body, no_body, surface.outward, surface.distance_m - bodies[body].radius_m);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].response == ContactResponse::ignore) continue;
+    if (bodies[i].response == ContactResponse::ignore || !outlines_.is_disc(i)) continue;
     for (const Wall& wall : walls_around(*geometry_, bodies[i].position))
       constrain(i, no_body, wall.inward, wall.distance_m - bodies[i].radius_m);
   }
   for (const auto& [a, b] : body_neighbours_) {
+    if (!outlines_.is_disc(a) || !outlines_.is_disc(b)) continue;
     const double distance_m = toolkit::distance(bodies[b].position, bodies[a].position);
     const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
-    const double gap_m = distance_m - bodies[a].radius_m - bodies[b].radius_m;
-    if (bodies[b].response == ContactResponse::ignore)
-      constrain_beside(bodies, a, b, normal, gap_m);
-    else if (bodies[a].response == ContactResponse::ignore)
-      constrain_beside(bodies, b, a, -1.0 * normal, gap_m);
-    else
-      constrain(a, b, normal, gap_m);
+    constrain_pair(bodies, a, b, normal, distance_m - bodies[a].radius_m - bodies[b].radius_m);
   }
+  if (!outlines_.all_discs()) collect_outline_constraints(bodies);
+}
+
+void SolidMotion::collect_outline_constraints(std::span<const SolidBody> bodies) {
+  const auto constrain_all = [&](std::uint32_t body, std::span<const Gap> gaps) {
+    for (const Gap& gap : gaps) constrain(body, no_body, gap.normal, gap.gap_m - gap.a_growth_m);
+  };
+  for (const auto& [body, shape] : shape_neighbours_)
+    if (!outlines_.is_disc(body)) constrain_all(body, outlines_.to_shape(bodies, body, geometry_->sdk_shapes()[shape]));
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (!outlines_.is_disc(i)) constrain_all(i, outlines_.to_border(bodies, i, *geometry_));
+  for (const auto& [a, b] : body_neighbours_) {
+    if (outlines_.is_disc(a) && outlines_.is_disc(b)) continue;
+    for (const Gap& gap : outlines_.between(bodies, a, b))
+      constrain_pair(bodies, a, b, gap.normal, gap.gap_m - gap.a_growth_m - gap.b_growth_m);
+  }
+}
+
+// Halves the turns that would close a gap until none does.
+void SolidMotion::limit_turns(std::span<const SolidBody> bodies, std::span<SolidOutline> outlines) {
+  halvings_.assign(outlines.size(), 0);
+  std::vector<std::uint32_t> growing;
+  const auto note_growth = [&](std::uint32_t a, std::uint32_t b, std::span<const Gap> gaps) {
+    for (const Gap& gap : gaps) {
+      if (gap.a_growth_m + gap.b_growth_m <= std::max(0.0, gap.gap_m + solid_depth_m)) continue;
+      if (gap.a_growth_m > 0.0) growing.push_back(a);
+      if (gap.b_growth_m > 0.0) growing.push_back(b);
+    }
+  };
+  do {
+    outlines_.place(bodies, outlines);
+    growing.clear();
+    if (outlines_.all_discs()) return;
+    for (const auto& [body, shape] : shape_neighbours_)
+      if (!outlines_.is_disc(body))
+        note_growth(body, no_body, outlines_.to_shape(bodies, body, geometry_->sdk_shapes()[shape]));
+    for (std::uint32_t i = 0; i < outlines.size(); ++i)
+      if (!outlines_.is_disc(i)) note_growth(i, no_body, outlines_.to_border(bodies, i, *geometry_));
+    for (const auto& [a, b] : body_neighbours_)
+      if (!outlines_.is_disc(a) || !outlines_.is_disc(b)) note_growth(a, b, outlines_.between(bodies, a, b));
+    std::sort(growing.begin(), growing.end());
+    growing.erase(std::unique(growing.begin(), growing.end()), growing.end());
+    for (const std::uint32_t body : growing)
+      outlines[body].turn_rad = ++halvings_[body] > turn_halvings ? 0.0 : 0.5 * outlines[body].turn_rad;
+  } while (!growing.empty());
+}
+
+double SolidMotion::tolerance() const {
+  return outlines_.all_discs() ? tolerance_m : outline_tolerance_m;
 }
 
 // One pass over all constraints. Returns whether all of them held.
 bool SolidMotion::sweep_once(std::span<SolidBody> bodies, bool pushing) const {
   bool all_held = true;
+  const double tolerated_m = tolerance();
   for (const Constraint& constraint : constraints_) {
     SolidBody& a = bodies[constraint.a];
     SolidBody* b = constraint.b == no_body ? nullptr : &bodies[constraint.b];
     const double a_comes_m = -toolkit::dot(a.displacement, constraint.normal);
     const double b_comes_m = b == nullptr ? 0.0 : toolkit::dot(b->displacement, constraint.normal);
     const double excess_m = a_comes_m + b_comes_m - constraint.allowed_m;
-    if (excess_m <= tolerance_m) continue;
+    if (excess_m <= tolerated_m) continue;
     all_held = false;
     if (pushing && b != nullptr && a.response == ContactResponse::yield && b->response == ContactResponse::yield) {
       push(a, constraint.normal * (0.5 * excess_m), max_push_m_);
@@ -178,7 +238,7 @@ void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
     for (const Constraint& constraint : constraints_) {
       double approach_m = -toolkit::dot(bodies[constraint.a].displacement, constraint.normal);
       if (constraint.b != no_body) approach_m += toolkit::dot(bodies[constraint.b].displacement, constraint.normal);
-      if (approach_m <= constraint.allowed_m + tolerance_m) continue;
+      if (approach_m <= constraint.allowed_m + tolerance()) continue;
       bodies[constraint.a].displacement = {0.0, 0.0};
       if (constraint.b != no_body) bodies[constraint.b].displacement = {0.0, 0.0};
       stopped = true;
@@ -186,10 +246,11 @@ void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
   }
 }
 
-void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
-                                       std::vector<Overlap>& found) {
+void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
+                                       std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
   found.clear();
   find_neighbours(bodies);
+  outlines_.place(bodies, outlines);
   const auto add = [&](std::uint32_t body, std::uint32_t shape, double distance_m, dmrp_vec2 outward) {
     const double depth = bodies[body].radius_m - distance_m;
     // the disc reaches from its centre to radius_m behind the surface
@@ -198,10 +259,18 @@ void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::u
   };
   for (const auto& [body, shape] : shape_neighbours_) {
     if (body >= count) break;
+    if (!outlines_.is_disc(body)) {
+      add_deepest(body, shape, outlines_.to_shape(bodies, body, geometry_->sdk_shapes()[shape]), depth_m, found);
+      continue;
+    }
     const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
     add(body, shape, surface.distance_m, surface.outward);
   }
   for (std::uint32_t i = 0; i < count; ++i) {
+    if (!outlines_.is_disc(i)) {
+      add_deepest(i, geometry_->border(), outlines_.to_border(bodies, i, *geometry_), depth_m, found);
+      continue;
+    }
     const auto walls = walls_around(*geometry_, bodies[i].position);
     const auto nearest = std::min_element(
         walls.begin(), walls.end(), [](const Wall& one, const Wall& two) { return one.distance_m < two.distance_m; });
@@ -211,12 +280,17 @@ void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::u
             [](const Overlap& one, const Overlap& two) { return std::pair(one.a, one.b) < std::pair(two.a, two.b); });
 }
 
-void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
-                                   std::vector<Overlap>& found) {
+void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
+                                   std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
   found.clear();
   find_neighbours(bodies);
+  outlines_.place(bodies, outlines);
   for (const auto& [a, b] : body_neighbours_) {
     if (a >= count) break;
+    if (!outlines_.is_disc(a) || !outlines_.is_disc(b)) {
+      add_deepest(a, b, outlines_.between(bodies, a, b), depth_m, found);
+      continue;
+    }
     const double distance_m = toolkit::distance(bodies[a].position, bodies[b].position);
     const double depth = bodies[a].radius_m + bodies[b].radius_m - distance_m;
     if (!(depth > depth_m)) continue;

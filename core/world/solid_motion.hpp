@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// solid_motion.hpp: round bodies that cannot move through each other or through walls.
+// solid_motion.hpp: bodies that cannot move through each other or through walls.
 #pragma once
 
 #include <dmrp/values.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "core/scene/broad_phase.hpp"
 #include "core/scene/static_geometry.hpp"
+#include "core/world/solid_outlines.hpp"
 
 namespace dmrp::core {
 
@@ -22,7 +24,14 @@ inline constexpr double solid_depth_m = 0.0015;
 // The speed at which contact can push a person who stands, m/s.
 inline constexpr double max_push_speed = 1.0;
 
-// A disc and its intended displacement in this step.
+// One of the four sides of the border, as seen from a point.
+struct Wall {
+  dmrp_vec2 inward;
+  double distance_m;
+};
+std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point);
+
+// A body and its intended displacement in this step. Bodies are discs unless they have an outline (solid_outlines.hpp).
 struct SolidBody {
   enum class ContactResponse {
     stop,    // a robot: obstacles stop it, nobody pushes it
@@ -30,7 +39,7 @@ struct SolidBody {
     ignore,  // a recorded person: nothing stops them, the others keep clear
   };
   dmrp_vec2 position{};
-  double radius_m = 0.0;
+  double radius_m = 0.0;  // of the disc, or of the circle around `position` that contains the outline
   dmrp_vec2 displacement{};
   ContactResponse response = ContactResponse::stop;
 };
@@ -52,20 +61,24 @@ struct Overlap {
 // projection onto the admissible velocities of Maury & Venel, A discrete contact model for crowd motion, ESAIM: M2AN 45
 // (2011), approximated by sweeps over the constraints. Without it, three people who touch in an arch around a door are
 // as rigid as one made of stone, however hard the crowd behind them presses.
+//
+// A body with an outline also turns. A turn that would deepen an overlap is shortened (by halves, so that bodies that
+// turn toward each other lose the same share); what is left of it counts as approach in the gaps that it reduces.
 class SolidMotion {
  public:
   // `step_ns`: the duration of one step, for which resolve() gets displacements.
   SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns);
 
-  // Changes the displacements so that no overlap becomes deeper than solid_depth_m and deeper ones do not deepen.
-  void resolve(std::span<SolidBody> bodies);
+  // Changes displacements and turns so that no overlap becomes deeper than solid_depth_m and deeper ones do not deepen.
+  // `outlines` are those of the first bodies; empty if all bodies are discs.
+  void resolve(std::span<SolidBody> bodies, std::span<SolidOutline> outlines = {});
 
   // Overlaps deeper than `depth_m` at the present positions, with shapes or between bodies, ordered by a, then b; a is
   // one of the first `count` bodies. All three functions expect the same bodies in the same order.
-  void overlaps_with_shapes(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
-                            std::vector<Overlap>& found);
-  void overlaps_between(std::span<const SolidBody> bodies, std::uint32_t count, double depth_m,
-                        std::vector<Overlap>& found);
+  void overlaps_with_shapes(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
+                            std::uint32_t count, double depth_m, std::vector<Overlap>& found);
+  void overlaps_between(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines, std::uint32_t count,
+                        double depth_m, std::vector<Overlap>& found);
 
  private:
   static constexpr std::uint32_t no_body = 0xFFFFFFFFu;
@@ -80,10 +93,15 @@ class SolidMotion {
 
   void find_neighbours(std::span<const SolidBody> bodies);
   bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
+  void limit_turns(std::span<const SolidBody> bodies, std::span<SolidOutline> outlines);
   void collect_constraints(std::span<const SolidBody> bodies);
+  void collect_outline_constraints(std::span<const SolidBody> bodies);
+  void constrain_pair(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b, dmrp_vec2 normal,
+                      double gap_m);
   void constrain_beside(std::span<const SolidBody> bodies, std::uint32_t stoppable, std::uint32_t other,
                         dmrp_vec2 normal, double gap_m);
   void constrain(std::uint32_t a, std::uint32_t b, dmrp_vec2 normal, double gap_m);
+  double tolerance() const;
   bool sweep_once(std::span<SolidBody> bodies, bool pushing) const;
   void stop_violators(std::span<SolidBody> bodies) const;
 
@@ -100,6 +118,8 @@ class SolidMotion {
   std::vector<double> found_radii_m_;
 
   std::vector<Constraint> constraints_;
+  SolidOutlines outlines_;
+  std::vector<int> halvings_;  // of the turn, by body with an outline
 };
 
 }  // namespace dmrp::core

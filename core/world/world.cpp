@@ -8,8 +8,6 @@
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/robot_task.hpp"
-#include "core/world/motion_limits.hpp"
-#include "core/world/unicycle.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -33,6 +31,25 @@ std::vector<std::vector<dmrp_goal>> goals_of_all(const Scenario& scenario, const
   return goals;
 }
 
+std::vector<const RobotSettings*> settings_of_robots(const Scenario& scenario, const RobotTypes& types) {
+  std::vector<const RobotSettings*> settings;
+  for (const RobotTask& task : scenario.robots) settings.push_back(&types.of(task));
+  return settings;
+}
+
+std::vector<dmrp_limits> limits_of_robots(std::span<const RobotSettings* const> settings) {
+  std::vector<dmrp_limits> limits;
+  for (const RobotSettings* robot : settings) limits.push_back(limits_of(*robot));
+  return limits;
+}
+
+// Whether a command was beyond what the drive can do, apart from rounding.
+bool exceeds(const dmrp_twist& command, const dmrp_twist& clipped) {
+  constexpr double rounding = 1e-9;
+  return std::abs(command.v_x - clipped.v_x) > rounding || std::abs(command.v_y - clipped.v_y) > rounding ||
+         std::abs(command.omega - clipped.omega) > rounding;
+}
+
 std::vector<dmrp_vec2> positions_of(std::span<const RobotState> robots) {
   std::vector<dmrp_vec2> positions;
   for (const RobotState& robot : robots) positions.push_back(toolkit::position(robot.pose));
@@ -54,22 +71,23 @@ FlowRoutes routes_on_own_grid(const Scenario& scenario, const StaticGeometry& ge
 bool is_at_goal(const RobotState& robot, const dmrp_goal& goal) {
   if (!(toolkit::distance(toolkit::position(robot.pose), toolkit::position(goal.pose)) < goal.tolerance_m))
     return false;
-  if (!(std::abs(robot.velocity.v_x) < goal.tolerance_speed)) return false;
+  if (!(std::hypot(robot.velocity.v_x, robot.velocity.v_y) < goal.tolerance_speed)) return false;
   return std::isnan(goal.pose.theta) ||
          std::abs(toolkit::difference(robot.pose.theta, goal.pose.theta)) < goal.tolerance_rad;
 }
 
 }  // namespace
 
-World::World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+World::World(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
              std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed)
-    : World(scenario, robot, simulation, geometry, routes_on_own_grid(scenario, *geometry), seed) {}
+    : World(scenario, types, simulation, geometry, routes_on_own_grid(scenario, *geometry), seed) {}
 
-World::World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+World::World(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
              std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes, std::uint64_t seed)
-    : robot_settings_(robot),
+    : types_(types),
+      settings_of_(settings_of_robots(scenario, types_)),
+      limits_(limits_of_robots(settings_of_)),
       settings_(simulation),
-      limits_(limits_of(robot)),
       geometry_(std::move(geometry)),
       robots_(initial_states(scenario)),
       pending_commands_(robots_.size()),
@@ -77,24 +95,38 @@ World::World(const Scenario& scenario, const RobotSettings& robot, const Simulat
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
       motion_(geometry_, simulation.step_ns),
-      tracker_(robot.a_max, robot.v_max, command_latency_ns()) {
-  proposed_poses_.resize(robots_.size());
+      tracker_(braking_of_robots()) {
+  proposed_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
-  for (const RobotState& state : robots_) bodies_.push_back({toolkit::position(state.pose), robot.radius_m, {}});
+  for (std::uint32_t i = 0; i < robots_.size(); ++i)
+    bodies_.push_back({robot_positions_[i], robot_settings(i).radius_m, {}});
+  if (std::any_of(settings_of_.begin(), settings_of_.end(), [](const auto* type) { return !type->parts.empty(); }))
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      outlines_.push_back({robot_settings(i).parts, robots_[i].pose.theta, 0.0});
   place_bodies_of_people();
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   update_agents();
 }
 
+std::vector<ContactTracker::Braking> World::braking_of_robots() const {
+  std::vector<ContactTracker::Braking> braking;
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) {
+    const RobotSettings& robot = robot_settings(i);
+    braking.push_back({robot.a_max, std::hypot(robot.v_max, robot.v_y_max), command_latency_ns(i)});
+  }
+  return braking;
+}
+
 dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
-  const dmrp_twist clipped = clip_to_limits(command, limits_);
-  if (command_latency_ns() == 0)
+  const dmrp_twist clipped = clip_to_drive(command, robot_settings(robot).drive, limits_[robot]);
+  if (exceeds(command, clipped)) ++state.clipped_commands;
+  if (command_latency_ns(robot) == 0)
     state.command = clipped;
   else
-    pending_commands_[robot].push_back({t_ns_ + command_latency_ns(), clipped});
+    pending_commands_[robot].push_back({t_ns_ + command_latency_ns(robot), clipped});
   return state.command;
 }
 
@@ -121,7 +153,7 @@ void World::fail(std::uint32_t robot) {
 std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
   apply_due_commands();
   propose_motion(person_velocities);
-  motion_.resolve(bodies_);
+  motion_.resolve(bodies_, outlines_);
   apply_motion();
   t_ns_ += settings_.step_ns;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
@@ -134,10 +166,15 @@ std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velo
 void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     RobotState& robot = robots_[i];
-    robot.velocity = track(robot.velocity, robot.command, limits_, step_s());
-    proposed_poses_[i] = core::move(robot.pose, robot.velocity, step_s());
-    proposed_displacements_[i] = toolkit::position(proposed_poses_[i]) - toolkit::position(robot.pose);
+    proposed_[i] = advance({robot.pose, robot.velocity, robot.steering_rad}, robot.command, settings_of_[i]->drive,
+                           limits_[i], step_s());
+    robot.velocity = proposed_[i].velocity;
+    robot.steering_rad = proposed_[i].steering_rad;
+    proposed_displacements_[i] = toolkit::position(proposed_[i].pose) - toolkit::position(robot.pose);
     bodies_[i].displacement = proposed_displacements_[i];
+    if (outlines_.empty()) continue;
+    outlines_[i].theta = robot.pose.theta;
+    outlines_[i].turn_rad = toolkit::difference(robot.pose.theta, proposed_[i].pose.theta);
   }
   for (std::size_t i = 0; i < person_velocities.size(); ++i)
     bodies_[robots_.size() + i].displacement = person_velocities[i] * step_s();
@@ -148,18 +185,33 @@ void World::propose_motion(std::span<const dmrp_vec2> person_velocities) {
   }
 }
 
+// To the proposed heading, or as far as the robot's outline can turn.
+void World::turn(std::size_t i) {
+  RobotState& robot = robots_[i];
+  const double wish_rad = outlines_.empty() ? 0.0 : toolkit::difference(robot.pose.theta, proposed_[i].pose.theta);
+  if (outlines_.empty() || outlines_[i].turn_rad == wish_rad) {
+    robot.pose.theta = proposed_[i].pose.theta;
+  } else {
+    robot.pose.theta = toolkit::wrap(robot.pose.theta + outlines_[i].turn_rad);
+    robot.velocity.omega *= outlines_[i].turn_rad / wish_rad;
+  }
+  if (!outlines_.empty()) outlines_[i] = {outlines_[i].parts, robot.pose.theta, 0.0};
+}
+
 void World::apply_motion() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     RobotState& robot = robots_[i];
     SolidBody& body = bodies_[i];
-    robot.pose.theta = proposed_poses_[i].theta;
+    turn(i);
     if (body.displacement == proposed_displacements_[i]) {
-      robot.pose = proposed_poses_[i];
+      robot.pose.x = proposed_[i].pose.x;
+      robot.pose.y = proposed_[i].pose.y;
     } else {
       // after a contact, the robot keeps the speed along its intended direction; sliding sideways does not count
       const dmrp_vec2 way = proposed_displacements_[i];
-      const double share = toolkit::dot(body.displacement, way) / toolkit::squared_norm(way);
-      robot.velocity.v_x *= std::clamp(share, 0.0, 1.0);
+      const double share = std::clamp(toolkit::dot(body.displacement, way) / toolkit::squared_norm(way), 0.0, 1.0);
+      robot.velocity.v_x *= share;
+      robot.velocity.v_y *= share;
       robot.pose.x += body.displacement.x;
       robot.pose.y += body.displacement.y;
     }
@@ -218,7 +270,7 @@ void World::update_agents() {
                         robot.state,
                         robot.pose,
                         toolkit::rotate({robot.velocity.v_x, robot.velocity.v_y}, robot.pose.theta),
-                        robot_settings_.radius_m};
+                        settings_of_[i]->radius_m};
   }
   update_person_agents();
 }
@@ -254,9 +306,9 @@ void World::find_contacts() {
   const auto add = [&](std::uint32_t kind, const Overlap& overlap, std::uint32_t b) {
     contacts_.push_back({kind, 0, overlap.a, b, overlap.depth_m, overlap.point});
   };
-  motion_.overlaps_with_shapes(bodies_, robot_count, contact_depth_m, overlaps_);
+  motion_.overlaps_with_shapes(bodies_, outlines_, robot_count, contact_depth_m, overlaps_);
   for (const Overlap& overlap : overlaps_) add(DMRP_CONTACT_STATIC, overlap, overlap.b);
-  motion_.overlaps_between(bodies_, robot_count, contact_depth_m, overlaps_);
+  motion_.overlaps_between(bodies_, outlines_, robot_count, contact_depth_m, overlaps_);
   for (const Overlap& overlap : overlaps_)
     if (overlap.b < robot_count) add(DMRP_CONTACT_ROBOT, overlap, overlap.b);
   for (const Overlap& overlap : overlaps_)

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "core/people/population.hpp"
+#include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "core/world/contact_events.hpp"
+#include "core/world/drive.hpp"
 #include "core/world/solid_motion.hpp"
 
 namespace dmrp::core {
@@ -24,24 +26,29 @@ struct RobotState {
   dmrp_pose pose{};
   dmrp_twist velocity{};    // actual
   dmrp_twist command{};     // in effect, within the velocity limits
-  std::uint32_t state = 0;  // DMRP_ROBOT_*
+  double steering_rad = 0.0;  // Ackermann only
+  std::uint32_t state = 0;    // DMRP_ROBOT_*
   std::uint32_t goal_index = 0;
   std::int64_t settling_since_ns = -1;  // since then the robot meets the current goal's conditions; -1: it does not
   std::int64_t arrival_ns = -1;         // at the last goal; -1: not yet
+  std::uint64_t clipped_commands = 0;   // commands beyond the ability of its drive
 };
 
 class World {
  public:
-  World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+  World(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
         std::shared_ptr<const StaticGeometry> geometry, const FlowRoutes& routes, std::uint64_t seed);
 
   // Computes the flows' routes itself, which takes longer than seconds of simulation.
-  World(const Scenario& scenario, const RobotSettings& robot, const SimulationSettings& simulation,
+  World(const Scenario& scenario, const RobotTypes& types, const SimulationSettings& simulation,
         std::shared_ptr<const StaticGeometry> geometry, std::uint64_t seed);
+
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
 
   std::int64_t t_ns() const { return t_ns_; }
   const StaticGeometry& geometry() const { return *geometry_; }
-  const RobotSettings& robot_settings() const { return robot_settings_; }
+  const RobotSettings& robot_settings(std::uint32_t robot) const { return *settings_of_[robot]; }
   const SimulationSettings& settings() const { return settings_; }
 
   std::span<const RobotState> robots() const { return robots_; }
@@ -57,7 +64,7 @@ class World {
   // There are no robots and no people, and no people will appear.
   bool is_deserted() const { return robots_.empty() && population_.is_over(t_ns_); }
 
-  // Sets the robot's command, clipped to the velocity limits. It takes effect at once, or at the first step after the
+  // Sets the robot's command, clipped to the ability of its drive. It takes effect at once, or at the first step after the
   // latencies of control and actuation, and stays until the next one. Must be finite. Has no effect on a robot that is
   // not active. Returns the command that is in effect now.
   dmrp_twist set_command(std::uint32_t robot, const dmrp_twist& command);
@@ -82,12 +89,14 @@ class World {
     dmrp_twist command;
   };
 
-  std::int64_t command_latency_ns() const {
-    return settings_.control_latency_ns + robot_settings_.actuation_latency_ns;
+  std::int64_t command_latency_ns(std::uint32_t robot) const {
+    return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
   }
+  std::vector<ContactTracker::Braking> braking_of_robots() const;
   void stop(std::uint32_t robot);
   void apply_due_commands();
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
+  void turn(std::size_t robot);
   void apply_motion();
   void check_arrival(std::uint32_t robot);
   void advance_people();
@@ -97,9 +106,10 @@ class World {
   void find_contacts();
   double step_s() const { return 1e-9 * static_cast<double>(settings_.step_ns); }
 
-  RobotSettings robot_settings_;
+  RobotTypes types_;
+  std::vector<const RobotSettings*> settings_of_;  // by robot, in types_
+  std::vector<dmrp_limits> limits_;                // by robot
   SimulationSettings settings_;
-  dmrp_limits limits_;
   std::shared_ptr<const StaticGeometry> geometry_;
   std::int64_t t_ns_ = 0;
   std::vector<RobotState> robots_;
@@ -110,7 +120,8 @@ class World {
   SolidMotion motion_;
   ContactTracker tracker_;
   std::vector<SolidBody> bodies_;                  // robots, then people
-  std::vector<dmrp_pose> proposed_poses_;          // of robots, without contacts
+  std::vector<SolidOutline> outlines_;             // of robots; empty if all are discs
+  std::vector<DriveState> proposed_;               // of robots, without contacts
   std::vector<dmrp_vec2> proposed_displacements_;  // of robots
   std::vector<Overlap> overlaps_;
   std::vector<dmrp_agent> robot_agents_;

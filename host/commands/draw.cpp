@@ -68,7 +68,7 @@ Plan plan_once(const Experiment& experiment) {
     fmt::print(stderr, "{}: {}\n", plugin, text);
   });
   const VariantWorld variant(experiment, experiment.scenarios[0]);
-  const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, experiment.seed);
+  const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, experiment.seed);
   const PluginUse& use = experiment.global_planners[0];
   Instance& planner = pool.get(use, DMRP_NO_ROBOT);
   const std::int64_t budget_ns = nanoseconds(experiment.limits.planner_time_s);

@@ -7,10 +7,11 @@
 #include <cstdio>
 
 #include "core/scene/planning_grid.hpp"
-#include "core/scene/random_tasks.hpp"
+#include "core/scene/planning_grids.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
+#include "host/experiment/robot_tables.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/scenario/find_scenario.hpp"
@@ -86,7 +87,9 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   Experiment experiment;
   const ScenarioFile read = read_scenario_file(file, scenario.ends_with(".toml") ? scenario : file.string());
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
-  if (to_plan) check_world(read, experiment);
+  ScenarioVariant& variant = experiment.scenarios.back();
+  variant.types = robot_types_of(read, experiment);
+  if (to_plan) check_world(read, variant.types, experiment);
   return experiment;
 }
 
@@ -94,10 +97,9 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
   core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::StaticGeometry geometry(scenario);
   const core::SimulationSettings& simulation = experiment.simulation;
-  scenario.robots =
-      core::random_tasks(core::build_planning_grid(geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
-                                                   simulation.planning_margin_m),
-                         robots, seed);
+  const core::PlanningGrids grids(geometry, core::RobotTypes(experiment.robot), simulation.grid_resolution_m,
+                                  simulation.planning_margin_m);
+  scenario.robots = grids.draw({}, robots, seed);
   if (scenario.robots.size() < robots)
     throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks", robots,
                                  scenario.name, scenario.robots.size()));

@@ -17,7 +17,6 @@
 #include "core/people/first_places.hpp"
 #include "core/people/flow_routes.hpp"
 #include "core/people/population.hpp"
-#include "core/scene/random_tasks.hpp"
 #include "host/errors/input_error.hpp"
 
 namespace dmrp::host {
@@ -29,12 +28,12 @@ constexpr int group_attempts = 32;
 class PeopleCheck {
  public:
   PeopleCheck(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-              const core::PlanningGrid& planning, std::size_t most_drawn, Experiment& experiment)
+              const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment)
       : file_(file),
         scenario_(file.scenario),
         geometry_(geometry),
         planning_(planning),
-        most_drawn_(most_drawn),
+        drawn_(drawn),
         experiment_(experiment) {}
 
   void run() {
@@ -99,7 +98,7 @@ class PeopleCheck {
       const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
       if (const auto none = missing_room(scenario_, routes, seed, starts))
         file_.document->fail(file_.flows[none->flow], none->what());
-      if (most_drawn_ == 0 && !missing_room(with_spare, routes, seed, starts)) return;
+      if (drawn_.most == 0 && !missing_room(with_spare, routes, seed, starts)) return;
     }
   }
 
@@ -117,8 +116,8 @@ class PeopleCheck {
   std::vector<dmrp_vec2> starts_kept_clear(std::uint64_t seed) const {
     std::vector<dmrp_vec2> starts = scenario_.other_starts;
     for (const core::RobotTask& task : scenario_.robots) starts.push_back({task.start.x, task.start.y});
-    if (most_drawn_ > 0)
-      for (const core::RobotTask& task : core::random_tasks(planning_, most_drawn_, seed))
+    if (drawn_.most > 0)
+      for (const core::RobotTask& task : planning_.draw(drawn_.types, drawn_.most, seed))
         starts.push_back({task.start.x, task.start.y});
     return starts;
   }
@@ -180,16 +179,16 @@ class PeopleCheck {
   const ScenarioFile& file_;
   const core::Scenario& scenario_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
-  const core::PlanningGrid& planning_;
-  std::size_t most_drawn_;
+  const core::PlanningGrids& planning_;
+  const RandomRobots& drawn_;
   Experiment& experiment_;
 };
 
 }  // namespace
 
 void check_people(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-                  const core::PlanningGrid& planning, std::size_t most_drawn, Experiment& experiment) {
-  PeopleCheck(file, geometry, planning, most_drawn, experiment).run();
+                  const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment) {
+  PeopleCheck(file, geometry, planning, drawn, experiment).run();
 }
 
 }  // namespace dmrp::host

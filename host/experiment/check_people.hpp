@@ -5,17 +5,18 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/scene/planning_grid.hpp"
+#include "core/scene/planning_grids.hpp"
 #include "core/scene/static_geometry.hpp"
+#include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/scenario/read_scenario.hpp"
 
 namespace dmrp::host {
 
 // Checks that people can walk along their flows, that there is room for all at t = 0 in every repetition, and that
-// recorded people keep out of shapes. `most_drawn`: the largest number of robots with random tasks on the grid
-// `planning`. A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
+// recorded people keep out of shapes. `drawn`: robots with random tasks on the grids `planning`.
+// A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
 void check_people(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-                  const core::PlanningGrid& planning, std::size_t most_drawn, Experiment& experiment);
+                  const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment);
 
 }  // namespace dmrp::host

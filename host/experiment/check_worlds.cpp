@@ -3,13 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/polygon.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "core/scene/planning_grid.hpp"
+#include "core/scene/footprint.hpp"
+#include "core/scene/planning_grids.hpp"
 #include "core/scene/random_tasks.hpp"
+#include "core/scene/robot_task.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_people.hpp"
@@ -32,32 +37,33 @@ void check_size(const ScenarioFile& file, double resolution_m, const char* grid)
                                     grid, resolution_m, cells, max_cells));
 }
 
+// For a robot that has a type: its name and width, for a message.
+std::string shown_size(const core::RobotSettings& type) {
+  if (type.type.empty()) return "";
+  return fmt::format(" (type '{}': {:.2f} m wide at its narrowest through the origin)", type.type,
+                     2.0 * core::inscribed_radius(type));
+}
+
 class WorldCheck {
  public:
-  WorldCheck(const ScenarioFile& file, Experiment& experiment, std::size_t most_drawn)
+  WorldCheck(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment, const RandomRobots& drawn)
       : file_(file),
+        types_(types),
         experiment_(experiment),
-        most_drawn_(most_drawn),
+        drawn_(drawn),
         scenario_(file.scenario),
-        radius_m_(experiment.robot.radius_m),
-        needed_m_(radius_m_ + experiment.simulation.planning_margin_m),
         geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
-        planning_(core::build_planning_grid(*geometry_, experiment.simulation.grid_resolution_m, radius_m_,
-                                            experiment.simulation.planning_margin_m)) {}
+        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m) {
+  }
 
-  const core::PlanningGrid& planning_grid() const { return planning_; }
+  const core::PlanningGrids& planning_grids() const { return planning_; }
 
   void run() {
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
     for (std::size_t a = 0; a < scenario_.robots.size(); ++a)
       for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
-    check_people(file_, geometry_, planning_, most_drawn_, experiment_);
-    const double safe_cell_m = 2.0 * std::sqrt(2.0) * radius_m_;
-    if (scenario_.robots.size() > 1 && experiment_.simulation.grid_resolution_m < safe_cell_m)
-      warn(file_.size,
-           fmt::format("cells of {} m are smaller than 2 sqrt(2) r = {:.3f} m: robots that follow a valid plan can "
-                       "touch",
-                       experiment_.simulation.grid_resolution_m, safe_cell_m));
+    check_people(file_, geometry_, planning_, drawn_, experiment_);
+    check_cell_size();
   }
 
  private:
@@ -68,19 +74,47 @@ class WorldCheck {
     file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot + 1, text));
   }
 
+  // The two largest robots can pass each other on neighbouring cells.
+  void check_cell_size() {
+    std::vector<double> radii_m;
+    for (const core::RobotTask& task : scenario_.robots) radii_m.push_back(types_.of(task).radius_m);
+    if (radii_m.size() < 2) return;
+    std::sort(radii_m.rbegin(), radii_m.rend());
+    const double safe_cell_m = std::sqrt(2.0) * (radii_m[0] + radii_m[1]);
+    if (experiment_.simulation.grid_resolution_m < safe_cell_m)
+      warn(file_.size,
+           fmt::format("cells of {} m are smaller than {} = {:.3f} m: robots that follow a valid plan can touch",
+                       experiment_.simulation.grid_resolution_m,
+                       radii_m[0] == radii_m[1] ? "2 sqrt(2) r" : "sqrt(2) (r1 + r2)", safe_cell_m));
+  }
+
+  // Whether the robot's outline is free at a pose; a free heading is always right.
+  bool outline_is_free(const core::RobotSettings& type, const dmrp_pose& pose) const {
+    return std::isnan(pose.theta) || std::all_of(type.parts.begin(), type.parts.end(), [&](const auto& part) {
+             return geometry_->clearance(toolkit::to_world(pose, part), 1.0) > 0.0;
+           });
+  }
+
   // A pose must be reachable from the centre of its planning cell, which stands for it in plans.
-  void check_place(std::size_t robot, const char* verb, const char* noun, dmrp_vec2 point) const {
+  void check_place(std::size_t robot, const char* verb, const char* noun, const dmrp_pose& pose) const {
+    const dmrp_vec2 point = {pose.x, pose.y};
+    const core::RobotSettings& type = types_.of(scenario_.robots[robot]);
+    const double radius_m = core::inscribed_radius(type);
+    const double needed_m = type.radius_m + experiment_.simulation.planning_margin_m;
     if (!geometry_->inside_world(point))
       fail_robot(robot, fmt::format("{} outside the world, at ({}, {})", verb, point.x, point.y));
     const core::NearestShape nearest = geometry_->nearest(point);
     const std::string shape(geometry_->shape_name(nearest.shape));
     const bool border = nearest.shape == geometry_->border();
     const std::string name = border ? shape : "'" + shape + "'";
-    if (nearest.clearance_m < radius_m_)
+    if (nearest.clearance_m < radius_m)
       fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m)", verb,
                                     nearest.clearance_m == 0.0 ? "inside" : "too near to", name, nearest.clearance_m,
-                                    needed_m_));
-    const dmrp_grid view = planning_.view();
+                                    needed_m));
+    if (!outline_is_free(type, pose))
+      fail_robot(robot, fmt::format("{} with its outline in a wall or shape, at ({}, {}, {:.2f} rad)", verb, pose.x,
+                                    pose.y, pose.theta));
+    const dmrp_grid view = planning_.of(type.type).view();
     const toolkit::GridView grid(view);
     const toolkit::Cell cell = grid.cell_of(point);
     const dmrp_vec2 center = grid.center(cell);
@@ -88,8 +122,8 @@ class WorldCheck {
       fail_robot(robot,
                  fmt::format("has its {} ({}, {}) on a planning cell that is not free (centre ({}, {}), clearance "
                              "{:.2f} m, needs {:.2f} m)",
-                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m_));
-    if (!geometry_->sweep_is_free(center, point, radius_m_))
+                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m));
+    if (!geometry_->sweep_is_free(center, point, radius_m))
       fail_robot(robot,
                  fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
   }
@@ -97,16 +131,17 @@ class WorldCheck {
   void check_robot(std::size_t robot) const {
     const core::RobotTask& task = scenario_.robots[robot];
     const dmrp_vec2 start = {task.start.x, task.start.y};
-    check_place(robot, "starts", "start", start);
-    const dmrp_grid view = planning_.view();
+    check_place(robot, "starts", "start", core::start_of(task));
+    const core::PlanningGrid& planning = planning_.of(task.type);
+    const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
-    const auto seen = core::reachable_cells(planning_, grid.index(grid.cell_of(start)));
+    const auto seen = core::reachable_cells(planning, grid.index(grid.cell_of(start)));
     for (const dmrp_pose& goal : task.goals) {
       const dmrp_vec2 point = {goal.x, goal.y};
-      check_place(robot, "has its goal", "goal", point);
+      check_place(robot, "has its goal", "goal", goal);
       if (!seen[grid.index(grid.cell_of(point))])
-        fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid",
-                                      goal.x, goal.y, start.x, start.y));
+        fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}",
+                                      goal.x, goal.y, start.x, start.y, shown_size(types_.of(task))));
     }
   }
 
@@ -118,12 +153,13 @@ class WorldCheck {
   }
 
   void check_distance(std::size_t a, std::size_t b, const char* noun, const dmrp_pose& p, const dmrp_pose& q) {
-    const dmrp_grid view = planning_.view();
+    const dmrp_grid view = planning_.standard().view();
     const toolkit::GridView grid(view);
     const double distance_m = std::hypot(p.x - q.x, p.y - q.y);
-    if (distance_m < 2.0 * radius_m_)
+    const double touching_m = types_.of(scenario_.robots[a]).radius_m + types_.of(scenario_.robots[b]).radius_m;
+    if (distance_m < touching_m)
       fail_robot(b, fmt::format("overlaps robot {} at its {} (distance {:.2f} m, needs {:.2f} m)", a + 1, noun,
-                                distance_m, 2.0 * radius_m_));
+                                distance_m, touching_m));
     if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})))
       fail_robot(b, fmt::format("has its {} on the same planning cell as robot {}", noun, a + 1));
     if (distance_m <= start_distance_m)
@@ -133,26 +169,27 @@ class WorldCheck {
   }
 
   const ScenarioFile& file_;
+  const core::RobotTypes& types_;
   Experiment& experiment_;
-  std::size_t most_drawn_;
+  const RandomRobots& drawn_;
   const core::Scenario& scenario_;
-  double radius_m_;
-  double needed_m_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
-  core::PlanningGrid planning_;
+  core::PlanningGrids planning_;
 };
 
 }  // namespace
 
-void check_world(const ScenarioFile& file, Experiment& experiment, const RandomRobots& drawn) {
+void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
+                 const RandomRobots& drawn) {
   check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
   check_size(file, core::walking_resolution_m, "the grid for people");
-  WorldCheck check(file, experiment, drawn.most);
+  WorldCheck check(file, types, experiment, drawn);
   check.run();
-  if (drawn.most == 0 || core::has_room_for_tasks(check.planning_grid(), drawn.most)) return;
+  const core::PlanningGrids& grids = check.planning_grids();
+  if (drawn.most == 0 || (drawn.types.empty() && core::has_room_for_tasks(grids.standard(), drawn.most))) return;
   for (std::uint32_t repetition = 0; repetition < experiment.trials; ++repetition) {
     const std::uint64_t seed = world_seed(experiment, file.scenario.name, repetition);
-    const std::size_t found = core::random_tasks(check.planning_grid(), drawn.most, seed).size();
+    const std::size_t found = grids.draw(drawn.types, drawn.most, seed).size();
     if (found < drawn.most)
       drawn.at->fail(
           fmt::format("scenario '{}' has room for {} robots with random tasks (repetition {}: starts, and goals, more "

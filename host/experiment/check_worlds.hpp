@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "host/experiment/experiment.hpp"
 #include "host/scenario/read_scenario.hpp"
@@ -14,10 +15,12 @@ namespace dmrp::host {
 struct RandomRobots {
   std::size_t most = 0;           // the largest number in the experiment
   std::optional<TomlValue> at{};  // its place in the experiment file, if most > 0
+  std::vector<core::TypeShare> types{};
 };
 
-// Checks starts, goals and flows against the walls and the experiment's robot, and that every repetition has room for
+// Checks starts, goals and flows against the walls and the robots of these types, and that every repetition has room for
 // the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
-void check_world(const ScenarioFile& file, Experiment& experiment, const RandomRobots& drawn = {});
+void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
+                 const RandomRobots& drawn = {});
 
 }  // namespace dmrp::host

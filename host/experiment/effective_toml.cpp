@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "host/experiment/experiment.hpp"
+#include "host/experiment/robot_tables.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/plugins/parameter_text.hpp"
 #include "host/toml/toml_text.hpp"
@@ -19,12 +19,6 @@ bool is_finite(const ParameterValue& value) {
          std::all_of(value.numbers.begin(), value.numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
-// A bare key if TOML allows it.
-std::string key(const std::string& name) {
-  const auto bare = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-'); };
-  return std::all_of(name.begin(), name.end(), bare) ? name : toml_text(name);
-}
-
 void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses) {
   for (const PluginUse& use : uses) {
     out += fmt::format("\n[[{}]]\nuse   = {}\nlabel = {}\n", kind_name(kind), toml_text(use.info.id),
@@ -33,8 +27,16 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
     out += fmt::format("[{}.params]\n", kind_name(kind));
     // A default may be infinite or NaN, which an experiment file cannot set: it becomes a comment.
     for (const ParameterValue& value : use.parameters)
-      out += fmt::format("{}{} = {}\n", is_finite(value) ? "" : "# ", key(value.key), toml_text(value));
+      out += fmt::format("{}{} = {}\n", is_finite(value) ? "" : "# ", toml_key(value.key), toml_text(value));
   }
+}
+
+void write_shares(std::string& out, const ScenarioVariant& variant) {
+  std::string shares;
+  for (const core::TypeShare& one : variant.drawn_types)
+    shares += fmt::format("{}{} = {}", shares.empty() ? "" : ", ",
+                          toml_key(one.type.empty() ? default_type_name : one.type), toml_text(one.share));
+  if (!shares.empty()) out += fmt::format("types  = {{ {} }}\n", shares);
 }
 
 // The random tasks for one number of robots depend on the other numbers of the same [[scenario]].
@@ -49,6 +51,7 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
     }
     out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()), robots);
     if (variant.all_drawn) out += "tasks  = \"drawn\"\n";
+    write_shares(out, variant);
   }
 }
 

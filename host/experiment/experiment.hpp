@@ -40,7 +40,8 @@ struct Experiment {
   std::vector<PluginUse> metrics;
   bool time_limit_set = false;  // by [simulation]; otherwise each scenario has its own limit
   core::SimulationSettings simulation;
-  core::RobotSettings robot;
+  core::RobotSettings robot;                     // the default type
+  std::vector<core::RobotSettings> robot_types;  // [robot_type.NAME] of this file
   RecordTraces traces = RecordTraces::all;
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)

@@ -9,6 +9,7 @@
 #include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_plugin_uses.hpp"
 #include "host/experiment/read_scenario_uses.hpp"
+#include "host/experiment/robot_tables.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -78,6 +79,30 @@ void check_complete(const TomlTable& root, const Experiment& experiment, const s
                                use.file.scenario.name, count, count == 1 ? "person" : "people"));
 }
 
+// The types of the robots of a variant.
+std::vector<const core::RobotSettings*> types_in_use(const ScenarioVariant& variant) {
+  std::vector<const core::RobotSettings*> types;
+  for (const core::RobotTask& task : variant.scenario.robots) types.push_back(&variant.types.of(task));
+  if (variant.drawn_robots > 0 && variant.drawn_types.empty()) types.push_back(&variant.types.standard());
+  for (const core::TypeShare& share : variant.drawn_types) types.push_back(variant.types.find(share.type));
+  return types;
+}
+
+// The controllers must be able to drive the robots of every scenario.
+void check_drives(const TomlTable& root, const Experiment& experiment) {
+  for (const ScenarioVariant& variant : experiment.scenarios)
+    for (const core::RobotSettings* type : types_in_use(variant))
+      for (const PluginUse& controller : experiment.local_controllers) {
+        if (controller.info.kinematics & 1u << static_cast<std::uint32_t>(type->drive)) continue;
+        const std::string whose =
+            type->type.empty() ? "" : fmt::format(" (type '{}' in scenario '{}')", type->type, variant.label);
+        for (const TomlTable& table : root.tables(kind_name(DMRP_KIND_LOCAL_CONTROLLER)))
+          if (const TomlValue use = table.need("use"); use.text() == controller.info.id)
+            use.fail(
+                fmt::format("{} cannot drive robots with {}{}", controller.info.id, shown_drive(type->drive), whose));
+      }
+}
+
 // Ordered execution needs plans that keep robots apart, cell by cell.
 void check_ordered_execution(const TomlTable& root, const Experiment& experiment) {
   if (experiment.simulation.execution != core::Execution::ordered) return;
@@ -125,12 +150,15 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
       read_plugin_uses(root, kind, experiment, *uses);
     });
   root.read(readers);
+  experiment.robot_types = read_robot_types(root, experiment.robot);
+  for (std::size_t i = 0; i < scenario_uses.size(); ++i) resolve_robot_types(scenario_uses[i], i, experiment);
 
   check_complete(root, experiment, scenario_uses);
+  check_drives(root, experiment);
   check_ordered_execution(root, experiment);
   check_processes(root, experiment);
   if (experiment.metrics.empty()) use_every_metric(root.find_table("experiment")->need("plugins"), experiment);
-  for (const ScenarioUse& use : scenario_uses) check_world(use.file, experiment, use.random);
+  for (const ScenarioUse& use : scenario_uses) check_world(use.file, use.robot_types, experiment, use.random);
   return experiment;
 }
 

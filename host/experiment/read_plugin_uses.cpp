@@ -49,12 +49,6 @@ void check_extensions(const TomlValue& use, const PluginInfo& info) {
   if (const std::string missing = missing_extension(info); !missing.empty()) use.fail(info.id + " " + missing);
 }
 
-// All robots of this host have a differential drive.
-void check_kinematics(const TomlValue& use, const PluginInfo& info) {
-  if (info.kind == DMRP_KIND_LOCAL_CONTROLLER && (info.kinematics & 1u << DMRP_KINEMATICS_DIFFERENTIAL) == 0)
-    use.fail(info.id + " cannot drive robots with a differential drive");
-}
-
 }  // namespace
 
 void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experiment& experiment,
@@ -65,7 +59,6 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experimen
     const TomlValue use = table.need("use");
     const auto [library, info] = find_plugin(use, kind, experiment.libraries);
     check_extensions(use, *info);
-    check_kinematics(use, *info);
     const auto label = table.find("label");
     const std::string name = label ? label->line() : info->name;
     const std::filesystem::path file = find_parameter_file(table, base);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "host/experiment/robot_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -89,6 +90,18 @@ void add_variant(const ScenarioUse& use, const fs::path& file, const RobotCount&
   experiment.scenarios.push_back(std::move(variant));
 }
 
+std::vector<core::TypeShare> read_shares(const TomlValue& value, const core::RobotTypes& types) {
+  std::vector<core::TypeShare> shares;
+  for (const TomlValue& entry : value.table().entries()) {
+    const std::string name = entry.key() == default_type_name ? "" : entry.key();
+    if (!types.find(name)) fail_unknown_type(entry, types);
+    entry.positive();
+    shares.push_back({name, entry.number(0.0, 1e6)});
+  }
+  if (shares.empty()) value.fail("'types' must have at least one type and its share");
+  return shares;
+}
+
 }  // namespace
 
 std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& experiment) {
@@ -98,7 +111,7 @@ std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& e
     const TomlValue name = table.need("use");
     const fs::path file = find_scenario(name.text(), experiment.file.parent_path());
     if (file.empty()) fail_missing(name);
-    ScenarioUse use = {name, read_scenario_file(file, shown(file)), {}};
+    ScenarioUse use = {name, read_scenario_file(file, shown(file)), {}, table.find("types")};
     const std::vector<RobotCount> counts = robot_counts(table, name, use.file.scenario);
     std::size_t most_listed = 0;
     for (const RobotCount& count : counts) {
@@ -110,6 +123,17 @@ std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& e
     uses.push_back(std::move(use));
   }
   return uses;
+}
+
+void resolve_robot_types(ScenarioUse& use, std::size_t entry, Experiment& experiment) {
+  use.robot_types = robot_types_of(use.file, experiment);
+  if (use.types) use.random.types = read_shares(*use.types, use.robot_types);
+  if (use.types && use.random.most == 0) use.types->fail_at_key("'types' are those of drawn robots; none are drawn");
+  for (ScenarioVariant& variant : experiment.scenarios)
+    if (variant.entry == entry) {
+      variant.types = use.robot_types;
+      variant.drawn_types = use.random.types;
+    }
 }
 
 }  // namespace dmrp::host

@@ -2,6 +2,7 @@
 // read_scenario_uses.hpp: the tables [[scenario]] of an experiment file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,22 @@
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> scenario_use_keys = {"use", "robots", "tasks"};  // of [[scenario]]
+inline const std::vector<std::string> scenario_use_keys = {"use", "robots", "tasks", "types"};  // of [[scenario]]
 
 // A [[scenario]] with its scenario file.
 struct ScenarioUse {
   TomlValue use;      // the value of its key `use`
   ScenarioFile file;  // with the listed robots of its largest variant alone
   RandomRobots random;
+  std::optional<TomlValue> types{};  // the value of its key `types`: shares of drawn robots
+  core::RobotTypes robot_types{};    // after resolve_robot_types()
 };
 
 // Reads all [[scenario]]; adds a variant to the experiment for each number of robots. Throws InputError.
 std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& experiment);
+
+// Sets the types of robot of a [[scenario]] and of its variants; `entry`: its position among them. The experiment's own types must
+// have been read. Throws InputError.
+void resolve_robot_types(ScenarioUse& use, std::size_t entry, Experiment& experiment);
 
 }  // namespace dmrp::host

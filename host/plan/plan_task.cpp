@@ -63,7 +63,7 @@ std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   task->variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0]);
   const VariantWorld& variant = *task->variant;
   task->geometry = variant.geometry;
-  const core::World world(variant.scenario, experiment.robot, variant.simulation, variant.geometry, variant.routes,
+  const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, variant.routes,
                           experiment.seed);
   if (!stage_problem(variant, world, nullptr, nanoseconds(experiment.limits.planner_time_s), task->problem))
     throw std::logic_error("robots of a checked scenario do not stand on distinct cells");

@@ -25,12 +25,12 @@ constexpr double max_time_s = 1e6;
 constexpr std::int64_t max_people = 10'000;  // of a flow
 
 const std::vector<std::string> root_keys = {"scenario", "map",    "box",    "circle", "polygon", "robot",
-                                            "robots",   "people", "region", "flow",   "tiles",   "recording"};
+                                            "robots",   "people", "region", "flow",   "tiles",   "recording", "robot_type"};
 const std::vector<std::string> header_keys = {"name", "title", "description", "size_m", "origin_m", "time_limit_s"};
 const std::vector<std::string> box_keys = {"name", "center_m", "size_m", "angle_rad", "height_m"};
 const std::vector<std::string> circle_keys = {"name", "center_m", "radius_m", "height_m"};
 const std::vector<std::string> polygon_keys = {"name", "vertices_m", "height_m"};
-const std::vector<std::string> robot_keys = {"name", "start", "goal", "goals"};
+const std::vector<std::string> robot_keys = {"name", "type", "start", "goal", "goals"};
 const std::vector<std::string> region_keys = {"name", "lower_m", "upper_m"};
 const std::vector<std::string> flow_keys = {"name", "from", "via", "to", "people", "start", "respawn", "group_size"};
 
@@ -142,6 +142,7 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
     } else {
       task.name = fmt::format("robot {}", out.scenario.robots.size() + 1);
     }
+    if (const auto type = table.find("type")) task.type = type->line();
     task.start = pose(table.need("start"));
     task.goals = read_goals(table);
     names.push_back(task.name);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/random_tasks.hpp"
+#include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
 
 namespace dmrp::host {
@@ -21,6 +23,8 @@ struct ScenarioVariant {
   std::uint32_t most_drawn = 0;  // the largest drawn_robots of this [[scenario]]: people keep clear of all their starts
   std::uint32_t entry = 0;       // index of the [[scenario]]
   bool all_drawn = false;        // tasks = "drawn"
+  core::RobotTypes types{};      // that its robots can have
+  std::vector<core::TypeShare> drawn_types{};  // of the drawn robots; none: all of the default type
 };
 
 inline std::uint32_t robot_count(const ScenarioVariant& variant) {

@@ -148,9 +148,9 @@ std::vector<TomlValue> TomlValue::array() const {
   return out;
 }
 
-TomlTable TomlValue::table() const {
+TomlTable TomlValue::table(const std::string& title) const {
   if (!node_->is_table()) fail(fmt::format("'{}' must be a table, not {}", key_, type_name()));
-  return {*document_, *node_->as_table(), "'" + key_ + "'"};
+  return {*document_, *node_->as_table(), title.empty() ? "'" + key_ + "'" : title};
 }
 
 TomlTable::TomlTable(const TomlDocument& document, const toml::table& table, std::string title)

@@ -79,7 +79,7 @@ class TomlValue {
   std::string line() const;  // a text for messages and tables: not empty, without control characters
   std::string choice(const std::vector<std::string>& choices) const;
   std::vector<TomlValue> array() const;
-  TomlTable table() const;
+  TomlTable table(const std::string& title = "") const;  // `title`: its name in messages; "": its key
 
   bool is_integer() const;
   bool is_array() const;

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace dmrp::host {
 
 namespace {
@@ -15,6 +18,11 @@ std::string array(const Items& items) {
 }
 
 }  // namespace
+
+std::string toml_key(const std::string& name) {
+  const auto bare = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-'); };
+  return !name.empty() && std::all_of(name.begin(), name.end(), bare) ? name : toml_text(name);
+}
 
 std::string toml_text(const std::string& text) {
   std::string out = "\"";

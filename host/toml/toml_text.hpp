@@ -8,6 +8,7 @@
 
 namespace dmrp::host {
 
+std::string toml_key(const std::string& name);   // bare if TOML allows it
 std::string toml_text(const std::string& text);  // quoted and escaped
 std::string toml_text(double value);             // the shortest text of the same double
 std::string toml_text(const std::vector<std::string>& texts);

@@ -82,13 +82,14 @@ std::string check_structure(const dmrp_planning_problem& problem, const dmrp_pla
   return "";
 }
 
-// For plans on the grid: every move takes one step to an open neighbour. Fills in the cells, one per step.
+// For plans on the robot's grid: every move takes one step to an open neighbour. Fills in the cells, one per step.
 std::string check_steps(const dmrp_planning_problem& problem, std::size_t index, const std::vector<dmrp_waypoint>& path,
                         std::uint32_t connectivity, std::vector<Cell>& cells) {
+  const dmrp_grid& grid = *DMRP_AT(dmrp_planning_robot, problem.robots, problem.robot_stride, index)->grid;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const auto cell = cell_at_center(*problem.grid, path[i]);
+    const auto cell = cell_at_center(grid, path[i]);
     if (!cell) return where(index, i) + fmt::format(" ({}, {}) is not on a cell's centre", path[i].x, path[i].y);
-    if (!problem.grid->free[index_of(*problem.grid, *cell)])
+    if (!grid.free[index_of(grid, *cell)])
       return where(index, i) + fmt::format(" ({}, {}) is not on a free cell", path[i].x, path[i].y);
     if (i > 0) {
       const Cell from = cells.back();
@@ -102,7 +103,7 @@ std::string check_steps(const dmrp_planning_problem& problem, std::size_t index,
         static constexpr std::uint8_t bits[3][3] = {{DMRP_EDGE_SW, DMRP_EDGE_S, DMRP_EDGE_SE},
                                                     {DMRP_EDGE_W, 0, DMRP_EDGE_E},
                                                     {DMRP_EDGE_NW, DMRP_EDGE_N, DMRP_EDGE_NE}};
-        if (!(problem.grid->edges[index_of(*problem.grid, from)] & bits[dy + 1][dx + 1]))
+        if (!(grid.edges[index_of(grid, from)] & bits[dy + 1][dx + 1]))
           return where(index, i) + fmt::format(": the move to ({}, {}) is not open", path[i].x, path[i].y);
       }
     }

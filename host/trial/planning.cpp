@@ -65,10 +65,11 @@ dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
 }
 
 // False if the robots cannot be put on distinct cells.
-bool put_on_cells(const VariantWorld& variant, double radius_m, const core::World& world, const toolkit::GridView& grid,
+bool put_on_cells(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
                   const InForce* in_force, StagedProblem& problem) {
   // a robot in contact can still leave the obstacle
-  const auto can_move = [&](dmrp_vec2 from, dmrp_vec2 to) {
+  const auto can_move = [&](std::size_t robot, dmrp_vec2 from, dmrp_vec2 to) {
+    const double radius_m = world.robot_settings(static_cast<std::uint32_t>(robot)).radius_m;
     return variant.geometry->sweep_is_free(from, to, std::min(radius_m, variant.geometry->clearance(from)));
   };
   std::vector<toolkit::SnapRequest> requests;
@@ -80,11 +81,12 @@ bool put_on_cells(const VariantWorld& variant, double radius_m, const core::Worl
     }
     // a robot that cannot return straight to its path will not be where the path predicts
     const PathPosition& on_path = in_force->robots[i];
-    requests.push_back({can_move(position, on_path.next_waypoint) ? on_path.position_then : position,
+    requests.push_back({can_move(i, position, on_path.next_waypoint) ? on_path.position_then : position,
                         grid.index_of(on_path.next_waypoint_then)});
   }
+  const auto grid_of = [&](std::size_t robot) { return toolkit::GridView(*problem.robots[robot].grid); };
   const auto cells =
-      toolkit::snap_to_cells(grid, requests, snap_reach_cells * variant.planning_grid.resolution_m, can_move);
+      toolkit::snap_to_own_cells(grid_of, requests, snap_reach_cells * grid.resolution_m(), can_move);
   if (!cells) return false;
   for (std::size_t i = 0; i < problem.robots.size(); ++i) problem.robots[i].start = grid.center((*cells)[i]);
   return true;
@@ -94,6 +96,8 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
                      StagedProblem& problem) {
   const dmrp_world& view = variant.view.world();
   problem.goals.resize(world.robots().size());
+  for (const core::RobotSettings& type : variant.types.all().subspan(1))
+    problem.grids[type.type] = variant.planning_grids->of(type.type).view();
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
     const core::RobotState& state = world.robots()[i];
     const auto goals = world.goals(i);
@@ -104,7 +108,8 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
     robot.goals = problem.goals[i].data();
     robot.goal_stride = sizeof(dmrp_goal);
     robot.first_goal_index = state.goal_index;
-    robot.grid = &problem.grid;
+    const std::string& type = world.robot_settings(i).type;
+    robot.grid = type.empty() ? &problem.grid : &problem.grids.at(type);
     robot.robot = DMRP_AT(dmrp_robot, view.robots, view.robot_stride, i);
     robot.pose = state.pose;
     robot.velocity = state.velocity;
@@ -161,10 +166,10 @@ std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
 
 bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem) {
-  problem.grid = variant.planning_grid.view();
+  problem.grid = variant.planning_grids->standard().view();
   const toolkit::GridView grid(problem.grid);
   describe_robots(variant, world, grid, problem);
-  if (!put_on_cells(variant, world.robot_settings().radius_m, world, grid, in_force, problem)) return false;
+  if (!put_on_cells(variant, world, grid, in_force, problem)) return false;
 
   dmrp_planning_problem& c = problem.c;
   c.struct_size = sizeof(c);

@@ -6,6 +6,7 @@
 #include <dmrp/metric.h>
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,7 +56,8 @@ struct StagedProblem {
 
   std::vector<std::vector<dmrp_goal>> goals;
   std::vector<dmrp_planning_robot> robots;
-  dmrp_grid grid{};
+  dmrp_grid grid{};                         // of the default type
+  std::map<std::string, dmrp_grid> grids;  // by name of the other types
   dmrp_planning_problem c{};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/robot_sensors.hpp"
 
+#include "core/scene/footprint.hpp"
 #include "core/sensors/sensor_noise.hpp"
 #include "core/sensors/visibility.hpp"
 
@@ -11,13 +12,14 @@ RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::
       robot_(robot),
       lidar_(lidar),
       seed_(seed),
-      odometry_(world.robot_settings().odometry, seed, robot, world.robots()[robot].pose),
+      odometry_(world.robot_settings(robot).odometry, seed, robot, world.robots()[robot].pose),
       ranges_(lidar.beams()) {}
 
 void RobotSensors::subscribe_to_costmap() {
   if (costmap_) return;
-  const core::RobotSettings& robot = world_.robot_settings();
-  costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, robot.radius_m, robot.lidar.dropout_share);
+  const core::RobotSettings& robot = world_.robot_settings(robot_);
+  costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, core::inscribed_radius(robot),
+                                                  robot.lidar.dropout_share);
   costmap_->update(odometry_.pose(), scan());
 }
 
@@ -32,7 +34,7 @@ void RobotSensors::tick() {
 const dmrp_scan& RobotSensors::scan() {
   if (!scan_is_fresh_) {
     core::scan_from(world_, robot_, lidar_, ranges_);
-    core::disturb_scan(world_.robot_settings().lidar, {seed_, robot_, world_.t_ns()}, ranges_);
+    core::disturb_scan(world_.robot_settings(robot_).lidar, {seed_, robot_, world_.t_ns()}, ranges_);
     scan_ = lidar_.describe(world_.t_ns(), ranges_);
     scan_is_fresh_ = true;
   }

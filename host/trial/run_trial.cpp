@@ -20,7 +20,7 @@ class Run {
  public:
   Run(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace)
       : settings_(trial.variant.simulation),
-        world_(trial.variant.scenario, trial.experiment.robot, settings_, trial.variant.geometry, trial.variant.routes,
+        world_(trial.variant.scenario, trial.variant.types, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
         plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),

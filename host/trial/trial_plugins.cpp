@@ -28,12 +28,16 @@ TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, con
     : experiment_(experiment),
       variant_(variant),
       world_(world),
-      lidar_(experiment.robot.lidar, variant.geometry),
       scanned_trace_(experiment.scans && experiment.traces != RecordTraces::none ? &trace : nullptr),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
   if (combination.global_planner >= 0) start_planner(combination, pool, seed);
   if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
   if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
+}
+
+core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
+  const core::RobotSettings& type = world_.robot_settings(robot);
+  return lidars_.try_emplace(type.type, type.lidar, variant_.geometry).first->second;
 }
 
 void TrialPlugins::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
@@ -55,7 +59,7 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
   for (std::uint32_t i = 0; i < robot_count; ++i) {
     Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
     controllers_.push_back(
-        {&instance, std::make_shared<RobotSensors>(world_, i, lidar_, seed), instance.table<dmrp_local_controller>()});
+        {&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed), instance.table<dmrp_local_controller>()});
     if (central_) continue;
     offer_to_controller(instance, i, 1);
     start(instance, i);

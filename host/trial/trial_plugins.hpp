@@ -7,9 +7,11 @@
 #include <dmrp/pedestrian_model.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/sensors/lidar.hpp"
@@ -72,6 +74,8 @@ class TrialPlugins {
   void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
 
+  core::Lidar& lidar_of(std::uint32_t robot);
+
   // Offer an instance its extensions.
   void offer(Instance& instance, std::uint32_t kind);
   void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
@@ -91,7 +95,7 @@ class TrialPlugins {
     dmrp_local_controller table;
     std::uint64_t revision = 0;  // of its path
   };
-  core::Lidar lidar_;
+  std::map<std::string, core::Lidar> lidars_;  // by type of robot
   core::TraceEncoder* scanned_trace_;    // nullptr if no scans are recorded
   core::TraceEncoder* annotated_trace_;  // nullptr if no annotations are recorded
   std::vector<std::shared_ptr<Annotations>> annotations_;

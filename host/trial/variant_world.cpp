@@ -5,8 +5,6 @@
 
 #include <stdexcept>
 
-#include "core/scene/random_tasks.hpp"
-
 namespace dmrp::host {
 
 namespace {
@@ -19,9 +17,10 @@ core::SimulationSettings with_time_limit(const Experiment& experiment, const cor
 
 // The scenario with the trial's robots. It draws for the variant with the most robots, and keeps people clear of the other
 // starts too: the first robots and the people are the same in all variants.
-core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrid& grid, std::uint64_t seed) {
+core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrids& grids,
+                                 std::uint64_t seed) {
   core::Scenario scenario = variant.scenario;
-  std::vector<core::RobotTask> drawn = core::random_tasks(grid, variant.most_drawn, seed);
+  std::vector<core::RobotTask> drawn = grids.draw(variant.drawn_types, variant.most_drawn, seed);
   if (drawn.size() < variant.most_drawn)
     throw std::runtime_error(fmt::format("scenario '{}' has no room for {} robots", scenario.name, variant.most_drawn));
   for (std::size_t i = variant.drawn_robots; i < drawn.size(); ++i)
@@ -37,23 +36,25 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
     : scenario(variant.scenario),
       simulation(with_time_limit(experiment, scenario)),
       geometry(std::make_shared<core::StaticGeometry>(scenario)),
-      planning_grid(core::build_planning_grid(*geometry, simulation.grid_resolution_m, experiment.robot.radius_m,
-                                              simulation.planning_margin_m)),
+      types(variant.types),
+      planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation.grid_resolution_m,
+                                                           simulation.planning_margin_m)),
       walking_grids(std::make_shared<WalkingGrids>(geometry)),
       routes(
           core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
-      view(scenario, experiment.robot, simulation, *geometry, planning_grid,
+      view(scenario, types, simulation, *geometry, planning_grids->standard(),
            nanoseconds(experiment.limits.step_time_s)) {}
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                            std::uint64_t seed)
-    : scenario(with_drawn_robots(variant, shared.planning_grid, seed)),
+    : scenario(with_drawn_robots(variant, *shared.planning_grids, seed)),
       simulation(shared.simulation),
       geometry(shared.geometry),
-      planning_grid(shared.planning_grid),
+      types(shared.types),
+      planning_grids(shared.planning_grids),
       walking_grids(shared.walking_grids),
       routes(shared.routes),
-      view(scenario, experiment.robot, simulation, *geometry, planning_grid,
+      view(scenario, types, simulation, *geometry, planning_grids->standard(),
            nanoseconds(experiment.limits.step_time_s)) {}
 
 }  // namespace dmrp::host

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/people/flow_routes.hpp"
-#include "core/scene/planning_grid.hpp"
+#include "core/scene/planning_grids.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "core/scene/world_view.hpp"
@@ -26,7 +26,8 @@ struct VariantWorld {
   core::Scenario scenario;
   core::SimulationSettings simulation;  // with the time limit of this scenario
   std::shared_ptr<const core::StaticGeometry> geometry;
-  core::PlanningGrid planning_grid;
+  core::RobotTypes types;
+  std::shared_ptr<const core::PlanningGrids> planning_grids;
   std::shared_ptr<WalkingGrids> walking_grids;
   core::FlowRoutes routes;  // of the people
   core::WorldView view;

@@ -65,7 +65,7 @@ class Recording {
  public:
   Recording(const TrialUnderTest& trial, host::InstancePool& pool)
       : trial_(trial),
-        world_(trial.variant.scenario, trial.experiment.robot, trial.variant.simulation, trial.variant.geometry,
+        world_(trial.variant.scenario, trial.variant.types, trial.variant.simulation, trial.variant.geometry,
                trial.variant.routes, trial.seed),
         lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
         monitor_(static_cast<std::uint32_t>(world_.robots().size()), trial.variant.simulation.time_limit_ns),

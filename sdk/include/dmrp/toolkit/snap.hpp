@@ -51,23 +51,36 @@ std::uint32_t nearest_free_cell(const GridView& grid, dmrp_vec2 position, double
 // One cell per request, all different: the preferred cell if it is free, no other request prefers it and a straight
 // motion to it is possible; otherwise the nearest free cell with a straight motion. Empty if a robot has no such cell
 // within `reach_m` or two robots would share one; the plan in force is then the better choice. Does not depend on the
-// order of the requests.
-template <class CanMove>
-std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
-                                                        double reach_m, const CanMove& can_move) {
+// order of the requests. `grid_of(i)` is the grid of request i; the grids differ at most in their free cells.
+// `can_move(i, from, to)` tells whether its robot can move straight.
+template <class GridOf, class CanMove>
+std::optional<std::vector<std::uint32_t>> snap_to_own_cells(const GridOf& grid_of,
+                                                            const std::vector<SnapRequest>& requests, double reach_m,
+                                                            const CanMove& can_move) {
   std::vector<std::uint32_t> cells;
-  for (const SnapRequest& request : requests) {
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const SnapRequest& request = requests[i];
+    const GridView grid = grid_of(i);
+    const auto i_can_move = [&](dmrp_vec2 from, dmrp_vec2 to) { return can_move(i, from, to); };
     const auto prefers_it = [&](const SnapRequest& other) { return other.preferred == request.preferred; };
     const bool takes_it = request.preferred != no_cell && grid.free(request.preferred) &&
                           std::count_if(requests.begin(), requests.end(), prefers_it) == 1 &&
-                          can_move(request.position, grid.center(request.preferred));
-    cells.push_back(takes_it ? request.preferred : nearest_free_cell(grid, request.position, reach_m, can_move));
+                          i_can_move(request.position, grid.center(request.preferred));
+    cells.push_back(takes_it ? request.preferred : nearest_free_cell(grid, request.position, reach_m, i_can_move));
     if (cells.back() == no_cell) return std::nullopt;
   }
   std::vector<std::uint32_t> sorted = cells;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
   return cells;
+}
+
+// The same with one grid, and one rule of motion, for all.
+template <class CanMove>
+std::optional<std::vector<std::uint32_t>> snap_to_cells(const GridView& grid, const std::vector<SnapRequest>& requests,
+                                                        double reach_m, const CanMove& can_move) {
+  return snap_to_own_cells([&](std::size_t) { return grid; }, requests, reach_m,
+                           [&](std::size_t, dmrp_vec2 from, dmrp_vec2 to) { return can_move(from, to); });
 }
 
 // The same for discs among static shapes: a straight motion is possible if the disc swept to the cell's centre stays

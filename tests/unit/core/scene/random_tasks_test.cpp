@@ -2,6 +2,7 @@
 // Tasks drawn for any number of robots.
 #include "core/scene/random_tasks.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
@@ -82,4 +83,35 @@ TEST_CASE("without room for all there are fewer tasks, and has_room_for_tasks() 
   // a world too small for a way of 5 m
   CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 1, 1).empty());
   CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 0, 1).empty());
+}
+
+TEST_CASE("drawn types keep their shares at every number of robots") {
+  const std::vector<TypeShare> shares = {{"a", 2.0}, {"b", 1.0}, {"", 1.0}};
+  const std::vector<std::string> types = drawn_types(shares, 40);
+  for (std::size_t count = 1; count <= types.size(); ++count)
+    for (const TypeShare& one : shares) {
+      const auto given = std::count(types.begin(), types.begin() + static_cast<std::ptrdiff_t>(count), one.type);
+      CHECK(std::abs(static_cast<double>(given) - 0.25 * one.share * static_cast<double>(count)) < 1.0);
+    }
+}
+
+TEST_CASE("robots of several types are drawn on their own grids") {
+  Scenario scenario = empty_scenario(30, 20);
+  scenario.shapes = {box("pillar", {10.2, 5.2}, {10.8, 5.8})};
+  const auto geometry = geometry_of(scenario);
+  const PlanningGrid small = build_planning_grid(*geometry, 1.0, 0.25, 0.1);
+  const PlanningGrid large = build_planning_grid(*geometry, 1.0, 1.2, 0.1);
+  const std::vector<TypeGrid> grids = {{"small", 0.25, &small}, {"large", 1.2, &large}};
+  const std::vector<TypeShare> shares = {{"small", 1.0}, {"large", 1.0}};
+  const std::vector<std::string> types = drawn_types(shares, 8);
+  const std::vector<RobotTask> tasks = random_tasks(grids, types, 3);
+  REQUIRE(tasks.size() == 8);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    CHECK(tasks[i].type == types[i]);
+    const double radius_m = types[i] == "large" ? 1.2 : 0.25;
+    CHECK(geometry->clearance({tasks[i].start.x, tasks[i].start.y}) >= radius_m + 0.1 - 1e-9);
+    for (std::size_t k = 0; k < i; ++k)
+      if (types[i] == "large" && types[k] == "large")
+        CHECK(std::hypot(tasks[i].start.x - tasks[k].start.x, tasks[i].start.y - tasks[k].start.y) > 2.6 - 1e-9);
+  }
 }

@@ -37,13 +37,13 @@ struct Mapping {
   }
 
   void look_from(const dmrp_pose& sensor, const std::vector<Disc>& bodies = {}) {
-    lidar->scan(sensor, bodies, ranges);
+    lidar->scan(sensor, bodies, {}, ranges);
     map.update(sensor, lidar->describe(5, ranges));
   }
 
   // With noise, as at this time.
   void look_dimly(const dmrp_pose& sensor, std::int64_t t_ns, const std::vector<Disc>& bodies = {}) {
-    lidar->scan(sensor, bodies, ranges);
+    lidar->scan(sensor, bodies, {}, ranges);
     disturb_scan(settings.lidar, {9, 0, t_ns}, ranges);
     map.update(sensor, lidar->describe(t_ns, ranges));
   }

@@ -22,7 +22,7 @@ std::vector<float> scan_once(const LidarSettings& settings, const Scenario& scen
                              const std::vector<Disc>& bodies = {}) {
   Lidar lidar(settings, geometry_of(scenario));
   std::vector<float> ranges(lidar.beams());
-  lidar.scan(sensor, bodies, ranges);
+  lidar.scan(sensor, bodies, {}, ranges);
   return ranges;
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("a partial field of view has a beam at both ends") {
   Scenario scenario = empty_scenario(12, 8);
   Lidar lidar(settings, geometry_of(scenario));
   std::vector<float> ranges(3);
-  lidar.scan({4, 3, 0}, {}, ranges);
+  lidar.scan({4, 3, 0}, {}, {}, ranges);
   CHECK(ranges[0] == Approx(3.0));
   CHECK(ranges[1] == Approx(8.0));
   CHECK(ranges[2] == Approx(5.0));
@@ -90,7 +90,7 @@ TEST_CASE("scans agree with casting every beam at every body") {
       std::vector<Disc> bodies;
       for (int body = 0; body < 5; ++body)
         bodies.push_back({{stream.uniform(0, 16), stream.uniform(0, 16)}, stream.uniform(0.2, 0.5)});
-      lidar.scan(sensor, bodies, ranges);
+      lidar.scan(sensor, bodies, {}, ranges);
       const dmrp_scan scan = lidar.describe(0, ranges);
       int wrong = 0;
       for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
@@ -109,6 +109,43 @@ TEST_CASE("scans agree with casting every beam at every body") {
       INFO("seed " << seed << " scan " << i);
       // a beam that grazes a corner may pass on either side of it
       CHECK(wrong <= 1);
+    }
+  }
+}
+
+TEST_CASE("scans of polygons agree with brute-force rays, 10,000 beams") {
+  toolkit::Stream stream(11, "test.lidar");
+  LidarSettings settings;
+  settings.beams = 100;
+  Scenario scenario = empty_scenario(20, 20);
+  scenario.shapes = {box("block", {4, 4}, {6, 5}), circle("pillar", {14, 13}, 0.7)};
+  Lidar lidar(settings, geometry_of(scenario));
+  std::vector<float> ranges(lidar.beams());
+  for (int scan = 0; scan < 100; ++scan) {
+    const dmrp_pose sensor = {stream.uniform(7.0, 12.0), stream.uniform(6.0, 12.0), stream.uniform(-pi, pi)};
+    std::vector<ConvexPolygon> polygons;
+    for (int i = 0; i < 6; ++i) {
+      const dmrp_pose frame = {stream.uniform(1.0, 19.0), stream.uniform(1.0, 19.0), stream.uniform(-pi, pi)};
+      polygons.push_back(toolkit::to_world(
+          frame, std::vector<dmrp_vec2>{{-0.6, -0.3}, {0.6, -0.3}, {0.5, 0.3}, {-0.2, 0.5}}));
+    }
+    lidar.scan(sensor, {}, polygons, ranges);
+    std::vector<float> without(lidar.beams());
+    lidar.scan(sensor, {}, {}, without);
+    for (std::uint32_t beam = 0; beam < lidar.beams(); ++beam) {
+      const double angle = sensor.theta - pi + beam * 2.0 * pi / lidar.beams();
+      const dmrp_segment ray = {{sensor.x, sensor.y},
+                                dmrp_vec2{sensor.x, sensor.y} + 10.0 * toolkit::from_angle(angle)};
+      double nearest_m = without[beam];
+      for (const ConvexPolygon& polygon : polygons) {
+        if (toolkit::contains(polygon, ray.from)) nearest_m = 0.0;
+        for (std::size_t side = 0; side < polygon.size(); ++side)
+          if (const auto hit = toolkit::intersection(ray, toolkit::PolygonView(polygon).edge(side)))
+            nearest_m = std::min(nearest_m, toolkit::distance(*hit, ray.from));
+      }
+      CAPTURE(scan, beam);
+      if (nearest_m > 0.0 && std::isfinite(nearest_m))
+        REQUIRE(ranges[beam] == Approx(nearest_m).margin(1e-5));
     }
   }
 }

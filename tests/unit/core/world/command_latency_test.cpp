@@ -69,7 +69,7 @@ TEST_CASE("the braking time of unavoidable contacts includes the latency") {
   // The robot drives at 0.8 m/s and needs 0.8 s to stop. The person would pass until 1 s before the contact, and walks
   // into the robot's way from then on.
   const auto flags = [](std::int64_t latency_ns) {
-    ContactTracker tracker(1.0, 0.8, latency_ns);
+    ContactTracker tracker({{1.0, 0.8, latency_ns}});
     dmrp_contact contact{};
     contact.kind = DMRP_CONTACT_PERSON;
     dmrp_agent robot{};
