@@ -16,17 +16,34 @@ PlanningGrids::PlanningGrids(const StaticGeometry& geometry, const RobotTypes& t
   }
 }
 
+std::size_t PlanningGrids::index_of(std::string_view type) const {
+  return static_cast<std::size_t>(std::find(types_.begin(), types_.end(), type) - types_.begin());
+}
+
 const PlanningGrid& PlanningGrids::of(std::string_view type) const {
-  return grids_[static_cast<std::size_t>(std::find(types_.begin(), types_.end(), type) - types_.begin())];
+  return grids_[index_of(type)];
+}
+
+PlanningGrid PlanningGrids::common(std::span<const std::string> types) const {
+  PlanningGrid grid = types.empty() ? standard() : of(types.front());
+  for (const std::string& type : types) {
+    const PlanningGrid& other = of(type);
+    for (std::size_t cell = 0; cell < grid.free.size(); ++cell) {
+      grid.free[cell] = grid.free[cell] && other.free[cell];
+      grid.edges[cell] &= other.edges[cell];
+    }
+  }
+  return grid;
 }
 
 std::vector<RobotTask> PlanningGrids::draw(std::span<const TypeShare> shares, std::size_t count,
                                            std::uint64_t seed) const {
   if (shares.empty()) return random_tasks(standard(), count, seed);
+  std::vector<std::string> types;
+  for (const TypeShare& one : shares) types.push_back(one.type);
+  const PlanningGrid grid = common(types);
   std::vector<TypeGrid> drawn;
-  for (std::size_t i = 0; i < grids_.size(); ++i)
-    if (std::any_of(shares.begin(), shares.end(), [&](const TypeShare& one) { return one.type == types_[i]; }))
-      drawn.push_back({types_[i], radii_m_[i], &grids_[i]});
+  for (const std::string& type : types) drawn.push_back({type, radii_m_[index_of(type)], &grid});
   return random_tasks(drawn, drawn_types(shares, count), seed);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,10 +23,15 @@ class PlanningGrids {
   const PlanningGrid& standard() const { return grids_[0]; }  // of the default type
   const PlanningGrid& of(std::string_view type) const;        // "": the default type. It must exist
 
-  // Random tasks for robots whose types have these shares (random_tasks.hpp).
+  // The cells and edges that are open for all of these types; no type: the default type's.
+  PlanningGrid common(std::span<const std::string> types) const;
+
+  // Random tasks for robots whose types have these shares (random_tasks.hpp), on cells that are free for all of them.
   std::vector<RobotTask> draw(std::span<const TypeShare> shares, std::size_t count, std::uint64_t seed) const;
 
  private:
+  std::size_t index_of(std::string_view type) const;
+
   std::vector<std::string> types_;
   std::vector<double> radii_m_;
   std::vector<PlanningGrid> grids_;

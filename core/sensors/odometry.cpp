@@ -37,8 +37,9 @@ Motion motion_between(const dmrp_pose& from, const dmrp_pose& to) {
 
 }  // namespace
 
-Odometry::Odometry(const OdometrySettings& settings, std::uint64_t seed, std::uint32_t robot, const dmrp_pose& pose)
-    : settings_(settings), seed_(seed), robot_(robot), truth_(pose), estimate_(pose) {}
+Odometry::Odometry(const OdometrySettings& settings, std::uint64_t seed, std::uint32_t robot, const dmrp_pose& pose,
+                   Drive drive)
+    : settings_(settings), seed_(seed), robot_(robot), drive_(drive), truth_(pose), estimate_(pose) {}
 
 bool Odometry::is_exact() const {
   return std::all_of(settings_.noise.begin(), settings_.noise.end(), [](double a) { return a == 0.0; });
@@ -56,12 +57,26 @@ void Odometry::read(std::int64_t t_ns, const dmrp_pose& pose, const dmrp_twist& 
     return;
   }
 
+  toolkit::Stream noise(seed_, "odometry", robot_, t_ns);
+  const double per_second = 1e9 / static_cast<double>(since_ns);
+  if (drive_ == Drive::holonomic)
+    add_omnidirectional_errors(before, noise, per_second);
+  else
+    add_rolling_errors(before, noise, per_second);
+
+  if (settings_.fix_period_ns > 0 && t_ns - fixed_ns_ >= settings_.fix_period_ns) {
+    estimate_ = pose;
+    fixed_ns_ = t_ns;
+  }
+}
+
+// From `before` to truth_.
+void Odometry::add_rolling_errors(const dmrp_pose& before, toolkit::Stream& noise, double per_second) {
   const auto [a1, a2, a3, a4] = settings_.noise;
-  const Motion truth = motion_between(before, pose);
+  const Motion truth = motion_between(before, truth_);
   const double distance2 = truth.distance_m * truth.distance_m;
   const double before2 = truth.turn_before * truth.turn_before;
   const double after2 = truth.turn_after * truth.turn_after;
-  toolkit::Stream noise(seed_, "odometry", robot_, t_ns);
   const double before_error = noise.normal(0.0, std::sqrt(a1 * before2 + a2 * distance2));
   const double distance_error_m = noise.normal(0.0, std::sqrt(a3 * distance2 + a4 * (before2 + after2)));
   const double after_error = noise.normal(0.0, std::sqrt(a1 * after2 + a2 * distance2));
@@ -70,14 +85,25 @@ void Odometry::read(std::int64_t t_ns, const dmrp_pose& pose, const dmrp_twist& 
   estimate_.x += (truth.distance_m + distance_error_m) * std::cos(heading);
   estimate_.y += (truth.distance_m + distance_error_m) * std::sin(heading);
   estimate_.theta = toolkit::wrap(heading + truth.turn_after + after_error);
-  const double per_second = 1e9 / static_cast<double>(since_ns);
   velocity_.v_x += distance_error_m * per_second;
   velocity_.omega += (before_error + after_error) * per_second;
+}
 
-  if (settings_.fix_period_ns > 0 && t_ns - fixed_ns_ >= settings_.fix_period_ns) {
-    estimate_ = pose;
-    fixed_ns_ = t_ns;
-  }
+void Odometry::add_omnidirectional_errors(const dmrp_pose& before, toolkit::Stream& noise, double per_second) {
+  const auto [a1, a2, a3, a4] = settings_.noise;
+  const dmrp_vec2 way = toolkit::to_local(before, toolkit::position(truth_));
+  const double turn = toolkit::difference(before.theta, truth_.theta);
+  const double distance2 = toolkit::squared_norm(way);
+  const double component_sd_m = std::sqrt(a3 * distance2 + a4 * turn * turn);
+  const double turn_error = noise.normal(0.0, std::sqrt(a1 * turn * turn + a2 * distance2));
+  const double x_error_m = noise.normal(0.0, component_sd_m);
+  const double y_error_m = noise.normal(0.0, component_sd_m);
+
+  const dmrp_vec2 there = toolkit::to_world(estimate_, way + dmrp_vec2{x_error_m, y_error_m});
+  estimate_ = {there.x, there.y, toolkit::wrap(estimate_.theta + turn + turn_error)};
+  velocity_.v_x += x_error_m * per_second;
+  velocity_.v_y += y_error_m * per_second;
+  velocity_.omega += turn_error * per_second;
 }
 
 double Odometry::heading_error() const {

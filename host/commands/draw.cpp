@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/svg.hpp>
 #include <memory>
 
@@ -39,10 +40,18 @@ void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
     picture.rectangle({region.lower, region.upper}, {"region"}, region.name);
 }
 
+// The footprint at a pose; its circle where the heading is free.
+void draw_footprint(toolkit::SvgPlan& picture, const core::RobotSettings& type, const dmrp_pose& pose,
+                    const toolkit::SvgStyle& style, const std::string& title) {
+  if (type.parts.empty() || std::isnan(pose.theta)) return picture.circle({pose.x, pose.y}, type.radius_m, style, title);
+  for (const core::ConvexPolygon& part : type.parts) picture.polygon(toolkit::to_world(pose, part), style, title);
+}
+
 void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const Plan* plan) {
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const core::RobotTask& task = scenario.robots[i];
+    const core::RobotSettings& type = experiment.scenarios[0].types.of(task);
     const auto color = toolkit::series_color(i);
     if (plan) {
       std::vector<dmrp_vec2> points;
@@ -50,10 +59,10 @@ void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const 
       picture.polyline(points, {"path", color}, fmt::format("path of {}", task.name));
     }
     for (const dmrp_pose& goal : task.goals)
-      picture.circle({goal.x, goal.y}, experiment.robot.radius_m, {"goal", color},
-                     fmt::format("goal of {}", task.name));
+      draw_footprint(picture, type, goal, {"goal", color}, fmt::format("goal of {}", task.name));
     const dmrp_pose start = core::start_of(task);
-    picture.circle({start.x, start.y}, experiment.robot.radius_m, {"robot", color}, task.name);
+    draw_footprint(picture, type, start, {"robot", color},
+                   type.type.empty() ? task.name : fmt::format("{} ({})", task.name, type.type));
     picture.arrow({start.x, start.y}, {start.x + 0.6 * std::cos(start.theta), start.y + 0.6 * std::sin(start.theta)},
                   {"heading", color});
     picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i + 1), {"label", color});

@@ -11,7 +11,7 @@
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
-#include "host/experiment/robot_tables.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/scenario/find_scenario.hpp"
@@ -88,7 +88,7 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   const ScenarioFile read = read_scenario_file(file, scenario.ends_with(".toml") ? scenario : file.string());
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
   ScenarioVariant& variant = experiment.scenarios.back();
-  variant.types = robot_types_of(read, experiment);
+  variant.types = robot_types_of(read, experiment.robot, {});
   if (to_plan) check_world(read, variant.types, experiment);
   return experiment;
 }

@@ -44,6 +44,12 @@ std::string shown_size(const core::RobotSettings& type) {
                      2.0 * core::inscribed_radius(type));
 }
 
+std::vector<std::string> listed_types(const core::Scenario& scenario) {
+  std::vector<std::string> types;
+  for (const core::RobotTask& task : scenario.robots) types.push_back(task.type);
+  return types;
+}
+
 class WorldCheck {
  public:
   WorldCheck(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment, const RandomRobots& drawn)
@@ -53,8 +59,8 @@ class WorldCheck {
         drawn_(drawn),
         scenario_(file.scenario),
         geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
-        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m) {
-  }
+        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m),
+        common_(planning_.common(listed_types(scenario_))) {}
 
   const core::PlanningGrids& planning_grids() const { return planning_; }
 
@@ -128,7 +134,7 @@ class WorldCheck {
                  fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
   }
 
-  void check_robot(std::size_t robot) const {
+  void check_robot(std::size_t robot) {
     const core::RobotTask& task = scenario_.robots[robot];
     const dmrp_vec2 start = {task.start.x, task.start.y};
     check_place(robot, "starts", "start", core::start_of(task));
@@ -136,12 +142,18 @@ class WorldCheck {
     const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
     const auto seen = core::reachable_cells(planning, grid.index(grid.cell_of(start)));
+    const auto seen_by_all = core::reachable_cells(common_, grid.index(grid.cell_of(start)));
     for (const dmrp_pose& goal : task.goals) {
       const dmrp_vec2 point = {goal.x, goal.y};
       check_place(robot, "has its goal", "goal", goal);
       if (!seen[grid.index(grid.cell_of(point))])
         fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}",
                                       goal.x, goal.y, start.x, start.y, shown_size(types_.of(task))));
+      if (!seen_by_all[grid.index(grid.cell_of(point))])
+        warn(file_.robots[robot],
+             fmt::format("robot {} reaches its goal ({}, {}) only over cells that are not open for all types: planners "
+                         "that use one grid for all robots find no plan",
+                         robot + 1, goal.x, goal.y));
     }
   }
 
@@ -175,6 +187,7 @@ class WorldCheck {
   const core::Scenario& scenario_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   core::PlanningGrids planning_;
+  core::PlanningGrid common_;  // open for all listed robots
 };
 
 }  // namespace

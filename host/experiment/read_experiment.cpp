@@ -9,7 +9,7 @@
 #include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_plugin_uses.hpp"
 #include "host/experiment/read_scenario_uses.hpp"
-#include "host/experiment/robot_tables.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -79,20 +79,12 @@ void check_complete(const TomlTable& root, const Experiment& experiment, const s
                                use.file.scenario.name, count, count == 1 ? "person" : "people"));
 }
 
-// The types of the robots of a variant.
-std::vector<const core::RobotSettings*> types_in_use(const ScenarioVariant& variant) {
-  std::vector<const core::RobotSettings*> types;
-  for (const core::RobotTask& task : variant.scenario.robots) types.push_back(&variant.types.of(task));
-  if (variant.drawn_robots > 0 && variant.drawn_types.empty()) types.push_back(&variant.types.standard());
-  for (const core::TypeShare& share : variant.drawn_types) types.push_back(variant.types.find(share.type));
-  return types;
-}
-
 // The controllers must be able to drive the robots of every scenario.
 void check_drives(const TomlTable& root, const Experiment& experiment) {
   for (const ScenarioVariant& variant : experiment.scenarios)
-    for (const core::RobotSettings* type : types_in_use(variant))
+    for (const std::string& name : types_in_use(variant))
       for (const PluginUse& controller : experiment.local_controllers) {
+        const core::RobotSettings* type = variant.types.find(name);
         if (controller.info.kinematics & 1u << static_cast<std::uint32_t>(type->drive)) continue;
         const std::string whose =
             type->type.empty() ? "" : fmt::format(" (type '{}' in scenario '{}')", type->type, variant.label);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "host/experiment/robot_tables.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -126,7 +126,7 @@ std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& e
 }
 
 void resolve_robot_types(ScenarioUse& use, std::size_t entry, Experiment& experiment) {
-  use.robot_types = robot_types_of(use.file, experiment);
+  use.robot_types = robot_types_of(use.file, experiment.robot, experiment.robot_types);
   if (use.types) use.random.types = read_shares(*use.types, use.robot_types);
   if (use.types && use.random.most == 0) use.types->fail_at_key("'types' are those of drawn robots; none are drawn");
   for (ScenarioVariant& variant : experiment.scenarios)

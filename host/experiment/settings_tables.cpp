@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "host/experiment/robot_tables.hpp"
-#include "host/experiment/setting.hpp"
+#include "host/scenario/robot_tables.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -98,7 +98,7 @@ std::vector<TomlKeys> settings_keys() {
   std::vector<TomlKeys> keys = {keys_of("[simulation]", simulation_settings(unused.simulation)),
                                 keys_of("[record]", record_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
-  for (TomlKeys& table : robot_table_keys()) keys.push_back(std::move(table));
+  for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   return keys;
 }
 

@@ -12,6 +12,7 @@
 #include "host/scenario/read_map.hpp"
 #include "host/scenario/read_recordings.hpp"
 #include "host/scenario/read_tiles.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "host/toml/toml_document.hpp"
 
@@ -269,7 +270,7 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
 
 std::vector<TomlKeys> keys_of_tables() {
   core::PeopleSettings unused;
-  return {{"[scenario]", header_keys},
+  std::vector<TomlKeys> tables = {{"[scenario]", header_keys},
           {"[map]", map_keys},
           {"[tiles]", tiles_keys},
           {"[[box]]", box_keys},
@@ -281,6 +282,8 @@ std::vector<TomlKeys> keys_of_tables() {
           {"[[region]]", region_keys},
           {"[[flow]]", flow_keys},
           {"[[recording]]", recording_keys}};
+  for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
+  return tables;
 }
 
 }  // namespace

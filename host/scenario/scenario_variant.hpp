@@ -31,4 +31,7 @@ inline std::uint32_t robot_count(const ScenarioVariant& variant) {
   return variant.drawn_robots + static_cast<std::uint32_t>(variant.scenario.robots.size());
 }
 
+// The names of the types of its robots, each once.
+std::vector<std::string> types_in_use(const ScenarioVariant& variant);
+
 }  // namespace dmrp::host

@@ -46,13 +46,13 @@ void Dispatcher::set_plan(const Plan& plan) {
     progress_[i].set_path(course.path, positions[i]);
     if (ordered()) find_stages(course);
   }
-  if (ordered()) dependencies_.set_plan(variant_.planning_grids->standard().view(), plan.paths, positions);
+  if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
 }
 
 // Numbers the cells along the course as the dependency graph does: a leg from a cell's centre to a goal in the same cell
 // does not count.
 void Dispatcher::find_stages(Course& course) const {
-  const dmrp_grid view = variant_.planning_grids->standard().view();
+  const dmrp_grid view = variant_.planning_grid.view();
   const toolkit::GridView grid(view);
   course.stages.assign(1, 0);
   for (std::size_t i = 1; i < course.path.size(); ++i) {

@@ -96,7 +96,7 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
                      StagedProblem& problem) {
   const dmrp_world& view = variant.view.world();
   problem.goals.resize(world.robots().size());
-  for (const core::RobotSettings& type : variant.types.all().subspan(1))
+  for (const core::RobotSettings& type : variant.types.all())
     problem.grids[type.type] = variant.planning_grids->of(type.type).view();
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
     const core::RobotState& state = world.robots()[i];
@@ -108,8 +108,7 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
     robot.goals = problem.goals[i].data();
     robot.goal_stride = sizeof(dmrp_goal);
     robot.first_goal_index = state.goal_index;
-    const std::string& type = world.robot_settings(i).type;
-    robot.grid = type.empty() ? &problem.grid : &problem.grids.at(type);
+    robot.grid = &problem.grids.at(world.robot_settings(i).type);
     robot.robot = DMRP_AT(dmrp_robot, view.robots, view.robot_stride, i);
     robot.pose = state.pose;
     robot.velocity = state.velocity;
@@ -166,7 +165,7 @@ std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
 
 bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem) {
-  problem.grid = variant.planning_grids->standard().view();
+  problem.grid = variant.planning_grid.view();
   const toolkit::GridView grid(problem.grid);
   describe_robots(variant, world, grid, problem);
   if (!put_on_cells(variant, world, grid, in_force, problem)) return false;

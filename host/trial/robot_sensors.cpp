@@ -12,7 +12,8 @@ RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::
       robot_(robot),
       lidar_(lidar),
       seed_(seed),
-      odometry_(world.robot_settings(robot).odometry, seed, robot, world.robots()[robot].pose),
+      odometry_(world.robot_settings(robot).odometry, seed, robot, world.robots()[robot].pose,
+                world.robot_settings(robot).drive),
       ranges_(lidar.beams()) {}
 
 void RobotSensors::subscribe_to_costmap() {

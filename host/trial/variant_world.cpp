@@ -39,10 +39,11 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       types(variant.types),
       planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation.grid_resolution_m,
                                                            simulation.planning_margin_m)),
+      planning_grid(planning_grids->common(types_in_use(variant))),
       walking_grids(std::make_shared<WalkingGrids>(geometry)),
       routes(
           core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
-      view(scenario, types, simulation, *geometry, planning_grids->standard(),
+      view(scenario, types, simulation, *geometry, planning_grid,
            nanoseconds(experiment.limits.step_time_s)) {}
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
@@ -52,9 +53,10 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       geometry(shared.geometry),
       types(shared.types),
       planning_grids(shared.planning_grids),
+      planning_grid(shared.planning_grid),
       walking_grids(shared.walking_grids),
       routes(shared.routes),
-      view(scenario, types, simulation, *geometry, planning_grids->standard(),
+      view(scenario, types, simulation, *geometry, planning_grid,
            nanoseconds(experiment.limits.step_time_s)) {}
 
 }  // namespace dmrp::host

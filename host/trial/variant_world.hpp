@@ -28,6 +28,7 @@ struct VariantWorld {
   std::shared_ptr<const core::StaticGeometry> geometry;
   core::RobotTypes types;
   std::shared_ptr<const core::PlanningGrids> planning_grids;
+  core::PlanningGrid planning_grid;  // free and open for all robots
   std::shared_ptr<WalkingGrids> walking_grids;
   core::FlowRoutes routes;  // of the people
   core::WorldView view;

@@ -34,6 +34,7 @@ Command braking(const Observation& now) {
   const double period_s = seconds(now.dt_ns);
   Command command;
   command.v_x = toward(now.velocity.v_x, 0.0, now.limits.a_max * period_s);
+  command.v_y = toward(now.velocity.v_y, 0.0, now.limits.a_max * period_s);
   command.omega = toward(now.velocity.omega, 0.0, now.limits.alpha_max * period_s);
   return command;
 }

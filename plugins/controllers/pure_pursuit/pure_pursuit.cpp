@@ -8,6 +8,14 @@
 
 namespace dmrp::controllers {
 
+namespace {
+
+double speed_of(const Observation& now) {
+  return std::hypot(now.velocity.v_x, now.velocity.v_y);
+}
+
+}  // namespace
+
 Descriptor PurePursuit::describe() {
   return Descriptor("dmrp.controller.pure_pursuit", "Pure pursuit", "1.0.0")
       .vendor("dmrp")
@@ -16,12 +24,14 @@ Descriptor PurePursuit::describe() {
       .source(
           "Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 "
           "(2023)")
-      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC |
+                  1u << DMRP_KINEMATICS_ACKERMANN)
       .uses(DMRP_EXT_LOCAL_COSTMAP)
       .uses(DMRP_EXT_ANNOTATE);
 }
 
 Status PurePursuit::start(const Start& start) {
+  kinematics_ = start.world.robots()[static_cast<std::uint32_t>(start.robot)].kinematics;
   costmap_ = find_extension<dmrp_local_costmap>();
   annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
@@ -36,7 +46,7 @@ void PurePursuit::set_path(Path path, std::uint64_t) {
 Status PurePursuit::step(const Observation& now, Command& command) {
   tracker_.update(now);
   if (tracker_.empty() || at_goal_.reached(tracker_.stop(), now)) {
-    command = tracker_.empty() ? braking(now) : at_goal_.command(tracker_.stop(), now);
+    command = stop(now);
     return Status::ok;
   }
   const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_, now.robot) : nullptr;
@@ -53,7 +63,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
   }
   command = braking(now);
   // a robot that stands before an obstacle waits: that is not a failure to find a command
-  if (now.velocity.v_x == 0.0 && now.velocity.omega == 0.0) return Status::ok;
+  if (now.velocity.v_x == 0.0 && now.velocity.v_y == 0.0 && now.velocity.omega == 0.0) return Status::ok;
   set_error("the arc to the look-ahead point runs into an obstacle");
   return Status::no_solution;
 }
@@ -61,28 +71,63 @@ Status PurePursuit::step(const Observation& now, Command& command) {
 double PurePursuit::look_ahead(const Observation& now) const {
   if (!use_velocity_scaled_lookahead_dist) return lookahead_dist;
   return std::max<double>(min_lookahead_dist,
-                          std::min<double>(std::abs(now.velocity.v_x) * lookahead_time, max_lookahead_dist));
+                          std::min<double>(speed_of(now) * lookahead_time, max_lookahead_dist));
+}
+
+Command PurePursuit::stop(const Observation& now) {
+  return tracker_.empty() || has_drive(DMRP_KINEMATICS_ACKERMANN) ? braking(now)
+                                                                   : at_goal_.command(tracker_.stop(), now);
 }
 
 Command PurePursuit::pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const {
   const double period_s = seconds(now.dt_ns);
   const Vec2 carrot =
       toolkit::to_local(now.pose, tracker_.point_at_distance(toolkit::position(now.pose), look_ahead_m));
+  if (has_drive(DMRP_KINEMATICS_HOLONOMIC)) return translate(now, carrot, map);
+  const bool is_car = has_drive(DMRP_KINEMATICS_ACKERMANN);
   const double angle = std::atan2(carrot.y, carrot.x);
+  if (!is_car && std::abs(angle) > (use_rotate_to_heading ? *rotate_to_heading_min_angle : toolkit::pi / 2))
+    return turn_in_place(now, angle);
   const double step_m_s = now.limits.a_max * period_s;
-  Command command;
-  if (std::abs(angle) > (use_rotate_to_heading ? *rotate_to_heading_min_angle : toolkit::pi / 2)) {
-    command.v_x = toward(now.velocity.v_x, 0.0, step_m_s);
-    command.omega = turning_rate(angle, now);
-    return command;
-  }
   const double squared = toolkit::squared_norm(carrot);
-  const double curvature = squared > 1e-6 ? 2.0 * carrot.y / squared : 0.0;
+  double curvature = squared > 1e-6 ? 2.0 * carrot.y / squared : 0.0;
+  if (is_car) {
+    const double sharpest = std::tan(now.limits.steering_max) / now.limits.wheelbase_m;
+    // the arc to a point behind gets flatter, the nearer it is to straight behind
+    if (std::abs(angle) > toolkit::pi / 2) curvature = std::copysign(sharpest, carrot.y);
+    curvature = std::clamp(curvature, -sharpest, sharpest);
+  }
+  Command command;
   double speed = std::min(regulated_speed(now, curvature, map), approach_speed(now));
   if (std::abs(curvature) > 1e-9) speed = std::min(speed, now.limits.omega_max / std::abs(curvature));
   command.v_x = std::clamp(toward(now.velocity.v_x, speed, step_m_s), 0.0, now.limits.v_max);
-  const double omega = toward(now.velocity.omega, command.v_x * curvature, now.limits.alpha_max * period_s);
+  const double wanted = command.v_x * curvature;
+  const double omega = is_car ? wanted : toward(now.velocity.omega, wanted, now.limits.alpha_max * period_s);
   command.omega = std::clamp(omega, -now.limits.omega_max, now.limits.omega_max);
+  return command;
+}
+
+Command PurePursuit::turn_in_place(const Observation& now, double angle) const {
+  Command command = braking(now);
+  command.omega = turning_rate(angle, now);
+  return command;
+}
+
+Command PurePursuit::translate(const Observation& now, Vec2 carrot, const dmrp_costmap* map) const {
+  const double distance_m = toolkit::norm(carrot);
+  if (distance_m < 1e-6) return braking(now);
+  const Vec2 ahead = carrot / distance_m;
+  double speed = std::min(regulated_speed(now, 0.0, map), approach_speed(now));
+  if (std::abs(ahead.y) > 1e-9) speed = std::min(speed, now.limits.v_y_max / std::abs(ahead.y));
+  if (ahead.x < 0.0) speed = std::min(speed, -now.limits.v_min / -ahead.x);
+  const Vec2 velocity = {now.velocity.v_x, now.velocity.v_y};
+  const Vec2 change = speed * ahead - velocity;
+  const double most = now.limits.a_max * seconds(now.dt_ns);
+  const Vec2 reached = velocity + change * std::min(1.0, most / std::max(toolkit::norm(change), 1e-9));
+  Command command;
+  command.v_x = reached.x;
+  command.v_y = reached.y;
+  command.omega = turning_rate(std::atan2(carrot.y, carrot.x), now);
   return command;
 }
 
@@ -117,7 +162,7 @@ double PurePursuit::approach_speed(const Observation& now) const {
 bool PurePursuit::is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const {
   const CostmapView view(*map);
   const FootprintCheck check(view, now.footprint, footprint_padding, now.pose);
-  const double speed = std::abs(command.v_x);
+  const double speed = std::hypot(command.v_x, command.v_y);
   double duration_s = max_allowed_time_to_collision_up_to_carrot;
   if (speed > 1e-3) {
     const double braking_s = speed / now.limits.a_max + seconds(now.dt_ns);
@@ -125,7 +170,13 @@ bool PurePursuit::is_blocked(const Observation& now, const Command& command, con
   }
   const double length_m = std::max(speed, std::abs(command.omega) * now.footprint.radius_m) * duration_s;
   const int steps = 1 + static_cast<int>(length_m / view.resolution_m());
-  return check.arc_cost(now.pose, command.v_x, command.omega, duration_s, steps) == in_collision;
+  if (!has_drive(DMRP_KINEMATICS_HOLONOMIC))
+    return check.arc_cost(now.pose, command.v_x, command.omega, duration_s, steps) == in_collision;
+  for (int i = 1; i <= steps; ++i) {
+    const Vec2 way = Vec2{command.v_x, command.v_y} * (duration_s * i / steps);
+    if (check.cost(directed(toolkit::to_world(now.pose, way), now.pose.theta)) == in_collision) return true;
+  }
+  return false;
 }
 
 }  // namespace dmrp::controllers

@@ -3,6 +3,11 @@
 //
 // Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 (2023).
 // Parameters have the names of nav2; the limits of speeds and accelerations come from the robot.
+//
+// Drives beside the published differential one:
+// - Ackermann: arcs no tighter than the steering allows; never turns in place, also not at the goal, so it cannot reach
+//   a goal heading that its path does not lead to
+// - holonomic: straight to the look-ahead point, while it turns to face it
 #pragma once
 
 #include <dmrp/ext/local_costmap.h>
@@ -71,10 +76,15 @@ class PurePursuit final : public LocalController {
  private:
   double look_ahead(const Observation& now) const;
   Command pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const;
+  Command turn_in_place(const Observation& now, double angle) const;
+  Command translate(const Observation& now, Vec2 carrot, const dmrp_costmap* map) const;
+  Command stop(const Observation& now);
   double regulated_speed(const Observation& now, double curvature, const dmrp_costmap* map) const;
   double approach_speed(const Observation& now) const;
   bool is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const;
+  bool has_drive(std::uint32_t kinematics) const { return kinematics_ == kinematics; }
 
+  std::uint32_t kinematics_ = DMRP_KINEMATICS_DIFFERENTIAL;
   const dmrp_local_costmap* costmap_ = nullptr;
   Annotations annotations_;
   PathTracker tracker_;

@@ -81,7 +81,7 @@ void ArenaSensors::set_boxes(const std::vector<Box>& boxes) {
 
 void ArenaSensors::look(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies,
                         const std::vector<dmrp_agent>& agents) {
-  lidar_->scan(pose, bodies, ranges_);
+  lidar_->scan(pose, bodies, {}, ranges_);
   scan_ = lidar_->describe(t_ns, ranges_);
   if (sight_ == Sight::scan) {
     rolling_.update(pose, scan_);

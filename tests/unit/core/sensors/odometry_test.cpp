@@ -130,3 +130,34 @@ TEST_CASE("noise depends on the seed and the robot") {
   CHECK(after(1, 0) != after(2, 0));
   CHECK(after(1, 0) != after(1, 1));
 }
+
+TEST_CASE("a holonomic drive's sideways motion is no turn") {
+  const auto moved = [](Drive drive) {
+    Odometry odometry(noise(1.0, 0.0, 0.0, 0.0), 5, 0, {0, 0, 0}, drive);
+    odometry.read(0, {0, 0, 0}, {});
+    odometry.read(tick_ns, {0.0, 0.1, 0.0}, {0.0, 1.0, 0.0});
+    return odometry.pose();
+  };
+  CHECK(moved(Drive::holonomic).theta == 0.0);
+  CHECK(moved(Drive::holonomic).y == Approx(0.1));
+  CHECK(moved(Drive::differential).theta != 0.0);  // turn, drive, turn back
+}
+
+TEST_CASE("errors of a holonomic drive have the stated deviations") {
+  double sum_x = 0.0;
+  double sum_y = 0.0;
+  double sum_turn = 0.0;
+  constexpr int count = 4000;
+  for (int i = 0; i < count; ++i) {
+    Odometry odometry(noise(0.04, 0.01, 0.09, 0.16), static_cast<std::uint64_t>(i), 0, {0, 0, 0}, Drive::holonomic);
+    odometry.read(0, {0, 0, 0}, {});
+    odometry.read(tick_ns, {0.3, 0.4, 0.2}, {});
+    sum_x += std::pow(odometry.pose().x - 0.3, 2);
+    sum_y += std::pow(odometry.pose().y - 0.4, 2);
+    sum_turn += std::pow(odometry.pose().theta - 0.2, 2);
+  }
+  const double component = 0.09 * 0.25 + 0.16 * 0.04;
+  CHECK(sum_x / count == Approx(component).epsilon(0.1));
+  CHECK(sum_y / count == Approx(component).epsilon(0.1));
+  CHECK(sum_turn / count == Approx(0.04 * 0.04 + 0.01 * 0.25).epsilon(0.1));
+}

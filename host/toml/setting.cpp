@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/experiment/setting.hpp"
+#include "host/toml/setting.hpp"
 
 #include <fmt/format.h>
 

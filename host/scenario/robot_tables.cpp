@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/experiment/robot_tables.hpp"
+#include "host/scenario/robot_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/scene/footprint.hpp"
-#include "host/experiment/setting.hpp"
+#include "host/toml/setting.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
@@ -178,7 +178,7 @@ void read_types(const TomlTable& root, const core::RobotSettings& standard, cons
   if (!types) return;
   for (const TomlValue& entry : types->entries()) {
     core::RobotSettings type = standard;
-    read_robot_table(entry.table("[robot_type]"), type);
+    read_robot_table(entry.table(fmt::format("[robot_type.{}]", entry.key())), type);
     type.type = entry.key();
     if (type.type == default_type_name) entry.fail_at_key("[robot] is the type 'default'");
     put(std::move(type));
@@ -206,11 +206,11 @@ std::vector<core::RobotSettings> read_robot_types(const TomlTable& root, const c
   return types;
 }
 
-core::RobotTypes robot_types_of(const ScenarioFile& file, const Experiment& experiment) {
-  core::RobotTypes types(experiment.robot);
-  read_types(file.document->root(), experiment.robot,
-             [&](core::RobotSettings type) { types.put(std::move(type)); });
-  for (const core::RobotSettings& type : experiment.robot_types) types.put(type);
+core::RobotTypes robot_types_of(const ScenarioFile& file, const core::RobotSettings& standard,
+                                std::span<const core::RobotSettings> of_experiment) {
+  core::RobotTypes types(standard);
+  read_types(file.document->root(), standard, [&](core::RobotSettings type) { types.put(std::move(type)); });
+  for (const core::RobotSettings& type : of_experiment) types.put(type);
   for (std::size_t i = 0; i < file.scenario.robots.size(); ++i) {
     const std::string& name = file.scenario.robots[i].type;
     if (!types.find(name))
@@ -228,14 +228,13 @@ const char* shown_drive(core::Drive drive) {
   return drive == core::Drive::holonomic ? "a holonomic drive" : "an Ackermann drive";
 }
 
-std::vector<TomlKeys> robot_table_keys() {
+std::vector<TomlKeys> robot_table_keys(const std::string& table) {
   core::RobotSettings unused;
-  return {keys_of("[robot]", robot_settings(unused)),
-          keys_of("[robot_type]", robot_settings(unused)),
-          {"[robot.footprint]", footprint_keys},
-          keys_of("[robot.odometry]", odometry_settings(unused.odometry)),
-          keys_of("[robot.lidar]", lidar_settings(unused.lidar)),
-          keys_of("[robot.costmap]", costmap_settings(unused.costmap))};
+  return {keys_of(table + "]", robot_settings(unused)),
+          {table + ".footprint]", footprint_keys},
+          keys_of(table + ".odometry]", odometry_settings(unused.odometry)),
+          keys_of(table + ".lidar]", lidar_settings(unused.lidar)),
+          keys_of(table + ".costmap]", costmap_settings(unused.costmap))};
 }
 
 std::string robot_text(const core::RobotSettings& robot) {
