@@ -130,8 +130,8 @@ class FootprintGrid {
     const int axis = direction % axes;
     if (!view_.contains(to) || !passes(cell, axis) || !passes(view_.index(to), axis)) return false;
     if (grid_.edges[cell] & 1u << direction) return true;  // open for the circle around the footprint
-    if (toolkit::is_diagonal(direction) && (axes_[view_.index({to.column, from.row})] == no_axis ||
-                                            axes_[view_.index({from.column, to.row})] == no_axis))
+    if (toolkit::is_diagonal(direction) &&
+        (axes_[view_.index({to.column, from.row})] == no_axis || axes_[view_.index({from.column, to.row})] == no_axis))
       return false;
     for (const int heading : {axis, axis + axes})
       for (const ConvexPolygon& part : headed_[static_cast<std::size_t>(heading)])

@@ -15,7 +15,7 @@
 namespace dmrp::core {
 
 inline constexpr double task_separation_m = 2.0;  // starts, and goals, are farther than this from each other
-inline constexpr double task_gap_m = 0.2;  // so are the circles around their footprints, if they are large
+inline constexpr double task_gap_m = 0.2;         // so are the circles around their footprints, if they are large
 inline constexpr double min_task_length_m = 5.0;  // a goal is at least this far from its start, as the crow flies
 
 // Starts and goals of `count` robots on the centres of free cells of the largest connected part of the world; headings

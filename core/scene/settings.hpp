@@ -52,9 +52,9 @@ using ConvexPolygon = std::vector<dmrp_vec2>;
 
 // A type of robot.
 struct RobotSettings {
-  std::string type;                       // its name; "": the default type
-  double radius_m = 0.25;                 // of the disc, or of the circle around the origin that contains the parts
-  std::vector<ConvexPolygon> parts;       // the footprint is their union; none: a disc
+  std::string type;                  // its name; "": the default type
+  double radius_m = 0.25;            // of the disc, or of the circle around the origin that contains the parts
+  std::vector<ConvexPolygon> parts;  // the footprint is their union; none: a disc
   Drive drive = Drive::differential;
   double v_min = 0.0;                     // m/s
   double v_max = 0.8;                     // m/s

@@ -152,9 +152,8 @@ double StaticGeometry::clearance(toolkit::PolygonView polygon, double at_most_m)
   tree_.touching(box_around(box.lower, box.upper, at_most_m), near);
   for (const std::uint32_t shape : near) {
     const dmrp_shape& body = sdk_shapes_[shape];
-    const Separation apart = body.kind == DMRP_SHAPE_CIRCLE
-                                 ? separation(polygon, body.center, body.radius_m)
-                                 : separation(polygon, toolkit::polygon_of(body));
+    const Separation apart = body.kind == DMRP_SHAPE_CIRCLE ? separation(polygon, body.center, body.radius_m)
+                                                            : separation(polygon, toolkit::polygon_of(body));
     nearest_m = std::min(nearest_m, apart.distance_m);
   }
   return nearest_m;

@@ -36,8 +36,7 @@ bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
 
 ContactTracker::ContactTracker(std::vector<Braking> robots) : robots_(std::move(robots)) {
   for (const Braking& robot : robots_)
-    memory_ns_ =
-        std::max<std::int64_t>(memory_ns_, std::llround(1e9 * robot.v_max / robot.a_max) + robot.latency_ns);
+    memory_ns_ = std::max<std::int64_t>(memory_ns_, std::llround(1e9 * robot.v_max / robot.a_max) + robot.latency_ns);
 }
 
 void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,

@@ -51,11 +51,10 @@ DriveState advance_ackermann(const DriveState& state, const dmrp_twist& command,
   next.velocity = track({state.velocity.v_x, 0.0, 0.0}, {command.v_x, 0.0, 0.0}, limits, dt_s);
   const double steering_s = std::min(dt_s, std::abs(change_rad) / limits.steering_rate_max);
   if (steering_s > 0.0) {
-    next.steering_rad = steering_s < dt_s ? aim_rad
-                                          : state.steering_rad + std::copysign(limits.steering_rate_max * dt_s,
-                                                                               change_rad);
-    next.pose = steer(state.pose, next.velocity.v_x, state.steering_rad, next.steering_rad, steering_s,
-                      limits.wheelbase_m);
+    next.steering_rad =
+        steering_s < dt_s ? aim_rad : state.steering_rad + std::copysign(limits.steering_rate_max * dt_s, change_rad);
+    next.pose =
+        steer(state.pose, next.velocity.v_x, state.steering_rad, next.steering_rad, steering_s, limits.wheelbase_m);
   }
   next.velocity.omega = next.velocity.v_x * std::tan(next.steering_rad) / limits.wheelbase_m;
   if (steering_s < dt_s) next.pose = move(next.pose, next.velocity, dt_s - steering_s);

@@ -10,7 +10,7 @@ namespace dmrp::core {
 
 struct DriveState {
   dmrp_pose pose{};
-  dmrp_twist velocity{};  // in the robot's frame
+  dmrp_twist velocity{};      // in the robot's frame
   double steering_rad = 0.0;  // of the front wheels; Ackermann only
 };
 

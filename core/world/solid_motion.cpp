@@ -9,10 +9,10 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double neighbour_reach_m = 0.25;  // people walk this far in about 0.2 s, then the search runs again
-constexpr double tolerance_m = 1e-7;        // far below the 0.5 mm between solid_depth_m and contact_depth_m
+constexpr double neighbour_reach_m = 0.25;     // people walk this far in about 0.2 s, then the search runs again
+constexpr double tolerance_m = 1e-7;           // far below the 0.5 mm between solid_depth_m and contact_depth_m
 constexpr double outline_tolerance_m = 1e-10;  // polygons stay pressed at the same place: tolerances add up
-constexpr int pushing_sweeps = 200;         // in a jam, most steps need about a dozen
+constexpr int pushing_sweeps = 200;            // in a jam, most steps need about a dozen
 constexpr int stopping_sweeps = 100;
 constexpr int turn_halvings = 10;  // then the body does not turn in this step
 
@@ -40,8 +40,8 @@ void push(SolidBody& body, dmrp_vec2 change, double max_push_m) {
 // Adds the deepest overlap of two bodies, if it is deeper than `depth_m`.
 void add_deepest(std::uint32_t a, std::uint32_t b, std::span<const Gap> gaps, double depth_m,
                  std::vector<Overlap>& found) {
-  const auto deepest = std::min_element(gaps.begin(), gaps.end(),
-                                        [](const Gap& one, const Gap& two) { return one.gap_m < two.gap_m; });
+  const auto deepest =
+      std::min_element(gaps.begin(), gaps.end(), [](const Gap& one, const Gap& two) { return one.gap_m < two.gap_m; });
   if (-deepest->gap_m > depth_m) found.push_back({a, b, -deepest->gap_m, deepest->overlap});
 }
 

@@ -90,8 +90,11 @@ std::span<const Gap> SolidOutlines::between(std::span<const SolidBody> bodies, s
     }
     for (const Part& other_part : placed_[b]) {
       const Separation apart = separation(part.now, other_part.now);
-      Gap gap = {apart.normal, apart.distance_m, a_growth_m(apart.normal),
-                 growth(other_part, other.position, apart.normal), {}};
+      Gap gap = {apart.normal,
+                 apart.distance_m,
+                 a_growth_m(apart.normal),
+                 growth(other_part, other.position, apart.normal),
+                 {}};
       if (gap.gap_m < 0.0) gap.overlap = core::middle_of_overlap(part.now, other_part.now);
       gaps_.push_back(gap);
     }

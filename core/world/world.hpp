@@ -24,8 +24,8 @@ namespace dmrp::core {
 
 struct RobotState {
   dmrp_pose pose{};
-  dmrp_twist velocity{};    // actual
-  dmrp_twist command{};     // in effect, within the velocity limits
+  dmrp_twist velocity{};      // actual
+  dmrp_twist command{};       // in effect, within the velocity limits
   double steering_rad = 0.0;  // Ackermann only
   std::uint32_t state = 0;    // DMRP_ROBOT_*
   std::uint32_t goal_index = 0;

@@ -43,7 +43,8 @@ void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
 // The footprint at a pose; its circle where the heading is free.
 void draw_footprint(toolkit::SvgPlan& picture, const core::RobotSettings& type, const dmrp_pose& pose,
                     const toolkit::SvgStyle& style, const std::string& title) {
-  if (type.parts.empty() || std::isnan(pose.theta)) return picture.circle({pose.x, pose.y}, type.radius_m, style, title);
+  if (type.parts.empty() || std::isnan(pose.theta))
+    return picture.circle({pose.x, pose.y}, type.radius_m, style, title);
   for (const core::ConvexPolygon& part : type.parts) picture.polygon(toolkit::to_world(pose, part), style, title);
 }
 

@@ -11,11 +11,11 @@
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
-#include "host/scenario/robot_tables.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/scenario/read_scenario.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "host/experiment/experiment.hpp"
-#include "host/scenario/robot_tables.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/plugins/parameter_text.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/toml/toml_text.hpp"
 
 namespace dmrp::host {

@@ -9,9 +9,9 @@
 #include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_plugin_uses.hpp"
 #include "host/experiment/read_scenario_uses.hpp"
-#include "host/scenario/robot_tables.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "host/toml/toml_document.hpp"
 

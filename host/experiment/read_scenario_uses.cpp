@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "host/scenario/robot_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
+#include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {

@@ -115,8 +115,8 @@ std::string settings_text(const Experiment& experiment) {
   std::string robots = "\n[robot]\n" + robot_text(experiment.robot);
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
-  return "\n[simulation]\n" + lines_of(simulation, 26) + robots + "\n[record]\n" + lines_of(record_settings(copy), 11) + "\n[limits]\n" +
-         lines_of(limits_settings(copy.limits), 17);
+  return "\n[simulation]\n" + lines_of(simulation, 26) + robots + "\n[record]\n" + lines_of(record_settings(copy), 11) +
+         "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
 }
 
 }  // namespace dmrp::host

@@ -25,8 +25,8 @@ constexpr double max_length_m = 1e6;  // of a coordinate
 constexpr double max_time_s = 1e6;
 constexpr std::int64_t max_people = 10'000;  // of a flow
 
-const std::vector<std::string> root_keys = {"scenario", "map",    "box",    "circle", "polygon", "robot",
-                                            "robots",   "people", "region", "flow",   "tiles",   "recording", "robot_type"};
+const std::vector<std::string> root_keys = {"scenario", "map",    "box",  "circle", "polygon",   "robot",     "robots",
+                                            "people",   "region", "flow", "tiles",  "recording", "robot_type"};
 const std::vector<std::string> header_keys = {"name", "title", "description", "size_m", "origin_m", "time_limit_s"};
 const std::vector<std::string> box_keys = {"name", "center_m", "size_m", "angle_rad", "height_m"};
 const std::vector<std::string> circle_keys = {"name", "center_m", "radius_m", "height_m"};
@@ -271,17 +271,17 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
 std::vector<TomlKeys> keys_of_tables() {
   core::PeopleSettings unused;
   std::vector<TomlKeys> tables = {{"[scenario]", header_keys},
-          {"[map]", map_keys},
-          {"[tiles]", tiles_keys},
-          {"[[box]]", box_keys},
-          {"[[circle]]", circle_keys},
-          {"[[polygon]]", polygon_keys},
-          {"[[robot]]", robot_keys},
-          {"[robots]", tasks_keys},
-          {"[people]", TomlTable::keys_of(people_readers(unused))},
-          {"[[region]]", region_keys},
-          {"[[flow]]", flow_keys},
-          {"[[recording]]", recording_keys}};
+                                  {"[map]", map_keys},
+                                  {"[tiles]", tiles_keys},
+                                  {"[[box]]", box_keys},
+                                  {"[[circle]]", circle_keys},
+                                  {"[[polygon]]", polygon_keys},
+                                  {"[[robot]]", robot_keys},
+                                  {"[robots]", tasks_keys},
+                                  {"[people]", TomlTable::keys_of(people_readers(unused))},
+                                  {"[[region]]", region_keys},
+                                  {"[[flow]]", flow_keys},
+                                  {"[[recording]]", recording_keys}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/scene/footprint.hpp"
-#include "host/toml/setting.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -44,8 +44,8 @@ core::ConvexPolygon read_polygon(const TomlValue& value) {
   }
   if (polygon.size() < 3) value.fail("a footprint's polygon must have at least 3 vertices");
   if (const auto sides = crossing_sides(polygon))
-    value.fail(fmt::format("the footprint's polygon crosses itself: its sides {} and {} meet", sides->first,
-                           sides->second));
+    value.fail(
+        fmt::format("the footprint's polygon crosses itself: its sides {} and {} meet", sides->first, sides->second));
   if (toolkit::signed_area(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
   if (!toolkit::is_convex_ccw(polygon))
     value.fail("the footprint's polygon must be convex (a concave footprint is a list of convex 'parts_m')");
@@ -164,8 +164,8 @@ const std::string& name_of(core::Drive drive) {
 void check_drive(const TomlTable& table, core::RobotSettings& robot) {
   for (const TomlValue& entry : table.entries())
     if (const auto drive = drive_of(entry.key()); drive && *drive != robot.drive)
-      entry.fail_at_key(fmt::format("'{}' belongs to drive = '{}', but the drive is '{}'", entry.key(),
-                                    name_of(*drive), name_of(robot.drive)));
+      entry.fail_at_key(fmt::format("'{}' belongs to drive = '{}', but the drive is '{}'", entry.key(), name_of(*drive),
+                                    name_of(robot.drive)));
   if (robot.drive == core::Drive::holonomic && !(robot.v_y_max > 0.0)) robot.v_y_max = robot.v_max;
   if (robot.drive == core::Drive::ackermann && !(robot.wheelbase_m > 0.0))
     table.need("drive").fail("drive = 'ackermann' needs 'wheelbase_m'");
@@ -189,8 +189,8 @@ std::string unknown_type(const std::string& name, const core::RobotTypes& types)
   std::vector<std::string> names;
   for (const core::RobotSettings& type : types.all())
     if (!type.type.empty()) names.push_back(type.type);
-  return fmt::format("unknown type '{}' (there: {}){}", name, names.empty() ? "no [robot_type.NAME]" : join_names(names),
-                     did_you_mean(name, names));
+  return fmt::format("unknown type '{}' (there: {}){}", name,
+                     names.empty() ? "no [robot_type.NAME]" : join_names(names), did_you_mean(name, names));
 }
 
 }  // namespace

@@ -72,8 +72,7 @@ Setting latency(const std::string& key, std::int64_t& to_ns) {
   return time_setting(key, to_ns, 0.0, max_latency_s);
 }
 
-Setting subtable(const std::string& key, const Settings& settings,
-                 const std::function<void(const TomlTable&)>& check) {
+Setting subtable(const std::string& key, const Settings& settings, const std::function<void(const TomlTable&)>& check) {
   return {key,
           [settings, check](const TomlValue& value) {
             const TomlTable table = value.table();

@@ -59,9 +59,7 @@ Setting choice(const std::string& key, Enum& to, const std::vector<std::string>&
             const std::string chosen = value.choice(choices);
             to = static_cast<Enum>(std::find(choices.begin(), choices.end(), chosen) - choices.begin() + first);
           },
-          [&to, choices, first] {
-            return toml_text(choices[static_cast<std::size_t>(static_cast<int>(to) - first)]);
-          }};
+          [&to, choices, first] { return toml_text(choices[static_cast<std::size_t>(static_cast<int>(to) - first)]); }};
 }
 
 }  // namespace dmrp::host

@@ -85,8 +85,7 @@ bool put_on_cells(const VariantWorld& variant, const core::World& world, const t
                         grid.index_of(on_path.next_waypoint_then)});
   }
   const auto grid_of = [&](std::size_t robot) { return toolkit::GridView(*problem.robots[robot].grid); };
-  const auto cells =
-      toolkit::snap_to_own_cells(grid_of, requests, snap_reach_cells * grid.resolution_m(), can_move);
+  const auto cells = toolkit::snap_to_own_cells(grid_of, requests, snap_reach_cells * grid.resolution_m(), can_move);
   if (!cells) return false;
   for (std::size_t i = 0; i < problem.robots.size(); ++i) problem.robots[i].start = grid.center((*cells)[i]);
   return true;

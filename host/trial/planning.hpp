@@ -56,7 +56,7 @@ struct StagedProblem {
 
   std::vector<std::vector<dmrp_goal>> goals;
   std::vector<dmrp_planning_robot> robots;
-  dmrp_grid grid{};                         // for all robots
+  dmrp_grid grid{};                        // for all robots
   std::map<std::string, dmrp_grid> grids;  // by type of robot
   dmrp_planning_problem c{};
 };

@@ -19,8 +19,8 @@ RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::
 void RobotSensors::subscribe_to_costmap() {
   if (costmap_) return;
   const core::RobotSettings& robot = world_.robot_settings(robot_);
-  costmap_ = std::make_unique<core::LocalCostmap>(robot.costmap, core::inscribed_radius(robot),
-                                                  robot.lidar.dropout_share);
+  costmap_ =
+      std::make_unique<core::LocalCostmap>(robot.costmap, core::inscribed_radius(robot), robot.lidar.dropout_share);
   costmap_->update(odometry_.pose(), scan());
 }
 

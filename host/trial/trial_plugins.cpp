@@ -58,8 +58,8 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
   central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
   for (std::uint32_t i = 0; i < robot_count; ++i) {
     Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
-    controllers_.push_back(
-        {&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed), instance.table<dmrp_local_controller>()});
+    controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed),
+                            instance.table<dmrp_local_controller>()});
     if (central_) continue;
     offer_to_controller(instance, i, 1);
     start(instance, i);

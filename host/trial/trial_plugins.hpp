@@ -96,8 +96,8 @@ class TrialPlugins {
     std::uint64_t revision = 0;  // of its path
   };
   std::map<std::string, core::Lidar> lidars_;  // by type of robot
-  core::TraceEncoder* scanned_trace_;    // nullptr if no scans are recorded
-  core::TraceEncoder* annotated_trace_;  // nullptr if no annotations are recorded
+  core::TraceEncoder* scanned_trace_;          // nullptr if no scans are recorded
+  core::TraceEncoder* annotated_trace_;        // nullptr if no annotations are recorded
   std::vector<std::shared_ptr<Annotations>> annotations_;
   std::vector<std::shared_ptr<SensorExtensions>> sensor_extensions_;
   std::vector<Controller> controllers_;  // by robot; all with the same instance if it is central

@@ -17,8 +17,7 @@ core::SimulationSettings with_time_limit(const Experiment& experiment, const cor
 
 // The scenario with the trial's robots. It draws for the variant with the most robots, and keeps people clear of the other
 // starts too: the first robots and the people are the same in all variants.
-core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrids& grids,
-                                 std::uint64_t seed) {
+core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrids& grids, std::uint64_t seed) {
   core::Scenario scenario = variant.scenario;
   std::vector<core::RobotTask> drawn = grids.draw(variant.drawn_types, variant.most_drawn, seed);
   if (drawn.size() < variant.most_drawn)
@@ -43,8 +42,7 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       walking_grids(std::make_shared<WalkingGrids>(geometry)),
       routes(
           core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
-      view(scenario, types, simulation, *geometry, planning_grid,
-           nanoseconds(experiment.limits.step_time_s)) {}
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                            std::uint64_t seed)
@@ -56,7 +54,6 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       planning_grid(shared.planning_grid),
       walking_grids(shared.walking_grids),
       routes(shared.routes),
-      view(scenario, types, simulation, *geometry, planning_grid,
-           nanoseconds(experiment.limits.step_time_s)) {}
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
 
 }  // namespace dmrp::host

@@ -70,13 +70,12 @@ Status PurePursuit::step(const Observation& now, Command& command) {
 
 double PurePursuit::look_ahead(const Observation& now) const {
   if (!use_velocity_scaled_lookahead_dist) return lookahead_dist;
-  return std::max<double>(min_lookahead_dist,
-                          std::min<double>(speed_of(now) * lookahead_time, max_lookahead_dist));
+  return std::max<double>(min_lookahead_dist, std::min<double>(speed_of(now) * lookahead_time, max_lookahead_dist));
 }
 
 Command PurePursuit::stop(const Observation& now) {
   return tracker_.empty() || has_drive(DMRP_KINEMATICS_ACKERMANN) ? braking(now)
-                                                                   : at_goal_.command(tracker_.stop(), now);
+                                                                  : at_goal_.command(tracker_.stop(), now);
 }
 
 Command PurePursuit::pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const {

@@ -43,12 +43,14 @@ TEST_CASE("a rectangle's radii are half its width and half its diagonal") {
 
 TEST_CASE("the edge that two parts share is no outline") {
   // the same rectangle in two halves, whose seam runs through the origin
-  CHECK(inscribed_radius(std::vector<ConvexPolygon>{rectangle(-0.6, -0.3, 0.0, 0.3), rectangle(0.0, -0.3, 0.6, 0.3)}) == Approx(0.3));
+  CHECK(inscribed_radius(std::vector<ConvexPolygon>{rectangle(-0.6, -0.3, 0.0, 0.3), rectangle(0.0, -0.3, 0.6, 0.3)}) ==
+        Approx(0.3));
   // an L: the inner corner is the nearest outline
   CHECK(inscribed_radius(std::vector<ConvexPolygon>{rectangle(-0.5, -0.5, 0.5, 0.1), rectangle(-0.5, 0.1, 0.1, 0.5)}) ==
         Approx(std::hypot(0.1, 0.1)));
   // two parts with a common outer side: it remains outline
-  CHECK(inscribed_radius(std::vector<ConvexPolygon>{rectangle(-0.5, -0.2, 0.3, 0.5), rectangle(-0.3, -0.2, 0.5, 0.4)}) == Approx(0.2));
+  CHECK(inscribed_radius(std::vector<ConvexPolygon>{rectangle(-0.5, -0.2, 0.3, 0.5),
+                                                    rectangle(-0.3, -0.2, 0.5, 0.4)}) == Approx(0.2));
 }
 
 TEST_CASE("the origin outside all parts has no disc") {

@@ -126,8 +126,8 @@ TEST_CASE("scans of polygons agree with brute-force rays, 10,000 beams") {
     std::vector<ConvexPolygon> polygons;
     for (int i = 0; i < 6; ++i) {
       const dmrp_pose frame = {stream.uniform(1.0, 19.0), stream.uniform(1.0, 19.0), stream.uniform(-pi, pi)};
-      polygons.push_back(toolkit::to_world(
-          frame, std::vector<dmrp_vec2>{{-0.6, -0.3}, {0.6, -0.3}, {0.5, 0.3}, {-0.2, 0.5}}));
+      polygons.push_back(
+          toolkit::to_world(frame, std::vector<dmrp_vec2>{{-0.6, -0.3}, {0.6, -0.3}, {0.5, 0.3}, {-0.2, 0.5}}));
     }
     lidar.scan(sensor, {}, polygons, ranges);
     std::vector<float> without(lidar.beams());
@@ -144,8 +144,7 @@ TEST_CASE("scans of polygons agree with brute-force rays, 10,000 beams") {
             nearest_m = std::min(nearest_m, toolkit::distance(*hit, ray.from));
       }
       CAPTURE(scan, beam);
-      if (nearest_m > 0.0 && std::isfinite(nearest_m))
-        REQUIRE(ranges[beam] == Approx(nearest_m).margin(1e-5));
+      if (nearest_m > 0.0 && std::isfinite(nearest_m)) REQUIRE(ranges[beam] == Approx(nearest_m).margin(1e-5));
     }
   }
 }

@@ -93,8 +93,8 @@ TEST_CASE("polygons that drive anywhere never get deeper into anything than the 
   for (int step = 0; step < 3000; ++step) {
     if (step % 50 == 0)
       for (std::uint32_t i = 0; i < 5; ++i)
-        world.set_command(i, {stream.uniform(0.0, 0.8), i == 2 ? stream.uniform(-0.8, 0.8) : 0.0,
-                              stream.uniform(-1.0, 1.0)});
+        world.set_command(
+            i, {stream.uniform(0.0, 0.8), i == 2 ? stream.uniform(-0.8, 0.8) : 0.0, stream.uniform(-1.0, 1.0)});
     std::vector<dmrp_vec2> velocities;
     for (const dmrp_person& person : world.people())
       velocities.push_back(1.2 * toolkit::normalized(person.target - person.position));

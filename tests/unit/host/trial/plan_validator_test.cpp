@@ -99,6 +99,7 @@ class Case {
     grid.free = free_.data();
     grid.edges = edges_.data();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (!robots_[i].grid) robots_[i].grid = &grid;
       robots_[i].goals = goals_[i].data();
       robots_[i].goal_count = static_cast<std::uint32_t>(goals_[i].size());
       robots_[i].goal_stride = sizeof(dmrp_goal);
@@ -141,6 +142,21 @@ PlanVerdict conflicts_of(const std::vector<Cell>& a, const std::vector<Cell>& b,
 }
 
 }  // namespace
+
+TEST_CASE("each robot's moves are judged on its own grid") {
+  Case c({path({{0, 0}, {1, 0}}), path({{0, 2}, {1, 2}})});
+  const std::vector<std::uint8_t> nothing_free(width * height, 0);
+  dmrp_grid closed{};
+  closed.struct_size = sizeof(closed);
+  closed.width = width;
+  closed.height = height;
+  closed.resolution_m = 1.0;
+  closed.origin = {10.0, 20.0};
+  closed.free = nothing_free.data();
+  closed.edges = nothing_free.data();
+  c.robot(1).grid = &closed;
+  CHECK(error_of(c) == "robot 1, waypoint 0 (10.5, 22.5) is not on a free cell");
+}
 
 TEST_CASE("a good plan has no error and no conflict") {
   Case c({path({{0, 0}, {1, 0}, {1, 1}, {1, 1}, {2, 1}}), path({{0, 3}, {1, 3}}), path({{5, 0}})});
