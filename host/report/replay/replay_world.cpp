@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "host/report/replay/replay_numbers.hpp"
@@ -66,7 +67,8 @@ json replay_robot(const dmrp_robot& robot) {
   json goals = json::array();
   for (std::uint32_t i = 0; i < robot.goal_count; ++i) goals.push_back(goal_json(robot.goals[i]));
   const dmrp_footprint& footprint = *robot.footprint;
-  json to = {{"name", robot.name},
+  const std::string type = robot.type;
+  json to = {{"name", type.empty() ? robot.name : std::string(robot.name) + " (" + type + ")"},
              {"radius", thousandths(footprint.radius_m)},
              {"v_max", thousandths(robot.limits->v_max)},
              {"goals", std::move(goals)}};
