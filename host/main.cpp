@@ -92,6 +92,9 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   command->add_option("--agents", options.agents, "use the first N tasks; with --scenario: draw N random robots")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
+  command->add_option("--draw", options.drawn, "instead of --scen and --agents: draw N tasks on the map")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
   command
       ->add_option("--scenario", options.scenario,
                    "instead of a map: a shipped scenario, or the path of a scenario.toml")
@@ -107,7 +110,11 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--seed", options.seed, "seed of random robots and of randomised planners")
+  command->add_option("--memory-limit", options.memory_mb, "address space of the planner's process in MB; 0: no limit")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
+      ->type_name("MB")
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "seed of random robots and tasks, and of randomised planners")
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--paths", options.paths, "write the paths as CSV: agent,t,x,y in cells, y from the top")

@@ -55,11 +55,13 @@ struct PlanOptions {
   std::filesystem::path map;  // either a MovingAI map, its tasks and a number of agents
   std::filesystem::path tasks;
   std::uint32_t agents = 0;
-  std::string scenario;  // or a scenario: a name, or the path of a scenario.toml; `agents` then draws robots
-  std::string planner;   // id
+  std::uint32_t drawn = 0;  // or so many tasks drawn on the map
+  std::string scenario;     // or a scenario: a name, or the path of a scenario.toml; `agents` then draws robots
+  std::string planner;      // id
   std::vector<std::string> plugins;
   std::vector<std::string> settings;
   double time_limit_s = 60.0;
+  std::int64_t memory_mb = 4096;  // 0: no limit
   std::uint64_t seed = 1;
   std::filesystem::path paths;  // CSV; empty: none
   bool json = false;

@@ -12,6 +12,7 @@
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
+#include "host/maps/drawn_tasks.hpp"
 #include "host/plan/plan_figures.hpp"
 #include "host/plan/plan_task.hpp"
 #include "host/plan/planner_process.hpp"
@@ -41,16 +42,22 @@ struct Outcome {
   std::vector<std::string> warnings;
 };
 
-// Either a map with tasks, or a scenario; --agents draws its robots.
+// Either a map with tasks or drawn ones, or a scenario; --agents draws its robots.
 void check_task_options(const PlanOptions& options) {
-  const bool whole_map = !options.map.empty() && !options.tasks.empty() && options.agents > 0;
-  const bool no_map = options.map.empty() && options.tasks.empty();
+  const bool tasks = !options.tasks.empty() && options.agents > 0 && options.drawn == 0;
+  const bool drawn = options.tasks.empty() && options.agents == 0 && options.drawn > 0;
+  const bool whole_map = !options.map.empty() && (tasks || drawn);
+  const bool no_map = options.map.empty() && options.tasks.empty() && options.drawn == 0;
   if (options.scenario.empty() ? !whole_map : !no_map)
-    throw InputError("plan: needs --map, --scen and --agents together, or --scenario, with or without --agents");
+    throw InputError(
+        "plan: needs --map, --scen and --agents together, or --map and --draw, or --scenario, with or without "
+        "--agents");
 }
 
 std::unique_ptr<PlanTask> task_on_map(const PlanOptions& options, const Experiment& experiment) {
   const core::CellMap map = read_movingai_map(options.map, options.map.string());
+  if (options.drawn > 0)
+    return cell_task(map, draw_tasks(map, options.map.string(), options.drawn, options.seed), experiment);
   MovingAiTasks read = read_movingai_tasks(options.tasks, options.tasks.string(), map);
   if (options.agents > read.tasks.size())
     throw InputError(
@@ -184,6 +191,7 @@ int plan_command(const PlanOptions& options) {
   Experiment experiment = options.map.empty() ? adhoc_experiment(options.scenario) : Experiment();
   experiment.seed = options.seed;
   experiment.limits.planner_time_s = options.time_limit_s;
+  experiment.limits.memory_mb = options.memory_mb;
   if (options.map.empty() && options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));

@@ -182,6 +182,8 @@ PlannerRun run_planner(const Experiment& experiment, const PlanTask& task) {
   } catch (const nlohmann::json::exception&) {
     run.answer.reset();
   }
+  if (run.fault == fault_kind::out_of_memory && experiment.limits.memory_mb > 0)
+    run.detail += fmt::format(" (its process may take {} MB)", experiment.limits.memory_mb);
   if (!run.answer && run.fault.empty()) {
     run.fault = fault_kind::abi_breach;
     run.detail = experiment.global_planners[0].info.id + ": its process gave an answer that cannot be read";

@@ -117,6 +117,19 @@ expect_value cost 13
 grep -q "^warning: test.planner.faulty: the planner reports a cost of 12, its paths cost 13$" "$scratch/stderr" ||
   fail "$(cat "$scratch/stderr")"
 
+# --- drawn tasks; the memory limit
+
+expect_status 0 "$host" plan --map "$maps/rooms.map" --draw 12 --seed 3 --planner dmrp.planner.lns --paths "$scratch/drawn.csv" --json
+expect_value solved 1
+expect_value robots 12
+expect_status 0 "$host" plan --map "$maps/rooms.map" --draw 12 --seed 3 --planner dmrp.planner.lns --paths "$scratch/again.csv" --json
+cmp -s "$scratch/drawn.csv" "$scratch/again.csv" || fail "other tasks from the same seed"
+expect_status 0 "$host" plan --map "$maps/rooms.map" --draw 12 --seed 4 --planner dmrp.planner.lns --paths "$scratch/again.csv" --json
+cmp -s "$scratch/drawn.csv" "$scratch/again.csv" && fail "the same tasks from another seed"
+if [[ -z $sanitizers ]]; then
+  expect_fault memory out_of_memory "test.planner.faulty: plan\(\): .*may take 700 MB" --memory-limit 700
+fi
+
 # --- mistakes: one line, status 2
 
 cd "$scratch" || exit 1
@@ -159,7 +172,7 @@ broken "3:1: agents 0 and 1 both start at \(0, 2\)" '3s/\t6\t2\t0/\t0\t2\t1/' sc
 expect_mistake "no such planner.*did you mean 'dmrp.planner.cbs'" --scenario mall --planner dmrp.planner.csb
 expect_mistake "^--set node_limits=4: unknown key .*did you mean 'node_limit'" --scenario mall --planner dmrp.planner.cbs --set node_limits=4
 expect_mistake "^--set node_limit=few: 'node_limit' must be an integer" --scenario mall --planner dmrp.planner.cbs --set node_limit=few
-expect_mistake "needs --map, --scen and --agents together, or --scenario, with or without --agents" --map bay.map --scen bay.scen --planner dmrp.planner.cbs
+expect_mistake "needs --map, --scen and --agents together, or --map and --draw, or --scenario, with or without --agents" --map bay.map --scen bay.scen --planner dmrp.planner.cbs
 expect_mistake "there is no such library" --scenario mall --planner dmrp.planner.cbs --plugin ./nothing.so
 expect_mistake "there is no folder" --scenario mall --planner dmrp.planner.cbs --paths nowhere/paths.csv
 expect_mistake "time-limit" --scenario mall --planner dmrp.planner.cbs --time-limit -1
