@@ -11,8 +11,8 @@ namespace dmrp::planners {
 // prioritized conflicts, bypass, the weighted dependency graph heuristic, and rectangle, corridor and target reasoning.
 // Each has a parameter. Beyond the paper: before a split, robots with conflicts are replanned without new constraints
 // (`replan_in_place`); long searches restart with the robots in another order and keep the proved lower bound
-// (`restart_after`; rapid randomized restarts, Cohen et al. 2018). After the first restart the low level weighs
-// conflicts against steps (`conflict_steps`; 0 is the paper's order, conflicts first).
+// (`restart_after`; rapid randomized restarts, Cohen et al. 2018). In every second restart the low level weighs conflicts
+// against steps (`conflict_steps`), in the others it has the paper's order, conflicts first.
 //
 // Reports `cost` and `lower_bound`: cost <= suboptimality * lower_bound, and no plan costs less than `lower_bound`.
 class Eecbs final : public ConflictSearchPlanner {
@@ -45,7 +45,7 @@ class Eecbs final : public ConflictSearchPlanner {
       param("conflict_steps", 1)
           .unit("1")
           .range(0, 1000)
-          .doc("after the first restart: steps that a path may be longer to avoid a conflict; 0: any within the bound");
+          .doc("in every second restart: steps that a path may be longer to avoid a conflict; 0: any within the bound");
   Param<std::int64_t> restart_after =
       param("restart_after", 1200)
           .unit("1")

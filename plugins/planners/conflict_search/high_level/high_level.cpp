@@ -54,7 +54,9 @@ HighLevel::Result HighLevel::run(const std::vector<std::int32_t>& members, const
       nodes = std::min(nodes, restart == 0 ? nodes_of_restart / first_share + 1 : nodes_of_restart);
       if (restart > 0) nodes_of_restart += nodes_of_restart / 2 + 1;
     }
-    replanner_.set_conflict_steps(restart == 0 ? 0 : options_.conflict_steps);
+    // neither way is better on all maps, so restarts alternate
+    const bool weighs_steps = restart > 0 && restart % 2 == 0;
+    replanner_.set_conflict_steps(weighs_steps ? options_.conflict_steps : 0);
     const Result result = search(order, constraints, nodes);
     proved_bound_ = lower_bound();
     nodes_left -= nodes;
