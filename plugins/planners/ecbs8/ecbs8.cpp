@@ -60,7 +60,12 @@ Status Ecbs8::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   sink.statistic("high_level_expanded", static_cast<double>(statistics.high_level_expanded));
   sink.statistic("high_level_generated", static_cast<double>(statistics.high_level_generated));
   sink.statistic("low_level_expanded", static_cast<double>(statistics.low_level_expanded));
-  if (result != Search::Result::solved) sink.statistic("lower_bound", as_number(statistics.lower_bound));
+  if (result != Search::Result::solved) {
+    Cost alone = 0;  // a search that was stopped early has proved less
+    for (std::size_t i = 0; i < problem.agents.size(); ++i)
+      alone += (*distances)[i].distance(0, problem.agents[i].start);
+    sink.statistic("lower_bound", as_number(std::max(statistics.lower_bound, alone)));
+  }
   switch (result) {
     case Search::Result::solved:
       // The search's integer unit is off by 10^-11. The reported cost is exact, and the bound does not exceed it.

@@ -78,6 +78,27 @@ TEST_CASE("four robots and one-way moves: bounds and costs hold with every choic
   }
 }
 
+TEST_CASE("a planner that is stopped knows at least the sum of the robots' costs alone") {
+  PlanningCase c(std::vector<std::string>(6, "......"));
+  for (int y = 0; y < 6; ++y) c.robot({y % 2 == 0 ? 0 : 5, y}, {{y % 2 == 0 ? 5 : 0, y}});
+  c.robot({3, 0}, {{3, 5}});
+  for (const char* id : {"cbs", "ecbs", "eecbs", "ecbs8", "sipp", "lacam", "lns"}) {
+    PluginUnderTest planner("libdmrp_planners.so", std::string("dmrp.planner.") + id);
+    int known = 0;
+    for (int calls_until_stop = 0; calls_until_stop < 30; ++calls_until_stop) {
+      CAPTURE(id, calls_until_stop);
+      int calls = 0;
+      planner.host().should_stop = [&] { return ++calls > calls_until_stop; };
+      const Plan plan = run_planner(planner, c);
+      const auto bound = plan.statistics.find("lower_bound");
+      if (bound == plan.statistics.end()) continue;  // stopped before the distances were known
+      ++known;
+      REQUIRE(bound->second >= 6 * 5 + 5);
+    }
+    CHECK(known > 10);
+  }
+}
+
 TEST_CASE("a planner that is stopped anywhere times out or returns a valid plan") {
   int given_up = 0;
   for (const Variant& variant : variants()) {
