@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/planner_runs.hpp"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -38,6 +40,16 @@ std::string last_line(const std::string& text) {
   if (end == std::string::npos) return "";
   const std::size_t begin = text.find_last_of('\n', end);
   return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin));
+}
+
+// Of all processes that were started and have ended.
+double cpu_of_children_s() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 struct Called {
@@ -132,9 +144,11 @@ PlannerRunResult run(const Bench& bench, const PlannerChoice& planner, const Kno
   else
     arguments.insert(arguments.end(), {"--scenario", instance.scenario});
 
+  const double cpu_before_s = cpu_of_children_s();
   const Called called = call(bench, arguments);
   if (called.status == 2) throw std::runtime_error(called.errors);  // all other instances would fail, too
   PlannerRunResult result;
+  result.cpu_s = cpu_of_children_s() - cpu_before_s;
   if (!called.document.is_object()) {
     result.error = "no JSON: " + called.errors;
     return result;
@@ -147,6 +161,32 @@ PlannerRunResult run(const Bench& bench, const PlannerChoice& planner, const Kno
   if (!called.document.at("solved").get<bool>()) return result;
   result.error = validate(called.document, known, instance, paths);
   result.solved = result.error.empty();
+  result.cost = number(called.document, "cost").value_or(0.0);
+  return result;
+}
+
+PlannerRunResult run_peer(const Bench& bench, const Peer& peer, const Instance& instance) {
+  const fs::path paths = bench.scratch / "peer.csv";
+  fs::remove(paths);
+  const std::string command = "MAP=" + quoted(instance.map.string()) + " SCEN=" + quoted(instance.tasks.string()) +
+                              " AGENTS=" + std::to_string(instance.agents) +
+                              " TIME_LIMIT=" + std::to_string(bench.time_limit_s) + " PATHS=" + quoted(paths.string()) +
+                              " sh -c " + quoted(peer.command) + " >" + quoted((bench.scratch / "stdout").string()) +
+                              " 2>&1";
+  const double cpu_before_s = cpu_of_children_s();
+  const auto begin = std::chrono::steady_clock::now();
+  const int status = std::system(command.c_str());
+  PlannerRunResult result;
+  result.planning_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  result.cpu_s = cpu_of_children_s() - cpu_before_s;
+  result.robots = instance.agents;
+  if (WIFSIGNALED(status)) throw std::runtime_error("interrupted");
+  if (!fs::exists(paths)) return result;
+  const test::PathVerdict verdict =
+      test::check_paths(instance.map.string(), instance.tasks.string(), instance.agents, 4, paths.string());
+  result.error = !verdict.error.empty() ? verdict.error : verdict.first_conflict;
+  result.solved = result.error.empty();
+  result.cost = verdict.cost();
   return result;
 }
 

@@ -33,7 +33,9 @@ struct Instance {
 
 struct PlannerRunResult {
   bool solved = false;
+  double cost = 0.0;  // of a solved instance on a map
   double planning_ms = 0.0;
+  double cpu_s = 0.0;  // of all processes of the run
   std::optional<double> high_level_expanded;
   double peak_rss_mb = 0.0;
   int robots = 0;
@@ -54,6 +56,16 @@ struct KnownPlanner {
   bool uncoordinated = false;
 };
 std::vector<KnownPlanner> known_planners(const Bench& bench);
+
+// Another program that plans: a shell command that finds map, tasks, number of agents and seconds in the environment
+// variables MAP, SCEN, AGENTS and TIME_LIMIT, and writes its paths as `dmrp-host plan --paths` does to the file PATHS.
+struct Peer {
+  std::string name;
+  std::string command;
+};
+
+// On a map. `planning_ms` is the wall time of the command.
+PlannerRunResult run_peer(const Bench& bench, const Peer& peer, const Instance& instance);
 
 PlannerRunResult run(const Bench& bench, const PlannerChoice& planner, const KnownPlanner& known,
                      const Instance& instance);

@@ -9,7 +9,46 @@ PlannerSet set(const char* planner, const char* map, int agents, int instances =
   return {planner_choice(planner), map, agents, instances, wanted < 0 ? instances : wanted, ""};
 }
 
+struct Crowd {
+  const char* map;
+  int agents;
+};
+
+// Scenarios 1 and 2 of each: first plans, then what is made of them within the time limit.
+std::vector<PlannerSet> sets_of(const std::vector<Crowd>& crowds) {
+  std::vector<PlannerSet> sets;
+  for (const char* planner : {"lacam iterations=1", "sipp", "lns iterations=0"})
+    for (const Crowd& crowd : crowds) sets.push_back(set(planner, crowd.map, crowd.agents, 2, 0));
+  return sets;
+}
+
 }  // namespace
+
+std::vector<PlannerSet> crowded_sets() {
+  return sets_of({{"random-32-32-20", 200},
+                  {"random-32-32-20", 300},
+                  {"random-32-32-20", 409},
+                  {"room-32-32-4", 150},
+                  {"room-32-32-4", 250},
+                  {"maze-32-32-4", 100},
+                  {"maze-32-32-4", 200},
+                  {"maze-32-32-2", 250},
+                  {"empty-48-48", 1000},
+                  {"room-64-64-8", 400},
+                  {"room-64-64-8", 700},
+                  {"room-64-64-8", 1000},
+                  {"maze-128-128-1", 300}});
+}
+
+std::vector<PlannerSet> large_sets() {
+  return sets_of({{"random-64-64-20", 700},
+                  {"random-64-64-20", 1000},
+                  {"warehouse-10-20-10-2-1", 1000},
+                  {"warehouse-20-40-10-2-2", 1000},
+                  {"den520d", 1000},
+                  {"Paris_1_256", 1000},
+                  {"orz900d", 200}});
+}
 
 std::vector<PlannerSet> acceptance_sets() {
   const char* const eecbs = "eecbs suboptimality=1.2";

@@ -25,6 +25,10 @@ std::vector<PlannerSet> acceptance_sets();
 // A selection that takes half a minute.
 std::vector<PlannerSet> quick_sets();
 
+// Many robots on small maps, and on large ones: planners that find a plan there.
+std::vector<PlannerSet> crowded_sets();
+std::vector<PlannerSet> large_sets();
+
 // Every planner on every scenario, `times` times.
 std::vector<PlannerSet> scenario_sets(const std::vector<KnownPlanner>& planners,
                                       const std::vector<std::string>& scenarios, int times);

@@ -48,6 +48,16 @@ run 1 --planner "test.planner.faulty fault=crash" --plugin "$faults" --on rooms:
 run 2 --planner "cbs node_limits=1" --on rooms:2
 grep -q "did you mean 'node_limit'" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 
+# a peer takes turns with the planner; its paths are judged, too; known costs are compared with
+printf 'map,scen,agents,planner,solved,sum_of_costs,cpu_s\nrooms,random-1,2,elsewhere,1,1000,1\n' >"$scratch/known.csv"
+same="'$host' plan --map \"\$MAP\" --scen \"\$SCEN\" --agents \$AGENTS --planner dmrp.planner.cbs --paths \"\$PATHS\""
+run 0 --planner cbs --on rooms:2 --peer "twin=$same" --peer "lazy=true" --known-costs "$scratch/known.csv"
+[[ $(value "planner/dmrp.planner.cbs/rooms/2/cost_over/twin") == 1 ]] || fail "$(cat "$scratch/stdout")"
+[[ -z $(value "planner/dmrp.planner.cbs/rooms/2/cost_over/lazy") ]] || fail "$(cat "$scratch/stdout")"
+grep -q elsewhere "$scratch/stdout" || fail "$(cat "$scratch/stdout")"
+run 1 --planner cbs --on rooms:2 --peer "liar=echo agent,t,x,y >\$PATHS; echo 0,0,0,0 >>\$PATHS"
+run 2 --planner cbs --on rooms:2 --peer "nothing"
+
 # every planner on public maps with few robots: solved, and the path files are valid
 if [[ ! -d $data/movingai ]]; then
   echo "skipped: DMRP_TEST_DATA is not set"
