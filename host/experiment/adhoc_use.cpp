@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string_view>
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/planning_grids.hpp"
@@ -24,21 +27,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The libraries to search for the planner: first the named ones, then those of the plugin path.
-std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named) {
+bool contains(const fs::path& file, const std::string& text) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.view().find(text) != std::string_view::npos;
+}
+
+// The libraries to search for the planner: first the named ones, then those of the plugin path. Of these the ones in
+// which its id is written come first: a probe costs more than the plan of a few robots.
+std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named, const std::string& id) {
   std::vector<fs::path> files;
   for (const std::string& name : named) {
     files.push_back(find_library(name, fs::current_path()));
     if (files.back().empty()) throw InputError(name + ": there is no such library");
   }
-  const std::vector<fs::path> of_path = libraries_of_plugin_path();
+  std::vector<fs::path> of_path = libraries_of_plugin_path();
+  std::stable_partition(of_path.begin(), of_path.end(), [&id](const fs::path& file) { return contains(file, id); });
   files.insert(files.end(), of_path.begin(), of_path.end());
   return files;
 }
 
 PluginUse find_planner(const std::string& id, const std::vector<std::string>& libraries, Experiment& experiment) {
   std::vector<std::string> known;
-  for (const fs::path& file : candidate_libraries(libraries)) {
+  for (const fs::path& file : candidate_libraries(libraries, id)) {
     Probe probe;
     try {
       probe = probe_library(file);
