@@ -114,7 +114,7 @@ class RunFiles {
   RunFiles(const RunOptions& options, const Experiment& experiment, const Manifest& manifest)
       : directory_(options.resume ? RunDirectory::reopen(options.out)
                                   : RunDirectory::make(options.out, experiment.name)) {
-    if (options.resume)
+    if (fs::exists(database()))
       check_same(experiment, manifest);
     else
       begin(experiment, manifest);
@@ -129,7 +129,11 @@ class RunFiles {
     write_file_atomically(directory() / "experiment.toml", experiment.text);
     write_file_atomically(directory() / "effective.toml", effective_toml(experiment));
     write_file_atomically(directory() / "manifest.json", to_json_text(manifest));
-    ResultsDatabase::create(database(), columns_of(experiment));
+    // last, and whole: a run that is killed before has not begun
+    const fs::path unfinished = directory() / "results.new";
+    for (const char* rest : {"", "-wal", "-shm", "-journal"}) fs::remove(unfinished.string() + rest);
+    ResultsDatabase::create(unfinished, columns_of(experiment));
+    fs::rename(unfinished, database());
   }
 
   // A run can only be continued if that gives the same bits.

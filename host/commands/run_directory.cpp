@@ -6,6 +6,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -24,6 +26,20 @@ void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw_path_error(path.string() + ": cannot make the run directory", error);
+}
+
+// The run was killed before it had a database.
+bool was_never_begun(const fs::path& path) {
+  constexpr std::array first_files = {"experiment.toml", "effective.toml", "manifest.json",
+                                      "traces",          "results.new",    "log.txt"};
+  std::error_code error;
+  bool has_begun = !fs::is_directory(path, error) || fs::is_empty(path, error);
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    has_begun |= std::none_of(first_files.begin(), first_files.end(),
+                              [&](const char* known) { return name.starts_with(known); });
+  }
+  return !error && !has_begun;
 }
 
 }  // namespace
@@ -55,6 +71,10 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
 
 RunDirectory RunDirectory::reopen(const fs::path& out) {
   if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to continue");
+  if (was_never_begun(out)) {
+    RunDirectory directory(out);
+    if (directory.locked()) return directory;
+  }
   return open_finished(out, "--out " + out.string());
 }
 

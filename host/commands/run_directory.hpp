@@ -16,7 +16,7 @@ class RunDirectory {
   // runs/NAME-2, ... if that is taken.
   static RunDirectory make(const std::filesystem::path& out, const std::string& name);
 
-  // The directory of a run to continue, named by --out.
+  // The directory of a run to continue, named by --out. It has no results if the run was killed as it began.
   static RunDirectory reopen(const std::filesystem::path& out);
 
   // The directory of a run that no process works on; `shown`: its name in messages.

@@ -31,6 +31,14 @@ std::vector<Combination> combinations(const Experiment& experiment) {
   return out;
 }
 
+bool counts_resident_memory(const Experiment& experiment) {
+  for (const auto* uses :
+       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+    for (const PluginUse& use : *uses)
+      if (use.info.has_flag(DMRP_FLAG_RESIDENT_MEMORY)) return true;
+  return false;
+}
+
 TrialId trial_id(std::uint64_t number, std::size_t combination_count) {
   return {number, static_cast<std::uint32_t>(number % combination_count),
           static_cast<std::uint32_t>(number / combination_count)};

@@ -59,6 +59,9 @@ struct Combination {
 
 std::vector<Combination> combinations(const Experiment& experiment);
 
+// Whether a plugin of it asks that the memory limit counts resident pages (DMRP_FLAG_RESIDENT_MEMORY).
+bool counts_resident_memory(const Experiment& experiment);
+
 // Trial k is repetition k / C of combination k % C for C combinations. It does not depend on the number of trials.
 struct TrialId {
   std::uint64_t number = 0;

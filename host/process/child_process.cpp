@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <string_view>
 
@@ -124,6 +125,15 @@ void ChildProcess::kill() {
   if (pid_ < 0) return;
   killed_ = true;
   ::kill(pid_, SIGKILL);
+}
+
+double ChildProcess::resident_mb() const {
+  if (pid_ < 0) return 0.0;
+  std::ifstream file(fmt::format("/proc/{}/statm", pid_));
+  double all_pages = 0.0;
+  double resident_pages = 0.0;
+  if (!(file >> all_pages >> resident_pages)) return 0.0;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 const ProcessEnding& ChildProcess::wait() {

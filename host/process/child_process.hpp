@@ -62,6 +62,9 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  // Megabytes of memory that it has in use now; 0 once it has been waited for.
+  double resident_mb() const;
+
   // Readable once the process has ended.
   const Descriptor& ended() const { return ended_; }
 

@@ -14,10 +14,10 @@ void set_resource_limits(std::int64_t memory_mb) {
   setrlimit(RLIMIT_CORE, &no_core);
   if (is_sanitized || memory_mb == 0) return;
   rlimit memory{};
-  getrlimit(RLIMIT_AS, &memory);  // a tighter one stays
+  getrlimit(RLIMIT_DATA, &memory);  // a tighter one stays
   memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
   memory.rlim_max = memory.rlim_cur;
-  setrlimit(RLIMIT_AS, &memory);
+  setrlimit(RLIMIT_DATA, &memory);
 }
 
 }  // namespace dmrp::host

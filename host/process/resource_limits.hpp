@@ -7,12 +7,13 @@
 namespace dmrp::host {
 
 struct ProcessLimits {
-  std::int64_t memory_mb = 0;  // 0: no limit
+  std::int64_t memory_mb = 0;  // of data; 0: no limit
   bool processes = false;      // plugins may start processes
 };
 
-// Limits the address space of this process to `memory_mb` (0: no limit; never under sanitizers) and disables core
-// dumps. A lower limit that is already set stays.
+// Limits the data of this process to `memory_mb` (0: no limit; never under sanitizers): memory that it can write to and
+// shares with nobody, touched or not. Reserved address space does not count. Disables core dumps. A lower limit that is
+// already set stays.
 void set_resource_limits(std::int64_t memory_mb);
 
 }  // namespace dmrp::host

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include "host/program/monotonic_time.hpp"
 #include "host/terminal/display_width.hpp"
@@ -17,6 +19,12 @@ namespace {
 
 constexpr unsigned bar_cells = 16;
 constexpr std::int64_t redraw_ns = 200'000'000;
+
+// One that can overwrite a line: not an editor's, which says so.
+bool is_terminal() {
+  const char* const kind = std::getenv("TERM");
+  return isatty(STDOUT_FILENO) && !(kind && std::string_view(kind) == "dumb");
+}
 
 std::string duration(double s) {
   if (s < 99.95) return fmt::format("{:.1f} s", s);
@@ -29,16 +37,12 @@ std::string duration(double s) {
 
 unsigned terminal_width() {
   winsize size{};
-  if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
+  if (!is_terminal() || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
   return size.ws_col;
 }
 
 Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
-    : heading_(std::move(heading)),
-      total_(total),
-      quiet_(quiet),
-      terminal_(isatty(STDOUT_FILENO)),
-      start_ns_(monotonic_ns()) {
+    : heading_(std::move(heading)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
   if (!quiet_ && !terminal_) fmt::print("{}\n", heading_);
   std::fflush(stdout);
   refresh();

@@ -5,7 +5,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 
 #include "host/errors/input_error.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -13,6 +15,9 @@
 namespace dmrp::host {
 
 namespace {
+
+constexpr std::size_t longest_message = 2000;
+constexpr unsigned most_key_parts = 1000;
 
 SourcePosition position_of(const toml::source_region& region) {
   return {std::max<std::uint32_t>(region.begin.line, 1), std::max<std::uint32_t>(region.begin.column, 1)};
@@ -25,6 +30,7 @@ bool is_control(char c) {
 }  // namespace
 
 TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : shown_path_(std::move(shown_path)) {
+  refuse_long_key(text);
   try {
     table_ = std::make_unique<const toml::table>(toml::parse(text, shown_path_));
   } catch (const toml::parse_error& error) {
@@ -50,7 +56,26 @@ std::string TomlDocument::place(SourcePosition at) const {
 }
 
 void TomlDocument::fail(SourcePosition at, const std::string& text) const {
-  throw InputError(place(at) + ": " + text);
+  const bool is_long = text.size() > longest_message;
+  throw InputError(place(at) + ": " + text.substr(0, longest_message) + (is_long ? "..." : ""));
+}
+
+// The parser makes a table in a table for each part, and its stack has an end.
+void TomlDocument::refuse_long_key(std::string_view text) const {
+  SourcePosition at = {1, 1};
+  SourcePosition begin = at;
+  unsigned parts = 1;
+  for (const char c : text) {
+    const bool may_be_key = std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-.\"' \t", c);
+    if (!may_be_key) {
+      parts = 1;
+      begin = {at.line, at.column + 1};
+    } else if (c == '.' && ++parts > most_key_parts) {
+      fail(begin, fmt::format("a key of more than {} parts", most_key_parts));
+    }
+    at = c == '\n' ? SourcePosition{at.line + 1, 1} : SourcePosition{at.line, at.column + 1};
+    if (c == '\n') begin = at;
+  }
 }
 
 SourcePosition TomlValue::position() const {

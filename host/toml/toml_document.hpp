@@ -49,6 +49,7 @@ class TomlDocument {
 
   TomlTable root() const;
   [[noreturn]] void fail(SourcePosition at, const std::string& text) const;
+  void refuse_long_key(std::string_view text) const;
   std::string place(SourcePosition at) const;  // "file:line:column"
 
  private:

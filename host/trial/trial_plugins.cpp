@@ -16,6 +16,8 @@ namespace {
 
 constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
 
+constexpr const char* world_text = "the world (it, or another plugin of this trial)";
+
 std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32_t index) {
   return toolkit::Stream(seed, purpose, index).next_u64();
 }
@@ -30,6 +32,7 @@ TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, con
       world_(world),
       scanned_trace_(experiment.scans && experiment.traces != RecordTraces::none ? &trace : nullptr),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
+  copy_world();
   if (combination.global_planner >= 0) start_planner(combination, pool, seed);
   if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
   if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
@@ -132,6 +135,32 @@ void TrialPlugins::sense() {
     }
 }
 
+void TrialPlugins::copy_input(std::span<const dmrp_observation> observations) {
+  input_.clear();
+  input_.add(observations);
+  for (const dmrp_observation& observation : observations) {
+    input_.add(*observation.goal);
+    input_.add(*observation.limits);
+    input_.add(*observation.footprint);
+    input_.add(std::span(observation.agents, observation.agent_count));
+  }
+}
+
+void TrialPlugins::copy_world() {
+  const dmrp_world& world = variant_.view.world();
+  world_input_.add(world);
+  world_input_.add(std::span(world.robots, world.robot_count));
+  world_input_.add(std::span(world.shapes, world.shape_count));
+  world_input_.add(std::span(world.segments, world.segment_count));
+  if (!world.planning_grid) return;
+  const dmrp_grid& grid = *world.planning_grid;
+  const std::size_t cells = std::size_t{grid.width} * grid.height;
+  world_input_.add(grid);
+  world_input_.add(std::span(grid.free, cells));
+  world_input_.add(std::span(grid.edges, cells));
+  world_input_.add(std::span(grid.clearance, cells));
+}
+
 // Refers to `guidance`, and to the agents that the robot perceives at this tick.
 void TrialPlugins::observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const {
   const core::RobotState& state = world_.robots()[robot];
@@ -174,11 +203,13 @@ std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guida
   Controller& controller = controllers_[robot];
   dmrp_observation seen{};
   observe(robot, guidance, seen);
+  copy_input({&seen, 1});
   command_.clear();
   const auto result = controller.instance->call(
       "step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_solution,
       [&] { return controller.table.step(controller.instance->self(), &seen, &command_.value); });
   command_.check(controller.instance->site("step", step), "dmrp_command");
+  input_.check(controller.instance->site("step", step), "the observation");
   note_call(DMRP_CALL_CONTROL, robot, result);
   if (result.status == DMRP_NO_SOLUTION) return std::nullopt;
   return checked(robot, command_.value, "step", step);
@@ -196,10 +227,12 @@ std::span<const std::optional<dmrp_twist>> TrialPlugins::control_all(std::span<c
                             observations_.data(), sizeof(dmrp_observation),
                             sizeof(dmrp_command), commands_.data()};
   const Controller& controller = controllers_[0];
+  copy_input(observations_);
   const auto result =
       controller.instance->call("step_all", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
                                 [&] { return controller.table.step_all(controller.instance->self(), &fleet); });
   commands_.check(controller.instance->site("step_all", step), "the commands");
+  input_.check(controller.instance->site("step_all", step), "the observations");
   note_call(DMRP_CALL_CONTROL, 0, result);
   twists_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -223,10 +256,14 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
                             sizeof(dmrp_agent),  0};
   motions_.resize(people.size());
   dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
+  input_.clear();
+  input_.add(std::span(people.data(), people.size()));
+  input_.add(std::span(robots.data(), robots.size()));
   const auto result =
       pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
                               [&] { return pedestrian_table_.step(pedestrian_model_->self(), &crowd, &motions); });
   motions_.check(pedestrian_model_->site("step", step), "the motions");
+  input_.check(pedestrian_model_->site("step", step), "the crowd");
   note_call(DMRP_CALL_PEOPLE, 0, result);
   for (std::size_t i = 0; i < velocities_.size(); ++i) {
     velocities_[i] = motions_[i].velocity;
@@ -248,6 +285,9 @@ void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
     if (central_) break;
   }
   end_of(pedestrian_model_);
+  // found late: any plugin of the trial can have done it
+  if (pedestrian_model_) return world_input_.check(pedestrian_model_->site("trial_end", step), world_text);
+  if (planner_) world_input_.check(planner_->site("trial_end", step), world_text);
 }
 
 }  // namespace dmrp::host

@@ -16,6 +16,7 @@
 
 #include "core/sensors/lidar.hpp"
 #include "core/world/world.hpp"
+#include "host/plugins/input_copy.hpp"
 #include "host/plugins/output.hpp"
 #include "host/trial/annotations.hpp"
 #include "host/trial/dispatcher.hpp"
@@ -80,6 +81,8 @@ class TrialPlugins {
   void offer(Instance& instance, std::uint32_t kind);
   void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
   void observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const;
+  void copy_input(std::span<const dmrp_observation> observations);
+  void copy_world();
   dmrp_twist checked(std::uint32_t robot, const dmrp_command& command, const char* function, std::int64_t step) const;
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
 
@@ -102,6 +105,8 @@ class TrialPlugins {
   std::vector<std::shared_ptr<SensorExtensions>> sensor_extensions_;
   std::vector<Controller> controllers_;  // by robot; all with the same instance if it is central
   bool central_ = false;
+  InputCopy input_;  // of the call that runs
+  InputCopy world_input_;
   Output<dmrp_command> command_;
   std::vector<dmrp_observation> observations_;  // of control_all(), as the next two
   OutputArray<dmrp_command> commands_;

@@ -91,6 +91,8 @@ class Supervisor {
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
+      for (Slot& slot : slots_)
+        if (slot.worker && watches_memory_) check_memory(slot);
       sinks_.on_idle();
     }
     shut_down_workers();
@@ -279,6 +281,17 @@ class Supervisor {
     end_worker(slot, std::move(fault), false);
   }
 
+  // Where the kernel's limit does not fit the plugins.
+  void check_memory(Slot& slot) {
+    const double resident_mb = slot.worker->process().resident_mb();
+    if (resident_mb <= static_cast<double>(experiment_.limits.memory_mb)) return;
+    FaultRecord fault = fault_at(slot.worker->last_call());
+    fault.kind = fault_kind::out_of_memory;
+    fault.detail += fmt::format("{:.0f} MB in use, more than memory_mb = {}; when this is noticed depends on timing",
+                                resident_mb, experiment_.limits.memory_mb);
+    end_worker(slot, std::move(fault), slot.trials_begun > 1);
+  }
+
   // The worker ended by itself, or was killed from outside.
   void worker_ended(Slot& slot) {
     FaultRecord fault = fault_of_end(*slot.worker, experiment_.limits.memory_mb);
@@ -364,6 +377,7 @@ class Supervisor {
   const SupervisorSettings& settings_;
   const SupervisorSinks& sinks_;
   const std::string digest_;
+  const bool watches_memory_ = experiment_.limits.memory_mb > 0 && counts_resident_memory(experiment_);
   Descriptor log_;
   Watchdog watchdog_;
   std::deque<OpenTrial> waiting_;

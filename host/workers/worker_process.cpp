@@ -11,7 +11,7 @@ namespace {
 ChildProcess start(const Experiment& experiment, int log, std::initializer_list<int> inherited) {
   ChildProcess::Program program;
   program.arguments = {"worker", experiment.file.string(), std::to_string(experiment.trials),
-                       std::to_string(experiment.limits.memory_mb),
+                       std::to_string(counts_resident_memory(experiment) ? 0 : experiment.limits.memory_mb),
                        experiment.limits.processes ? "processes" : "no_processes"};
   program.inherited = inherited;
   for (const int descriptor : program.inherited) program.arguments.push_back(std::to_string(descriptor));

@@ -45,6 +45,8 @@ attacks=(
   'files limited|worker_error|.*|File too large|late'
   'kills itself|crash|step|SIGKILL'
   'traps numbers|abi_breach|step|floating-point control'
+  'writes into the observation|abi_breach|step|wrote into the observation'
+  'writes into the world|abi_breach|trial_end|wrote into the world|late'
   'late thread|crash|.*|Segmentation fault|late'
 )
 # expect_faults NAME ROW...
@@ -126,6 +128,17 @@ sed -i '/^memory_mb/a processes = true' "$scratch/helped.toml"
 run_with_faults helped 0
 expect_same helped
 
+# a plugin that asks for it is watched by the memory in use
+if $limited; then
+  begin resident
+  hostile resident fills
+  sed -i 's/test.controller.hostile/test.controller.resident/' "$scratch/resident.toml"
+  run_with_faults resident 1
+  expect_fault resident "local_controller = 'fills' AND repetition = 0" \
+    "out_of_memory|test.controller.resident|step|50|1|" "MB in use, more than memory_mb = 400; when this is noticed"
+  expect_same resident
+fi
+
 # what a library does while it is loaded
 for what in none fork stay; do
   expect_status 0 env DMRP_TEST_AT_LOAD=$what timeout 20 "$host" plugins "$library"
@@ -137,7 +150,7 @@ grep -q "closes its channel to the host while it is loaded" "$scratch/stderr" ||
 
 # attacks that do nothing, or leave no trace in the results
 begin harmless
-for attack in none threads umask "all descriptors taken" "kills siblings"; do hostile harmless "$attack"; done
+for attack in none threads reserves umask "all descriptors taken" "kills siblings"; do hostile harmless "$attack"; done
 status=0
 "$host" "$scratch/harmless.toml" --no-box --quiet --jobs 2 --out "$scratch/harmless" || status=$?
 ((status <= 1)) || fail "exit status $status"

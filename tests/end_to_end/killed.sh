@@ -45,6 +45,14 @@ wait "$host_process" || status=$?
 cmp -s <(values_of "$run") <(values_of "$scratch/whole") || fail "values differ from an undisturbed run"
 ! compgen -G "$run/*scratch*" >/dev/null || fail "scratch files are left: $(ls "$run")"
 
+# a run that is killed before it has a database is begun again
+mkdir "$scratch/early" "$scratch/early/traces"
+cp "$run/experiment.toml" "$scratch/early/"
+head -c 5000 "$run/results.sqlite" >"$scratch/early/results.new"
+expect_status 0 "$host" "$experiment" --quiet --resume --trials 1 --out "$scratch/early"
+[[ $(query "$scratch/early" "SELECT count(*) FROM trial") == 4 ]] || fail "the run should have begun again"
+expect_status 2 "$host" "$experiment" --quiet --resume --trials 1 --out "$scratch"
+
 # a database that vanishes ends the run, and it says so
 "$host" "$experiment" --quiet --jobs 2 --trials 100 --out "$scratch/vanished" 2>"$scratch/stderr" >"$scratch/stdout" &
 host_process=$!

@@ -45,6 +45,13 @@ expect_failure "^dmrp-host: --svg $scratch/mall.svg: File too large$" \
   with_files_up_to 1 "$host" draw mall --svg "$scratch/mall.svg"
 [[ ! -e $scratch/mall.svg ]] || fail "half a file was left"
 
+# a terminal that cannot overwrite lines
+if command -v script >/dev/null; then
+  TERM=dumb script -qec "'$host' '$here/crossing.toml' --trials 1 --out '$scratch/dumb'" /dev/null >"$scratch/dumb.txt"
+  grep -q "4/4" "$scratch/dumb.txt" || fail "the run should be shown: $(cat "$scratch/dumb.txt")"
+  ! grep -q $'\x1b' "$scratch/dumb.txt" || fail "escape sequences on a dumb terminal"
+fi
+
 # no descriptors for child processes: one beyond the standard three, without those that this shell inherited
 few_files() { (exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&- && ulimit -n 4 && exec "$@"); }
 # The undefined-behaviour sanitizer needs descriptors itself.

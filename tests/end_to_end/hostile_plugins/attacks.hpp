@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fenv.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
@@ -82,6 +83,16 @@ inline void use_threads() {
 #endif
 }
 
+// Slowly, up to 800 MB, in memory that no limit on data counts.
+inline void fill_memory() {
+  constexpr std::size_t step = 16u << 20;
+  for (int i = 0; i < 50; ++i) {
+    void* const shared = mmap(nullptr, step, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared != MAP_FAILED) std::memset(shared, 1, step);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 inline void crash() {
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
@@ -116,6 +127,9 @@ inline void attack(const std::string& what) {
   if (what == "prints much")
     for (int i = 0; i < 10'000; ++i) std::fprintf(stderr, "%s\n", std::string(4096, 'x').c_str());
   if (what == "threads") use_threads();
+  if (what == "reserves")
+    mmap(nullptr, std::size_t{1} << 36, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (what == "fills") fill_memory();
   if (what == "umask") umask(0777);
   if (what == "traps numbers") feenableexcept(FE_DIVBYZERO | FE_INVALID);
   if (what == "late thread")

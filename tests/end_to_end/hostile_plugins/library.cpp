@@ -17,10 +17,29 @@ class HostileController : public dmrp::LocalController {
 
   dmrp::Param<std::string> what = param("attack", "none").doc("what it does, as robot 1 after one second");
 
+  dmrp::Status start(const dmrp::Start& start) override {
+    world_ = start.world.operator->();
+    return dmrp::Status::ok;
+  }
   void set_path(dmrp::Path, std::uint64_t) override {}
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command&) override {
-    if (now.robot == 1 && now.t_ns == 1'000'000'000) attack(*what);
+    if (now.robot != 1 || now.t_ns != 1'000'000'000) return dmrp::Status::ok;
+    attack(*what);
+    if (*what == "writes into the observation") const_cast<dmrp_limits&>(now.limits).v_max += 1.0;
+    if (*what == "writes into the world") const_cast<dmrp_world*>(world_)->time_limit_ns += 1;
     return dmrp::Status::ok;
+  }
+
+ private:
+  const dmrp_world* world_ = nullptr;
+};
+
+class ResidentController final : public HostileController {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("test.controller.resident", "Controller that maps much", "1.0.0")
+        .license("MIT")
+        .flags(DMRP_FLAG_RESIDENT_MEMORY);
   }
 };
 
@@ -53,4 +72,5 @@ __attribute__((constructor)) static void at_load() {
 
 using dmrp::test::HelpedController;
 using dmrp::test::HostileController;
-DMRP_PLUGINS(HostileController, HelpedController)
+using dmrp::test::ResidentController;
+DMRP_PLUGINS(HostileController, HelpedController, ResidentController)

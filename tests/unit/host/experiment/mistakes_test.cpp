@@ -363,3 +363,25 @@ TEST_CASE("a plugin that needs what the host lacks is refused where it is used")
   CHECK(message(1, [](PluginInfo& controller) { controller.kinematics = 1u << DMRP_KINEMATICS_ACKERMANN; }) ==
         "experiment.toml:15:7: test.controller cannot drive robots with a differential drive");
 }
+
+TEST_CASE("keys of many parts are refused, and long names are cut in messages") {
+  const ExperimentFolder folder;
+  const auto many = [](const std::string& part) {
+    std::string key = "a";
+    for (int i = 0; i < 50'000; ++i) key += part;
+    return key;
+  };
+  const auto message = [](const std::string& experiment) -> std::string {
+    write_file("experiment.toml", experiment);
+    try {
+      load(experiment);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(message("[" + many(".a") + "]\n") == "experiment.toml:1:2: a key of more than 1000 parts");
+  CHECK(message("\n" + many(" . \"b\"") + " = 1\n") == "experiment.toml:2:1: a key of more than 1000 parts");
+  CHECK(message("x = [1, {" + many(".'c'") + " = 1}]\n") == "experiment.toml:1:10: a key of more than 1000 parts");
+  CHECK(message(many("b") + " = 1\n").size() < 2100);
+}
