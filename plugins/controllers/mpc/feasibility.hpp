@@ -8,6 +8,9 @@
 
 namespace dmrp::controllers::mpc {
 
+// The least distance between a predicted pose and an obstacle, unless the robot already stands closer.
+inline constexpr double least_gap_m = 0.02;
+
 // The input of the check in one control cycle. Does not own what it refers to.
 struct Surroundings {
   const Observation& now;

@@ -16,10 +16,6 @@ constexpr double near_m = 0.25;
 // Larger turns are made in place.
 constexpr double sharp_rad = 0.5;
 
-State between(const State& a, const State& b, double share) {
-  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.theta + share * (b.theta - a.theta)};
-}
-
 double distance(const State& a, const State& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }

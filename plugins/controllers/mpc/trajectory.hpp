@@ -11,6 +11,10 @@ namespace dmrp::controllers::mpc {
 // theta is not wrapped: consecutive states of a trajectory differ by less than a full turn.
 using State = Pose;
 
+inline State between(const State& a, const State& b, double share) {
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.theta + share * (b.theta - a.theta)};
+}
+
 struct Control {
   double v = 0.0;      // m/s
   double omega = 0.0;  // rad/s

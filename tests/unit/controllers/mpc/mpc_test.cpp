@@ -9,6 +9,7 @@
 
 #include "controllers/motion/guide.hpp"
 #include "controllers/mpc/association.hpp"
+#include "controllers/mpc/feasibility.hpp"
 #include "controllers/mpc/initial_guess.hpp"
 #include "controllers/mpc/interior_point.hpp"
 #include "tests/unit/controllers/fake_costmap.hpp"
@@ -28,12 +29,12 @@ const std::vector<dmrp_polygon> box_parts = {dmrp::test::polygon_of(box_corners)
 const dmrp_footprint box = dmrp::test::polygon_footprint(box_parts, 0.5, 0.2);
 
 // Obstacles of all kinds, some of them moving.
-struct Surroundings {
+struct KindsOfObstacles {
   std::vector<dmrp_vec2> vertices = {{1.0, 0.6}, {2.0, -0.7}, {2.8, -0.5}, {1.5, 1.0},
                                      {2.5, 1.0}, {2.0, 1.6},  {3.0, 0.2}};
   std::vector<Obstacle> all;
 
-  Surroundings() {
+  KindsOfObstacles() {
     const auto add = [this](std::uint32_t first, std::uint32_t count, double radius_m, dmrp_vec2 velocity) {
       Obstacle obstacle;
       obstacle.vertices = vertices.data() + first;
@@ -49,7 +50,7 @@ struct Surroundings {
     add(3, 3, 0.0, {0.0, 0.0});
     add(6, 1, 0.3, {-0.8, 0.3});
   }
-  Surroundings(const Surroundings&) = delete;
+  KindsOfObstacles(const KindsOfObstacles&) = delete;
 };
 
 StageVector random_stage(Stream& random) {
@@ -107,7 +108,7 @@ Solved solve(Problem& problem, const std::vector<Obstacle>& obstacles = {}, std:
 
 TEST_CASE("Gradients and curvatures of all constraints agree with finite differences") {
   const dmrp_footprint& footprint = GENERATE(0, 1) == 0 ? disc : box;
-  const Surroundings around;
+  const KindsOfObstacles around;
   Problem problem = in_the_open({}, {});
   problem.footprint = &footprint;
   problem.ends_at_rest = true;
@@ -416,4 +417,61 @@ TEST_CASE("The guide leads around obstacles and reports unreachable points") {
   c = fake.c();
   guide.spread(map, from, 0.27, 0.4);
   CHECK_FALSE(guide.reaches(map, to));
+}
+
+namespace {
+
+// A wall along x = 1 and a corner at (0.6, 0.28); the robot stands at the origin.
+struct Room {
+  std::vector<dmrp_vec2> vertices = {{1.0, -2.0}, {1.0, 2.0}, {0.6, 0.28}};
+  std::vector<Obstacle> obstacles;
+  dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  dmrp_goal goal{};
+  FakeCostmap costmap = FakeCostmap(10);
+
+  Room() {
+    for (const auto& [first, count] : {std::pair{0u, 2u}, std::pair{2u, 1u}}) {
+      Obstacle& obstacle = obstacles.emplace_back();
+      obstacle.vertices = vertices.data() + first;
+      obstacle.vertex_count = count;
+      obstacle.center = count == 2 ? dmrp_vec2{1.0, 0.0} : vertices[first];
+      obstacle.reach_m = count == 2 ? 2.0 : 0.0;
+    }
+  }
+  Room(const Room&) = delete;
+
+  bool allows(const std::vector<State>& states) const {
+    dmrp_observation c{};
+    c.struct_size = sizeof(c);
+    c.pose = states.front();
+    c.limits = &limits;
+    c.footprint = &disc;
+    c.goal = &goal;
+    c.agent_stride = sizeof(dmrp_agent);
+    const dmrp::Observation now(c);
+    const dmrp_costmap map = costmap.c();
+    FootprintCheck footprint(CostmapView(map), disc, 0.0, now.pose);
+    Trajectory trajectory;
+    trajectory.states = states;
+    trajectory.controls.resize(states.size() - 1);
+    trajectory.dt_s = 1.0;
+    return is_collision_free(trajectory, 0, 100, {now, obstacles, footprint});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A trajectory with states on both sides of a wall is not free") {
+  const Room room;
+  CHECK(room.allows({{0.5, -1.0, 0.0}, {0.6, -1.0, 0.0}}));
+  CHECK_FALSE(room.allows({{0.5, -1.0, 0.0}, {1.5, -1.0, 0.0}}));
+}
+
+TEST_CASE("A robot close to one obstacle comes no closer to it, nor to another one") {
+  const Room room;
+  const State beside_wall = {0.74, -0.5, 0.5 * pi};  // 1 cm from the wall, farther from the corner
+  CHECK(room.allows({beside_wall, {0.74, -0.4, 0.5 * pi}}));
+  CHECK(room.allows({beside_wall, {0.70, -0.4, 0.5 * pi}}));
+  CHECK_FALSE(room.allows({beside_wall, {0.744, -0.4, 0.5 * pi}}));
+  CHECK_FALSE(room.allows({beside_wall, {0.70, 0.04, 0.5 * pi}}));  // 1 cm from the corner
 }
