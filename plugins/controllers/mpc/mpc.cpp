@@ -18,8 +18,7 @@ namespace {
 constexpr double barrier_cold = 1e-1;
 constexpr double barrier_warm = 1e-2;
 
-// The guide needs this clearance beyond the inscribed radius, and prefers the second one.
-constexpr double needed_beyond_m = 0.02;
+// The guide prefers this clearance beyond the inscribed radius.
 constexpr double easy_beyond_m = 0.15;
 
 // The largest residual of the constraints at which a solution is used.
@@ -156,7 +155,7 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   });
   if (is_free) return target;
 
-  spread_guide(now, map);
+  spread_guide(now, map, points.back());
   target.is_guided = true;
   std::size_t last = points.size() - 1;
   while (last > 0 && !guide_.reaches(map, points[last])) --last;
@@ -174,9 +173,14 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   return target;
 }
 
-void Mpc::spread_guide(const Observation& now, const CostmapView& map) {
+// The guide keeps the clearance that the feasibility check demands beside a wall: one cell more than the footprint. If
+// that leaves no way to the point, it leads through narrower gaps, as between people.
+void Mpc::spread_guide(const Observation& now, const CostmapView& map, Vec2 to) {
   const double radius_m = now.footprint.inscribed_radius_m;
-  guide_.spread(map, toolkit::position(now.pose), radius_m + needed_beyond_m, radius_m + easy_beyond_m);
+  for (const double beyond_m : {mpc::least_gap_m + map.resolution_m(), mpc::least_gap_m}) {
+    guide_.spread(map, toolkit::position(now.pose), radius_m + beyond_m, radius_m + easy_beyond_m);
+    if (guide_.reaches(map, to)) return;
+  }
 }
 
 void Mpc::pose_problem(const Observation& now, const Target& target) {
@@ -193,9 +197,18 @@ void Mpc::pose_problem(const Observation& now, const Target& target) {
   problem_.a_max = limits.a_max;
   problem_.alpha_max = limits.alpha_max;
   problem_.dt_min_s = min_dt;
-  problem_.dt_max_s = max_dt;
+  problem_.dt_max_s = longest_step_s(now);
   problem_.min_obstacle_dist_m = min_obstacle_dist;
   problem_.footprint = &now.footprint;
+}
+
+// With a step in which the robot drives farther than its own width, states may stand on both sides of an obstacle and
+// meet all constraints: the solver then prefers few long steps through it to many short ones around it.
+double Mpc::longest_step_s(const Observation& now) const {
+  if (!bound_step_length) return max_dt;
+  const double width_m = 2.0 * now.footprint.inscribed_radius_m;
+  const double fastest_m_s = std::max(now.limits.v_max, -now.limits.v_min);
+  return std::max<double>(min_dt, std::min<double>(max_dt, width_m / fastest_m_s));
 }
 
 mpc::OptimizerSettings Mpc::optimizer_settings() const {
@@ -232,8 +245,8 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
   }
   if (is_solved_along_route()) return solver_iterations;
   if (target.is_guided) return {};  // route_ was the guide's already
-  spread_guide(now, cycle.map);
   const Vec2 goal = toolkit::position(target.goal);
+  spread_guide(now, cycle.map, goal);
   if (!guide_.reaches(cycle.map, goal)) return {};
   guide_.path_to(cycle.map, goal, route_);
   if (is_solved_along_route()) return solver_iterations;

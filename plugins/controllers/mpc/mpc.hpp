@@ -30,6 +30,8 @@ class Mpc final : public LocalController {
       param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
+  Param<bool> bound_step_length =
+      param("bound_step_length", true).doc("no time step in which the robot can drive farther than its own width");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -93,8 +95,9 @@ class Mpc final : public LocalController {
 
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  void spread_guide(const Observation& now, const CostmapView& map);
+  void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const Target& target);
+  double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
   bool can_continue() const;
