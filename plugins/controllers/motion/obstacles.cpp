@@ -154,6 +154,7 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
     Obstacle& obstacle = add(&center, 1);
     obstacle.radius_m = agent.radius_m;
     obstacle.is_agent = true;
+    obstacle.is_robot = agent.kind == DMRP_AGENT_ROBOT;
     if (toolkit::norm(agent.velocity) >= standing_m_s) obstacle.velocity = agent.velocity;
   }
   // vertices_ no longer reallocates: set the pointers

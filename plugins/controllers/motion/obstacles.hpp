@@ -19,6 +19,7 @@ struct Obstacle {
   Vec2 center = {0.0, 0.0};    // of a circle that contains the vertices ...
   double reach_m = 0.0;        // ... of this radius
   bool is_agent = false;       // a tracked robot or person
+  bool is_robot = false;       // a tracked robot
 };
 
 // The signed distance between two outlines and its derivatives.

@@ -12,8 +12,16 @@ namespace {
 // Poses closer by no more than this count as no closer.
 constexpr double rounding_m = 1e-3;
 
+// A robot that is on its way evades too, so a predicted contact with it counts only if it is less than the braking time
+// and this ahead. Where two have to share the room, as in a narrow corridor, neither could plan past the other alone.
+constexpr double shared_evasion_s = 1.0;
+
 // Occupied cells within this distance of an agent count as the agent's.
 constexpr double agent_cells_m = 0.15;
+
+double needed_from(const Obstacle& obstacle) {
+  return obstacle.is_agent ? least_gap_m : 0.0;
+}
 
 // Against the obstacles at their predicted positions, and against the costmap. The costmap shows the agents at their
 // current positions, so it does not count beside them.
@@ -22,10 +30,13 @@ bool is_free(const Pose& pose, double ahead_s, const Surroundings& around) {
   const Footprint& footprint = around.now.footprint;
   bool beside_agent = false;
   for (const Obstacle& obstacle : around.obstacles) {
-    if (least_distance(footprint, robot, obstacle, ahead_s) < least_gap_m) {
+    const double needed_m = needed_from(obstacle);
+    const bool evades_too = obstacle.is_robot && obstacle.velocity != Vec2{0.0, 0.0} &&
+                            ahead_s > around.now.velocity.v_x / around.now.limits.a_max + shared_evasion_s;
+    if (!evades_too && least_distance(footprint, robot, obstacle, ahead_s) < needed_m) {
       const double distance_m = separation(footprint, pose, obstacle, ahead_s).distance_m;
       // a robot that already stands closer may move as long as it comes no closer to this obstacle
-      if (distance_m < least_gap_m &&
+      if (distance_m < needed_m &&
           distance_m < separation(footprint, around.now.pose, obstacle, 0.0).distance_m - rounding_m)
         return false;
     }
@@ -58,6 +69,12 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
       return false;
   }
   return true;
+}
+
+bool stands_too_close(const Surroundings& around) {
+  return std::any_of(around.obstacles.begin(), around.obstacles.end(), [&](const Obstacle& obstacle) {
+    return separation(around.now.footprint, around.now.pose, obstacle, 0.0).distance_m < needed_from(obstacle);
+  });
 }
 
 }  // namespace dmrp::controllers::mpc

@@ -8,7 +8,8 @@
 
 namespace dmrp::controllers::mpc {
 
-// The least distance between a predicted pose and an obstacle, unless the robot already stands closer.
+// The least distance between a predicted pose and an agent, unless the robot already stands closer. Other obstacles are
+// a cell larger than what the lidar saw, and no more is needed beside them.
 inline constexpr double least_gap_m = 0.02;
 
 // The input of the check in one control cycle. Does not own what it refers to.
@@ -21,5 +22,8 @@ struct Surroundings {
 // Whether the states 1 to `most_states` after `first` are free, state first + k at the time k dt_s.
 bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::size_t most_states,
                        const Surroundings& around);
+
+// Whether the robot stands closer to an obstacle than the check allows.
+bool stands_too_close(const Surroundings& around);
 
 }  // namespace dmrp::controllers::mpc

@@ -27,6 +27,13 @@ constexpr double most_infeasible = 0.05;
 // Below this speed the robot counts as standing.
 constexpr double standing_m_s = 0.05;
 
+// A robot that turns because no trajectory is feasible faces the first point of its route beyond this distance. Its
+// outline must be free for so long in the turn.
+constexpr double face_ahead_m = 0.3;
+constexpr double turned_rad = 0.2;
+constexpr double turn_check_s = 0.5;
+constexpr int turn_check_steps = 5;
+
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
@@ -81,6 +88,7 @@ Status Mpc::start(const Start& start) {
   route_.reserve(usual_obstacles);
   trajectory_.reserve(states);
   trajectory_.clear();
+  turn_to_.reset();
   return Status::ok;
 }
 
@@ -94,11 +102,13 @@ Status Mpc::step(const Observation& now, Command& command) {
   if (tracker_.empty()) return Status::ok;
   if (at_goal_.reached(tracker_.stop(), now)) {
     trajectory_.clear();
+    turn_to_.reset();
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
   const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
+  if (turns(now, footprint, command)) return Status::ok;
   const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
   const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
   const std::optional<Target> target = choose_target(now, map, footprint);
@@ -113,6 +123,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
+    if (is_standing && turn_if_stuck && mpc::stands_too_close(cycle.around)) begin_turn(now);
     if (is_standing) return Status::ok;
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
@@ -177,7 +188,7 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
 // that leaves no way to the point, it leads through narrower gaps, as between people.
 void Mpc::spread_guide(const Observation& now, const CostmapView& map, Vec2 to) {
   const double radius_m = now.footprint.inscribed_radius_m;
-  for (const double beyond_m : {mpc::least_gap_m + map.resolution_m(), mpc::least_gap_m}) {
+  for (const double beyond_m : {map.resolution_m(), mpc::least_gap_m}) {
     guide_.spread(map, toolkit::position(now.pose), radius_m + beyond_m, radius_m + easy_beyond_m);
     if (guide_.reaches(map, to)) return;
   }
@@ -251,6 +262,30 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
   guide_.path_to(cycle.map, goal, route_);
   if (is_solved_along_route()) return solver_iterations;
   return {};
+}
+
+// Beside an obstacle, a trajectory that still has to turn may come a little closer to it; once the robot faces its way,
+// it drives straight off.
+void Mpc::begin_turn(const Observation& now) {
+  const Vec2 robot = toolkit::position(now.pose);
+  const auto beyond = std::find_if(route_.begin(), route_.end(),
+                                   [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
+  if (beyond != route_.end()) turn_to_ = toolkit::bearing(robot, *beyond);
+}
+
+// Goes on with a turn in place. False if there is none, or if it ends or is blocked.
+bool Mpc::turns(const Observation& now, const FootprintCheck& footprint, Command& command) {
+  if (!turn_to_) return false;
+  const double angle = toolkit::difference(now.pose.theta, *turn_to_);
+  const double omega = turning_rate(angle, now);
+  if (std::abs(angle) < turned_rad ||
+      footprint.arc_cost(now.pose, 0.0, omega, turn_check_s, turn_check_steps) == in_collision) {
+    turn_to_.reset();
+    return false;
+  }
+  command = braking(now);
+  command.omega = omega;
+  return true;
 }
 
 // Whether the last trajectory leads near the new goal.

@@ -32,6 +32,9 @@ class Mpc final : public LocalController {
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
   Param<bool> bound_step_length =
       param("bound_step_length", true).doc("no time step in which the robot can drive farther than its own width");
+  Param<bool> turn_if_stuck =
+      param("turn_if_stuck", true)
+          .doc("a robot that stands too close to an obstacle for any trajectory turns toward its way");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -100,6 +103,8 @@ class Mpc final : public LocalController {
   double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
+  void begin_turn(const Observation& now);
+  bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);
   bool can_continue() const;
   bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
   void skip_waiting(const mpc::Surroundings& around);
@@ -112,7 +117,8 @@ class Mpc final : public LocalController {
   // state from one control cycle to the next
   PathTracker tracker_;
   StopAndRotate at_goal_;
-  mpc::Trajectory trajectory_;  // the warm start; empty if there is none
+  mpc::Trajectory trajectory_;     // the warm start; empty if there is none
+  std::optional<double> turn_to_;  // the heading of a turn in place
 
   // buffers, filled anew in every cycle
   PathAhead ahead_;

@@ -421,7 +421,7 @@ TEST_CASE("The guide leads around obstacles and reports unreachable points") {
 
 namespace {
 
-// A wall along x = 1 and a corner at (0.6, 0.28); the robot stands at the origin.
+// Agents, a wall along x = 1 and a corner at (0.6, 0.28); the robot stands at the origin.
 struct Room {
   std::vector<dmrp_vec2> vertices = {{1.0, -2.0}, {1.0, 2.0}, {0.6, 0.28}};
   std::vector<Obstacle> obstacles;
@@ -436,6 +436,7 @@ struct Room {
       obstacle.vertex_count = count;
       obstacle.center = count == 2 ? dmrp_vec2{1.0, 0.0} : vertices[first];
       obstacle.reach_m = count == 2 ? 2.0 : 0.0;
+      obstacle.is_agent = true;
     }
   }
   Room(const Room&) = delete;
