@@ -40,7 +40,7 @@ void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const Parame
   scene_ = &scene;
   parameters_ = &parameters;
   obstacle_factor_ = obstacle_factor;
-  linker_.link(band, *scene.footprint, *scene.obstacles, parameters, links_);
+  linker_.link(band, scene.stops_at_goal, *scene.footprint, *scene.obstacles, parameters, links_);
   link_via_points(band, *scene.via_points, via_links_);
 }
 
@@ -188,22 +188,26 @@ void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) cons
   }
 }
 
-// The penalty below min_obstacle_dist; a smaller distance near a robot that is already closer.
+// The penalty below min_obstacle_dist; a smaller distance near a robot that is already closer, and near such a goal.
 template <bool with_derivatives>
 void BandProblem::add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
                                 std::array<double, 3> by) const {
   const Parameters& parameters = *parameters_;
   double wanted_m = parameters.min_obstacle_dist + parameters.penalty_epsilon;
-  if (link.start_m < wanted_m) {
-    const Vec2 from_start = band_->position(link.pose) - band_->position(0);
-    const double from_start_m = toolkit::norm(from_start);
-    const double leaving_m = link.start_m + leaving_slope * from_start_m;
-    if (leaving_m < wanted_m && from_start_m > 0.0) {
-      wanted_m = leaving_m;
-      by[0] -= leaving_slope * from_start.x / from_start_m;
-      by[1] -= leaving_slope * from_start.y / from_start_m;
-    }
-  }
+  Vec2 wanted_by = {0.0, 0.0};
+  const auto ease = [&](double end_m, std::size_t end) {
+    if (!(end_m < wanted_m)) return;
+    const Vec2 from_end = band_->position(link.pose) - band_->position(end);
+    const double from_end_m = toolkit::norm(from_end);
+    const double eased_m = end_m + easing_slope * from_end_m;
+    if (!(eased_m < wanted_m) || !(from_end_m > 0.0)) return;
+    wanted_m = eased_m;
+    wanted_by = (easing_slope / from_end_m) * from_end;
+  };
+  ease(link.start_m, 0);
+  ease(link.goal_m, band_->size() - 1);
+  by[0] -= wanted_by.x;
+  by[1] -= wanted_by.y;
   const Penalty close = above(distance_m, wanted_m, 0.0);
   if (link.is_dynamic) {
     squares.add(first_of(link.pose), close, by, obstacle_factor_ * parameters.weight_dynamic_obstacle);

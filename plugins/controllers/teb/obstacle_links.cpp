@@ -33,15 +33,16 @@ bool is_dynamic(const Obstacle& obstacle, const Parameters& parameters) {
 
 }  // namespace
 
-void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footprint,
+void ObstacleLinker::link(const TimedElasticBand& band, bool stops_at_goal, const Footprint& footprint,
                           const std::vector<Obstacle>& obstacles, const Parameters& parameters,
                           std::vector<ObstacleLink>& links) {
   links.clear();
-  start_m_.assign(obstacles.size(), ignored_m);
   const double wanted_m = parameters.min_obstacle_dist + parameters.penalty_epsilon;
-  for (std::size_t k = 0; k < obstacles.size(); ++k)
-    if (!is_farther(band.position(0), obstacles[k], 0.0, footprint.radius_m + wanted_m))
-      start_m_[k] = separation(footprint, band.pose(0), obstacles[k], 0.0).distance_m;
+  start_m_.assign(obstacles.size(), ignored_m);
+  goal_m_.assign(obstacles.size(), ignored_m);
+  measure_from(band.pose(0), footprint, obstacles, wanted_m, start_m_);
+  if (stops_at_goal && parameters.ease_to_goal)
+    measure_from(band.pose(band.size() - 1), footprint, obstacles, wanted_m, goal_m_);
   const double forced_m = parameters.min_obstacle_dist * parameters.obstacle_association_force_inclusion_factor;
   const double cutoff_m = parameters.min_obstacle_dist * parameters.obstacle_association_cutoff_factor;
   const double dynamic_m = std::max(parameters.min_obstacle_dist, parameters.dynamic_obstacle_inflation_dist) + slack_m;
@@ -57,22 +58,31 @@ void ObstacleLinker::link(const TimedElasticBand& band, const Footprint& footpri
       const Obstacle& obstacle = obstacles[k];
       if (is_dynamic(obstacle, parameters)) {
         if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m))
-          links.push_back({i, k, ahead_s, true, ignored_m});
+          links.push_back({i, k, ahead_s, true, ignored_m, ignored_m});
         continue;
       }
       if (is_farther(at, obstacle, 0.0, footprint.radius_m + cutoff_m)) continue;
       const Separation apart = separation(footprint, pose, obstacle, 0.0);
       if (apart.distance_m < forced_m) {
-        links.push_back({i, k, 0.0, false, start_m_[k]});
+        links.push_back({i, k, 0.0, false, start_m_[k], goal_m_[k]});
       } else if (apart.distance_m < cutoff_m) {
         // the gradient points away from the obstacle: to the right if the obstacle is on the left
         Nearest& side = toolkit::cross(heading, apart.gradient) < 0.0 ? left : right;
         if (apart.distance_m < side.distance_m) side = {apart.distance_m, k};
       }
     }
-    if (left.found()) links.push_back({i, left.obstacle, 0.0, false, start_m_[left.obstacle]});
-    if (right.found()) links.push_back({i, right.obstacle, 0.0, false, start_m_[right.obstacle]});
+    for (const Nearest& side : {left, right})
+      if (side.found())
+        links.push_back({i, side.obstacle, 0.0, false, start_m_[side.obstacle], goal_m_[side.obstacle]});
   }
+}
+
+// Of the obstacles closer to the pose than `wanted_m`.
+void ObstacleLinker::measure_from(const Pose& pose, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
+                                  double wanted_m, std::vector<double>& distances_m) const {
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
+    if (!is_farther(toolkit::position(pose), obstacles[k], 0.0, footprint.radius_m + wanted_m))
+      distances_m[k] = separation(footprint, pose, obstacles[k], 0.0).distance_m;
 }
 
 void link_via_points(const TimedElasticBand& band, const std::vector<Vec2>& points, std::vector<ViaPointLink>& links) {

@@ -259,7 +259,7 @@ TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one o
   Parameters tuning;                   // forced within 0.75 m, cut off at 2.5 m
   std::vector<ObstacleLink> links;
   ObstacleLinker linker;
-  linker.link(band, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
+  linker.link(band, false, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
   REQUIRE(links.size() == 5);
   CHECK(links[0].obstacle == 0);  // 0.7 m
   CHECK(links[1].obstacle == 3);  // 0.4 m
@@ -269,7 +269,7 @@ TEST_CASE("TEB: poses are linked to all close obstacles and to the closest one o
   CHECK(links[3].obstacle == 1);  // left, 0.9 m
   CHECK(links[4].obstacle == 2);  // right, 0.8 m
   tuning.include_dynamic_obstacles = false;
-  linker.link(band, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
+  linker.link(band, false, dmrp::test::disc_footprint(0.2), obstacles, tuning, links);
   for (const ObstacleLink& link : links) CHECK_FALSE(link.is_dynamic);
 }
 

@@ -2,6 +2,7 @@
 // Known failures of teb_local_planner, in closed loop.
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/random.hpp>
 
 #include "tests/unit/controllers/controllers.hpp"
 
@@ -102,4 +103,25 @@ TEST_CASE("TEB: annotates the chosen band and the others") {
   CHECK(predicted == 10);
   CHECK(candidates > 0);
   CHECK(trip.notes().notes.size() == 10);
+}
+
+TEST_CASE("TEB: reaches goals closer to a table than min_obstacle_dist") {
+  int arrived = 0;
+  int arrived_without = 0;
+  dmrp::toolkit::Stream random(31, "goals");
+  for (const double gap_m : {0.05, 0.15, 0.25, 0.35}) {
+    for (int i = 0; i < 5; ++i) {
+      Course course;
+      course.boxes = {{{6.0, 1.0}, {8.0, 2.0}}};
+      course.path = metre_path({{2.0, 5.5}, {4.5, 3.0}, {6.5, 2.25 + gap_m}});
+      course.start = {2.0 + random.uniform(-0.1, 0.1), 5.5 + random.uniform(-0.1, 0.1), random.uniform(-0.2, 0.2)};
+      course.time_limit_s = 30.0;
+      const Drive drive = run(teb().id, course);  // with the defaults: min_obstacle_dist is 0.5 m
+      check_sound(drive);
+      arrived += drive.arrived;
+      arrived_without += run(teb().id, course, {{"ease_to_goal", false}}).arrived;
+    }
+  }
+  CHECK(arrived == 20);
+  CHECK(arrived_without < 20);
 }
