@@ -34,9 +34,13 @@ bool on_collision_course(const dmrp_agent& one, const dmrp_agent& two) {
 
 }  // namespace
 
-ContactTracker::ContactTracker(std::vector<Braking> robots) : robots_(std::move(robots)) {
+// The memory covers braking that ends in the fault window.
+ContactTracker::ContactTracker(std::vector<Braking> robots, Sight sight)
+    : robots_(std::move(robots)), sight_(std::move(sight)) {
   for (const Braking& robot : robots_)
-    memory_ns_ = std::max<std::int64_t>(memory_ns_, std::llround(1e9 * robot.v_max / robot.a_max) + robot.latency_ns);
+    memory_ns_ = std::max<std::int64_t>(memory_ns_, fault_window_ns +
+                                                        std::llround(1e9 * robot.v_max / (full_braking * robot.a_max)) +
+                                                        robot.latency_ns + sight_.control_period_ns);
 }
 
 void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
@@ -67,7 +71,8 @@ std::uint32_t ContactTracker::fault_of(const dmrp_contact& contact, std::uint64_
   const Motion motion = motion_before(contact, b, t_ns);
   if (contact.kind == DMRP_CONTACT_ROBOT)
     return (motion.a_moved ? DMRP_CONTACT_FAULT_A : 0u) | (motion.b_moved ? DMRP_CONTACT_FAULT_B : 0u);
-  return (motion.a_moved ? DMRP_CONTACT_FAULT_A : DMRP_CONTACT_FAULT_B) |
+  const bool is_robots = motion.a_moved && !braked_at_once(contact, b);
+  return (is_robots ? DMRP_CONTACT_FAULT_A : DMRP_CONTACT_FAULT_B) |
          (was_unavoidable(contact, b, t_ns, motion.a_speed) ? DMRP_CONTACT_UNAVOIDABLE : 0u);
 }
 
@@ -93,6 +98,32 @@ ContactTracker::Motion ContactTracker::motion_before(const dmrp_contact& contact
     motion.b_moved = motion.b_moved || speed_toward(*other, robot) > fault_speed;
   }
   return motion;
+}
+
+// Since the first tick at which the person was in sight until now.
+bool ContactTracker::braked_at_once(const dmrp_contact& contact, std::uint64_t b) const {
+  const auto is_seen = [&](const Moment& moment) {
+    const dmrp_agent* const person = body_b(moment, contact, b);
+    return person != nullptr &&
+           (!sight_.sees || sight_.sees(contact.a, position_of(moment.robots[contact.a]), position_of(*person)));
+  };
+  std::size_t first = history_.size();
+  while (first > 0 && is_seen(history_[first - 1])) --first;
+  while (first < history_.size() && sight_.control_period_ns > 0 &&
+         history_[first].t_ns % sight_.control_period_ns != 0)
+    ++first;
+  if (first == history_.size()) return true;  // no tick since: the robot could not react
+
+  const Braking& robot = robots_[contact.a];
+  const std::int64_t reacts_ns = history_[first].t_ns + robot.latency_ns;
+  for (std::size_t i = first; i + 1 < history_.size(); ++i) {
+    if (history_[i].t_ns < reacts_ns) continue;
+    const double before = toolkit::norm(history_[i].robots[contact.a].velocity);
+    const double after = toolkit::norm(history_[i + 1].robots[contact.a].velocity);
+    const double step_s = 1e-9 * static_cast<double>(history_[i + 1].t_ns - history_[i].t_ns);
+    if (after > std::max(before - full_braking * robot.a_max * step_s, standing_m_s)) return false;
+  }
+  return true;
 }
 
 bool ContactTracker::was_unavoidable(const dmrp_contact& contact, std::uint64_t b, std::int64_t t_ns,

@@ -95,7 +95,7 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
       motion_(geometry_, simulation.step_ns),
-      tracker_(braking_of_robots()) {
+      tracker_(braking_of_robots(), sight_of_robots()) {
   proposed_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i)
@@ -107,6 +107,15 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
   update_agents();
+}
+
+ContactTracker::Sight World::sight_of_robots() const {
+  std::vector<double> ranges_m;
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) ranges_m.push_back(robot_settings(i).lidar.range_max_m);
+  return {settings_.control_period_ns,
+          [geometry = geometry_, ranges_m](std::uint32_t robot, dmrp_vec2 from, dmrp_vec2 person) {
+            return toolkit::distance(from, person) <= ranges_m[robot] && geometry->line_of_sight(from, person);
+          }};
 }
 
 std::vector<ContactTracker::Braking> World::braking_of_robots() const {

@@ -93,6 +93,7 @@ class World {
     return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
   }
   std::vector<ContactTracker::Braking> braking_of_robots() const;
+  ContactTracker::Sight sight_of_robots() const;
   void stop(std::uint32_t robot);
   void apply_due_commands();
   void propose_motion(std::span<const dmrp_vec2> person_velocities);

@@ -37,23 +37,28 @@ Descriptor Success::describe() {
       .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
              "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without a contact at its fault, else 0; system: mean over robots");
+             "1 if the robot succeeded without a contact at its fault, else 0; system: mean over robots")
+      .value("contact_free_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+             "1 if the robot succeeded without any contact, whoever was at fault, else 0; system: mean over robots");
 }
 
 void Success::begin(const dmrp_plan*) {
   at_fault_.assign(world().robots().size(), false);
+  touched_.assign(world().robots().size(), false);
 }
 
 void Success::observe(const Sample& sample) {
   for (const Contact& contact : sample.contacts) {
     if (!is_known(contact)) continue;
+    touched_[contact.a] = true;
+    if (contact.kind == DMRP_CONTACT_ROBOT) touched_[contact.b] = true;
     if (fault_of_a(contact)) at_fault_[contact.a] = true;
     if (fault_of_b(contact)) at_fault_[contact.b] = true;
   }
 }
 
 void Success::finish(const TrialEnd& end, MetricSink& sink) {
-  std::vector<double> success, safe_success;
+  std::vector<double> success, safe_success, contact_free_success;
   bool all = true;
   for (std::size_t robot = 0; robot < at_fault_.size(); ++robot) {
     // a robot that oscillated counts as failed even if it arrived later
@@ -61,8 +66,10 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
     all = all && succeeded;
     success.push_back(succeeded ? 1.0 : 0.0);
     safe_success.push_back(succeeded && !at_fault_[robot] ? 1.0 : 0.0);
+    contact_free_success.push_back(succeeded && !touched_[robot] ? 1.0 : 0.0);
     sink.robot("success", robot, success.back());
     sink.robot("safe_success", robot, safe_success.back());
+    sink.robot("contact_free_success", robot, contact_free_success.back());
     if (!succeeded)
       sink.event({"success",
                   end.t_ns,
@@ -73,6 +80,7 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
   sink.system("success", mean_of_defined(success));
   sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);
   sink.system("safe_success", mean_of_defined(safe_success));
+  sink.system("contact_free_success", mean_of_defined(contact_free_success));
 }
 
 }  // namespace dmrp::metrics

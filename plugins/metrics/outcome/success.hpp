@@ -16,6 +16,7 @@ class Success final : public Metric {
 
  private:
   std::vector<char> at_fault_;  // by robot: whether it had a contact at its fault
+  std::vector<char> touched_;   // by robot: whether it had any contact
 };
 
 }  // namespace dmrp::metrics

@@ -74,6 +74,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
   const std::map<std::string, std::string> expected = {{"success", "1"},
                                                        {"trial_success", "1"},
                                                        {"safe_success", "1"},
+                                                       {"contact_free_success", "1"},
                                                        {"path_length", "m"},
                                                        {"planned_length", "m"},
                                                        {"plan_turns", "1"},
@@ -153,8 +154,9 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
 TEST_CASE("a trial without a plan has a value for every name, and 0 only where no event is a result") {
   SyntheticTrial trial(3);
   trial.end(0.0, {never, never, never});  // no plan, no sample
-  const std::set<std::string> zero = {"isr",           "csr",          "spl",          "shortest_length", "success",
-                                      "trial_success", "safe_success", "mission_time", "throughput"};
+  const std::set<std::string> zero = {
+      "isr",           "csr",          "spl",          "shortest_length", "success",
+      "trial_success", "safe_success", "mission_time", "throughput",      "contact_free_success"};
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
     const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name has a value
     CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));

@@ -78,6 +78,34 @@ TEST_CASE("a contact with a person is the robot's fault if it moved toward the p
   CHECK(just_stopped.flags(DMRP_CONTACT_PERSON) == (DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A));
 }
 
+TEST_CASE("a robot that brakes as hard as it can from first sight on is not at fault") {
+  // a wall hides the person until 1.0 s; the robot drives at 0.8 m/s and brakes at 1 m/s2; contact at 1.9 s
+  constexpr std::int64_t seen_ns = second_ns;
+  constexpr std::int64_t contact_ns = 1'900'000'000;
+  const auto flags = [](std::int64_t brakes_ns, double deceleration, std::int64_t latency_ns) {
+    ContactTracker tracker({{1.0, 0.8, latency_ns}},
+                           {100'000'000, [](std::uint32_t, dmrp_vec2, dmrp_vec2 person) { return person.y < 0.5; }});
+    dmrp_contact contact{DMRP_CONTACT_PERSON, 0, 0, 0, 0.0015, {}};
+    double x = 0.0;
+    for (std::int64_t t_ns = 0; t_ns <= contact_ns; t_ns += step_ns) {
+      const double braking_s = std::max(0.0, 1e-9 * static_cast<double>(t_ns - brakes_ns));
+      const double v = std::max(0.0, 0.8 - deceleration * braking_s);
+      x += 0.02 * v;
+      const std::vector<dmrp_agent> robots = {agent(0, {x, 0.0}, {v, 0.0})};
+      const std::vector<dmrp_agent> people = {agent(5, {x + 0.54, t_ns < seen_ns ? 1.0 : 0.0}, {}, 0.3)};
+      tracker.update(t_ns, robots, people, std::span(&contact, t_ns == contact_ns ? 1 : 0));
+    }
+    return contact.flags & (DMRP_CONTACT_FAULT_A | DMRP_CONTACT_FAULT_B);
+  };
+  CHECK(flags(seen_ns, 1.0, 0) == DMRP_CONTACT_FAULT_B);
+  CHECK(flags(seen_ns, 0.96, 0) == DMRP_CONTACT_FAULT_B);
+  CHECK(flags(seen_ns, 0.8, 0) == DMRP_CONTACT_FAULT_A);                          // not as hard as it could
+  CHECK(flags(seen_ns + 100'000'000, 1.0, 0) == DMRP_CONTACT_FAULT_A);            // a period late
+  CHECK(flags(seen_ns + 100'000'000, 1.0, 100'000'000) == DMRP_CONTACT_FAULT_B);  // its latency
+  CHECK(flags(seen_ns - 200'000'000, 1.0, 0) == DMRP_CONTACT_FAULT_B);            // for another reason, and no later
+  CHECK(flags(10 * second_ns, 1.0, 0) == DMRP_CONTACT_FAULT_A);                   // never
+}
+
 TEST_CASE("a contact is unavoidable if the person was on no collision course one braking time before") {
   // the robot brakes from 0.8 m/s in 0.8 s; the person walked away from it until 0.5 s before the contact
   Meeting sudden{{0.8, 0.0}, {-1.0, 0.0}};

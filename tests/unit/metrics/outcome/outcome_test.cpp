@@ -91,6 +91,7 @@ TEST_CASE("safe success requires that no contact is the robot's fault") {
   CHECK(m.robot("safe_success", 4) == 1.0);
   CHECK(m.robot("safe_success", 5) == 1.0);
   CHECK(m.system("safe_success") == 0.5);  // 3 of 6
+  for (std::uint32_t robot = 0; robot < 6; ++robot) CHECK(m.robot("contact_free_success", robot) == 0.0);
   CHECK(m.system("success") == 1.0);
   CHECK(m.system("trial_success") == 1.0);
 }
