@@ -333,8 +333,8 @@ TEST_CASE("an agent whose goal is in a corridor comes after the other or leaves 
 TEST_CASE("an agent that waits inside a corridor meets the other in the part that it passes") {
   // b must not be at its exit 5 before 12, and waits at 7.
   const TwoAgents::Path west = {11, 10, 9, 8, 7, 7, 7, 7, 7, 7, 7, 6, 5, 4};
-  ConflictCase c = conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}),
-                                 {4, 5, 6, 7, 8, 9, 10, 11}, west);
+  ConflictCase c =
+      conflict_case(narrow_grid().robot({0, 1}, {{7, 1}}).robot({7, 1}, {{0, 1}}), {4, 5, 6, 7, 8, 9, 10, 11}, west);
   c.pair.constraints[1] = {avoid_vertex_range(1, 5, 0, 12)};
   c.least[1] = 13;
   // The three steps from 7 to 10: a can leave at 6, b at 4. b can also be at 7 at 10.
