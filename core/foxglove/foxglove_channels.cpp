@@ -251,7 +251,7 @@ void FoxgloveChannels::end(const dmrp_trial_end& end, std::string_view reason) {
   put_log(log_, end.t_ns, end.ending == DMRP_ENDING_ARRIVED ? Level::info : Level::warning, "trial", reason);
 }
 
-void FoxgloveChannels::metric_event(const MetricEvent& event) {
+void FoxgloveChannels::metric_event(const EventMark& event) {
   std::string text(event.text);
   for (std::size_t i = 0; i < event.robots.size(); ++i) text += (i == 0 ? ": " : ", ") + name_of(event.robots[i]);
   put_log(metric_log_, event.from_ns, Level::info, event.metric, text);

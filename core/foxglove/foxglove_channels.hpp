@@ -35,8 +35,8 @@
 
 namespace dmrp::core {
 
-// An event that a metric reported after the trial.
-struct MetricEvent {
+// An event that a metric reported after the trial, as it is shown.
+struct EventMark {
   std::string_view metric;
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
@@ -58,7 +58,7 @@ class FoxgloveChannels {
   void trajectory(std::int64_t now_ns, AnnotationSource source, std::uint32_t role, std::span<const dmrp_pose> poses);
   void note(std::int64_t now_ns, AnnotationSource source, std::string_view text);
   void end(const dmrp_trial_end& end, std::string_view reason);
-  void metric_event(const MetricEvent& event);
+  void metric_event(const EventMark& event);
 
  private:
   struct Robot {

@@ -12,6 +12,7 @@
 #include "host/evaluate/measure_process.hpp"
 #include "host/results/csv.hpp"
 #include "host/results/database.hpp"
+#include "host/results/trace_path.hpp"
 
 namespace dmrp::host {
 
@@ -46,12 +47,12 @@ std::vector<TrialRecord> chosen_trials(const EvaluateOptions& options) {
 class TraceSearch {
  public:
   TraceSearch(const fs::path& run_directory, RecordTraces recorded)
-      : folder_(run_directory / "traces"), recorded_(recorded) {}
+      : run_directory_(run_directory), recorded_(recorded) {}
 
   std::vector<StoredTrial> among(const std::vector<TrialRecord>& trials) {
     std::vector<StoredTrial> stored;
     for (const TrialRecord& trial : trials) {
-      const fs::path trace = folder_ / fmt::format("trial_{:06}.mcap", trial.id);
+      const fs::path trace = trace_path(run_directory_, trial.id);
       if (trial.outcome == trial_outcome::skipped || trial.outcome == trial_outcome::fault)
         ++unfinished_;
       else if (std::error_code ignored; fs::is_regular_file(trace, ignored))
@@ -77,7 +78,7 @@ class TraceSearch {
   bool incomplete() const { return !missing_.empty(); }
 
  private:
-  fs::path folder_;
+  fs::path run_directory_;
   RecordTraces recorded_;
   std::size_t unfinished_ = 0;
   std::size_t unrecorded_ = 0;  // because of [record] traces

@@ -20,6 +20,7 @@
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
+#include "host/results/trace_path.hpp"
 
 namespace dmrp::host {
 
@@ -102,15 +103,15 @@ Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::
 
 // Links the files if the file system can: traces are large, and never written again.
 void copy_traces(const Part& part, const fs::path& out) {
-  const fs::path folder = part.directory.path() / "traces";
-  if (std::error_code ignored; !fs::is_directory(folder, ignored)) return;
+  if (std::error_code ignored; !fs::is_directory(part.directory.path() / "traces", ignored)) return;
   fs::create_directories(out / "traces");
   for (const TrialRecord& trial : part.trials) {
-    const std::string name = fmt::format("trial_{:06}.mcap", trial.id);
+    const fs::path from = trace_path(part.directory.path(), trial.id);
+    const fs::path to = trace_path(out, trial.id);
     std::error_code error;
-    if (!fs::is_regular_file(folder / name, error)) continue;
-    fs::create_hard_link(folder / name, out / "traces" / name, error);
-    if (error) fs::copy_file(folder / name, out / "traces" / name);
+    if (!fs::is_regular_file(from, error)) continue;
+    fs::create_hard_link(from, to, error);
+    if (error) fs::copy_file(from, to);
   }
 }
 

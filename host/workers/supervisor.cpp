@@ -22,6 +22,7 @@
 #include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
 #include "host/process/watchdog.hpp"
+#include "host/results/trace_path.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/open_trial.hpp"
 #include "host/workers/worker_fault.hpp"
@@ -120,8 +121,7 @@ class Supervisor {
     Job job = trial.begin(new_stamp());
     job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
     const fs::path directory = fs::absolute(settings_.run_directory);
-    if (experiment_.traces != RecordTraces::none)
-      job.trace_file = (directory / "traces" / fmt::format("trial_{:06}.mcap", job.trial)).string();
+    if (experiment_.traces != RecordTraces::none) job.trace_file = trace_path(directory, job.trial).string();
     job.scratch_file = (directory / fmt::format("trial_{:06}.scratch", job.trial)).string();
     return job;
   }

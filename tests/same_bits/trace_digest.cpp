@@ -9,15 +9,10 @@
 // names the planning time.
 //
 // Exit status 1 where a trace is damaged or was cut short.
-#include <openssl/evp.h>
-
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,41 +20,14 @@
 #include "core/bytes/trace_bytes.hpp"
 #include "core/mcap/mcap_reader.hpp"
 #include "core/trace/trace.hpp"
+#include "host/files/sha256.hpp"
 #include "tests/same_bits/canonical_records.hpp"
 
 namespace {
 
 using dmrp::core::McapReader;
 using dmrp::core::TraceBytes;
-
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    check(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-  }
-
-  void add(const void* data, std::size_t size) { check(EVP_DigestUpdate(context_.get(), data, size) == 1); }
-
-  std::string finish() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    check(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
-    constexpr const char* digits = "0123456789abcdef";
-    std::string text;
-    for (unsigned int i = 0; i < size; ++i) {
-      text += digits[digest[i] >> 4];
-      text += digits[digest[i] & 15];
-    }
-    return text;
-  }
-
- private:
-  static void check(bool good) {
-    if (!good) throw std::runtime_error("SHA-256 is not to be had from libcrypto");
-  }
-
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
-};
+using dmrp::host::Sha256;
 
 // On standard output: a line a record, or one for all.
 void print_digest(const char* path, bool each_record) {

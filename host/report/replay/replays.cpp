@@ -13,6 +13,7 @@
 #include "host/report/replay/page_packing.hpp"
 #include "host/report/replay/replay_choice.hpp"
 #include "host/report/replay/replay_data.hpp"
+#include "host/results/trace_path.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -22,11 +23,12 @@ namespace fs = std::filesystem;
 // Packs replays until the budget is used up.
 class ReplayPacker {
  public:
-  ReplayPacker(fs::path traces, std::size_t budget_bytes) : traces_(std::move(traces)), budget_(budget_bytes) {}
+  ReplayPacker(fs::path run_directory, std::size_t budget_bytes)
+      : run_directory_(std::move(run_directory)), budget_(budget_bytes) {}
 
   // Returns the reason for a failure; empty on success.
   std::string pack(const TrialRecord& trial, std::string& packed) {
-    const fs::path file = traces_ / fmt::format("trial_{:06}.mcap", trial.id);
+    const fs::path file = trace_path(run_directory_, trial.id);
     std::error_code no_file;
     const std::uintmax_t trace_bytes = fs::file_size(file, no_file);
     if (no_file) return "no trace was recorded";
@@ -48,7 +50,7 @@ class ReplayPacker {
   }
 
  private:
-  fs::path traces_;
+  fs::path run_directory_;
   std::size_t budget_;
   double megabytes_ = static_cast<double>(budget_) * 1e-6;
   std::optional<double> smallest_share_;  // smallest ratio of packed replay to trace so far
@@ -66,7 +68,7 @@ void count(std::vector<OmittedReplays>& omitted, const std::string& why, const s
 Replays encode_replays(const fs::path& run_directory, std::span<const TrialRecord> trials,
                        std::span<const MetricColumn> metrics, const ReplayPolicy& policy) {
   Replays chosen;
-  ReplayPacker packer(run_directory / "traces", policy.budget_bytes);
+  ReplayPacker packer(run_directory, policy.budget_bytes);
   std::map<std::uint64_t, Replay> packed;         // by id
   std::map<std::uint64_t, std::string> failures;  // by id, with the reason
   for (const ReplayCandidate& candidate : replay_candidates(trials, metrics, policy.rank_by, policy.asked)) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "host/scenario/scenario_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace dmrp::host {
+namespace {
+
+constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
+  std::vector<double> out;
+  for (const TomlValue& element : value.array()) out.push_back(element.number(-max_length_m, max_length_m));
+  if (out.size() < least || out.size() > most)
+    value.fail(fmt::format("'{}' must be {}, not {} number{}", value.key(),
+                           least == most ? "[x, y]" : "[x, y] or [x, y, theta]", out.size(),
+                           out.size() == 1 ? "" : "s"));
+  return out;
+}
+
+}  // namespace
+
+dmrp_vec2 point(const TomlValue& value) {
+  const auto xy = numbers(value, 2, 2);
+  return {xy[0], xy[1]};
+}
+
+dmrp_vec2 size(const TomlValue& value) {
+  const dmrp_vec2 out = point(value);
+  if (out.x <= 0.0 || out.y <= 0.0)
+    value.fail(fmt::format("'{}' must be positive, not [{}, {}]", value.key(), out.x, out.y));
+  return out;
+}
+
+dmrp_pose pose(const TomlValue& value) {
+  const auto xyt = numbers(value, 2, 3);
+  return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : free_heading};
+}
+
+double positive(const TomlValue& value, double maximum) {
+  value.positive();
+  return value.number(0.0, maximum);
+}
+
+void refuse_twice(const TomlValue& name, const char* what, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name.text()) != names.end())
+    name.fail(fmt::format("there are two {} '{}'", what, name.text()));
+}
+
+}  // namespace dmrp::host
