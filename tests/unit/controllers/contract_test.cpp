@@ -44,10 +44,11 @@ TEST_CASE("The library describes its controllers") {
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
     CHECK(std::string(descriptor->license) == "MIT");
-    const bool all_drives = std::string(controller.id) == "dmrp.controller.pure_pursuit";
+    const bool all_drives = controller.id == "dmrp.controller.pure_pursuit";
+    const bool holonomic = all_drives || controller.id == "dmrp.controller.stop_and_wait";
     CHECK(descriptor->kinematics ==
-          (1u << DMRP_KINEMATICS_DIFFERENTIAL |
-           (all_drives ? 1u << DMRP_KINEMATICS_HOLONOMIC | 1u << DMRP_KINEMATICS_ACKERMANN : 0u)));
+          (1u << DMRP_KINEMATICS_DIFFERENTIAL | (holonomic ? 1u << DMRP_KINEMATICS_HOLONOMIC : 0u) |
+           (all_drives ? 1u << DMRP_KINEMATICS_ACKERMANN : 0u)));
     CHECK(descriptor->flags == (controller.reverses ? DMRP_FLAG_BACKWARDS : 0u));
     for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
       const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);

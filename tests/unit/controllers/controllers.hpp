@@ -26,7 +26,8 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 }
 
 inline std::vector<Controller> all_controllers() {
-  return {{"dmrp.controller.pure_pursuit", false, false},
+  return {{"dmrp.controller.stop_and_wait", false, false},
+          {"dmrp.controller.pure_pursuit", false, false},
           {"dmrp.controller.dwa"},
           {"dmrp.controller.teb"},
           {"dmrp.controller.mpc"},

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// stop_and_wait.hpp: straight along the path, and brakes for anything ahead: the lower bound of local controllers.
+//
+// The robot drives the straight legs of its path, turns in place where they meet, never leaves them, and waits before
+// whatever stands on the leg ahead until that has left. It predicts nothing.
+#pragma once
+
+#include <dmrp/ext/local_costmap.h>
+
+#include <dmrp/plugin.hpp>
+#include <vector>
+
+#include "controllers/motion/annotations.hpp"
+#include "controllers/motion/footprint_check.hpp"
+#include "controllers/motion/path_tracker.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
+
+namespace dmrp::controllers {
+
+class StopAndWait final : public LocalController {
+ public:
+  static Descriptor describe();
+
+  Param<double> stop_distance =
+      param("stop_distance", 0.3).unit("m").range(0.0, 5.0).doc("kept free before what stands on the path");
+  Param<double> footprint_padding =
+      param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
+
+  Status start(const Start& start) override;
+  void set_path(Path path, std::uint64_t revision) override;
+  Status step(const Observation& now, Command& command) override;
+
+ private:
+  // The straight piece of the path that the robot drives now.
+  struct Leg {
+    Vec2 ahead;       // the point on it that the robot steers to
+    double end_m;     // arc length of its end
+    double length_m;  // from the robot to its end
+  };
+
+  Leg current_leg();
+  Command drive(const Observation& now, const Leg& leg, const FootprintCheck& check) const;
+  double free_length_m(const Observation& now, const Leg& leg, const FootprintCheck& check, double needed_m) const;
+
+  const dmrp_local_costmap* costmap_ = nullptr;
+  Annotations annotations_;
+  PathTracker tracker_;
+  StopAndRotate at_goal_;
+  std::vector<double> corners_m_;  // arc lengths at which the path turns
+  std::size_t next_corner_ = 0;
+  bool turning_ = false;
+};
+
+}  // namespace dmrp::controllers
