@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "controllers/mppi/batch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dmrp::controllers::mppi {
+
+namespace {
+
+using Lanes = std::array<float, lanes>;
+
+Lanes filled(float value) {
+  Lanes all;
+  all.fill(value);
+  return all;
+}
+
+// Where the rows of one step begin in the table of noise.
+struct NoiseRows {
+  std::uint32_t v_x;
+  std::uint32_t v_y;
+  std::uint32_t omega;
+};
+
+// The state of the samples of one block.
+struct State {
+  Lanes v_x, v_y, omega;
+  Lanes x, y, theta;
+  Lanes cosine, sine;  // of theta
+};
+
+// Euler's step as in nav2: moves along the heading before the turn.
+void move(State& s, float step_s, bool holonomic) {
+  for (int l = 0; l < lanes; ++l) {
+    s.x[l] += s.v_x[l] * s.cosine[l] * step_s;
+    s.y[l] += s.v_x[l] * s.sine[l] * step_s;
+  }
+  if (holonomic) {
+    for (int l = 0; l < lanes; ++l) {
+      s.x[l] -= s.v_y[l] * s.sine[l] * step_s;
+      s.y[l] += s.v_y[l] * s.cosine[l] * step_s;
+    }
+  }
+  for (int l = 0; l < lanes; ++l) {
+    // series up to the ninth power: exact to a float's precision for turns below 1 rad
+    const float turn = s.omega[l] * step_s;
+    const float q = turn * turn;
+    const float sine = turn * (1.0f - q / 6.0f * (1.0f - q / 20.0f * (1.0f - q / 42.0f * (1.0f - q / 72.0f))));
+    const float cosine = 1.0f - q / 2.0f * (1.0f - q / 12.0f * (1.0f - q / 30.0f * (1.0f - q / 56.0f)));
+    const float before = s.cosine[l];
+    s.cosine[l] = before * cosine - s.sine[l] * sine;
+    s.sine[l] = s.sine[l] * cosine + before * sine;
+    s.theta[l] += turn;
+  }
+}
+
+// The next control of one axis: mean and noise, within reach of the velocity, which it becomes.
+void choose(float mean, float deviation, const float* noise, float reach, Lanes& velocity, float* control) {
+  for (int l = 0; l < lanes; ++l) {
+    const float wanted = mean + deviation * noise[l];
+    velocity[l] = std::min(std::max(wanted, velocity[l] - reach), velocity[l] + reach);
+    control[l] = velocity[l];
+  }
+}
+
+void store(const Lanes& from, float* to) {
+  std::copy(from.begin(), from.end(), to);
+}
+
+}  // namespace
+
+void Batch::resize(int samples, const Model& model) {
+  blocks = (samples + lanes - 1) / lanes;
+  steps = model.steps;
+  for (Field* field : {&v_x, &omega, &x, &y, &theta}) field->resize(blocks, steps);
+  v_y.resize(model.holonomic ? blocks : 0, steps);
+}
+
+void sample(const Model& model, const Sequence& mean, const Noise& noise, std::uint32_t cycle, Velocity now,
+            float theta, Batch& batch) {
+  batch.now = now;
+  std::array<NoiseRows, 256> rows;  // model.steps of them are used
+  for (int i = 0; i < batch.steps; ++i) {
+    const auto step = static_cast<std::uint32_t>(i);
+    rows[static_cast<std::size_t>(i)] = {noise.row(cycle, step, 0), noise.row(cycle, step, 1),
+                                         noise.row(cycle, step, 2)};
+  }
+  const float reach = model.limits.a_max * model.step_s;
+  const float turn_reach = model.limits.alpha_max * model.step_s;
+  const Velocity& deviation = model.deviation;
+  for (int block = 0; block < batch.blocks; ++block) {
+    State s = {filled(now.v_x), filled(now.v_y), filled(now.omega),       filled(0.0f),
+               filled(0.0f),    filled(theta),   filled(std::cos(theta)), filled(std::sin(theta))};
+    for (int i = 0; i < batch.steps; ++i) {
+      move(s, model.step_s, model.holonomic);
+      store(s.x, batch.x.row(block, i));
+      store(s.y, batch.y.row(block, i));
+      store(s.theta, batch.theta.row(block, i));
+      const Velocity& m = mean[static_cast<std::size_t>(i)];
+      const NoiseRows& row = rows[static_cast<std::size_t>(i)];
+      choose(m.v_x, deviation.v_x, noise.block(row.v_x, block), reach, s.v_x, batch.v_x.row(block, i));
+      choose(m.omega, deviation.omega, noise.block(row.omega, block), turn_reach, s.omega, batch.omega.row(block, i));
+      if (model.holonomic)
+        choose(m.v_y, deviation.v_y, noise.block(row.v_y, block), reach, s.v_y, batch.v_y.row(block, i));
+    }
+  }
+}
+
+}  // namespace dmrp::controllers::mppi

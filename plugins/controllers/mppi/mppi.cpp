@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "controllers/mppi/mppi.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <string_view>
+
+#include "controllers/motion/unicycle.hpp"
+
+namespace dmrp::controllers {
+
+namespace {
+
+// Samples turn by less than this in a step: the series of the rollout are exact up to here.
+constexpr double most_turn_rad = 1.0;
+
+// Below these the robot counts as standing.
+constexpr double standing_m_s = 0.05;
+constexpr double standing_rad_s = 0.05;
+
+constexpr double spacing_m = static_cast<double>(mppi::path_spacing_m);
+
+// A detour prefers this clearance beyond what the robot needs.
+constexpr double easy_beyond_m = 0.15;
+
+bool is_standing(const Observation& now) {
+  return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
+}
+
+mppi::Weight weight_of(double weight, int power) {
+  return {static_cast<float>(weight), power};
+}
+
+}  // namespace
+
+Descriptor Mppi::describe() {
+  return Descriptor("dmrp.controller.mppi", "MPPI", "1.0.0")
+      .vendor("dmrp")
+      .license("MIT")
+      .summary("samples two thousand trajectories and drives their mean, weighted by what critics say of them")
+      .source(
+          "Williams, Drews, Goldfain, Rehg, Theodorou: Information theoretic model predictive control, IEEE "
+          "Transactions on Robotics 34 (2018); critics as in ROS's nav2_mppi_controller")
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC)
+      .flags(DMRP_FLAG_BACKWARDS)
+      .needs(DMRP_EXT_LOCAL_COSTMAP)
+      .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
+      .uses(DMRP_EXT_ANNOTATE);
+}
+
+Status Mppi::start(const Start& start) {
+  costmap_ = &extension<dmrp_local_costmap>();
+  clusters_ = &extension<dmrp_obstacle_clusters>();
+  if (!choose_critics()) return Status::error;
+  const Robot& robot = start.world.robots()[static_cast<std::uint32_t>(start.robot)];
+  if (robot.limits->omega_max * model_dt > most_turn_rad) {
+    set_error("model_dt is too long for this robot: it turns by more than 1 rad in a step");
+    return Status::error;
+  }
+  model_.steps = time_steps;
+  model_.step_s = static_cast<float>(model_dt);
+  model_.holonomic = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
+  model_.deviation = {static_cast<float>(vx_std), static_cast<float>(vy_std), static_cast<float>(wz_std)};
+  read_limits(*robot.limits);
+  cost_settings_ = {weight_of(CostCritic_cost_weight, CostCritic_cost_power),
+                    static_cast<float>(CostCritic_critical_cost),
+                    CostCritic_near_collision_cost,
+                    static_cast<float>(CostCritic_collision_cost),
+                    static_cast<float>(CostCritic_near_goal_distance),
+                    CostCritic_trajectory_point_step};
+  obstacles_settings_ = {ObstaclesCritic_cost_power,
+                         static_cast<float>(ObstaclesCritic_repulsion_weight),
+                         static_cast<float>(ObstaclesCritic_critical_weight),
+                         static_cast<float>(ObstaclesCritic_collision_cost),
+                         static_cast<float>(ObstaclesCritic_collision_margin_distance),
+                         static_cast<float>(ObstaclesCritic_near_goal_distance)};
+  path_align_settings_ = {weight_of(PathAlignCritic_cost_weight, PathAlignCritic_cost_power),
+                          static_cast<float>(PathAlignCritic_max_path_occupancy_ratio),
+                          PathAlignCritic_offset_from_furthest,
+                          PathAlignCritic_trajectory_point_step,
+                          static_cast<float>(PathAlignCritic_threshold_to_consider),
+                          PathAlignCritic_use_path_orientations};
+  path_angle_settings_ = {weight_of(PathAngleCritic_cost_weight, PathAngleCritic_cost_power),
+                          PathAngleCritic_offset_from_furthest,
+                          static_cast<float>(PathAngleCritic_threshold_to_consider),
+                          static_cast<float>(PathAngleCritic_max_angle_to_furthest),
+                          static_cast<mppi::PathAngleMode>(*PathAngleCritic_mode)};
+  // a robot that may not drive backward has to face its path
+  if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
+    path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
+  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
+  tracker_.clear();
+  at_goal_.reset();
+  noise_.start(start.seed, start.robot);
+  cycle_ = 0;
+  optimizer_.start(model_, {static_cast<float>(temperature), static_cast<float>(gamma)});
+  batch_.resize(batch_size, model_);
+  costs_.resize(static_cast<std::size_t>(batch_.samples()));
+  return Status::ok;
+}
+
+bool Mppi::choose_critics() {
+  static constexpr std::array<std::string_view, critic_count> names = {
+      "ConstraintCritic", "CostCritic",       "ObstaclesCritic", "GoalCritic",          "GoalAngleCritic",
+      "PathAlignCritic",  "PathFollowCritic", "PathAngleCritic", "PreferForwardCritic", "TwirlingCritic"};
+  chosen_ = 0;
+  for (const std::string& name : *critics) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+      set_error("critics: there is no " + name);
+      return false;
+    }
+    chosen_ |= 1u << (at - names.begin());
+  }
+  return true;
+}
+
+void Mppi::read_limits(const dmrp::Limits& limits) {
+  model_.limits = {static_cast<float>(limits.v_min),   static_cast<float>(limits.v_max),
+                   static_cast<float>(limits.v_y_max), static_cast<float>(limits.omega_max),
+                   static_cast<float>(limits.a_max),   static_cast<float>(limits.alpha_max)};
+}
+
+void Mppi::set_path(Path path, std::uint64_t) {
+  tracker_.set_path(path);
+}
+
+Status Mppi::step(const Observation& now, Command& command) {
+  command = braking(now);
+  tracker_.update(now);
+  if (tracker_.empty()) return Status::ok;
+  // a path may pass its own end before it ends there
+  const bool near_end = tracker_.remaining_m() <= std::max(tracker_.stop().tolerance_m, 0.5);
+  if (near_end && at_goal_.reached(tracker_.stop(), now)) {
+    optimizer_.reset();
+    command = at_goal_.command(tracker_.stop(), now);
+    return Status::ok;
+  }
+  look(now);
+  if (!optimize(now)) {
+    if (is_standing(now)) return Status::ok;
+    set_error("every sampled trajectory runs into an obstacle");
+    return Status::no_solution;
+  }
+  optimizer_.smooth();
+  annotate(now);
+  // steps driven until the next cycle
+  const int driven = static_cast<int>(std::lround(seconds(now.dt_ns) / model_dt));
+  command = first_command(now, std::clamp(driven, 1, model_.steps));
+  optimizer_.shift(std::min(driven, model_.steps - 1));
+  return Status::ok;
+}
+
+void Mppi::look(const Observation& now) {
+  const dmrp_costmap* map = costmap_->costmap(costmap_, now.robot);
+  moving_.clear();
+  if (include_dynamic_obstacles && !now.agents.empty()) {
+    obstacle_set_.gather(now, clusters_->clusters(clusters_, now.robot));
+    const std::vector<Obstacle>& all = obstacle_set_.all();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(moving_), mppi::is_moving);
+    if (!moving_.empty()) map = &still_costmap_.copy(*map, all);
+  }
+  field_.look(*map, now.footprint, footprint_padding, now.pose, moving_);
+  look_at_path(now);
+  const auto& free = scene_.path_free;
+  if (detour && std::find(free.begin(), free.end(), 0) != free.end()) take_detour(now, *map);
+  const StopPoint& stop = tracker_.stop();
+  const Vec2 to_goal = stop.position - toolkit::position(now.pose);
+  scene_.theta = static_cast<float>(now.pose.theta);
+  scene_.goal_x = static_cast<float>(to_goal.x);
+  scene_.goal_y = static_cast<float>(to_goal.y);
+  scene_.goal_theta = static_cast<float>(stop.heading);
+  scene_.goal_distance_m = static_cast<float>(toolkit::norm(to_goal));
+  scene_.goal_tolerance_m = static_cast<float>(stop.tolerance_m);
+}
+
+// The path ahead, up to prune_distance and to the border of the costmap's window.
+void Mppi::look_at_path(const Observation& now) {
+  scene_.path_x.clear();
+  scene_.path_y.clear();
+  scene_.path_theta.clear();
+  scene_.path_free.clear();
+  const Vec2 robot = toolkit::position(now.pose);
+  const double length_m = std::min<double>(prune_distance, tracker_.remaining_m());
+  const auto count = static_cast<int>(std::ceil(length_m / spacing_m));
+  double heading = now.pose.theta;
+  for (int i = 0; i <= count; ++i) {
+    const double ahead_m = std::min(i * spacing_m, length_m);
+    const double arc_m = tracker_.progress_m() + ahead_m;
+    const Vec2 point = tracker_.point_at(arc_m);
+    if (i > 0 && !field_.contains(point)) break;
+    const double next_heading = tracker_.heading_at(arc_m, heading);
+    const bool turns_back = std::abs(toolkit::difference(heading, next_heading)) > 0.5 * toolkit::pi;
+    if (enforce_path_inversion && turns_back && ahead_m > inversion_xy_tolerance) break;
+    heading = next_heading;
+    add_path_point(point - robot, heading, !field_.is_blocked(point));
+  }
+}
+
+void Mppi::add_path_point(Vec2 from_robot, double heading, bool is_free) {
+  scene_.path_x.push_back(static_cast<float>(from_robot.x));
+  scene_.path_y.push_back(static_cast<float>(from_robot.y));
+  scene_.path_theta.push_back(static_cast<float>(heading));
+  scene_.path_free.push_back(is_free);
+}
+
+// In nav2, the planner of the whole path goes round what the costmap shows, once a second. Plans of a fleet do not; so
+// the way to the farthest point of the path ahead that can be reached is searched here. There may be none.
+void Mppi::take_detour(const Observation& now, const dmrp_costmap& map) {
+  const CostmapView view(map);
+  const Vec2 robot = toolkit::position(now.pose);
+  const double needed_m = now.footprint.inscribed_radius_m + footprint_padding;
+  guide_.spread(view, robot, needed_m, needed_m + easy_beyond_m);
+  const auto point = [&](std::size_t i) {
+    return robot + Vec2{static_cast<double>(scene_.path_x[i]), static_cast<double>(scene_.path_y[i])};
+  };
+  std::size_t last = scene_.path_x.size();
+  while (last > 0 && !(scene_.path_free[last - 1] && guide_.reaches(view, point(last - 1)))) --last;
+  // nothing that blocks the path lies before a point that can be reached: follow the path
+  if (std::find(scene_.path_free.begin(), scene_.path_free.begin() + static_cast<std::ptrdiff_t>(last), 0) ==
+      scene_.path_free.begin() + static_cast<std::ptrdiff_t>(last))
+    return;
+  guide_.path_to(view, point(last - 1), route_);
+  scene_.path_x.clear();
+  scene_.path_y.clear();
+  scene_.path_theta.clear();
+  scene_.path_free.clear();
+  double heading = now.pose.theta;
+  for (std::size_t i = 1; i < route_.size(); ++i) {
+    const Vec2 leg = route_[i] - route_[i - 1];
+    if (leg != Vec2{0.0, 0.0}) heading = std::atan2(leg.y, leg.x);
+    const auto pieces = static_cast<int>(std::ceil(toolkit::norm(leg) / spacing_m));
+    for (int k = 0; k < pieces; ++k)
+      add_path_point(route_[i - 1] + (static_cast<double>(k) / pieces) * leg - robot, heading, true);
+  }
+  if (!route_.empty()) add_path_point(route_.back() - robot, heading, true);
+}
+
+bool Mppi::optimize(const Observation& now) {
+  const mppi::Velocity velocity = {static_cast<float>(now.velocity.v_x), static_cast<float>(now.velocity.v_y),
+                                   static_cast<float>(now.velocity.omega)};
+  for (int attempt = 0; attempt <= retry_attempt_limit; ++attempt) {
+    bool any_is_free = true;
+    for (int i = 0; i < iteration_count; ++i) {
+      if (regenerate_noises) ++cycle_;
+      mppi::sample(model_, optimizer_.sequence(), noise_, cycle_, velocity, scene_.theta, batch_);
+      any_is_free = score();
+      optimizer_.update(batch_, costs_);
+    }
+    if (any_is_free) return true;
+    optimizer_.reset();
+  }
+  return false;
+}
+
+bool Mppi::score() {
+  std::fill(costs_.begin(), costs_.end(), 0.0f);
+  bool any_is_free = true;
+  scene_.furthest = mppi::furthest_reached(batch_, scene_);
+  if (has(constraint))
+    mppi::add_constraint(batch_, model_, weight_of(ConstraintCritic_cost_weight, ConstraintCritic_cost_power), costs_);
+  if (has(cost)) any_is_free = mppi::add_cost(batch_, model_, cost_settings_, field_, scene_, costs_);
+  if (has(obstacles))
+    any_is_free = mppi::add_obstacles(batch_, model_, obstacles_settings_, field_, scene_, costs_) && any_is_free;
+  if (has(goal))
+    mppi::add_goal(batch_, weight_of(GoalCritic_cost_weight, GoalCritic_cost_power),
+                   static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
+  if (has(goal_angle))
+    mppi::add_goal_angle(batch_, weight_of(GoalAngleCritic_cost_weight, GoalAngleCritic_cost_power),
+                         static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_, costs_);
+  if (has(path_align)) mppi::add_path_align(batch_, path_align_settings_, scene_, costs_);
+  if (has(path_follow))
+    mppi::add_path_follow(batch_, weight_of(PathFollowCritic_cost_weight, PathFollowCritic_cost_power),
+                          PathFollowCritic_offset_from_furthest,
+                          static_cast<float>(PathFollowCritic_threshold_to_consider), scene_, costs_);
+  if (has(path_angle)) mppi::add_path_angle(batch_, path_angle_settings_, scene_, costs_);
+  if (has(prefer_forward))
+    mppi::add_prefer_forward(batch_, model_, weight_of(PreferForwardCritic_cost_weight, PreferForwardCritic_cost_power),
+                             static_cast<float>(PreferForwardCritic_threshold_to_consider), scene_, costs_);
+  if (has(twirling))
+    mppi::add_twirling(batch_, weight_of(TwirlingCritic_cost_weight, TwirlingCritic_cost_power), scene_, costs_);
+  return any_is_free;
+}
+
+// The velocity at the end of this period, and no faster than the robot can stop at its stop point.
+Command Mppi::first_command(const Observation& now, int steps) const {
+  const double period_s = seconds(now.dt_ns);
+  const dmrp::Limits& limits = now.limits;
+  const mppi::Velocity& wanted = optimizer_.sequence()[static_cast<std::size_t>(steps - 1)];
+  const double straight_m = toolkit::distance(toolkit::position(now.pose), tracker_.stop().position);
+  const double in_time = stopping_speed(std::max(tracker_.remaining_m(), straight_m), limits.a_max, period_s);
+  const double speed = std::hypot(static_cast<double>(wanted.v_x), static_cast<double>(wanted.v_y));
+  const double share = speed > in_time ? in_time / speed : 1.0;  // slower on the same arc
+  const double reach = limits.a_max * period_s;
+  Command command;
+  command.v_x =
+      std::clamp(toward(now.velocity.v_x, share * static_cast<double>(wanted.v_x), reach), limits.v_min, limits.v_max);
+  command.v_y = std::clamp(toward(now.velocity.v_y, share * static_cast<double>(wanted.v_y), reach), -limits.v_y_max,
+                           limits.v_y_max);
+  command.omega =
+      std::clamp(toward(now.velocity.omega, share * static_cast<double>(wanted.omega), limits.alpha_max * period_s),
+                 -limits.omega_max, limits.omega_max);
+  return command;
+}
+
+// The trajectory of the mean.
+void Mppi::annotate(const Observation& now) const {
+  if (!annotations_.wanted()) return;
+  std::array<Pose, 257> poses;
+  std::size_t count = 0;
+  Pose at = now.pose;
+  poses[count++] = at;
+  for (const mppi::Velocity& v : optimizer_.sequence()) {
+    const Vec2 local = Vec2{static_cast<double>(v.v_x), static_cast<double>(v.v_y)} * *model_dt;
+    const Vec2 next = toolkit::to_world(at, local);
+    at = {next.x, next.y, toolkit::wrap(at.theta + static_cast<double>(v.omega) * model_dt)};
+    poses[count++] = at;
+  }
+  annotations_.trajectory(DMRP_ANNOTATE_PREDICTED, {poses.data(), count}, model_dt);
+}
+
+}  // namespace dmrp::controllers
