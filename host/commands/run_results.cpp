@@ -10,8 +10,12 @@
 
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/ranking/answer.hpp"
+#include "host/ranking/best_marks.hpp"
+#include "host/ranking/failure_causes.hpp"
 #include "host/report/write_report.hpp"
 #include "host/results/trials_csv.hpp"
+#include "host/terminal/answer_block.hpp"
 #include "host/terminal/closing_line.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/terminal/summary_table.hpp"
@@ -47,8 +51,13 @@ void print_results(const RunResults& results, const SummaryLayout& layout, const
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0;
-  fmt::print("\n{}\n  {}\n", summary_table(layout, results.metrics, results.summaries, style),
-             closing_line(layout, results.trials));
+  const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
+  fmt::print("\n{}\n", summary_table(layout, results.metrics, results.summaries, marks, style));
+  const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
+    fmt::print("{}\n", answer_block(found.front(), failures, style.width));
+  fmt::print("  {}\n", closing_line(layout, results.trials));
+  if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");
   if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");

@@ -31,6 +31,21 @@ SummaryTableColumn parse_column(const nlohmann::json& json) {
   return column;
 }
 
+AnswerMetrics parse_answer(const nlohmann::json& json) {
+  AnswerMetrics answer;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "shares")
+      answer.shares = value.get<std::vector<std::string>>();
+    else if (key == "time")
+      answer.time = value.get<std::string>();
+    else if (key == "way_length")
+      answer.way_length = value.get<std::string>();
+    else
+      throw std::runtime_error("unknown key '" + key + "' of 'answer'");
+  }
+  return answer;
+}
+
 SummaryLayout parse(std::string_view text) {
   const auto json = nlohmann::json::parse(text);
   if (!json.is_object()) throw std::runtime_error("not a table of keys");
@@ -44,6 +59,10 @@ SummaryLayout parse(std::string_view text) {
       layout.contacts = value.get<std::string>();
     else if (key == "counts_failures")
       layout.counts_failures = value.get<std::vector<std::string>>();
+    else if (key == "of_plans")
+      layout.of_plans = value.get<std::vector<std::string>>();
+    else if (key == "answer")
+      layout.answer = parse_answer(value);
     else
       throw std::runtime_error("unknown key '" + key + "'");
   }

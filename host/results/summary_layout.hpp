@@ -17,6 +17,13 @@ struct SummaryTableColumn {
   std::string spread;  // metric shown as "±0.17" after the value; empty for none
 };
 
+// The metrics by which combinations are ordered (host/ranking/answer.hpp).
+struct AnswerMetrics {
+  std::vector<std::string> shares;  // of robots, the most important first; higher is better
+  std::string time;                 // of a robot's arrival; lower is better
+  std::string way_length;           // of a robot's shortest way, by which its time is divided
+};
+
 struct SummaryLayout {
   std::vector<SummaryTableColumn> columns;
   std::string arrived;   // metric that is 1 for each robot that completed its task; empty: not in the closing line
@@ -25,6 +32,11 @@ struct SummaryLayout {
   // Metrics that count failures: a trial that ended in a fault has the value 0, and the paper's rule includes failed
   // trials.
   std::vector<std::string> counts_failures;
+
+  // Metrics of plans, which do not change where a robot fails on its way.
+  std::vector<std::string> of_plans;
+
+  AnswerMetrics answer;
 };
 
 // `name`: the file's name for error messages. Throws std::runtime_error.

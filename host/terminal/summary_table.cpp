@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/terminal/summary_table.hpp"
 
-#include <dmrp/descriptor.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -88,56 +85,20 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   return rows;
 }
 
-// Whether a row can be the best of its group: only rows with the most arrivals, since a robot that fails early drives
-// less.
-std::vector<char> contenders(const std::optional<std::size_t>& arrived, const std::vector<Row>& rows) {
-  std::vector<char> contends(rows.size(), true);
-  if (!arrived) return contends;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const Row& other : rows)
-      if (other.group == rows[i].group &&
-          other.summary->metrics[*arrived].mean > rows[i].summary->metrics[*arrived].mean)
-        contends[i] = false;
-  return contends;
-}
-
-// Marks the best of the rounded cells [begin, end); none if all are equal or only one has a value.
-void mark_best(std::vector<Cell>& cells, const std::vector<double>& shown, std::uint32_t direction, std::size_t begin,
-               std::size_t end) {
-  if (direction == DMRP_DIRECTION_NONE) return;
-  std::vector<double> defined;
-  for (std::size_t i = begin; i < end; ++i)
-    if (!std::isnan(shown[i])) defined.push_back(shown[i]);
-  if (defined.size() < 2) return;
-  const auto [lowest, highest] = std::minmax_element(defined.begin(), defined.end());
-  if (*lowest == *highest) return;
-  const double best = direction == DMRP_DIRECTION_LOWER ? *lowest : *highest;
-  for (std::size_t i = begin; i < end; ++i) cells[i].best = shown[i] == best;
-}
-
 Column make_column(const SummaryTableColumn& layout, std::span<const MetricColumn> metrics, std::size_t metric,
-                   const std::vector<Row>& rows, const std::vector<char>& contends) {
+                   const std::vector<Row>& rows, std::span<const BestMark> marks) {
   Column column;
   const std::string& unit = metrics[metric].unit;
   column.header = unit.empty() || unit == "1" ? layout.header : layout.header + " " + unit;
   const std::optional<std::size_t> spread = index_of(metrics, layout.spread);
 
-  std::vector<double> shown;
   for (const Row& row : rows) {
     const double mean = row.summary->metrics[metric].mean;
     Cell cell{std::isnan(mean) ? undefined_cell : fixed(mean, layout.decimals), false};
-    shown.push_back(std::isnan(mean) ? mean : std::stod(cell.text));
     if (!std::isnan(mean) && spread && !std::isnan(row.summary->metrics[*spread].mean))
       cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
+    cell.best = std::find(marks.begin(), marks.end(), BestMark{row.summary->combination, layout.metric}) != marks.end();
     column.cells.push_back(std::move(cell));
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (!contends[i]) shown[i] = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t begin = 0; begin < rows.size();) {
-    std::size_t end = begin + 1;
-    while (end < rows.size() && rows[end].group == rows[begin].group) ++end;
-    mark_best(column.cells, shown, metrics[metric].direction, begin, end);
-    begin = end;
   }
   return column;
 }
@@ -195,21 +156,19 @@ std::size_t columns_that_fit(std::span<const Column> columns, std::size_t begin,
 }  // namespace
 
 std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                          std::span<const CombinationSummary> summaries, const TableStyle& style) {
+                          std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
+                          const TableStyle& style) {
   if (summaries.empty()) return {};
   const std::vector<Row> rows = make_rows(summaries);
   const bool with_groups = rows.front().group != rows.back().group;
   std::size_t label_width = 0;
   for (const Row& row : rows) label_width = std::max(label_width, display_width(row.label) + (with_groups ? 2 : 0));
 
-  const std::optional<std::size_t> arrived = index_of(metrics, layout.arrived);
-  const std::vector<char> contends = contenders(arrived, rows);
-  const std::vector<char> all_rows(rows.size(), true);
   std::vector<Column> columns;
   for (const SummaryTableColumn& column : layout.columns) {
     const std::optional<std::size_t> metric = index_of(metrics, column.metric);
     if (!metric) continue;
-    columns.push_back(make_column(column, metrics, *metric, rows, metric == arrived ? all_rows : contends));
+    columns.push_back(make_column(column, metrics, *metric, rows, marks));
     set_width(columns.back(), style);
   }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "host/ranking/best_marks.hpp"
 #include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
@@ -13,12 +14,14 @@ namespace dmrp::host {
 
 struct TableStyle {
   std::size_t width = 0;  // columns of the terminal; 0: unlimited
-  bool ansi = false;      // bold for the best values of a column; else an asterisk
+  bool ansi = false;      // bold for marked values; else an asterisk
 };
 
 // One row for each combination, in groups that can be compared (same scenario, robots and pedestrian model). Cells are
 // means over trials, "–" if no trial has a value. Columns that do not fit follow below, with the labels repeated.
+// `marks`: of planners and controllers (best_marks.hpp).
 std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                          std::span<const CombinationSummary> summaries, const TableStyle& style);
+                          std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
+                          const TableStyle& style);
 
 }  // namespace dmrp::host

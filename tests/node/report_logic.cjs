@@ -9,6 +9,8 @@ const {
   ranking,
   labels,
   verdict,
+  answer,
+  failures,
   table_model,
   trial_points,
   comparisons,
@@ -21,6 +23,8 @@ const {
   ranking: 'ranking.js',
   labels: 'labels.js',
   verdict: 'run/verdict.js',
+  answer: 'run/answer.js',
+  failures: 'run/failures.js',
   table_model: 'tables/table_model.js',
   trial_points: 'plots/trial_points.js',
   comparisons: 'tables/comparisons.js',
@@ -85,6 +89,14 @@ function sample() {
     ['office', 'Q'],
   ].map(([scenario, global_planner]) => ({scenario, robots: 2, global_planner}));
   return {
+    best: [
+      {...combinations[1], metric: 'time'},
+      {scenario: 'office', robots: 2, global_planner: 'P', local_controller: '', pedestrian_model: '', metric: 'time'},
+    ],
+    failures_line: '',
+    failures: [],
+    answers: [],
+    replays: [],
     run: {trials_planned: 16},
     faults: [],
     combinations,
@@ -151,17 +163,11 @@ const tests = {
     same(ranking.order([3, null, 1, 3], true), [0, 3, 2, 1]);
     same(ranking.order(['a10', 'a9', 'b'], false), [1, 0, 2]);
   },
-  'the best follows the direction, and there is none if most share it'() {
-    same([...ranking.best([3, null, 1, 2], 'lower', 1)], [2]);
-    same([...ranking.best([3, null, 1, 2], 'higher', 1)], [0]);
-    same([...ranking.best([1, 1, 2, 2.04], 'higher', 1)], [2, 3]);
-    same([...ranking.best([1, 1, 1, 2], 'lower', 1)], []);
-    same([...ranking.best([1, 2], 'none', 1)], []);
-    same([...ranking.best([1], 'lower', 1)], []);
+  'the goodness of values follows the direction'() {
     same(ranking.goodness([0, 5, 10, null], 'lower'), [1, 0.5, 0, null]);
     same(ranking.goodness([2, 2], 'higher'), [0.5, 0.5]);
   },
-  'a table has a group for each scenario, with the best of each'() {
+  'a table has a group for each scenario, with the marks of the host'() {
     const data = sample();
     const model = table_model.make(data, data.layouts.report.tables[1], labels.variants(data));
     same(
@@ -177,11 +183,11 @@ const tests = {
     );
     same(
       model.groups[0].rows.map((row) => row.cells[0].best),
-      [false, true, false, true]
+      [false, true, false, false]
     );
     same(
       model.groups[1].rows.map((row) => row.cells[0].best),
-      [false, false, true, false]
+      [false, false, false, false]
     );
     same(
       model.groups[0].rows.map((row) => row.cells[0].spread),
@@ -252,6 +258,36 @@ const tests = {
       ['P', 'Q']
     );
   },
+  'an answer says what it is about, and how each combination differs from the first'() {
+    const data = sample();
+    const cell = {scenario: 'mall', robots: 2, pedestrian_model: 'm'};
+    const all = {cells: [cell, {...cell, scenario: 'office'}]};
+    data.answers = [all, {cells: [cell]}];
+    same([all, {cells: [cell]}].map((one) => answer.scope_words(data, one)), ['all', 'mall']);
+    data.answers.push({cells: [{...cell, robots: 20}]});
+    same(answer.scope_words(data, {cells: [cell]}), 'mall · 2 robots');
+    const against = {observations: 20, mean: -0.25, low: -0.4, high: -0.1, p_holm: 0.01};
+    same(answer.difference_words(against), '\u22120.25 [\u22120.40, \u22120.10]');
+    same(answer.difference_words({...against, mean: 0, p_holm: null}), '=');
+    same(answer.difference_words({...against, observations: 0}), '—');
+  },
+  'a count of failures opens a trial that the page can replay'() {
+    const data = sample();
+    const none = {cause: 'contact', robots: 0, trials: []};
+    data.failures = [
+      {combination: data.combinations[0], robots: 4, causes: [{cause: 'deadlock', robots: 1, trials: [3]}], contact: none},
+      {
+        combination: data.combinations[1],
+        robots: 4,
+        causes: [{cause: 'oscillation', robots: 2, trials: [4, 5]}],
+        contact: {...none, robots: 1, trials: [6]},
+      },
+    ];
+    data.replays = [{trial: 5}];
+    same(failures.causes(data), ['oscillation', 'deadlock', 'contact']);
+    same(failures.trial_to_open(data, data.failures[1].causes[0]), {trial: 5, replayed: true});
+    same(failures.trial_to_open(data, data.failures[0].causes[0]), {trial: 3, replayed: false});
+  },
   'the verdict lists problems, the worst first'() {
     const data = sample();
     data.values.arrived = data.trials.id.map(() => 1);
@@ -265,9 +301,10 @@ const tests = {
     delete data.values.contacts;
     data.values.arrived[2] = 0.5;
     data.trials.outcome[2] = 'failed';
+    data.failures_line = '1 did not arrive: 1 deadlock';
     same(
       verdict.lines(data).map((line) => line.text),
-      ['1 robot of 32 did not arrive, in 1 trial.', '16 trials without a fault, every one repeatable.']
+      ['1 robot of 32 did not arrive, in 1 trial: 1 deadlock.', '16 trials without a fault, every one repeatable.']
     );
     data.trials.repeatable[3] = false;
     data.run.trials_planned = 20;

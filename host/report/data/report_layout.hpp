@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "host/ranking/paired_test.hpp"
 #include "host/report/replay/replays.hpp"
 
 namespace dmrp::host {
-
-enum class PairedTest { signed_rank, sign_flip };
 
 // A metric that is compared between planners, controllers and pedestrian models, paired by seed.
 struct ComparedMetric {

@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "host/ranking/answer_text.hpp"
+#include "host/ranking/best_marks.hpp"
+#include "host/ranking/failure_causes.hpp"
 #include "host/report/data/report_comparisons.hpp"
 #include "host/report/data/report_completion.hpp"
 #include "host/report/data/report_correlations.hpp"
@@ -92,6 +95,57 @@ Json delay_json(const PedestrianDelay& one) {
           {"high", one.interval.high}};
 }
 
+Json labels_json(const CombinationLabels& labels) {
+  return {{"scenario", labels.scenario},
+          {"robots", labels.robots},
+          {"global_planner", labels.global_planner},
+          {"local_controller", labels.local_controller},
+          {"pedestrian_model", labels.pedestrian_model}};
+}
+
+Json ranked_json(const Answer& answer, const RankedCombination& one) {
+  static constexpr const char* standings[] = {"first", "not_told_apart", "worse"};  // by Standing
+  Json json = {{"global_planner", one.global_planner},
+               {"local_controller", one.local_controller},
+               {"trials", one.trials},
+               {"means", one.means},
+               {"standing", standings[static_cast<std::size_t>(one.standing)]},
+               {"decided", one.decided ? Json(*one.decided) : Json()},
+               {"words", one.decided ? Json(difference_words(answer, one, *one.decided)) : Json()}};
+  json["against"] = Json::array();
+  for (const AgainstFirst& against : one.against)
+    json["against"].push_back({{"observations", against.observations},
+                               {"mean", against.mean},
+                               {"low", against.interval.low},
+                               {"high", against.interval.high},
+                               {"p_holm", against.p_holm}});
+  return json;
+}
+
+Json answer_json(const Answer& answer, std::span<const CombinationFailures> failures) {
+  Json json = {{"heading", answer_heading(answer)}, {"lines", answer_lines(answer, failures)}};
+  json["cells"] = Json::array();
+  for (const CombinationLabels& cell : answer.cells) json["cells"].push_back(labels_json(cell));
+  json["criteria"] = Json::array();
+  for (const Criterion& criterion : answer.criteria)
+    json["criteria"].push_back({{"name", criterion.name}, {"unit", criterion.share ? "1" : "s/m"}});
+  json["ranking"] = Json::array();
+  for (const RankedCombination& one : answer.ranking) json["ranking"].push_back(ranked_json(answer, one));
+  return json;
+}
+
+Json cause_json(const FailureCause& cause) {
+  return {{"cause", cause.cause}, {"robots", cause.robots}, {"trials", cause.trials}};
+}
+
+Json failures_json(const CombinationFailures& failures) {
+  Json json = {{"combination", labels_json(failures.combination)}, {"robots", failures.robots}};
+  json["causes"] = Json::array();
+  for (const FailureCause& cause : failures.causes) json["causes"].push_back(cause_json(cause));
+  json["contact"] = cause_json(failures.contact);
+  return json;
+}
+
 }  // namespace
 
 void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts& facts, const ReportLayouts& layouts) {
@@ -99,6 +153,19 @@ void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts&
   json["comparisons"] = Json::array();
   for (const auto& one : paired_comparisons(frame, facts, report, layouts.summary.counts_failures))
     json["comparisons"].push_back(comparison_json(frame, one));
+  const std::vector<CombinationFailures> failures = failure_causes(layouts.summary, frame.trials);
+  json["answers"] = Json::array();
+  for (const Answer& one : answers(layouts.summary, frame.metrics, frame.trials))
+    json["answers"].push_back(answer_json(one, failures));
+  json["best"] = Json::array();
+  for (const Contestants contestants : {Contestants::planners_and_controllers, Contestants::planners})
+    for (const BestMark& mark : best_marks(layouts.summary, frame.metrics, frame.trials, contestants)) {
+      Json& json_mark = json["best"].emplace_back(labels_json(mark.labels));
+      json_mark["metric"] = mark.metric;
+    }
+  json["failures_line"] = failures_line(failures);
+  json["failures"] = Json::array();
+  for (const CombinationFailures& one : failures) json["failures"].push_back(failures_json(one));
   json["correlations"] = Json::array();
   for (const auto& one : stratum_correlations(frame, report.diagnosis))
     json["correlations"].push_back(correlation_json(frame, one));

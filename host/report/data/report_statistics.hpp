@@ -5,6 +5,13 @@
 //                     given: {the other two labels}, combinations: [of a, of b], pairs, ties, median_difference, low,
 //                     high, mean_difference, mean_low, mean_high, effect, test: signed_rank | sign_flip, exact, p,
 //                     p_holm}]; differences are b - a
+//   answers           [{heading, lines, cells: [labels], criteria: [{name, unit}], ranking: [{global_planner,
+//                     local_controller, trials, means, standing: first | not_told_apart | worse, decided: criterion,
+//                     words, against: [{observations, mean, low, high, p_holm}]}]}]: answer.hpp; the first is over
+//                     everything
+//   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
+//   failures          [{combination: labels, robots, causes: [{cause, robots, trials}], contact: {likewise}}],
+//   failures_line     failure_causes.hpp
 //   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
 //                     ties_share}]
 //   completion        [{combination, robots, horizon_s, restricted_mean_s, low, high, arrived_share,

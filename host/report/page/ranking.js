@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ranking.js: sorts values and finds the best. A metric's direction is "higher", "lower" (better) or "none".
+// ranking.js: sorts values, and knows which are marked as the best. A metric's direction is "higher", "lower" (better) or "none".
 
 export function is_defined(value) {
   return value !== null && value !== undefined && !Number.isNaN(value);
@@ -17,15 +17,13 @@ export function order(values, descending) {
   return values.map((_, i) => i).sort((i, j) => compare(values[i], values[j], descending) || i - j);
 }
 
-// Indices of the best values after rounding. Empty if the metric has no direction, or if more than half of the values
-// are equally good.
-export function best(exact, direction, decimals) {
-  const values = exact.map((value) => (is_defined(value) ? Number(value.toFixed(decimals)) : null));
-  const defined = values.filter(is_defined);
-  if (direction === 'none' || defined.length < 2) return new Set();
-  const target = direction === 'higher' ? Math.max(...defined) : Math.min(...defined);
-  const found = values.map((value, i) => (value === target ? i : -1)).filter((i) => i >= 0);
-  return new Set(found.length > defined.length / 2 ? [] : found);
+const LABELS = ['scenario', 'robots', 'global_planner', 'local_controller', 'pedestrian_model'];
+
+// Whether the host marks this metric of a combination or planner as the best of its column (best_marks.hpp).
+export function is_best(data, row, metric) {
+  return data.best.some(
+    (mark) => mark.metric === metric && LABELS.every((field) => mark[field] === (field in row ? row[field] : ''))
+  );
 }
 
 // Scales values to 0 (worst) to 1 (best), null if undefined, 0.5 if all are equal. Without a direction the highest

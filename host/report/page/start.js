@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// start.js: reads the data and fills the page. The head and the first section come at once, the others when the reader
+// start.js: reads the data and fills the page. The head, the answer and the tables come at once, the others when the reader
 // scrolls near them or when the browser is idle, so that the report of a large run opens quickly.
 import {element, fill} from './elements.js';
 import * as completion from './plots/completion.js';
@@ -8,6 +8,8 @@ import * as distributions from './plots/distributions.js';
 import * as threshold_curves from './plots/threshold_curves.js';
 import * as player from './replay/player.js';
 import {make_view as make_3d_view} from './replay_3d/view.js';
+import * as answer from './run/answer.js';
+import * as failures from './run/failures.js';
 import * as faults from './run/faults.js';
 import * as overview from './run/overview.js';
 import * as provenance from './run/provenance.js';
@@ -23,7 +25,9 @@ import './page.css';
 // the reason listed at the end of the page.
 function parts() {
   return [
+    ['answer', answer.mount],
     ['tables', result_tables.mount],
+    ['failures', failures.mount],
     ['heat-map', heat_map.mount],
     ['distributions', distributions.mount],
     ['replay', (body, data) => player.mount(body, data, make_3d_view)],
@@ -155,7 +159,7 @@ function begin() {
   fill_contents(all);
   document.addEventListener('dmrp:open-replay', (event) => open_replay(all, data, event.detail));
   window.dmrp = {data, open_replay: (trial) => open_replay(all, data, trial)};
-  mount_part(all[0], data);
+  mount_up_to(all, data, 'tables');
   mount_before_jumps(all, data);
   if (window.location.hash) mount_up_to(all, data, window.location.hash.slice(1));
   mount_when_near(all, data);

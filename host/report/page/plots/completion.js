@@ -4,10 +4,9 @@ import {scaleLinear} from 'd3-scale';
 import {curveStepAfter, line} from 'd3-shape';
 
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row, hidden, titled_table} from '../elements.js';
+import {element, fill, group_row, head_row, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
-import * as ranking from '../ranking.js';
 import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 
@@ -72,28 +71,23 @@ function table(data, rows, variants) {
   for (const variant of variants) {
     const own = rows.filter((row) => variant.combinations.includes(row.combination));
     if (own.length === 0) continue;
-    const best = ranking.best(
-      own.map((row) => row.restricted_mean_s),
-      'lower',
-      1
-    );
     made.append(
       element(
         'tbody',
         {},
         data.scenarios.length > 1 && group_row(variant.label, 5),
-        own.map((row, i) =>
+        own.map((row) =>
           element(
             'tr',
             {},
             element('th', {scope: 'row'}, labels.combination(data, row.combination)),
             element(
               'td',
-              {class: best.has(i) ? 'number best' : 'number'},
+              {class: 'number'},
               element(
                 'span',
                 {class: 'mean'},
-                best.has(i) && hidden('best: '),
+                
                 numbers.fixed(row.restricted_mean_s, 1)
               ),
               element('span', {class: 'interval'}, numbers.interval(row.low, row.high, 1))

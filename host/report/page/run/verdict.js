@@ -37,6 +37,11 @@ function all_well(t) {
     : `All is well: ${arrived}, no faults, every trial repeatable.`;
 }
 
+// ": 5 deadlock, 2 oscillation"
+function causes_words(data) {
+  return data.failures_line.slice(data.failures_line.indexOf(': '));
+}
+
 // [{kind: "bad"|"warning"|"note"|"good", text, section}], the worst first.
 export function lines(data) {
   const t = tally(data);
@@ -74,8 +79,8 @@ export function lines(data) {
       `${numbers.counted(t.robots - t.arrived, 'robot')} of ${t.robots} did not arrive, in ${numbers.counted(
         t.failed_trials,
         'trial'
-      )}.`,
-      'distributions'
+      )}${causes_words(data)}.`,
+      'failures'
     );
   if (found.length === 0) add('good', all_well(t));
   else if (t.ran > 0 && found.every((line) => line.kind === 'note'))

@@ -77,12 +77,12 @@ function scale_key(means, decimals, direction) {
   );
 }
 
-function grid_table(grid, metric, decimals) {
+function grid_table(data, grid, metric, decimals) {
   const flat = grid.cells.flat();
   const means = flat.map((cell) => (cell === null ? null : cell.mean));
   const goodness = ranking.goodness(means, metric.direction);
-  const best = ranking.best(means, metric.direction, decimals);
   const width = grid.controllers.length;
+  const is_best = (cell) => cell && ranking.is_best(data, data.combinations[cell.combination], metric.name);
   return element(
     'div',
     {class: 'facet'},
@@ -106,7 +106,7 @@ function grid_table(grid, metric, decimals) {
               {},
               element('th', {scope: 'row'}, name),
               grid.cells[r].map((cell, c) =>
-                cell_element(cell, goodness[r * width + c], best.has(r * width + c), decimals, metric.unit)
+                cell_element(cell, goodness[r * width + c], is_best(cell), decimals, metric.unit)
               )
             )
           )
@@ -123,7 +123,7 @@ function key_words(data, metric) {
     lower: 'Stronger colour: lower, which is better.',
     none: 'Stronger colour: higher; neither direction is better.',
   }[metric.direction];
-  const framed = metric.direction === 'none' ? '' : ' Frame: the best of the scenario.';
+  const framed = metric.direction === 'none' ? '' : ' Frame: the best of the scenario, if it can be told apart from all others.';
   return `${labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
 }
 
@@ -151,7 +151,7 @@ export function mount(body, data) {
     );
     fill(
       holder,
-      all.map((grid) => grid_table(grid, metric, decimals))
+      all.map((grid) => grid_table(data, grid, metric, decimals))
     );
     fill(note, key_words(data, metric));
   };

@@ -48,10 +48,11 @@ function label_of(row, fields) {
   return fields.map((field) => labels.named(row[field])).join(' + ');
 }
 
-function cell_of(from, row, column) {
+function cell_of(data, from, row, column) {
   const summary = from.summaries[row][column.index];
   const spread = column.spread_index >= 0 ? from.summaries[row][column.spread_index].mean : null;
-  return {...summary, spread, trials: from.trials[row]};
+  const best = ranking.is_best(data, from.rows[row], column.metric.name);
+  return {...summary, spread, trials: from.trials[row], best};
 }
 
 // One group of rows for each variant, as in Table III of the paper.
@@ -69,7 +70,7 @@ function grouped(data, layout, variants) {
         labels: rows[i],
         name: label_of(rows[i], fields),
         combination: by_planner ? null : i,
-        cells: columns.map((column) => cell_of(from, i, column)),
+        cells: columns.map((column) => cell_of(data, from, i, column)),
       })),
   }));
   return {fields, columns, groups, spans: []};
@@ -91,7 +92,7 @@ function across(data, layout, variants) {
     combination: null,
     cells: columns.map((column) => {
       const row = found(name, column.variant);
-      return row < 0 ? null : cell_of(from, row, column);
+      return row < 0 ? null : cell_of(data, from, row, column);
     }),
   }));
   const per_variant = variants.length === 0 ? 0 : columns.length / variants.length;
@@ -107,28 +108,10 @@ function mean(cell) {
   return cell === null ? null : cell.mean;
 }
 
-// Sets `best` of each cell: whether it is the best of its column in its group.
-function mark_best(model) {
-  for (const group of model.groups) {
-    model.columns.forEach((column, c) => {
-      const best = ranking.best(
-        group.rows.map((row) => mean(row.cells[c])),
-        column.metric.direction,
-        column.decimals
-      );
-      group.rows.forEach((row, r) => {
-        if (row.cells[c]) row.cells[c].best = best.has(r);
-      });
-    });
-  }
-  return model;
-}
-
 export function make(data, layout, variants) {
-  const model = (layout.across || []).includes('scenario')
+  return (layout.across || []).includes('scenario')
     ? across(data, layout, variants)
     : grouped(data, layout, variants);
-  return mark_best(model);
 }
 
 // The sorted indices of the rows of each group. key: the name of a field or the index of a column.

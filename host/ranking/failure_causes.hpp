@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// failure_causes.hpp: why robots failed their tasks.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/results/summary.hpp"
+#include "host/results/summary_layout.hpp"
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+struct FailureCause {
+  std::string cause;  // as the event of the failure says, "fault" for robots of a trial that ended in one
+  std::uint32_t robots = 0;
+  std::vector<std::uint64_t> trials;  // ids
+};
+
+struct CombinationFailures {
+  CombinationLabels combination;
+  std::uint32_t robots = 0;          // of all trials that ran
+  std::vector<FailureCause> causes;  // of robots that did not arrive, the most frequent first
+  FailureCause contact;              // robots that arrived, but touched somebody or something by their own fault
+};
+
+// Of each combination with robots, in order of first appearance.
+std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std::span<const TrialRecord> trials);
+
+// Adds the robots of a cause to a list.
+void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause);
+
+// "212 deadlock, 34 oscillation", the most frequent first; "" without robots.
+std::string cause_words(std::vector<FailureCause> causes);
+
+// "246 did not arrive: 212 deadlock, 34 oscillation"; "" if all arrived.
+std::string failures_line(std::span<const CombinationFailures> failures);
+
+}  // namespace dmrp::host

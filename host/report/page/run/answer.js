@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// answer.js: which combination is better: the answer's sentences, and the order that they come from. answer.hpp has the
+// rules; nothing is computed here.
+import * as controls from '../controls.js';
+import {element, fill, head_row, hidden} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+
+const DECIMALS = 2;
+const STANDINGS = {first: 'first', not_told_apart: 'not told apart', worse: 'worse'};
+
+// "mall · 4 robots": what an answer is about, if it is not about everything.
+export function scope_words(data, answer) {
+  if (answer.cells.length !== 1) return 'all';
+  const [cell] = answer.cells;
+  const differ_in = (field) => labels.distinct(data.answers.flatMap((one) => one.cells.map((of) => of[field]))).length > 1;
+  return [
+    cell.scenario,
+    differ_in('robots') && numbers.counted(cell.robots, 'robot'),
+    differ_in('pedestrian_model') && labels.named(cell.pedestrian_model),
+  ]
+    .filter(Boolean)
+    .join(' · ');
+}
+
+// The difference to the first in a criterion: "−0.25 [−0.35, −0.15]"; "=" where no pair differs.
+export function difference_words(against) {
+  if (against.observations === 0) return numbers.UNDEFINED;
+  if (against.p_holm === null && against.mean === 0) return '=';
+  const interval = numbers.interval(against.low, against.high, DECIMALS, numbers.signed);
+  return [numbers.signed(against.mean, DECIMALS), interval].filter(Boolean).join(' ');
+}
+
+function criterion_cell(one, c) {
+  const against = one.against[c];
+  return element(
+    'td',
+    {class: one.decided === c ? 'number decided' : 'number'},
+    element('span', {class: 'mean'}, numbers.fixed(one.means[c], DECIMALS)),
+    against &&
+      element(
+        'span',
+        {class: 'against', title: `p (Holm) ${numbers.p_value(against.p_holm)}`},
+        one.decided === c && hidden('decides: '),
+        difference_words(against)
+      )
+  );
+}
+
+function row(one) {
+  return element(
+    'tr',
+    {class: one.standing.replace(/_/g, '-')},
+    element('th', {scope: 'row'}, `${one.global_planner} + ${one.local_controller}`),
+    one.means.map((_, c) => criterion_cell(one, c)),
+    element('td', {}, one.words && one.standing !== 'worse' ? `${STANDINGS[one.standing]}, ${one.words}` : STANDINGS[one.standing])
+  );
+}
+
+function table(answer) {
+  const heads = answer.criteria.map((criterion) =>
+    element(
+      'th',
+      {scope: 'col', class: 'number'},
+      element('span', {class: 'header'}, criterion.name),
+      element('span', {class: 'unit'}, numbers.unit(criterion.unit) || '\u2013')
+    )
+  );
+  return element(
+    'table',
+    {class: 'ranking'},
+    head_row(
+      element('th', {scope: 'col'}, 'planner + controller'),
+      heads,
+      element('th', {scope: 'col'}, 'against the first')
+    ),
+    element('tbody', {}, answer.ranking.map(row))
+  );
+}
+
+const KEY =
+  'Ordered by the shares, then by time: a robot\u2019s time of arrival over the length of its shortest way, of robots ' +
+  'that arrived. Below each mean: the paired difference to the first, with its 95 % interval. \u201cWorse\u201d and the ' +
+  'framed value: that difference is significant (p < 0.05 by Holm over all comparisons with the first).';
+
+function answer_element(answer) {
+  return [
+    element('h3', {}, answer.heading),
+    element('ul', {class: 'answer-lines'}, answer.lines.map((line) => element('li', {}, line))),
+    element(
+      'details',
+      {class: 'order'},
+      element('summary', {}, `The order of ${numbers.counted(answer.ranking.length, 'combination')}`),
+      element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': 'Order'}, table(answer)),
+      element('p', {class: 'note'}, KEY)
+    ),
+  ];
+}
+
+export function mount(body, data) {
+  if (data.answers.length === 0) return 'there is one combination, or its success was not measured';
+  const holder = element('div', {class: 'answer'});
+  const show = (index) => fill(holder, answer_element(data.answers[Number(index)]));
+  const options = data.answers.map((answer, i) => ({value: String(i), label: scope_words(data, answer)}));
+  const choose = (options.length <= 4 ? controls.segmented : controls.select)('Scenario', options, '0', show);
+  show(0);
+  fill(body, choose && controls.row(choose), holder);
+  return null;
+}

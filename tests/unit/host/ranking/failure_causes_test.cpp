@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "host/ranking/failure_causes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/host/ranking/ranking_example.hpp"
+
+using namespace dmrp::host;
+using namespace dmrp::test;
+
+TEST_CASE("failures are counted by combination and cause", "[ranking]") {
+  const RobotResult fails{std::nullopt, true, 10.0};
+  const RobotResult touches{20.0, false, 10.0};
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 3, [&](std::uint32_t i) {
+    return i == 0 ? std::vector<RobotResult>{fails, fails} : std::vector<RobotResult>{fails, touches};
+  });
+  add_trials(trials, "b", 1, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}}; });
+  trials[2].events.back().text = "robot 0 failed: no plan";
+  trials[3].outcome = trial_outcome::fault;
+  trials[3].values.clear();
+
+  const auto failures = failure_causes(ranking_layout(), trials);
+  REQUIRE(failures.size() == 2);
+  CHECK(failures[0].combination.local_controller == "a");
+  CHECK(failures[0].robots == 6);
+  REQUIRE(failures[0].causes.size() == 2);
+  CHECK(failures[0].causes[0].cause == "deadlock");
+  CHECK(failures[0].causes[0].robots == 3);
+  CHECK(failures[0].causes[0].trials == std::vector<std::uint64_t>{0, 1});
+  CHECK(failures[0].causes[1].cause == "no plan");
+  CHECK(failures[0].contact.robots == 2);
+  CHECK(failures[0].contact.trials == std::vector<std::uint64_t>{1, 2});
+  CHECK(failures[1].causes[0].cause == "fault");
+  CHECK(failures[1].causes[0].robots == 2);
+  CHECK(failures_line(failures) == "6 did not arrive: 3 deadlock, 2 fault, 1 no plan");
+}
+
+TEST_CASE("there is nothing to say where all arrived", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}}; });
+  CHECK(failures_line(failure_causes(ranking_layout(), trials)).empty());
+}
