@@ -159,6 +159,29 @@ CLI::App* add_evaluate(CLI::App& app, EvaluateOptions& options) {
   return command;
 }
 
+CLI::App* add_export(CLI::App& app, ExportOptions& options) {
+  CLI::App* command = app.add_subcommand("export", "write results for papers and other programs");
+  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  CLI::Option_group* formats = command->add_option_group("format");
+  const auto format = [&](const char* name, ExportFormat value, const char* about) {
+    return formats->add_flag_callback(
+        name, [&options, value] { options.format = value; }, about);
+  };
+  format("--latex", ExportFormat::latex, "tables with booktabs: those of the report, or one of --rows and --columns");
+  format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
+  CLI::Option* svg = format("--svg", ExportFormat::svg, "one --metric over --over, as lines with 95 % intervals");
+  formats->require_option(1);
+  command->add_option("--rows", options.rows, "scenario, robots, planner, controller, people")->delimiter(',');
+  command->add_option("--columns", options.columns, "the same, across")->delimiter(',');
+  command->add_option("--metric", options.metrics, "only these metrics")->delimiter(',')->type_name("NAME");
+  command->add_option("--over", options.over, "robots, or a parameter or setting as --csv names it")
+      ->needs(svg)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command->add_option("--out", options.out, "output file (default: standard output)")->type_name("FILE");
+  return command;
+}
+
 CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
   CLI::App* command = app.add_subcommand("merge", "join runs of parts of one experiment (--shard)");
   command->add_option("out", options.out, "run directory to create")->required()->type_name("OUT");
@@ -207,6 +230,9 @@ int run_main(int argc, char** argv) {
   MergeOptions merge;
   CLI::App* merging = add_merge(app, merge);
 
+  ExportOptions exported;
+  CLI::App* exporting = add_export(app, exported);
+
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
@@ -231,6 +257,7 @@ int run_main(int argc, char** argv) {
                                                  : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
+  if (exporting->parsed()) return export_command(exported);
   if (report->parsed()) return report_command(reported, replayed);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);

@@ -71,6 +71,18 @@ int plan_command(const PlanOptions& options);
 // Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
+enum class ExportFormat { latex, csv, svg };
+struct ExportOptions {
+  std::filesystem::path run_directory;
+  ExportFormat format = ExportFormat::latex;
+  std::vector<std::string> rows;     // labels; empty with the others: the tables of the report
+  std::vector<std::string> columns;  // labels
+  std::vector<std::string> metrics;
+  std::string over = "robots";  // svg: what the metric is drawn over
+  std::filesystem::path out;    // empty: standard output
+};
+int export_command(const ExportOptions& options);
+
 struct EvaluateOptions {
   EvaluationChoice choice;
   std::vector<std::uint64_t> trials;  // empty: all

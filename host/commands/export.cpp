@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Results for papers and for other programs: LaTeX tables, CSV, a figure.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/commands/command_output.hpp"
+#include "host/commands/commands.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/export/layout_tables.hpp"
+#include "host/export/line_chart.hpp"
+#include "host/export/mean_table.hpp"
+#include "host/export/trials_table.hpp"
+#include "host/program/executable.hpp"
+#include "host/report/data/report_data.hpp"
+#include "host/toml/nearest_name.hpp"
+
+namespace dmrp::host {
+namespace {
+
+std::vector<Label> labels_of(const char* option, const std::vector<std::string>& names) {
+  std::vector<Label> labels;
+  for (const std::string& name : names) {
+    const auto label = label_named(name);
+    if (!label) throw InputError(fmt::format("{}: '{}' is none of {}", option, name, label_names));
+    labels.push_back(*label);
+  }
+  return labels;
+}
+
+void check_metrics(const std::vector<std::string>& chosen, std::span<const MetricColumn> metrics) {
+  std::vector<std::string> known;
+  for (const MetricColumn& metric : metrics) known.push_back(metric.name);
+  for (const std::string& name : chosen)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("--metric: '{}' was not measured{}", name, did_you_mean(name, known)));
+}
+
+TableSpec spec_of(const ExportOptions& options, const std::string& layout) {
+  TableSpec spec{"results", "Results", labels_of("--rows", options.rows), labels_of("--columns", options.columns), {}};
+  if (spec.rows.empty()) spec.rows = {Label::global_planner, Label::local_controller};
+  std::vector<std::string> metrics = options.metrics;
+  if (metrics.empty()) metrics = {"success"};
+  for (const std::string& metric : metrics) spec.metrics.push_back(column_of(layout, metric));
+  return spec;
+}
+
+std::string latex(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
+  const bool own = !options.rows.empty() || !options.columns.empty() || !options.metrics.empty();
+  const std::vector<TableSpec> specs =
+      own ? std::vector{spec_of(options, layouts.report.json)} : layout_tables(layouts.report.json, run.trials);
+  std::string text = "% dmrp-host export --latex. Needs \\usepackage{booktabs}.\n";
+  for (const TableSpec& spec : specs)
+    text += latex_table(make_mean_table(spec, layouts.summary, run.metrics, run.trials)) + "\n";
+  return text;
+}
+
+std::string figure(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts,
+                   const RunSettings& settings) {
+  if (options.metrics.size() > 1) throw InputError("--svg: draws one --metric");
+  const std::string metric = options.metrics.empty() ? layouts.summary.arrived : options.metrics.front();
+  return svg_document(metric_over(metric, options.over, layouts.summary, run.metrics, run.trials, settings));
+}
+
+std::vector<MetricColumn> chosen_metrics(const ExportOptions& options, std::span<const MetricColumn> metrics) {
+  std::vector<MetricColumn> chosen;
+  for (const MetricColumn& metric : metrics)
+    if (options.metrics.empty() ||
+        std::find(options.metrics.begin(), options.metrics.end(), metric.name) != options.metrics.end())
+      chosen.push_back(metric);
+  return chosen;
+}
+
+}  // namespace
+
+int export_command(const ExportOptions& options) {
+  check_output_file("--out", options.out);
+  const ReportRun run = read_report_run(options.run_directory);
+  const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
+  check_metrics(options.metrics, run.metrics);
+  std::string text;
+  if (options.format == ExportFormat::latex) {
+    text = latex(options, run, layouts);
+  } else {
+    const RunSettings settings(run.effective_toml);
+    text = options.format == ExportFormat::csv
+               ? trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings)
+               : figure(options, run, layouts, settings);
+  }
+  write_output("--out", options.out, text);
+  return exit_status::done;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "host/export/mean_table.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/statistics/descriptive.hpp"
+#include "host/results/system_values.hpp"
+
+namespace dmrp::host {
+namespace {
+
+// Empties the labels that are not in either list.
+CombinationLabels only(const CombinationLabels& all, const std::vector<Label>& labels) {
+  const auto has = [&](Label label) { return std::find(labels.begin(), labels.end(), label) != labels.end(); };
+  CombinationLabels some;
+  if (has(Label::scenario)) some.scenario = all.scenario;
+  if (has(Label::robots)) some.robots = all.robots;
+  if (has(Label::global_planner)) some.global_planner = all.global_planner;
+  if (has(Label::local_controller)) some.local_controller = all.local_controller;
+  if (has(Label::pedestrian_model)) some.pedestrian_model = all.pedestrian_model;
+  return some;
+}
+
+std::string robots_words(std::uint32_t robots) {
+  return std::to_string(robots) + (robots == 1 ? " robot" : " robots");
+}
+
+void append(std::string& words, const std::string& separator, const std::string& word) {
+  if (!word.empty()) words += (words.empty() ? "" : separator) + word;
+}
+
+std::string place_of(const CombinationLabels& labels) {
+  std::string words = labels.scenario;
+  if (labels.robots > 0) append(words, ", ", robots_words(labels.robots));
+  return words;
+}
+
+std::string name_of(const CombinationLabels& labels) {
+  std::string words = labels.global_planner;
+  append(words, " + ", labels.local_controller);
+  append(words, " + ", labels.pedestrian_model);
+  return words;
+}
+
+std::size_t index_in(std::vector<CombinationLabels>& list, const CombinationLabels& labels) {
+  const auto found = std::find(list.begin(), list.end(), labels);
+  const auto index = static_cast<std::size_t>(found - list.begin());
+  if (found == list.end()) list.push_back(labels);
+  return index;
+}
+
+std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const std::string& name) {
+  for (std::size_t i = 0; i < metrics.size(); ++i)
+    if (metrics[i].name == name) return i;
+  return std::nullopt;
+}
+
+class Values {
+ public:
+  Values(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials)
+      : layout_(layout), trials_(trials), values_(system_values(metrics, trials)) {}
+
+  std::vector<double> of(const std::vector<std::size_t>& trials, std::size_t metric, const std::string& name) const {
+    const bool counts = std::find(layout_.counts_failures.begin(), layout_.counts_failures.end(), name) !=
+                        layout_.counts_failures.end();
+    std::vector<double> found;
+    for (const std::size_t trial : trials)
+      if (values_[trial][metric])
+        found.push_back(*values_[trial][metric]);
+      else if (counts && trials_[trial].outcome == trial_outcome::fault)
+        found.push_back(0.0);
+    return found;
+  }
+
+ private:
+  const SummaryLayout& layout_;
+  std::span<const TrialRecord> trials_;
+  SystemValues values_;
+};
+
+// Whether all trials of a cell belong to the marked row: its labels that are not empty.
+bool is_marked(const BestMark& mark, const std::string& metric, const std::vector<std::size_t>& cell,
+               std::span<const TrialRecord> trials, bool by_controller) {
+  if (mark.metric != metric || mark.labels.local_controller.empty() == by_controller) return false;
+  return std::all_of(cell.begin(), cell.end(), [&](std::size_t i) {
+    CombinationLabels labels = combination_of(trials[i]);
+    if (!by_controller) labels.local_controller = labels.pedestrian_model = "";
+    return labels == mark.labels;
+  });
+}
+
+}  // namespace
+
+std::optional<Label> label_named(const std::string& name) {
+  static const std::map<std::string, Label> names = {
+      {"scenario", Label::scenario},           {"robots", Label::robots},
+      {"planner", Label::global_planner},      {"global_planner", Label::global_planner},
+      {"controller", Label::local_controller}, {"local_controller", Label::local_controller},
+      {"people", Label::pedestrian_model},     {"pedestrian_model", Label::pedestrian_model}};
+  const auto found = names.find(name);
+  return found == names.end() ? std::nullopt : std::optional(found->second);
+}
+
+MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
+                          std::span<const TrialRecord> trials) {
+  std::erase_if(spec.metrics, [&](const auto& column) { return !index_of(metrics, column.metric); });
+  std::vector<CombinationLabels> rows;
+  std::vector<CombinationLabels> columns;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (trials[i].robots == 0 || trials[i].outcome == trial_outcome::skipped) continue;
+    const CombinationLabels labels = combination_of(trials[i]);
+    cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}].push_back(i);
+  }
+
+  const auto has = [&](Label label) {
+    return std::find(spec.rows.begin(), spec.rows.end(), label) != spec.rows.end() ||
+           std::find(spec.columns.begin(), spec.columns.end(), label) != spec.columns.end();
+  };
+  const bool by_controller = has(Label::local_controller);
+  const std::vector<BestMark> marks = best_marks(
+      layout, metrics, trials, by_controller ? Contestants::planners_and_controllers : Contestants::planners);
+  const Values values(layout, metrics, trials);
+
+  MeanTable table{spec, {}, {}, {}};
+  for (const SummaryTableColumn& column : spec.metrics) {
+    const std::string& unit = metrics[*index_of(metrics, column.metric)].unit;
+    table.units.push_back(unit == "1" ? "" : unit);
+  }
+  for (const CombinationLabels& column : columns) {
+    std::string title = place_of(column);
+    append(title, ", ", name_of(column));
+    if (!spec.columns.empty()) table.spans.push_back(title);
+  }
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    TableRow row{place_of(rows[r]), name_of(rows[r]), {}};
+    if (row.name.empty()) std::swap(row.name, row.group);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      for (const SummaryTableColumn& column : spec.metrics) {
+        const std::vector<std::size_t>& cell = cells[{r, c}];
+        TableCell shown;
+        shown.trials = static_cast<std::uint32_t>(cell.size());
+        const auto found = values.of(cell, *index_of(metrics, column.metric), column.metric);
+        shown.defined = static_cast<std::uint32_t>(found.size());
+        if (!found.empty()) shown.mean = core::mean(found);
+        if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())
+          if (const auto spreads = values.of(cell, *spread, column.spread); !spreads.empty())
+            shown.spread = core::mean(spreads);
+        shown.best = !cell.empty() && std::any_of(marks.begin(), marks.end(), [&](const BestMark& mark) {
+          return is_marked(mark, column.metric, cell, trials, by_controller);
+        });
+        row.cells.push_back(shown);
+      }
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<std::string> groups;
+  for (const TableRow& row : table.rows)
+    if (std::find(groups.begin(), groups.end(), row.group) == groups.end()) groups.push_back(row.group);
+  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const TableRow& a, const TableRow& b) {
+    return std::find(groups.begin(), groups.end(), a.group) < std::find(groups.begin(), groups.end(), b.group);
+  });
+  return table;
+}
+
+}  // namespace dmrp::host

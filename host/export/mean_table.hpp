@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// mean_table.hpp: means of metrics by the labels of trials, as tables of papers have them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/ranking/best_marks.hpp"
+#include "host/results/summary_layout.hpp"
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+enum class Label { scenario, robots, global_planner, local_controller, pedestrian_model };
+
+// "planner" and "global_planner" and so on; none if unknown.
+std::optional<Label> label_named(const std::string& name);
+inline constexpr const char* label_names = "scenario, robots, planner, controller, people";
+
+// What a table shows. Trials that agree in the labels of rows and columns are averaged.
+struct TableSpec {
+  std::string id;     // for the LaTeX label
+  std::string title;  // the caption
+  std::vector<Label> rows;
+  std::vector<Label> columns;               // each of their values has all metrics; may be empty
+  std::vector<SummaryTableColumn> metrics;  // without those that were not measured
+};
+
+struct TableCell {
+  std::optional<double> mean;  // none: undefined or no trial
+  std::optional<double> spread;
+  std::uint32_t defined = 0;
+  std::uint32_t trials = 0;
+  bool best = false;  // best_marks.hpp
+};
+
+struct TableRow {
+  std::string group;  // scenario and robots, if rows have them
+  std::string name;   // the other labels
+  std::vector<TableCell> cells;
+};
+
+struct MeanTable {
+  TableSpec spec;
+  std::vector<std::string> units;  // by metric
+  std::vector<std::string> spans;  // titles of `columns`; empty without
+  std::vector<TableRow> rows;      // those of a group stand together
+};
+
+MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
+                          std::span<const TrialRecord> trials);
+
+// A table environment with booktabs, for \input.
+std::string latex_table(const MeanTable& table);
+
+}  // namespace dmrp::host

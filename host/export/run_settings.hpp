@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// run_settings.hpp: the parameters and settings of each trial, from effective.toml.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/results/summary.hpp"
+
+namespace dmrp::host {
+
+// Names are those of the file: "local_controller.sim_time", "simulation.step_s", "robot.lidar.beams".
+class RunSettings {
+ public:
+  // Throws InputError or std::runtime_error if the text is damaged.
+  explicit RunSettings(std::string_view effective_toml);
+
+  // All names: plugins of trials with their ids and parameters first, then settings.
+  const std::vector<std::string>& names() const { return names_; }
+
+  // The value as text, numbers in their shortest exact form; "" if the trial's plugins have no such parameter.
+  const std::string& value(const std::string& name, const CombinationLabels& combination) const;
+
+ private:
+  using Values = std::map<std::string, std::string>;
+
+  void add_name(const std::string& name);
+
+  std::vector<std::string> names_;
+  std::map<std::string, std::map<std::string, Values>> plugins_;  // by kind, then label
+  Values settings_;
+};
+
+}  // namespace dmrp::host

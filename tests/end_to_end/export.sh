@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# `export` writes LaTeX tables, CSV and a figure of a run, and names mistakes of its options in one line. Where LaTeX and
+# rsvg-convert are installed, they read them.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+run=$scratch/run
+cat >"$scratch/sweep.toml" <<EOF
+$(sed -n '1,/^\[\[local_controller\]\]/{/^\[\[local_controller\]\]/!p}' "$here/crossing.toml")
+
+[[local_controller]]
+use = "dmrp.controller.dwa"
+sweep = { sim_time = [1.0, 1.7] }
+EOF
+grep -q '^\[\[pedestrian_model\]\]' "$scratch/sweep.toml" || sed -n '/^\[\[pedestrian_model\]\]/,$p' "$here/crossing.toml" >>"$scratch/sweep.toml"
+expect_status 0 "$host" "$scratch/sweep.toml" --quiet --trials 2 --out "$run"
+
+expect_status 0 "$host" export "$run" --latex
+cp "$scratch/stdout" "$scratch/tables.tex"
+for part in '\\toprule' '\\caption{Plans' '\\caption{Driving' 'PFD (m)'; do
+  grep -q "$part" "$scratch/tables.tex" || fail "no $part in the LaTeX tables"
+done
+expect_status 0 "$host" export "$run" --latex --rows controller --columns planner --metric success,pfd --out "$scratch/own.tex"
+grep -q 'success & PFD (m)' "$scratch/own.tex" || fail "the table has other columns: $(cat "$scratch/own.tex")"
+[[ $(grep -c 'sim\\_time' "$scratch/own.tex") == 2 ]] || fail "not a row for each controller"
+
+expect_status 0 "$host" export "$run" --csv
+head -1 "$scratch/stdout" | grep -Eq '(^|,)local_controller.sim_time(,|$)' || fail "no column for the swept parameter"
+head -1 "$scratch/stdout" | grep -Eq ',completion_time \[s\](,|$)' || fail "no unit in the header"
+[[ $(wc -l <"$scratch/stdout") == $(($(query "$run" "SELECT count(*) FROM trial") + 1)) ]] || fail "not one line a trial"
+cp "$scratch/stdout" "$scratch/trials.csv"
+found=$(sqlite3 :memory: ".import --csv $scratch/trials.csv t" 'SELECT DISTINCT "local_controller.sim_time" FROM t ORDER BY 1')
+[[ $found == $'1.0\n1.7' || $found == $'1\n1.7' ]] || fail "the swept values are $found"
+
+expect_status 0 "$host" export "$run" --svg --metric pfd --over local_controller.sim_time --out "$scratch/pfd.svg"
+grep -q 'pfd (m)' "$scratch/pfd.svg" || fail "the figure names no metric"
+
+refused() {
+  expect_status 2 "$host" export "$run" "${@:2}"
+  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
+}
+refused "did you mean 'success'" --latex --metric sucess
+refused "none of scenario, robots, planner" --latex --rows planet
+refused "did you mean 'simulation.step_s'" --svg --over simulation.step
+refused "do not differ in the number 'simulation.step_s'" --svg --over simulation.step_s
+refused "xactly 1 option from \[--latex,--csv,--svg\]" --latex --csv
+
+if command -v rsvg-convert >/dev/null; then
+  rsvg-convert -f pdf "$scratch/pfd.svg" -o "$scratch/pfd.pdf" || fail "rsvg-convert refuses the figure"
+fi
+if command -v pdflatex >/dev/null; then
+  printf '%s\n' '\documentclass[twocolumn]{article}' '\usepackage{booktabs}' '\begin{document}' '\input{tables}' \
+    '\input{own}' '\end{document}' >"$scratch/paper.tex"
+  (cd "$scratch" && pdflatex -interaction=nonstopmode -halt-on-error paper.tex >paper.out) ||
+    fail "LaTeX refuses the tables: $(tail -20 "$scratch/paper.out")"
+fi

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "host/errors/input_error.hpp"
+#include "host/export/line_chart.hpp"
+#include "host/export/mean_table.hpp"
+#include "host/export/trials_table.hpp"
+#include "tests/unit/host/ranking/ranking_example.hpp"
+
+using namespace dmrp::host;
+using namespace dmrp::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* effective = R"(
+[[global_planner]]
+use = "org.planner"
+label = "P"
+[[local_controller]]
+use = "org.dwa"
+label = "slow"
+[local_controller.params]
+speed = 0.5
+mode = "a, b"
+[[local_controller]]
+use = "org.dwa"
+label = "fast"
+[local_controller.params]
+speed = 1.0
+mode = "a, b"
+[[local_controller]]
+use = "org.other"
+label = "other"
+[simulation]
+step_s = 0.02
+[robot]
+lidar = { beams = 360 }
+)";
+
+// Ten trials each of a slow and a fast controller with two robots, and of the fast one with four.
+std::vector<TrialRecord> example() {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "slow", 10, [](std::uint32_t i) {
+    return std::vector<RobotResult>{{40.0 + i}, i < 5 ? RobotResult{std::nullopt} : RobotResult{}};
+  });
+  add_trials(trials, "fast", 10, [](std::uint32_t) { return std::vector<RobotResult>{{20.0}, {20.0}}; });
+  add_trials(trials, "fast", 10, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}, {}, {std::nullopt}}; });
+  return trials;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("each trial has the parameters of its plugins and the settings", "[export]") {
+  const RunSettings settings{effective};
+  const CombinationLabels fast{"mall", 2, "P", "fast", "crowd"};
+  CHECK(settings.value("local_controller.speed", fast) == "1");
+  CHECK(settings.value("local_controller.id", fast) == "org.dwa");
+  CHECK(settings.value("robot.lidar.beams", fast) == "360");
+  CHECK(settings.value("local_controller.speed", {"mall", 2, "P", "other", "crowd"}).empty());
+
+  const std::string csv = trials_table_csv(ranking_metrics(), example(), settings);
+  CHECK_THAT(csv, Contains("local_controller.mode"));
+  CHECK_THAT(csv, Contains("simulation.step_s"));
+  CHECK_THAT(csv, Contains("time [s],length [m]"));
+  CHECK_THAT(csv, Contains(R"("a, b")"));
+  CHECK(count_of(csv, "\n") == 31);
+}
+
+TEST_CASE("a table has the means of the trials that agree in its labels", "[export]") {
+  SummaryTableColumn done{"done", "success", 2, ""};
+  SummaryTableColumn time{"time", "time", 1, ""};
+  const MeanTable table = make_mean_table({"t", "Results", {Label::local_controller}, {Label::robots}, {done, time}},
+                                          ranking_layout(), ranking_metrics(), example());
+  CHECK(table.spans == std::vector<std::string>{"2 robots", "4 robots"});
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0].name == "slow");
+  CHECK(*table.rows[0].cells[0].mean == Approx(0.75));
+  CHECK(*table.rows[0].cells[1].mean == Approx(47.0));  // of the five trials in which both arrive: 45 to 49
+  CHECK(table.rows[0].cells[1].defined == 5);
+  CHECK_FALSE(table.rows[0].cells[2].mean);  // no trials with four robots
+  CHECK(*table.rows[1].cells[2].mean == Approx(0.75));
+
+  const std::string latex = latex_table(table);
+  CHECK_THAT(latex, Contains("\\multicolumn{2}{c}{2 robots} & \\multicolumn{2}{c}{4 robots}"));
+  CHECK_THAT(latex, Contains("slow & 0.75 & 47.0\\,(5/10) & -- & -- \\\\"));
+}
+
+TEST_CASE("names are escaped for LaTeX", "[export]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "50%_a&b{c}\\d~e", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}}; });
+  const MeanTable table = make_mean_table({"t", "A_B", {Label::local_controller}, {}, {{"done", "x_y", 1, ""}}},
+                                          ranking_layout(), ranking_metrics(), trials);
+  const std::string latex = latex_table(table);
+  CHECK_THAT(latex, Contains("50\\%\\_a\\&b\\{c\\}\\textbackslash{}d\\~{}e & 1.0"));
+  CHECK_THAT(latex, Contains("\\caption{A\\_B"));
+}
+
+TEST_CASE("a metric is drawn over the number of robots and over a swept parameter", "[export]") {
+  const RunSettings settings{effective};
+  const auto trials = example();
+  const LineChart robots = metric_over("done", "robots", ranking_layout(), ranking_metrics(), trials, settings);
+  REQUIRE(robots.lines.size() == 2);
+  CHECK(robots.lines[1].name == "fast");
+  REQUIRE(robots.lines[1].points.size() == 2);
+  CHECK(robots.lines[1].points[1].x == 4.0);
+  CHECK(robots.lines[1].points[1].mean == Approx(0.75));
+  CHECK(robots.lines[0].points[0].interval.low < 0.75);
+
+  // labels that differ by the parameter alone make one line; robots make two
+  const LineChart speed =
+      metric_over("done", "local_controller.speed", ranking_layout(), ranking_metrics(), trials, settings);
+  REQUIRE(speed.lines.size() == 2);
+  CHECK(speed.lines[0].name == "2 robots");
+  CHECK(speed.lines[0].points.size() == 2);
+  CHECK(speed.lines[0].points[0].x == 0.5);
+
+  const std::string svg = svg_document(speed);
+  CHECK(count_of(svg, "<circle") == 3);
+  CHECK_THAT(svg, Contains("local_controller.speed"));
+  CHECK_THROWS_AS(metric_over("done", "simulation.step_s", ranking_layout(), ranking_metrics(), trials, settings),
+                  InputError);
+}
