@@ -182,6 +182,24 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   return command;
 }
 
+CLI::App* add_compare(CLI::App& app, CompareOptions& options) {
+  CLI::App* command = app.add_subcommand("compare", "compare runs of the same trials, each with the first");
+  command->add_option("runs", options.runs, "run directories: before and after a change")
+      ->required()
+      ->expected(2, 1000)
+      ->type_name("RUN_DIR");
+  command->add_option("--metric", options.metrics, "metrics (default: those that the report compares)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  command
+      ->add_option("--fail-if", options.fail_if,
+                   "exit with 1 if the interval of the metric's difference lies beyond this, with 4 if trials cannot "
+                   "decide")
+      ->allow_extra_args(false)
+      ->type_name("\"METRIC < X\"");
+  return command;
+}
+
 CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
   CLI::App* command = app.add_subcommand("merge", "join runs of parts of one experiment (--shard)");
   command->add_option("out", options.out, "run directory to create")->required()->type_name("OUT");
@@ -230,6 +248,9 @@ int run_main(int argc, char** argv) {
   MergeOptions merge;
   CLI::App* merging = add_merge(app, merge);
 
+  CompareOptions compare;
+  CLI::App* comparing = add_compare(app, compare);
+
   ExportOptions exported;
   CLI::App* exporting = add_export(app, exported);
 
@@ -257,6 +278,7 @@ int run_main(int argc, char** argv) {
                                                  : PluginsFormat::text);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
+  if (comparing->parsed()) return compare_command(compare);
   if (exporting->parsed()) return export_command(exported);
   if (report->parsed()) return report_command(reported, replayed);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));

@@ -19,6 +19,8 @@ inline constexpr int done = 0;
 inline constexpr int faults = 1;  // some trials ended in a fault
 inline constexpr int bad_input = 2;
 inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memory
+inline constexpr int worse = 1;           // compare --fail-if: a condition holds
+inline constexpr int undecided = 4;       // compare --fail-if: the trials cannot decide
 inline constexpr int interrupted = 130;
 }  // namespace exit_status
 
@@ -82,6 +84,13 @@ struct ExportOptions {
   std::filesystem::path out;    // empty: standard output
 };
 int export_command(const ExportOptions& options);
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> runs;  // at least two; each is compared with the first
+  std::vector<std::string> metrics;         // empty: those that the report compares
+  std::vector<std::string> fail_if;         // "success < -0.02"
+};
+int compare_command(const CompareOptions& options);
 
 struct EvaluateOptions {
   EvaluationChoice choice;

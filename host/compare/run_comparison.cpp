@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "host/compare/run_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <regex>
+#include <tuple>
+
+#include "core/statistics/descriptive.hpp"
+#include "core/statistics/holm.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/ranking/paired_test.hpp"
+#include "host/report/data/report_frame.hpp"
+#include "host/report/data/report_values.hpp"
+
+namespace dmrp::host {
+namespace {
+
+constexpr std::uint32_t least_seeds_to_fail = 6;  // fewer give no p below 5 %
+
+// A crowd and a task, under a seed.
+using Situation = std::tuple<std::string, std::uint32_t, std::uint64_t>;
+// A trial: its situation, then its plugins' labels.
+using TrialKey = std::tuple<Situation, std::string, std::string, std::string>;
+
+TrialKey key_of(const TrialRecord& trial) {
+  return {
+      {trial.scenario, trial.robots, trial.seed}, trial.global_planner, trial.local_controller, trial.pedestrian_model};
+}
+
+std::map<TrialKey, std::size_t> trials_by_key(std::span<const TrialRecord> trials) {
+  std::map<TrialKey, std::size_t> found;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (trials[i].outcome != trial_outcome::skipped) found.emplace(key_of(trials[i]), i);
+  return found;
+}
+
+struct TrialPair {
+  std::size_t before;
+  std::size_t after;
+  Situation situation;
+};
+
+std::vector<TrialPair> pairs_of(const std::map<TrialKey, std::size_t>& before,
+                                const std::map<TrialKey, std::size_t>& after) {
+  std::vector<TrialPair> pairs;
+  for (const auto& [key, trial] : before)
+    if (const auto partner = after.find(key); partner != after.end())
+      pairs.push_back({trial, partner->second, std::get<0>(key)});
+  return pairs;
+}
+
+// How values of a metric count, by the layouts.
+CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
+  CountedValue rule;
+  const auto& counts = layouts.summary.counts_failures;
+  rule.counts_failures = std::find(counts.begin(), counts.end(), metric) != counts.end();
+  for (const ComparedMetric& compared : layouts.report.comparisons)
+    if (compared.metric == metric) {
+      rule.censored = compared.censored;
+      rule.successes_only = compared.both_succeeded;
+    }
+  return rule;
+}
+
+MetricComparison compare_metric(const MetricColumn& column, const CountedValue& rule_before, const ReportFrame& before,
+                                const ExperimentFacts& facts_before, const CountedValue& rule_after,
+                                const ReportFrame& after, const ExperimentFacts& facts_after,
+                                std::span<const TrialPair> pairs) {
+  std::vector<double> befores;
+  std::vector<double> afters;
+  std::map<Situation, std::vector<double>> by_situation;
+  for (const TrialPair& pair : pairs) {
+    const auto a = counted_value(before, facts_before, rule_before, pair.before);
+    const auto b = counted_value(after, facts_after, rule_after, pair.after);
+    if (!a || !b) continue;
+    befores.push_back(*a);
+    afters.push_back(*b);
+    by_situation[pair.situation].push_back(*b - *a);
+  }
+  std::vector<double> differences;
+  std::vector<std::vector<double>> clusters;
+  for (const auto& [situation, values] : by_situation) {
+    differences.push_back(core::mean(values));
+    clusters.push_back({differences.back()});
+  }
+  MetricComparison result;
+  result.metric = column.name;
+  result.unit = column.unit;
+  result.pairs = static_cast<std::uint32_t>(befores.size());
+  result.seeds = static_cast<std::uint32_t>(differences.size());
+  if (differences.empty()) return result;
+  result.before = core::mean(befores);
+  result.after = core::mean(afters);
+  result.difference = core::mean(differences);
+  result.interval = core::cluster_bootstrap_interval(clusters);
+  const bool equal = std::all_of(differences.begin(), differences.end(), [](double one) { return one == 0.0; });
+  result.p =
+      equal ? std::numeric_limits<double>::quiet_NaN()
+            : paired_test(differences, rule_before.counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank).p;
+  return result;
+}
+
+}  // namespace
+
+RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
+                           std::span<const std::string> metrics) {
+  const auto trials_before = trials_by_key(before.trials);
+  const auto trials_after = trials_by_key(after.trials);
+  const std::vector<TrialPair> pairs = pairs_of(trials_before, trials_after);
+  RunComparison result;
+  result.pairs = static_cast<std::uint32_t>(pairs.size());
+  result.only_before = static_cast<std::uint32_t>(trials_before.size() - pairs.size());
+  result.only_after = static_cast<std::uint32_t>(trials_after.size() - pairs.size());
+  result.changes = differences(before.manifest, after.manifest);
+
+  const ReportFrame frame_before = make_report_frame(before.metrics, before.trials);
+  const ReportFrame frame_after = make_report_frame(after.metrics, after.trials);
+  std::vector<double> p_values;
+  for (const std::string& metric : metrics) {
+    const auto index_before = frame_before.metric(metric);
+    const auto index_after = frame_after.metric(metric);
+    if (!index_before || !index_after) continue;
+    CountedValue rule_before = rule_of(metric, layouts);
+    CountedValue rule_after = rule_before;
+    rule_before.metric = *index_before;
+    rule_after.metric = *index_after;
+    result.metrics.push_back(compare_metric(before.metrics[*index_before], rule_before, frame_before,
+                                            before.manifest.experiment, rule_after, frame_after,
+                                            after.manifest.experiment, pairs));
+    p_values.push_back(result.metrics.back().p);
+  }
+  const std::vector<double> adjusted = core::holm_adjusted(p_values);
+  for (std::size_t i = 0; i < adjusted.size(); ++i) result.metrics[i].p_holm = adjusted[i];
+  return result;
+}
+
+FailCondition parse_fail_condition(const std::string& text) {
+  static const std::regex form(R"(\s*(\w+)\s*([<>])\s*([-+0-9.eE]+)\s*)");
+  std::smatch parts;
+  FailCondition condition;
+  if (std::regex_match(text, parts, form)) {
+    condition.metric = parts[1];
+    condition.below = parts[2] == "<";
+    const std::string number = parts[3];
+    const char* const begin = number.data() + (number.front() == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, number.data() + number.size(), condition.limit);
+    if (error == std::errc() && end == number.data() + number.size()) return condition;
+  }
+  throw InputError(
+      fmt::format("--fail-if: '{}' is not of the form \"success < -0.02\" (METRIC, < or >, NUMBER)", text));
+}
+
+Verdict judge(const FailCondition& condition, const MetricComparison& comparison) {
+  const core::Interval& interval = comparison.interval;
+  if (comparison.seeds < 2) return Verdict::undecided;  // no interval
+  const bool whole = condition.below ? interval.high < condition.limit : interval.low > condition.limit;
+  const bool part = condition.below ? interval.low < condition.limit : interval.high > condition.limit;
+  if (!part) return Verdict::holds;
+  return whole && comparison.seeds >= least_seeds_to_fail ? Verdict::fails : Verdict::undecided;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// run_comparison.hpp: two runs of the same trials, before and after a change: what differs?
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/statistics/bootstrap.hpp"
+#include "host/report/data/report_data.hpp"
+#include "host/report/data/report_run.hpp"
+
+namespace dmrp::host {
+
+// One metric over the trials that both runs have: the same scenario, robots, seed and labels. Differences are after -
+// before; trials with the same scenario, robots and seed count together.
+struct MetricComparison {
+  std::string metric;
+  std::string unit;
+  std::uint32_t pairs = 0;  // of trials
+  std::uint32_t seeds = 0;  // of them: observations
+  double before = 0.0;      // means over the pairs
+  double after = 0.0;
+  double difference = 0.0;    // mean over observations
+  core::Interval interval{};  // 95 %, bootstrap over observations
+  double p = 1.0;             // NaN: no pair differs
+  double p_holm = 1.0;        // over the metrics of the comparison
+};
+
+struct RunComparison {
+  std::uint32_t pairs = 0;
+  std::uint32_t only_before = 0;  // trials without a partner
+  std::uint32_t only_after = 0;
+  std::vector<std::string> changes;  // plugin libraries and files with other contents, another program, another machine
+  std::vector<MetricComparison> metrics;
+};
+
+// `metrics`: names. The rules of the report's comparisons hold: a trial that ended in a fault failed, times of failed
+// trials count as the time limit, lengths are compared where both succeeded. Metrics that a run lacks are left out.
+RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
+                           std::span<const std::string> metrics);
+
+// "success < -0.02": a limit for a difference.
+struct FailCondition {
+  std::string metric;
+  bool below = true;
+  double limit = 0.0;
+};
+FailCondition parse_fail_condition(const std::string& text);  // throws InputError
+
+// Whether the true difference lies beyond the limit: if the whole interval does, with six observations at least, it
+// does; if no part of it does, it does not.
+enum class Verdict { holds, fails, undecided };
+Verdict judge(const FailCondition& condition, const MetricComparison& comparison);
+
+}  // namespace dmrp::host

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# `compare` of runs before and after a change: its table and the exit statuses of --fail-if.
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+before=$scratch/before
+after=$scratch/after
+expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 8 --out "$before"
+cp -r "$before" "$after"
+
+expect_status 0 "$host" compare "$before" "$after" --fail-if "success < -0.02"
+grep -Eq "^32 trials in both$" "$scratch/stdout" || fail "not all trials are matched: $(cat "$scratch/stdout")"
+grep -Eq "success +32 .* 0.000 \[0.000, 0.000\] +=" "$scratch/stdout" || fail "equal runs differ: $(cat "$scratch/stdout")"
+
+# fewer arrive in every trial
+query "$after" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
+expect_status 1 "$host" compare "$before" "$after" --fail-if "success < -0.02" --fail-if "success > 0.02"
+grep -q "success < -0.02: YES" "$scratch/stdout" || fail "the condition is not named"
+expect_status 0 "$host" compare "$after" "$before" --fail-if "success < -0.02"
+# no interval can lie on one side of what it straddles
+query "$before" "UPDATE value SET value = 0.5 WHERE metric = 'success' AND subject_kind = 'system'"
+query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE trial.id = trial_id) WHERE
+  metric = 'success' AND subject_kind = 'system'"
+expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
+
+refused() {
+  expect_status 2 "$host" compare "${@:2}"
+  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
+}
+refused "did you mean 'success'" "$before" "$after" --fail-if "sucess < 0"
+refused "not of the form" "$before" "$after" --fail-if "success = 0"
+refused "is no run directory" "$before" "$scratch"
+query "$after" "UPDATE trial SET seed = seed + 1"
+refused "no trial has scenario, robots, seed and labels" "$before" "$after"

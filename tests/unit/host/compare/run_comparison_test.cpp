@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "host/compare/run_comparison.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "host/errors/input_error.hpp"
+#include "tests/unit/host/ranking/ranking_example.hpp"
+
+using namespace dmrp::host;
+using namespace dmrp::test;
+
+namespace {
+
+const std::vector<std::string> names{"done", "time"};
+
+ReportLayouts layouts() {
+  return {ranking_layout(), "{}",
+          parse_report_layout(R"({"comparisons": [{"metric": "time", "censored": true}]})", "report")};
+}
+
+ReportRun run_of(std::vector<TrialRecord> trials) {
+  ReportRun run;
+  run.manifest.experiment.scenarios = {{"mall", "", "", 2, 0, 100.0}};
+  run.metrics = ranking_metrics();
+  run.trials = std::move(trials);
+  return run;
+}
+
+// Of ten seeds, this many fail.
+std::vector<TrialRecord> with_failures(std::uint32_t failing, std::uint32_t repetitions = 10) {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "c", repetitions, [=](std::uint32_t i) {
+    return std::vector<RobotResult>{{20.0}, {i < failing ? std::nullopt : std::optional(30.0)}};
+  });
+  return trials;
+}
+
+RunComparison compare(std::uint32_t before, std::uint32_t after) {
+  return compare_runs(run_of(with_failures(before)), run_of(with_failures(after)), layouts(), names);
+}
+
+Verdict verdict(const std::string& condition, const RunComparison& comparison) {
+  return judge(parse_fail_condition(condition), comparison.metrics.front());
+}
+
+}  // namespace
+
+TEST_CASE("runs are compared trial by trial", "[compare]") {
+  const RunComparison found = compare(0, 4);
+  CHECK(found.pairs == 10);
+  const MetricComparison& done = found.metrics.at(0);
+  CHECK(done.before == 1.0);
+  CHECK(done.after == Approx(0.8));
+  CHECK(done.difference == Approx(-0.2));
+  CHECK(done.interval.low < -0.2);
+  CHECK(found.metrics.at(1).after == Approx(52.0));  // four times the limit of 100 s, six times 20 s
+}
+
+TEST_CASE("trials are matched by scenario, robots, seed and labels", "[compare]") {
+  auto other = with_failures(0);
+  other[0].seed = 99;
+  other[1].scenario = "office";
+  other[2].local_controller = "d";
+  other[3].outcome = trial_outcome::skipped;
+  const RunComparison found = compare_runs(run_of(with_failures(0)), run_of(other), layouts(), names);
+  CHECK(found.pairs == 6);
+  CHECK(found.only_before == 4);
+  CHECK(found.only_after == 3);
+}
+
+TEST_CASE("combinations under the same seed are one observation", "[compare]") {
+  const auto twice = [](std::uint32_t failing) {
+    auto trials = with_failures(failing, 6);
+    for (const TrialRecord& trial : with_failures(failing, 6)) {
+      trials.push_back(trial);
+      trials.back().global_planner = "Q";
+    }
+    return trials;
+  };
+  const RunComparison found = compare_runs(run_of(twice(0)), run_of(twice(3)), layouts(), names);
+  CHECK(found.metrics[0].pairs == 12);
+  CHECK(found.metrics[0].seeds == 6);
+}
+
+TEST_CASE("a condition fails, holds, or cannot be decided", "[compare]") {
+  CHECK(verdict("done < -0.02", compare(0, 0)) == Verdict::holds);
+  CHECK(verdict("done < -0.02", compare(0, 10)) == Verdict::fails);
+  CHECK(verdict("done < -0.02", compare(0, 1)) == Verdict::undecided);  // -0.05, with an interval from -0.15 to 0
+  CHECK(verdict("done > 0.1", compare(10, 0)) == Verdict::fails);
+  CHECK(verdict("done > 0.1", compare(0, 10)) == Verdict::holds);
+
+  SECTION("five seeds never fail it") {
+    const auto few = [](std::uint32_t failing) { return run_of(with_failures(failing, 5)); };
+    CHECK(verdict("done < -0.02", compare_runs(few(0), few(5), layouts(), names)) == Verdict::undecided);
+    CHECK(verdict("done < -0.02", compare_runs(few(0), few(0), layouts(), names)) == Verdict::holds);
+  }
+}
+
+TEST_CASE("conditions are read, or refused", "[compare]") {
+  const FailCondition condition = parse_fail_condition(" pfd>+1e-1 ");
+  CHECK(condition.metric == "pfd");
+  CHECK_FALSE(condition.below);
+  CHECK(condition.limit == 0.1);
+  for (const char* wrong : {"", "pfd", "pfd = 1", "pfd < x", "pfd < 1 2", "pfd <= 1", "pfd < 1e999", "pfd < -"})
+    CHECK_THROWS_AS(parse_fail_condition(wrong), InputError);
+}
