@@ -6,9 +6,11 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "pedestrians/orca/velocity_obstacle.hpp"
+#include "reciprocal/velocity_obstacle.hpp"
 
 namespace dmrp::pedestrians {
+
+using reciprocal::HalfPlane;
 
 namespace {
 
@@ -76,10 +78,10 @@ Status Orca::step(const Crowd& crowd, Motions& motions) {
 }
 
 HalfPlane Orca::permitted_by(const Body& other, const Person& person, double step_s) const {
-  const Encounter encounter = {other.position - person.position, person.velocity - other.velocity,
-                               person.radius_m + other.radius_m};
+  const reciprocal::Encounter encounter = {other.position - person.position, person.velocity - other.velocity,
+                                           person.radius_m + other.radius_m};
   const double horizon_s = std::max(other.weight * time_horizon, step_s);
-  return give_way(escape(encounter, horizon_s, step_s), person.velocity, even_share * other.weight);
+  return give_way(reciprocal::escape(encounter, horizon_s, step_s), person.velocity, even_share * other.weight);
 }
 
 std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people) {

@@ -12,9 +12,9 @@
 #include "pedestrians/crowd/side_preference.hpp"
 #include "pedestrians/crowd/walkers.hpp"
 #include "pedestrians/crowd/way_finding.hpp"
-#include "pedestrians/orca/half_plane.hpp"
-#include "pedestrians/orca/linear_program.hpp"
 #include "pedestrians/orca/wall_obstacles.hpp"
+#include "reciprocal/half_plane.hpp"
+#include "reciprocal/linear_program.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -44,17 +44,17 @@ class Orca final : public PedestrianModel {
  private:
   // Fills neighbors_ and returns their number.
   std::size_t find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people);
-  HalfPlane permitted_by(const Body& other, const Person& person, double step_s) const;
+  reciprocal::HalfPlane permitted_by(const Body& other, const Person& person, double step_s) const;
   static Vec2 preferred_velocity(Vec2 way, const Person& person, double step_s);
 
   WayFinder ways_;
   SidePreference side_preference_;
   NeighborGrid grid_;
   WallObstacles walls_;
-  VelocityProgram program_;
+  reciprocal::VelocityProgram program_;
   Walkers walkers_;
   std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
-  std::vector<HalfPlane> planes_;
+  std::vector<reciprocal::HalfPlane> planes_;
 };
 
 }  // namespace dmrp::pedestrians

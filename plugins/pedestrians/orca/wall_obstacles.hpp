@@ -12,9 +12,12 @@
 #include <vector>
 
 #include "pedestrians/crowd/wall_grid.hpp"
-#include "pedestrians/orca/half_plane.hpp"
+#include "reciprocal/half_plane.hpp"
 
 namespace dmrp::pedestrians {
+
+using reciprocal::half_plane;
+using reciprocal::HalfPlane;
 
 class WallObstacles {
  public:

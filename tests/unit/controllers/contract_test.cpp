@@ -45,10 +45,11 @@ TEST_CASE("The library describes its controllers") {
     CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
     CHECK(std::string(descriptor->license) == "MIT");
     const bool all_drives = controller.id == "dmrp.controller.pure_pursuit";
-    const bool holonomic =
-        all_drives || controller.id == "dmrp.controller.stop_and_wait" || controller.id == "dmrp.controller.mppi";
+    const std::vector<std::string> holonomic = {"dmrp.controller.mppi", "dmrp.controller.orca",
+                                                "dmrp.controller.pure_pursuit", "dmrp.controller.stop_and_wait"};
+    const bool is_holonomic = std::find(holonomic.begin(), holonomic.end(), controller.id) != holonomic.end();
     CHECK(descriptor->kinematics ==
-          (1u << DMRP_KINEMATICS_DIFFERENTIAL | (holonomic ? 1u << DMRP_KINEMATICS_HOLONOMIC : 0u) |
+          (1u << DMRP_KINEMATICS_DIFFERENTIAL | (is_holonomic ? 1u << DMRP_KINEMATICS_HOLONOMIC : 0u) |
            (all_drives ? 1u << DMRP_KINEMATICS_ACKERMANN : 0u)));
     CHECK(descriptor->flags == (controller.reverses ? DMRP_FLAG_BACKWARDS : 0u));
     for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {

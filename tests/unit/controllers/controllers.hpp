@@ -28,6 +28,7 @@ inline std::ostream& operator<<(std::ostream& out, const Controller& controller)
 inline std::vector<Controller> all_controllers() {
   return {{"dmrp.controller.stop_and_wait", false, false},
           {"dmrp.controller.mppi"},
+          {"dmrp.controller.orca", false, false},
           {"dmrp.controller.pure_pursuit", false, false},
           {"dmrp.controller.dwa"},
           {"dmrp.controller.teb"},

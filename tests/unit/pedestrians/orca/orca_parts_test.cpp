@@ -8,11 +8,12 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <optional>
 
-#include "pedestrians/orca/linear_program.hpp"
-#include "pedestrians/orca/velocity_obstacle.hpp"
 #include "pedestrians/orca/wall_obstacles.hpp"
+#include "reciprocal/linear_program.hpp"
+#include "reciprocal/velocity_obstacle.hpp"
 
 using namespace dmrp::pedestrians;
+using namespace dmrp::reciprocal;
 using dmrp::toolkit::cross;
 using dmrp::toolkit::distance;
 using dmrp::toolkit::dot;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "pedestrians/orca/linear_program.hpp"
+#include "reciprocal/linear_program.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dmrp::pedestrians {
+namespace dmrp::reciprocal {
 
 namespace {
 
@@ -118,4 +118,4 @@ Vec2 VelocityProgram::least_violation(const std::vector<HalfPlane>& planes, std:
   return best;
 }
 
-}  // namespace dmrp::pedestrians
+}  // namespace dmrp::reciprocal

@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-#include "pedestrians/orca/half_plane.hpp"
+#include "reciprocal/half_plane.hpp"
 
-namespace dmrp::pedestrians {
+namespace dmrp::reciprocal {
 
-// A neighbour, relative to the person.
+// A neighbour, relative to the person or robot that chooses.
 struct Encounter {
-  Vec2 apart;      // from the person to the neighbour, m; not zero
-  Vec2 approach;   // the person's velocity minus the neighbour's, m/s
+  Vec2 apart;      // from the chooser to the neighbour, m; not zero
+  Vec2 approach;   // its velocity minus the neighbour's, m/s
   double reach_m;  // sum of the radii
 };
 
@@ -51,9 +51,9 @@ inline Escape escape(const Encounter& met, double horizon_s, double step_s) {
   return {normal * -toolkit::dot(met.approach, normal), normal};
 }
 
-// A person at `velocity` makes this share of the change and expects the neighbour to make the rest.
+// Whoever is at `velocity` makes this share of the change and expects the neighbour to make the rest.
 inline HalfPlane give_way(const Escape& away, Vec2 velocity, double share) {
   return half_plane(velocity + share * away.change, away.normal);
 }
 
-}  // namespace dmrp::pedestrians
+}  // namespace dmrp::reciprocal

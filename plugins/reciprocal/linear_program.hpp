@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "pedestrians/orca/half_plane.hpp"
+#include "reciprocal/half_plane.hpp"
 
-namespace dmrp::pedestrians {
+namespace dmrp::reciprocal {
 
 // Keeps its buffer from one solution to the next.
 class VelocityProgram {
@@ -28,4 +28,4 @@ class VelocityProgram {
   std::vector<HalfPlane> bisected_;
 };
 
-}  // namespace dmrp::pedestrians
+}  // namespace dmrp::reciprocal

@@ -5,7 +5,7 @@
 #include <dmrp/cpp/plugin_base.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-namespace dmrp::pedestrians {
+namespace dmrp::reciprocal {
 
 // All velocities on a line or to its left.
 struct HalfPlane {
@@ -23,4 +23,4 @@ inline double violation(const HalfPlane& plane, Vec2 velocity) {
   return toolkit::cross(plane.direction, plane.point - velocity);
 }
 
-}  // namespace dmrp::pedestrians
+}  // namespace dmrp::reciprocal

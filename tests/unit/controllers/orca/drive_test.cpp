@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// ORCA's robots among robots, people and walls.
+#include <catch2/catch.hpp>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+
+#include "tests/unit/controllers/controllers.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+constexpr const char* orca = "dmrp.controller.orca";
+
+}  // namespace
+
+TEST_CASE("Six of ORCA's robots change places on a circle") {
+  constexpr int count = 6;
+  std::vector<std::unique_ptr<Trip>> trips(count);
+  const auto place = [](int i) {
+    return 4.0 * dmrp::toolkit::from_angle(2.0 * dmrp::toolkit::pi * i / count + 0.05 * i);
+  };
+  std::vector<const Trip*> all(count, nullptr);
+  for (int i = 0; i < count; ++i) {
+    Course course;
+    const dmrp_vec2 from = place(i);
+    course.path = metre_path({from, -1.0 * from});
+    course.start = {from.x, from.y, std::atan2(-from.y, -from.x)};
+    course.time_limit_s = 60.0;
+    for (int k = 0; k < count; ++k) {
+      if (k == i) continue;
+      course.walkers.push_back({0.25,
+                                [&all, k](double, dmrp_vec2) {
+                                  const Trip* other = all[static_cast<std::size_t>(k)];
+                                  return other ? dmrp::toolkit::position(other->pose()) : dmrp_vec2{99.0, 99.0};
+                                },
+                                DMRP_AGENT_ROBOT,
+                                [&all, k] {
+                                  const Trip* other = all[static_cast<std::size_t>(k)];
+                                  return other ? other->velocity() : dmrp_vec2{0.0, 0.0};
+                                }});
+    }
+    trips[static_cast<std::size_t>(i)] = std::make_unique<Trip>(orca, course);
+  }
+  std::vector<Trip*> driven;
+  for (int i = 0; i < count; ++i) {
+    driven.push_back(trips[static_cast<std::size_t>(i)].get());
+    all[static_cast<std::size_t>(i)] = driven.back();
+  }
+  drive_together(driven);
+  for (const Trip* trip : driven) {
+    const Drive& drive = trip->result();
+    CHECK(drive.arrived);
+    CHECK(drive.breaches == std::vector<std::string>{});
+    CHECK(drive.walker_clearance_m > 0.0);
+  }
+}
+
+TEST_CASE("ORCA's robots keep off walls that their path cuts") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+  course.boxes = {{{2.5, -2.0}, {3.5, -0.15}}};  // 0.1 m into the way of the robot
+  const Drive drive = run(orca, course);
+  CHECK(drive.arrived);
+  CHECK(drive.static_clearance_m > 0.0);
+}
+
+TEST_CASE("ORCA gives way to a person who does not") {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
+  course.walkers = {walking({8.0, 0.1}, {-2.0, 0.1}, 1.0)};
+  const Drive drive = run(orca, course);
+  CHECK(drive.arrived);
+  CHECK(drive.walker_clearance_m > 0.0);
+}
