@@ -86,4 +86,20 @@ double inscribed_radius(const RobotSettings& robot) {
   return robot.parts.empty() ? robot.radius_m : inscribed_radius(robot.parts);
 }
 
+ConvexPolygon swept(const ConvexPolygon& polygon, dmrp_vec2 way) {
+  ConvexPolygon area;
+  const auto leads = [&](std::size_t edge) {
+    const dmrp_segment side = toolkit::PolygonView(polygon).edge(edge);
+    return toolkit::cross(way, side.to - side.from) > 0.0;  // its outward normal points ahead
+  };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const bool before = leads((i + polygon.size() - 1) % polygon.size());
+    const bool after = leads(i);
+    if (before) area.push_back(polygon[i] + way);
+    if (before != after || !before) area.push_back(polygon[i]);
+    if (!before && after) area.push_back(polygon[i] + way);
+  }
+  return area;
+}
+
 }  // namespace dmrp::core

@@ -18,4 +18,7 @@ double inscribed_radius(std::span<const ConvexPolygon> parts);
 // Of the footprint: the disc's radius, or that of the parts.
 double inscribed_radius(const RobotSettings& robot);
 
+// The area that a convex polygon covers while it moves by `way` without turning, itself convex.
+ConvexPolygon swept(const ConvexPolygon& polygon, dmrp_vec2 way);
+
 }  // namespace dmrp::core

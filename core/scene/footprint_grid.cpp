@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/footprint.hpp"
+
 namespace dmrp::core {
 namespace {
 
@@ -21,23 +23,6 @@ constexpr int axes = 4;  // the directions 0 to 3; each axis also has the opposi
 constexpr int any_axis = axes;
 constexpr int no_axis = -1;
 constexpr double touching_m = 1e-9;
-
-// The area that a convex polygon covers while it moves by `way`, itself convex.
-ConvexPolygon swept(const ConvexPolygon& polygon, dmrp_vec2 way) {
-  ConvexPolygon area;
-  const auto leads = [&](std::size_t edge) {
-    const dmrp_segment side = toolkit::PolygonView(polygon).edge(edge);
-    return toolkit::cross(way, side.to - side.from) > 0.0;  // its outward normal points ahead
-  };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const bool before = leads((i + polygon.size() - 1) % polygon.size());
-    const bool after = leads(i);
-    if (before) area.push_back(polygon[i] + way);
-    if (before != after || !before) area.push_back(polygon[i]);
-    if (!before && after) area.push_back(polygon[i] + way);
-  }
-  return area;
-}
 
 // The number of cells in each connected part of a growing graph.
 class Parts {

@@ -14,6 +14,7 @@
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
+#include "host/plan/check_planners.hpp"
 #include "host/process/box.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
@@ -158,6 +159,7 @@ class RunFiles {
 
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
   const Experiment experiment = load_experiment(options.experiment, options.trials);
+  check_planners(experiment, options.experiment);
   if (!options.quiet)
     for (const std::string& warning : experiment.warnings) warn(warning);
   if (const std::string gaps = box::gaps(); !options.quiet && !gaps.empty()) warn(gaps);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/scene/random_tasks.hpp"
 #include "core/scene/robot_task.hpp"
 #include "core/scene/static_geometry.hpp"
+#include "core/scene/step_overlaps.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_people.hpp"
 
@@ -44,12 +46,6 @@ std::string shown_size(const core::RobotSettings& type) {
                      2.0 * core::inscribed_radius(type));
 }
 
-std::vector<std::string> listed_types(const core::Scenario& scenario) {
-  std::vector<std::string> types;
-  for (const core::RobotTask& task : scenario.robots) types.push_back(task.type);
-  return types;
-}
-
 class WorldCheck {
  public:
   WorldCheck(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment, const RandomRobots& drawn)
@@ -59,8 +55,9 @@ class WorldCheck {
         drawn_(drawn),
         scenario_(file.scenario),
         geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
-        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m),
-        common_(planning_.common(listed_types(scenario_))) {}
+        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m) {
+    for (const core::RobotSettings& type : types.all()) grids_[type.type] = planning_.of(type.type).view();
+  }
 
   const core::PlanningGrids& planning_grids() const { return planning_; }
 
@@ -80,7 +77,7 @@ class WorldCheck {
     file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot + 1, text));
   }
 
-  // The two largest robots can pass each other on neighbouring cells.
+  // The two largest robots fit cells next to each other, whatever they do.
   void check_cell_size() {
     std::vector<double> radii_m;
     for (const core::RobotTask& task : scenario_.robots) radii_m.push_back(types_.of(task).radius_m);
@@ -89,7 +86,8 @@ class WorldCheck {
     const double safe_cell_m = std::sqrt(2.0) * (radii_m[0] + radii_m[1]);
     if (experiment_.simulation.grid_resolution_m < safe_cell_m)
       warn(file_.size,
-           fmt::format("cells of {} m are smaller than {} = {:.3f} m: robots that follow a valid plan can touch",
+           fmt::format("cells of {} m are smaller than {} = {:.3f} m: robots can touch on different cells; plans "
+                       "keep them apart by their footprints",
                        experiment_.simulation.grid_resolution_m,
                        radii_m[0] == radii_m[1] ? "2 sqrt(2) r" : "sqrt(2) (r1 + r2)", safe_cell_m));
   }
@@ -142,18 +140,12 @@ class WorldCheck {
     const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
     const auto seen = core::reachable_cells(planning, grid.index(grid.cell_of(start)));
-    const auto seen_by_all = core::reachable_cells(common_, grid.index(grid.cell_of(start)));
     for (const dmrp_pose& goal : task.goals) {
       const dmrp_vec2 point = {goal.x, goal.y};
       check_place(robot, "has its goal", "goal", goal);
       if (!seen[grid.index(grid.cell_of(point))])
         fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}",
                                       goal.x, goal.y, start.x, start.y, shown_size(types_.of(task))));
-      if (!seen_by_all[grid.index(grid.cell_of(point))])
-        warn(file_.robots[robot],
-             fmt::format("robot {} reaches its goal ({}, {}) only over cells that are not open for all types: planners "
-                         "that use one grid for all robots find no plan",
-                         robot + 1, goal.x, goal.y));
     }
   }
 
@@ -174,10 +166,27 @@ class WorldCheck {
                                 distance_m, touching_m));
     if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})))
       fail_robot(b, fmt::format("has its {} on the same planning cell as robot {}", noun, a + 1));
+    check_cells(a, b, noun, grid.cell_of({p.x, p.y}), grid.cell_of({q.x, q.y}));
     if (distance_m <= start_distance_m)
       warn(file_.robots[b],
            fmt::format("the {}s of robots {} and {} are {:.2f} m apart; the method wants more than {} m", noun, a + 1,
                        b + 1, distance_m, start_distance_m));
+  }
+
+  // Plans stand robots on the centres of cells, at any heading.
+  void check_cells(std::size_t a, std::size_t b, const char* noun, toolkit::Cell cell_a, toolkit::Cell cell_b) const {
+    const auto body = [&](std::size_t robot) {
+      const core::RobotSettings& type = types_.of(scenario_.robots[robot]);
+      return core::StepOverlaps::Robot{type.radius_m, type.parts, &grids_.at(type.type), true};
+    };
+    const double cell_m = experiment_.simulation.grid_resolution_m;
+    core::StepOverlaps overlaps(cell_m, {body(a), body(b)});
+    if (!overlaps.are_possible() || !overlaps.overlap(0, cell_a, 1, cell_b)) return;
+    fail_robot(
+        b, fmt::format("has its {} on a cell that overlaps robot {} on its own (centres {:.2f} m apart, radii {:.2f} "
+                       "and {:.2f} m)",
+                       noun, a + 1, cell_m * std::hypot(cell_a.column - cell_b.column, cell_a.row - cell_b.row),
+                       body(a).radius_m, body(b).radius_m));
   }
 
   const ScenarioFile& file_;
@@ -187,7 +196,7 @@ class WorldCheck {
   const core::Scenario& scenario_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   core::PlanningGrids planning_;
-  core::PlanningGrid common_;  // open for all listed robots
+  std::map<std::string, dmrp_grid> grids_;  // by type of robot
 };
 
 }  // namespace

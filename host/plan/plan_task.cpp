@@ -61,6 +61,10 @@ void stage_cells(const dmrp_world& world, const Experiment& experiment, StagedPr
 std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   auto task = std::make_unique<PlanTask>();
   task->variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0]);
+  if (is_drawn(experiment.scenarios[0])) {
+    const std::uint64_t seed = world_seed(experiment, task->variant->scenario.name, 0);
+    task->variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0], *task->variant, seed);
+  }
   const VariantWorld& variant = *task->variant;
   task->geometry = variant.geometry;
   const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, variant.routes,

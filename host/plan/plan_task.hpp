@@ -26,8 +26,8 @@ struct PlanTask {
   }
 };
 
-// The first planning problem of a trial in the experiment's only scenario. The experiment outlives the task. The robots
-// stand on distinct cells (check_world()).
+// The first planning problem of a trial in the experiment's first scenario; with drawn robots, of the first repetition.
+// The experiment outlives the task. The robots stand on distinct cells (check_world()).
 std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment);
 
 // Robots of radius 0 on the 1 m cells of a map, on which every free cell is open. Of the experiment's simulation settings

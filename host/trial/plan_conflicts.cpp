@@ -100,7 +100,7 @@ class Positions {
   std::vector<std::size_t> used_;
 };
 
-// The pairs that may conflict between two steps. Each conflict shows in the cells around at least one of its moves:
+// The pairs that may conflict between two steps, by their cells. Each conflict shows in the cells around at least one of its moves:
 // a robot that arrives in the same cell, one that leaves the cell where this one goes, one beside a diagonal.
 void list_neighbours(const std::vector<std::vector<PlanCell>>& cells, std::size_t step, const Positions& now,
                      const Positions& next, std::vector<Pair>& pairs) {
@@ -122,6 +122,20 @@ void list_neighbours(const std::vector<std::vector<PlanCell>>& cells, std::size_
       now.visit(side, add);
       next.visit(side, add);
     }
+  }
+  make_unique(pairs);
+}
+
+// Adds the pairs whose footprints may overlap between two steps.
+void list_near(const std::vector<std::vector<PlanCell>>& cells, std::size_t step, std::int32_t reach,
+               const Positions& now, std::vector<Pair>& pairs) {
+  for (Robot robot = 0; robot < cells.size(); ++robot) {
+    const PlanCell from = at(cells[robot], step);
+    for (std::int32_t row = from.row - reach; row <= from.row + reach; ++row)
+      for (std::int32_t column = from.column - reach; column <= from.column + reach; ++column)
+        now.visit({column, row}, [&](Robot other) {
+          if (other > robot) pairs.emplace_back(robot, other);
+        });
   }
   make_unique(pairs);
 }
@@ -301,7 +315,7 @@ class Intervals {
 
 }  // namespace
 
-PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cells) {
+PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cells, core::StepOverlaps& overlaps) {
   PlanConflicts found;
   if (cells.empty()) return found;
   std::size_t makespan = 0;
@@ -336,10 +350,14 @@ PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cell
     Positions& next = step % 2 == 0 ? odd : even;
     next.fill(step + 1);
     list_neighbours(cells, step, now, next, pairs);
+    if (overlaps.are_possible()) list_near(cells, step, overlaps.reach_cells(), now, pairs);
     for (const Pair& pair : pairs) {
       const auto& a = cells[pair.first];
       const auto& b = cells[pair.second];
-      const char* const kind = conflict(at(a, step), at(a, step + 1), at(b, step), at(b, step + 1));
+      const char* kind = conflict(at(a, step), at(a, step + 1), at(b, step), at(b, step + 1));
+      if (!kind && overlaps.are_possible() &&
+          overlaps.overlap(pair.first, at(a, step), at(a, step + 1), pair.second, at(b, step), at(b, step + 1)))
+        kind = "footprint";
       if (kind)
         note(pair, [&] {
           return fmt::format("{} conflict of robots {} and {} at step {}", kind, pair.first, pair.second, step + 1);

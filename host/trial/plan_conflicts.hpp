@@ -8,27 +8,24 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/step_overlaps.hpp"
+
 namespace dmrp::host {
 
 // The paths of a plan, one per robot.
 using PlannedPaths = std::vector<std::vector<dmrp_waypoint>>;
 
-// A cell of the grid.
-struct PlanCell {
-  std::int32_t column = 0;
-  std::int32_t row = 0;
-  bool operator==(const PlanCell&) const = default;
-};
+using PlanCell = toolkit::Cell;
 
 struct PlanConflicts {
   std::uint32_t count = 0;
   std::string first;  // of the pair of robots with the lowest numbers, its earliest; in one line
 };
 
-// Of paths on the grid, one cell for each step: vertex, swap, crossing and passing conflicts, one for each pair and
-// step, and pairs that share a start. A robot rests in its last cell. Takes time proportional to robots x steps and to
-// the number of conflicts.
-PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cells);
+// Of paths on the grid, one cell for each step: vertex, swap, crossing and passing conflicts, and footprints that
+// overlap, one for each pair and step; and pairs that share a start. A robot rests in its last cell. Takes time
+// proportional to robots x steps and to the number of robots that are near each other.
+PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cells, core::StepOverlaps& overlaps);
 
 // Of discs that move linearly between waypoints and rest at the last one: one for each pair and each interval between
 // waypoints of either in which they overlap. All positions are finite.

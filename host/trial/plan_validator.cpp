@@ -127,6 +127,20 @@ std::vector<double> radii_m(const dmrp_planning_problem& problem) {
   return radii;
 }
 
+std::vector<core::StepOverlaps::Robot> robots_of(const dmrp_planning_problem& problem) {
+  std::vector<core::StepOverlaps::Robot> robots;
+  for (std::size_t i = 0; i < problem.robot_count; ++i) {
+    const auto& robot = *DMRP_AT(dmrp_planning_robot, problem.robots, problem.robot_stride, i);
+    const dmrp_footprint& footprint = *robot.robot->footprint;
+    robots.push_back({footprint.radius_m, {}, robot.grid, robot.state == DMRP_ROBOT_ACTIVE});
+    for (std::uint32_t p = 0; p < footprint.part_count; ++p) {
+      const dmrp_polygon& part = *DMRP_AT(dmrp_polygon, footprint.parts, footprint.part_stride, p);
+      robots.back().parts.emplace_back(part.vertices, part.vertices + part.vertex_count);
+    }
+  }
+  return robots;
+}
+
 }  // namespace
 
 PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPaths& paths, std::uint32_t connectivity,
@@ -145,8 +159,9 @@ PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPat
                                                             : check_steps(problem, i, paths[i], connectivity, cells[i]);
     if (!verdict.error.empty()) return verdict;
   }
-  PlanConflicts conflicts =
-      connectivity == DMRP_CONNECTIVITY_ANY ? find_disc_conflicts(paths, radii_m(problem)) : find_step_conflicts(cells);
+  core::StepOverlaps overlaps(problem.grid->resolution_m, robots_of(problem));
+  PlanConflicts conflicts = connectivity == DMRP_CONNECTIVITY_ANY ? find_disc_conflicts(paths, radii_m(problem))
+                                                                  : find_step_conflicts(cells, overlaps);
   verdict.conflicts = conflicts.count;
   verdict.first_conflict = std::move(conflicts.first);
   return verdict;

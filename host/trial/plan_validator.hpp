@@ -18,12 +18,13 @@ using SweepIsFree = std::function<bool(dmrp_vec2 from, dmrp_vec2 to, double radi
 
 struct PlanVerdict {
   std::string error;            // the first breach of the contract, in one line; empty if there is none
-  std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing and passing; any angle: discs that overlap
+  std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing, passing, footprint; any angle: discs
   std::string first_conflict;   // in one line
 };
 
 // Checks structure (start, strictly growing times, goals in order, rest at the last), moves (free cells, edge mask,
-// one step each; any angle: swept discs) and conflicts between robots (robots rest at their last waypoint).
+// one step each; any angle: swept discs) and conflicts between robots (robots rest at their last waypoint): by cells and
+// by footprints (step_overlaps.hpp); of plans at any angle, by the circles around the footprints.
 PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPaths& paths, std::uint32_t connectivity,
                           const SweepIsFree& sweep_is_free);
 

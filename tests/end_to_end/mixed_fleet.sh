@@ -37,3 +37,12 @@ arrived=$(query "$scratch/all" "SELECT sum(value) FROM value WHERE metric = 'suc
 
 sed 's/"dmrp.controller.pure_pursuit"/"dmrp.controller.dwa"/' "$scratch/all.toml" >"$scratch/dwa.toml"
 expect_status 2 "$host" validate "$scratch/dwa.toml"
+
+# planners that plan for robots of one kind refuse, at their place in the file
+sed 's/"dmrp.planner.cbs"/"dmrp.planner.pibt"/' "$example" >"$scratch/pibt.toml"
+expect_status 2 "$host" validate "$scratch/pibt.toml"
+said="pibt\.toml:[0-9]+:[0-9]+: dmrp\.planner\.pibt cannot plan for scenario 'mall.*': robot . \(radius 0\.67 m\) and robot "
+said+=". \(radius 0\.67 m\) can touch without meeting in a cell: radii of 1\.34 m together"
+grep -qE "$said" "$scratch/stderr" || fail "validate said: $(<"$scratch/stderr")"
+expect_status 2 "$host" "$scratch/pibt.toml" --quiet --out "$scratch/pibt"
+expect_status 0 "$host" validate "$example"

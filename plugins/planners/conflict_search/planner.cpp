@@ -5,14 +5,23 @@
 #include <numeric>
 
 #include "planners/conflict_search/high_level/high_level.hpp"
+#include "planners/large_agents/planning.hpp"
 #include "planners/mapf/solvability.hpp"
 #include "planners/mapf/straighten.hpp"
+#include "planners/mapf/unequal_robots.hpp"
 
 namespace dmrp::planners {
 
 Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink& sink) {
-  const Problem problem = make_problem(host_problem, true);
   StopSignal stop([this] { return should_stop(); });
+  if (find_unequal_robots(host_problem)) {
+    const ConflictSearchOptions chosen = options();
+    const FleetAnswer answer =
+        plan_by_conflict_search(host_problem, chosen.suboptimality, chosen.node_limit, stop, sink);
+    if (!answer.error.empty()) set_error(answer.error);
+    return answer.status;
+  }
+  const Problem problem = make_problem(host_problem, true);
   const auto tables = make_tour_tables(problem, stop);
   if (!tables) return Status::timeout;
   if (const auto robot = find_cut_off_robot(problem, *tables)) {

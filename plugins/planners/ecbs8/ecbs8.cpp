@@ -6,6 +6,7 @@
 
 #include "planners/ecbs8/search.hpp"
 #include "planners/mapf/solvability.hpp"
+#include "planners/mapf/unequal_robots.hpp"
 
 namespace dmrp::planners {
 
@@ -41,6 +42,10 @@ double length_of(const ecbs8::Graph& graph, const std::vector<PathView>& paths) 
 
 Status Ecbs8::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   using namespace ecbs8;
+  if (const auto unequal = find_unequal_robots(host_problem)) {
+    set_error(refusal(*unequal));
+    return Status::no_solution;
+  }
   const ecbs8::Problem problem = make_problem<8>(host_problem, true);
   StopSignal stop([this] { return should_stop(); });
   const auto distances = make_tour_distances(problem, stop);

@@ -2,11 +2,16 @@
 #include "planners/mapf/preparation.hpp"
 
 #include "planners/mapf/solvability.hpp"
+#include "planners/mapf/unequal_robots.hpp"
 
 namespace dmrp::planners {
 
 std::optional<Preparation> prepare(const PlanningProblem& host_problem, StopSignal& stop) {
   Preparation out{make_problem(host_problem, true), {}, {}};
+  if (auto unequal = find_unequal_robots(host_problem)) {
+    out.obstruction = refusal(*unequal);
+    return out;
+  }
   auto tables = make_tour_tables(out.problem, stop);
   if (!tables) return std::nullopt;
   out.tables = std::move(*tables);

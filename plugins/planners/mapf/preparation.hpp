@@ -25,7 +25,7 @@ struct Preparation {
   }
 };
 
-// Nothing if `stop` was raised.
+// Nothing if `stop` was raised. Robots that differ or do not fit their cells are an obstruction (unequal_robots.hpp).
 std::optional<Preparation> prepare(const PlanningProblem& host_problem, StopSignal& stop);
 
 }  // namespace dmrp::planners

@@ -14,9 +14,11 @@ Waypoint waypoint_at(dmrp_vec2 point, std::int64_t t_ns, std::uint32_t goal_inde
   return {point.x, point.y, any_heading, t_ns, goal_index, 0};
 }
 
+}  // namespace
+
 template <Direction connectivity>
-std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph,
-                                   const Agent& agent, PathView path) {
+void write_path(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph, const Agent& agent,
+                PathView path, PlanSink& sink) {
   std::vector<Waypoint> waypoints;
   waypoints.reserve(path.size());
   std::int64_t t_ns = host_problem.effective_from_ns;
@@ -27,10 +29,23 @@ std::vector<Waypoint> waypoints_of(const PlanningProblem& host_problem, const Ba
     leg = agent.leg_after(leg, location);
     t_ns += host_problem.step_duration_ns;
   }
-  return waypoints;
+  sink.path(agent.robot, waypoints);
 }
 
-}  // namespace
+void write_resting_robots(const PlanningProblem& host_problem, PlanSink& sink) {
+  for (std::uint32_t i = 0; i < host_problem.robots.size(); ++i) {
+    const PlanningRobot& robot = host_problem.robots[i];
+    if (robot.state != DMRP_ROBOT_ACTIVE)
+      sink.path(i, {waypoint_at(robot.start, host_problem.effective_from_ns, robot.first_goal_index)});
+  }
+}
+
+template <Direction connectivity>
+Agent agent_on(const BasicGridGraph<connectivity>& graph, const PlanningRobot& robot, std::uint32_t number) {
+  Agent agent{number, graph.locate(robot.start), {}, robot.first_goal_index};
+  for (const Goal& goal : goals(robot)) agent.goals.push_back(graph.locate({goal.pose.x, goal.pose.y}));
+  return agent;
+}
 
 template <Direction connectivity>
 BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block) {
@@ -42,10 +57,7 @@ BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool res
     }
   for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
     const PlanningRobot& robot = problem.robots[i];
-    if (robot.state != DMRP_ROBOT_ACTIVE) continue;
-    Agent agent{i, out.graph.locate(robot.start), {}, robot.first_goal_index};
-    for (const Goal& goal : goals(robot)) agent.goals.push_back(out.graph.locate({goal.pose.x, goal.pose.y}));
-    out.agents.push_back(std::move(agent));
+    if (robot.state == DMRP_ROBOT_ACTIVE) out.agents.push_back(agent_on(out.graph, robot, i));
   }
   return out;
 }
@@ -54,12 +66,8 @@ template <Direction connectivity>
 void write_paths(const PlanningProblem& host_problem, const BasicProblem<connectivity>& problem,
                  const std::vector<PathView>& paths, PlanSink& sink) {
   for (std::size_t i = 0; i < paths.size(); ++i)
-    sink.path(problem.agents[i].robot, waypoints_of(host_problem, problem.graph, problem.agents[i], paths[i]));
-  for (std::uint32_t i = 0; i < host_problem.robots.size(); ++i) {
-    const PlanningRobot& robot = host_problem.robots[i];
-    if (robot.state != DMRP_ROBOT_ACTIVE)
-      sink.path(i, {waypoint_at(robot.start, host_problem.effective_from_ns, robot.first_goal_index)});
-  }
+    write_path(host_problem, problem.graph, problem.agents[i], paths[i], sink);
+  write_resting_robots(host_problem, sink);
 }
 
 template <Direction connectivity>
@@ -75,8 +83,12 @@ std::int32_t count_turns(const BasicGridGraph<connectivity>& graph, PathView pat
   return turns;
 }
 
+template Agent agent_on(const BasicGridGraph<4>&, const PlanningRobot&, std::uint32_t);
+template Agent agent_on(const BasicGridGraph<8>&, const PlanningRobot&, std::uint32_t);
 template BasicProblem<4> make_problem<4>(const PlanningProblem&, bool);
 template BasicProblem<8> make_problem<8>(const PlanningProblem&, bool);
+template void write_path(const PlanningProblem&, const BasicGridGraph<4>&, const Agent&, PathView, PlanSink&);
+template void write_path(const PlanningProblem&, const BasicGridGraph<8>&, const Agent&, PathView, PlanSink&);
 template void write_paths(const PlanningProblem&, const BasicProblem<4>&, const std::vector<PathView>&, PlanSink&);
 template void write_paths(const PlanningProblem&, const BasicProblem<8>&, const std::vector<PathView>&, PlanSink&);
 template std::int32_t count_turns(const BasicGridGraph<4>&, PathView);

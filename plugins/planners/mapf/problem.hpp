@@ -51,10 +51,21 @@ inline std::int32_t cost_of(PathView path) {
   return static_cast<std::int32_t>(path.size()) - 1;
 }
 
-// Robots that are not active rest where they are; with `resting_robots_block` their cells are removed from the graph.
-// Starts and goals that are not on a free cell become nowhere.
+// An active robot of the host's problem on a graph. Starts and goals that are not on a free cell become nowhere.
+template <Direction connectivity>
+Agent agent_on(const BasicGridGraph<connectivity>& graph, const PlanningRobot& robot, std::uint32_t number);
+
+// All on the common grid. Robots that are not active rest where they are; with `resting_robots_block` their cells are removed from the graph.
 template <Direction connectivity = 4>
 BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block);
+
+// Gives the host the path of one active robot.
+template <Direction connectivity>
+void write_path(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph, const Agent& agent,
+                PathView path, PlanSink& sink);
+
+// Gives the host one waypoint for each robot that is not active.
+void write_resting_robots(const PlanningProblem& host_problem, PlanSink& sink);
 
 // Gives the host the paths of the active robots, in the order of problem.agents, and one waypoint for each resting
 // robot.

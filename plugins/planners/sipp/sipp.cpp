@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "planners/sipp/sipp.hpp"
 
+#include "planners/large_agents/planning.hpp"
 #include "planners/mapf/solvability.hpp"
 #include "planners/mapf/straighten.hpp"
+#include "planners/mapf/unequal_robots.hpp"
 #include "planners/sipp/prioritized_search.hpp"
 
 namespace dmrp::planners {
@@ -24,8 +26,13 @@ Status Sipp::start(const Start& start) {
 }
 
 Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
-  const Problem problem = make_problem(host_problem, true);
   StopSignal stop([this] { return should_stop(); });
+  if (find_unequal_robots(host_problem)) {
+    const FleetAnswer answer = plan_by_priorities(host_problem, *restarts, seed_, stop, sink);
+    if (!answer.error.empty()) set_error(answer.error);
+    return answer.status;
+  }
+  const Problem problem = make_problem(host_problem, true);
   const auto tables = make_tour_tables(problem, stop);
   if (!tables) return Status::timeout;
   if (const auto robot = find_cut_off_robot(problem, *tables)) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -14,6 +15,9 @@
 #include "tests/unit/planners/planning_case.hpp"
 
 namespace dmrp::test {
+
+// Whether the steps of two robots, given by their numbers among the active ones, conflict: for robots that differ.
+using PairConflict = std::function<bool(std::size_t a, CellXY a0, CellXY a1, std::size_t b, CellXY b0, CellXY b1)>;
 
 // Moves in four directions; each step costs 1.
 struct FourDirections {
@@ -34,8 +38,9 @@ class BasicJointSearch {
   using Cost = typename Moves::Cost;
 
   // Gives up after visiting `most_states` joint positions.
-  explicit BasicJointSearch(const PlanningCase& c, std::size_t most_states = std::numeric_limits<std::size_t>::max())
-      : case_(c), most_states_(most_states) {
+  explicit BasicJointSearch(const PlanningCase& c, std::size_t most_states = std::numeric_limits<std::size_t>::max(),
+                            PairConflict pair_conflict = nullptr)
+      : case_(c), most_states_(most_states), pair_conflict_(std::move(pair_conflict)) {
     for (const CaseRobot& robot : c.robots) {
       if (robot.state == DMRP_ROBOT_ACTIVE)
         robots_.push_back(&robot);
@@ -51,7 +56,7 @@ class BasicJointSearch {
     for (const CaseRobot* robot : robots_) start.push_back({robot->start, 0, false});
     for (std::size_t a = 0; a < start.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
-        if (start[a].cell == start[b].cell) return std::nullopt;
+        if (conflict(a, start[a].cell, start[a].cell, b, start[b].cell, start[b].cell)) return std::nullopt;
     offer_with_rests(start, 0, 0);
     while (!open_.empty()) {
       if (best_.size() > most_states_) return std::nullopt;
@@ -83,7 +88,8 @@ class BasicJointSearch {
   };
   using State = std::vector<Place>;
 
-  bool is_open(CellXY from, CellXY to) const {
+  bool is_open(const CaseRobot& robot, CellXY from, CellXY to) const {
+    if (std::find(robot.closed.begin(), robot.closed.end(), to) != robot.closed.end()) return false;
     if (!case_.is_free(to) || (!(from == to) && !case_.is_open(from, to))) return false;
     return std::none_of(resting_.begin(), resting_.end(),
                         [&](CellXY cell) { return Moves::conflict(from, to, cell, cell); });
@@ -113,7 +119,7 @@ class BasicJointSearch {
             if (leg + 1 == static_cast<int>(robot.goals.size()) && place.cell == robot.goals.back()) best = 0;
             const auto next_leg = static_cast<std::size_t>(leg_after(robot, place));
             for (const CellXY to : Moves::reach(place.cell))
-              if (is_open(place.cell, to))
+              if (is_open(robot, place.cell, to))
                 best = std::min(best, Moves::step_cost(place.cell, to) + distance[next_leg * cells + case_.index(to)]);
             changed = changed || best < here - Moves::tolerance;
             here = best;
@@ -146,15 +152,18 @@ class BasicJointSearch {
     }
     const int leg = leg_after(*robots_[robot], from[robot]);
     for (const CellXY cell : Moves::reach(from[robot].cell)) {
-      if (!is_open(from[robot].cell, cell)) continue;
+      if (!is_open(*robots_[robot], from[robot].cell, cell)) continue;
       to[robot] = {cell, leg, false};
       if (!meets(from, to, robot)) move(from, to, robot + 1, cost + Moves::step_cost(from[robot].cell, cell));
     }
   }
-  static bool meets(const State& from, const State& to, std::size_t robot) {
+  bool meets(const State& from, const State& to, std::size_t robot) const {
     for (std::size_t other = 0; other < robot; ++other)
-      if (Moves::conflict(from[robot].cell, to[robot].cell, from[other].cell, to[other].cell)) return true;
+      if (conflict(robot, from[robot].cell, to[robot].cell, other, from[other].cell, to[other].cell)) return true;
     return false;
+  }
+  bool conflict(std::size_t a, CellXY a0, CellXY a1, std::size_t b, CellXY b0, CellXY b1) const {
+    return Moves::conflict(a0, a1, b0, b1) || (pair_conflict_ && pair_conflict_(a, a0, a1, b, b0, b1));
   }
 
   // Every robot at the end of its tour may come to rest there, or not.
@@ -197,6 +206,7 @@ class BasicJointSearch {
   using Open = std::pair<Cost, uint64_t>;
   const PlanningCase& case_;
   std::size_t most_states_;
+  PairConflict pair_conflict_;
   std::vector<const CaseRobot*> robots_;
   std::vector<CellXY> resting_;
   std::vector<std::vector<Cost>> distances_;

@@ -26,6 +26,9 @@ struct CaseRobot {
   CellXY start;
   std::vector<CellXY> goals;
   uint32_t state = DMRP_ROBOT_ACTIVE;
+  double radius_m = 0.15;            // of the circle around the outline; robots of this size fit the cells
+  std::vector<dmrp_vec2> outline{};  // a convex polygon; none: the disc
+  std::vector<CellXY> closed{};      // cells that are not free for this robot alone
 };
 
 // Cells of 0.5 m with the lower left corner at (10, -3), so that planners cannot rely on unit cells or on the origin.
@@ -118,8 +121,6 @@ class CProblem {
     grid_.clearance = clearance_.data();
 
     limits_.struct_size = sizeof(limits_);
-    footprint_.struct_size = sizeof(footprint_);
-    footprint_.radius_m = footprint_.inscribed_radius_m = 0.2;
     for (const CaseRobot& robot : c.robots) add(c, robot);
 
     problem_.struct_size = sizeof(problem_);
@@ -159,7 +160,7 @@ class CProblem {
     whole.name = "robot";
     whole.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
     whole.limits = &limits_;
-    whole.footprint = &footprint_;
+    whole.footprint = footprint_of(robot);
     PaddedRobot& planning = robots_.emplace_back();
     planning.state = robot.state;
     planning.goals = goals.data();
@@ -167,14 +168,35 @@ class CProblem {
     planning.goal_stride = sizeof(dmrp_goal);
     planning.first_goal_index = 3;  // as if the robot had already reached three goals
     planning.robot = &whole;
+    planning.grid = grid_of(c, robot);
     planning.start = c.center(robot.start);
     planning.pose = {planning.start.x, planning.start.y, 0.0};
   }
 
-  dmrp_grid grid_{};
+  const dmrp_footprint* footprint_of(const CaseRobot& robot) {
+    dmrp_polygon& part = parts_.emplace_back();
+    part = {robot.outline.data(), static_cast<uint32_t>(robot.outline.size()), 0};
+    dmrp_footprint& footprint = footprints_.emplace_back();
+    footprint = {
+        sizeof(dmrp_footprint), robot.outline.empty() ? 0u : 1u, robot.radius_m, 0.1, &part, sizeof(dmrp_polygon), 0};
+    return &footprint;
+  }
+  const dmrp_grid* grid_of(const PlanningCase& c, const CaseRobot& robot) {
+    if (robot.closed.empty()) return &grid_;
+    std::vector<uint8_t>& free = free_.emplace_back(c.free);
+    for (const CellXY& cell : robot.closed) free[c.index(cell)] = 0;
+    own_grids_.push_back(grid_);
+    own_grids_.back().free = free.data();
+    return &own_grids_.back();
+  }
+
+  dmrp_grid grid_{};  // for all robots but those with closed cells
   std::vector<float> clearance_;
+  std::deque<dmrp_grid> own_grids_;
+  std::deque<std::vector<uint8_t>> free_;
   dmrp_limits limits_{};
-  dmrp_footprint footprint_{};
+  std::deque<dmrp_polygon> parts_;
+  std::deque<dmrp_footprint> footprints_;
   std::deque<std::vector<dmrp_goal>> goals_;
   std::deque<dmrp_robot> whole_;
   std::vector<PaddedRobot> robots_;

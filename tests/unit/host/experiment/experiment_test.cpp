@@ -215,8 +215,8 @@ TEST_CASE("all settings arrive") {
   // cells of 0.5 m for robots of 0.2 m: 2 sqrt(2) r = 0.566 m
   REQUIRE(e.warnings.size() == 1);
   CHECK(e.warnings[0] ==
-        "hall/scenario.toml:5:10: cells of 0.5 m are smaller than 2 sqrt(2) r = 0.566 m: robots that follow a valid "
-        "plan can touch");
+        "hall/scenario.toml:5:10: cells of 0.5 m are smaller than 2 sqrt(2) r = 0.566 m: robots can touch on "
+        "different cells; plans keep them apart by their footprints");
 }
 
 TEST_CASE("a sweep makes a labelled variant of every combination") {

@@ -315,6 +315,15 @@ TEST_CASE("mistakes in a scenario file") {
   }
 }
 
+TEST_CASE("robots must not overlap on the centres of their cells") {
+  const ExperimentFolder folder;
+  const std::string fine_cells = std::string(experiment_text) + "[simulation]\ngrid_resolution_m = 0.4\n";
+  CHECK(message_of(fine_cells, with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [1.01, 0.5]")) ==
+        "hall/scenario.toml:25:1: robot 2 has its start on a cell that overlaps robot 1 on its own (centres 0.40 m "
+        "apart, "
+        "radii 0.25 and 0.25 m)");
+}
+
 TEST_CASE("ordered execution needs conflict-free plans on cells") {
   const ExperimentFolder folder;
   const auto message = [](std::uint32_t connectivity, std::uint32_t flags) -> std::string {

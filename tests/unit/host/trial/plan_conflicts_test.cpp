@@ -15,6 +15,9 @@ using namespace dmrp::host;
 using Cells = std::vector<PlanCell>;
 using dmrp::toolkit::Stream;
 
+// Robots without extent.
+dmrp::core::StepOverlaps points(1.0, {});
+
 PlanCell at(const Cells& cells, std::size_t step) {
   return cells[std::min(step, cells.size() - 1)];
 }
@@ -135,7 +138,7 @@ TEST_CASE("conflicts of random walks are those that a comparison of all pairs fi
     CAPTURE(seed);
     const auto cells = random_walks(seed);
     const PlanConflicts expected = compare_all_steps(cells);
-    const PlanConflicts found = find_step_conflicts(cells);
+    const PlanConflicts found = find_step_conflicts(cells, points);
     REQUIRE(found.count == expected.count);
     REQUIRE(found.first == expected.first);
     conflicts += found.count;
@@ -162,6 +165,6 @@ TEST_CASE("overlaps of random discs are those that a comparison of all pairs fin
 }
 
 TEST_CASE("plans without robots have no conflicts") {
-  CHECK(find_step_conflicts({}).count == 0);
+  CHECK(find_step_conflicts({}, points).count == 0);
   CHECK(find_disc_conflicts({}, {}).count == 0);
 }

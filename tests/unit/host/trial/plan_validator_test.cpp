@@ -84,6 +84,7 @@ class Case {
     free_[static_cast<std::size_t>(cell.row) * width + static_cast<std::size_t>(cell.column)] = 0;
   }
   dmrp_planning_robot& robot(std::size_t i) { return robots_[i]; }
+  void set_radius(double radius_m) { footprint_.radius_m = radius_m; }
   void set_goals(std::size_t i, const std::vector<Cell>& cells) {
     goals_[i].clear();
     for (const Cell& cell : cells) goals_[i].push_back(goal_at(center(cell)));
@@ -394,4 +395,16 @@ TEST_CASE("any-angle plans are moving discs") {
     c.paths[1].insert(c.paths[1].begin(), waypoint({12, 24}, from_ns));
     CHECK(c.verdict(DMRP_CONNECTIVITY_ANY, open).conflicts > 0);
   }
+}
+
+TEST_CASE("footprints that overlap on different cells are conflicts, one for each step") {
+  Case c({path({{0, 0}, {1, 0}, {2, 0}, {3, 0}}), path({{1, 1}, {1, 1}, {1, 1}, {2, 1}})});
+  CHECK(c.verdict(4).conflicts == 0);
+  c.set_radius(0.5);  // they touch
+  CHECK(c.verdict(4).conflicts == 0);
+  c.set_radius(0.51);
+  const PlanVerdict verdict = c.verdict(4);
+  CHECK(verdict.error.empty());
+  CHECK(verdict.conflicts == 2);  // the first one arrives beside the other, and leaves
+  CHECK(verdict.first_conflict == "footprint conflict of robots 0 and 1 at step 1");
 }

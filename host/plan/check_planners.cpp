@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "host/plan/check_planners.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/scene/step_overlaps.hpp"
+#include "host/plan/planner_process.hpp"
+#include "host/toml/toml_document.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+// Whether robots of the variant have several types, or can touch on different cells.
+bool has_unequal_robots(const Experiment& experiment, const ScenarioVariant& variant) {
+  if (robot_count(variant) < 2) return false;
+  const std::vector<std::string> types = types_in_use(variant);
+  if (types.size() > 1) return true;
+  const double radius_m = variant.types.find(types.front())->radius_m;
+  const core::StepOverlaps::Robot robot{radius_m, {}, nullptr, true};
+  return core::StepOverlaps(experiment.simulation.grid_resolution_m, {robot, robot}).are_possible();
+}
+
+// Why the planner refuses; "" if it does not.
+std::string refusal_of(const Experiment& experiment, const ScenarioVariant& variant, const PluginUse& planner) {
+  Experiment asked = experiment;
+  asked.scenarios = {variant};
+  asked.global_planners = {planner};
+  asked.limits.planner_time_s = 0.0;
+  const PlannerRun run = run_planner(asked, *scenario_task(asked));
+  return run.answer && run.answer->status == DMRP_NO_SOLUTION ? run.answer->text : "";
+}
+
+}  // namespace
+
+void check_planners(const Experiment& experiment, const std::filesystem::path& shown_file) {
+  const TomlDocument document(shown_file.string(), experiment.text);
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    if (!has_unequal_robots(experiment, variant)) continue;
+    for (const PluginUse& planner : experiment.global_planners) {
+      const std::string refusal = refusal_of(experiment, variant, planner);
+      if (refusal.empty()) continue;
+      for (const TomlTable& table : document.root().tables(kind_name(DMRP_KIND_GLOBAL_PLANNER)))
+        if (const TomlValue use = table.need("use"); use.text() == planner.info.id)
+          use.fail(fmt::format("{} cannot plan for scenario '{}': {}", planner.info.id, variant.label, refusal));
+    }
+  }
+}
+
+}  // namespace dmrp::host

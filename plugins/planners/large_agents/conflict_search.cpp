@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "planners/large_agents/conflict_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmrp::planners {
+
+namespace {
+
+Location at(const std::vector<Location>& path, std::int32_t t) {
+  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
+}
+
+}  // namespace
+
+LargeAgentSearch::LargeAgentSearch(const PreparedFleet& prepared, double suboptimality, std::int64_t node_limit,
+                                   StopSignal& stop)
+    : prepared_(prepared),
+      fleet_(prepared.fleet),
+      suboptimality_(suboptimality),
+      node_limit_(node_limit),
+      stop_(stop),
+      low_level_(fleet_),
+      table_(fleet_) {}
+
+LargeAgentSearch::Result LargeAgentSearch::run() {
+  bound_ = static_cast<std::int64_t>(prepared_.lower_bound());
+  if (!make_root()) return Result::stopped;
+  while (!open_.empty()) {
+    if (stop_.poll_now()) return Result::stopped;
+    advance();
+    const NodeId best = std::get<2>(*focal_.begin());
+    if (nodes_[static_cast<std::size_t>(best)].conflicts.empty()) {
+      solved_ = best;
+      return Result::solved;
+    }
+    if (generated() >= node_limit_) return Result::node_limit;
+    expand(best);
+  }
+  return stop_.raised() ? Result::stopped : Result::unsolvable;
+}
+
+std::vector<PathView> LargeAgentSearch::solution() const {
+  std::vector<PathView> paths;
+  for (const Path& path : nodes_[static_cast<std::size_t>(solved_)].paths) paths.emplace_back(path->locations);
+  return paths;
+}
+
+// Plans the agents one after the other, each with few conflicts with those before.
+bool LargeAgentSearch::make_root() {
+  Node root;
+  root.paths.resize(fleet_.agents.size());
+  bans_.clear();
+  for (AgentIndex agent = 0; agent < fleet_.size(); ++agent)
+    if (!replan(root, agent)) return false;
+  for (AgentIndex a = 0; a < fleet_.size(); ++a)
+    for (AgentIndex b = a + 1; b < fleet_.size(); ++b)
+      if (const auto conflict = find_conflict(root, a, b)) root.conflicts.push_back(*conflict);
+  add_to_queues(std::move(root));
+  return true;
+}
+
+// Raises the bound to the least one of an open node and fills FOCAL.
+void LargeAgentSearch::advance() {
+  bound_ = std::max(bound_, open_.begin()->first);
+  const auto most = static_cast<std::int64_t>(std::floor(suboptimality_ * static_cast<double>(bound_) + 1e-9));
+  while (!beyond_.empty() && beyond_.begin()->first <= most) {
+    const auto [cost, id] = *beyond_.begin();
+    focal_.emplace(nodes_[static_cast<std::size_t>(id)].conflicts.size(), cost, id);
+    beyond_.erase(beyond_.begin());
+  }
+}
+
+void LargeAgentSearch::expand(NodeId id) {
+  ++expanded_;
+  open_.erase({nodes_[static_cast<std::size_t>(id)].bound, id});
+  focal_.erase(focal_.begin());
+  const Node& node = nodes_[static_cast<std::size_t>(id)];
+  const Conflict conflict = choose(node);
+  // an agent that rests: it comes to rest later, or the others keep away for good
+  for (const auto& [resting, passing] : {std::pair(conflict.a, conflict.b), std::pair(conflict.b, conflict.a)}) {
+    // it must have rested during a whole step if the other one passes on its way
+    const std::int32_t t = conflict.clash == Clash::at_end ? conflict.t : conflict.t - 1;
+    if (rests_from(node, resting) > t) continue;
+    const Location goal = fleet_.agents[static_cast<std::size_t>(resting)].last_goal();
+    const Ban keep_away{Ban::Kind::rest_near, -1, resting, nowhere, goal, t};
+    add_child(id, {{Ban::Kind::finish_by, resting, -1, nowhere, goal, t}});
+    add_child(id, {{Ban::Kind::finish_after, resting, -1, nowhere, goal, t}, keep_away});
+    return;
+  }
+  const std::vector<Location>& path = node.paths[static_cast<std::size_t>(conflict.a)]->locations;
+  const Location a0 = at(path, conflict.t - 1);
+  const Location a1 = at(path, conflict.t);
+  const bool at_end = conflict.clash == Clash::at_end;
+  const Ban::Kind own = at_end ? Ban::Kind::place : Ban::Kind::step;
+  const Ban::Kind near = at_end ? Ban::Kind::places_near : Ban::Kind::steps_near;
+  add_child(id, {{own, conflict.a, -1, a0, a1, conflict.t}});
+  add_child(id, {{near, conflict.b, conflict.a, a0, a1, conflict.t}});
+}
+
+// An agent in its way at rest first: its split raises the cost most. Otherwise the earliest conflict.
+const LargeAgentSearch::Conflict& LargeAgentSearch::choose(const Node& node) const {
+  const auto rank = [&](const Conflict& conflict) {
+    const bool rests = std::min(rests_from(node, conflict.a), rests_from(node, conflict.b)) < conflict.t;
+    return std::tuple(rests ? 0 : 1, conflict.t, conflict.a, conflict.b);
+  };
+  return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
+                           [&](const Conflict& one, const Conflict& two) { return rank(one) < rank(two); });
+}
+
+void LargeAgentSearch::add_child(NodeId parent, std::vector<Ban> bans) {
+  if (stop_.raised()) return;
+  Node child;
+  child.parent = parent;
+  child.bans = std::move(bans);
+  const Node& above = nodes_[static_cast<std::size_t>(parent)];
+  child.paths = above.paths;
+  child.bound = above.bound;
+  gather_bans(child);
+  std::vector<bool> is_new(child.paths.size(), false);
+  for (AgentIndex agent = 0; agent < fleet_.size(); ++agent) {
+    if (obeys(child, agent)) continue;
+    if (!replan(child, agent)) return;
+    is_new[static_cast<std::size_t>(agent)] = true;
+  }
+  const auto changed = [&](AgentIndex agent) { return is_new[static_cast<std::size_t>(agent)]; };
+  for (const Conflict& conflict : nodes_[static_cast<std::size_t>(parent)].conflicts)
+    if (!changed(conflict.a) && !changed(conflict.b)) child.conflicts.push_back(conflict);
+  for (AgentIndex a = 0; a < fleet_.size(); ++a)
+    for (AgentIndex b = a + 1; b < fleet_.size(); ++b)
+      if (changed(a) || changed(b))
+        if (const auto conflict = find_conflict(child, a, b)) child.conflicts.push_back(*conflict);
+  add_to_queues(std::move(child));
+}
+
+void LargeAgentSearch::add_to_queues(Node node) {
+  std::int64_t bound = 0;
+  node.cost = 0;
+  for (const Path& path : node.paths) {
+    bound += path->lower_bound;
+    node.cost += cost_of(path->locations);
+  }
+  node.bound = std::max(node.bound, bound);
+  const auto id = static_cast<NodeId>(nodes_.size());
+  open_.emplace(node.bound, id);
+  beyond_.emplace(node.cost, id);
+  nodes_.push_back(std::move(node));
+}
+
+// The bans of a node and its ancestors.
+void LargeAgentSearch::gather_bans(const Node& node) {
+  bans_ = node.bans;
+  for (NodeId id = node.parent; id >= 0; id = nodes_[static_cast<std::size_t>(id)].parent) {
+    const std::vector<Ban>& above = nodes_[static_cast<std::size_t>(id)].bans;
+    bans_.insert(bans_.end(), above.begin(), above.end());
+  }
+}
+
+// Whether the agent's path obeys the node's own bans.
+bool LargeAgentSearch::obeys(const Node& node, AgentIndex agent) const {
+  const std::vector<Location>& path = node.paths[static_cast<std::size_t>(agent)]->locations;
+  BanTable table(fleet_);
+  table.fill(agent, node.bans);
+  const std::int32_t end = cost_of(path);
+  if (end < table.finish_from() || end > table.finish_until()) return false;
+  for (std::int32_t t = 0; t <= end; ++t)
+    if (!table.allows(at(path, std::max(t - 1, 0)), at(path, t), t)) return false;
+  return true;
+}
+
+// False if there is no path, or after a stop.
+bool LargeAgentSearch::replan(Node& node, AgentIndex agent) {
+  const auto index = static_cast<std::size_t>(agent);
+  std::vector<PathView> others;
+  for (const Path& path : node.paths) others.emplace_back(path ? PathView(path->locations) : PathView());
+  others[index] = {};
+  table_.fill(agent, bans_);
+  const std::int32_t known = node.paths[index] ? node.paths[index]->lower_bound : 0;
+  auto path = std::make_shared<SinglePath>();
+  const SingleRequest request{agent, prepared_.tables[index], table_, others, suboptimality_, known};
+  if (low_level_.search(request, stop_, *path) != SingleSearch::Result::found) return false;
+  node.paths[index] = std::move(path);
+  return true;
+}
+
+std::optional<LargeAgentSearch::Conflict> LargeAgentSearch::find_conflict(const Node& node, AgentIndex a,
+                                                                          AgentIndex b) const {
+  const std::vector<Location>& path_a = node.paths[static_cast<std::size_t>(a)]->locations;
+  const std::vector<Location>& path_b = node.paths[static_cast<std::size_t>(b)]->locations;
+  const std::int32_t end = std::max(cost_of(path_a), cost_of(path_b));
+  for (std::int32_t t = 1; t <= end; ++t) {
+    const Clash clash = fleet_.clash(a, at(path_a, t - 1), at(path_a, t), b, at(path_b, t - 1), at(path_b, t));
+    if (clash != Clash::none) return Conflict{a, b, clash, t};
+  }
+  return std::nullopt;
+}
+
+std::int32_t LargeAgentSearch::rests_from(const Node& node, AgentIndex agent) const {
+  return cost_of(node.paths[static_cast<std::size_t>(agent)]->locations);
+}
+
+}  // namespace dmrp::planners
