@@ -8,6 +8,9 @@ namespace dmrp::planners {
 
 namespace {
 
+// Of a split on whose side an agent has no path.
+constexpr std::int32_t impossible_rise = 1'000'000;
+
 Location at(const std::vector<Location>& path, std::int32_t t) {
   return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
 }
@@ -36,6 +39,7 @@ LargeAgentSearch::Result LargeAgentSearch::run() {
       return Result::solved;
     }
     if (generated() >= node_limit_) return Result::node_limit;
+    if (suboptimality_ == 1 && !nodes_[static_cast<std::size_t>(best)].looked_ahead && look_ahead(best)) continue;
     expand(best);
   }
   return stop_.raised() ? Result::stopped : Result::unsolvable;
@@ -57,7 +61,7 @@ bool LargeAgentSearch::make_root() {
   for (AgentIndex a = 0; a < fleet_.size(); ++a)
     for (AgentIndex b = a + 1; b < fleet_.size(); ++b)
       if (const auto conflict = find_conflict(root, a, b)) root.conflicts.push_back(*conflict);
-  add_to_queues(std::move(root));
+  insert(std::move(root));
   return true;
 }
 
@@ -66,75 +70,160 @@ void LargeAgentSearch::advance() {
   bound_ = std::max(bound_, open_.begin()->first);
   const auto most = static_cast<std::int64_t>(std::floor(suboptimality_ * static_cast<double>(bound_) + 1e-9));
   while (!beyond_.empty() && beyond_.begin()->first <= most) {
-    const auto [cost, id] = *beyond_.begin();
-    focal_.emplace(nodes_[static_cast<std::size_t>(id)].conflicts.size(), cost, id);
+    const auto [dearness, id] = *beyond_.begin();
+    focal_.emplace(nodes_[static_cast<std::size_t>(id)].conflicts.size(), dearness, id);
     beyond_.erase(beyond_.begin());
   }
 }
 
+// Finds out what the splits of the first of FOCAL cost. True if its bound rises: it is back in the queues then.
+bool LargeAgentSearch::look_ahead(NodeId id) {
+  Node& node = nodes_[static_cast<std::size_t>(id)];
+  node.looked_ahead = true;
+  for (Conflict& conflict : node.conflicts) {
+    if (conflict.rise >= 0) continue;  // known from an ancestor with the same two paths
+    const std::vector<Split> splits = splits_of(node, conflict);
+    for (std::size_t i = 0; i < splits.size() && !stop_.raised(); ++i) {
+      const std::int32_t first = rise_of(node, splits[i].first);
+      const std::int32_t second = rise_of(node, splits[i].second);
+      const auto [least, greatest] = std::minmax({first, second});
+      if (std::pair(least, greatest) <= std::pair(conflict.rise, conflict.greatest)) continue;
+      conflict.rise = least;
+      conflict.greatest = greatest;
+      conflict.best_split = i;
+    }
+  }
+  // pairs without a common agent, the greatest rises first
+  std::vector<const Conflict*> by_rise;
+  for (const Conflict& conflict : node.conflicts) by_rise.push_back(&conflict);
+  std::stable_sort(by_rise.begin(), by_rise.end(),
+                   [](const Conflict* one, const Conflict* two) { return one->rise > two->rise; });
+  std::vector<bool> is_taken(node.paths.size(), false);
+  std::int64_t bound = 0;
+  for (const Path& path : node.paths) bound += path->lower_bound;
+  for (const Conflict* conflict : by_rise) {
+    const auto a = static_cast<std::size_t>(conflict->a);
+    const auto b = static_cast<std::size_t>(conflict->b);
+    if (conflict->rise <= 0 || is_taken[a] || is_taken[b]) continue;
+    is_taken[a] = is_taken[b] = true;
+    bound += conflict->rise;
+  }
+  if (bound <= node.bound) return false;
+  open_.erase({node.bound, id});
+  focal_.erase(focal_.begin());
+  node.bound = bound;
+  open_.emplace(node.bound, id);
+  beyond_.emplace(node.dearness(), id);
+  return true;
+}
+
 void LargeAgentSearch::expand(NodeId id) {
   ++expanded_;
-  open_.erase({nodes_[static_cast<std::size_t>(id)].bound, id});
-  focal_.erase(focal_.begin());
   const Node& node = nodes_[static_cast<std::size_t>(id)];
-  const Conflict conflict = choose(node);
+  open_.erase({node.bound, id});
+  focal_.erase(focal_.begin());
+  const Conflict& conflict = choose(node);
+  const Split split = splits_of(node, conflict)[conflict.best_split];
+  std::optional<Node> children[2] = {make_child(id, split.first.bans), make_child(id, split.second.bans)};
+  if (suboptimality_ == 1)
+    for (std::optional<Node>& child : children)
+      if (child && child->cost == node.cost && child->conflicts.size() < node.conflicts.size()) {
+        child->parent = node.parent;
+        child->bans = node.bans;
+        insert(std::move(*child));
+        return;
+      }
+  for (std::optional<Node>& child : children)
+    if (child) insert(std::move(*child));
+}
+
+std::vector<LargeAgentSearch::Split> LargeAgentSearch::splits_of(const Node& node, const Conflict& conflict) const {
   // an agent that rests: it comes to rest later, or the others keep away for good
   for (const auto& [resting, passing] : {std::pair(conflict.a, conflict.b), std::pair(conflict.b, conflict.a)}) {
-    // it must have rested during a whole step if the other one passes on its way
+    // it must have rested during a whole step if the other one touches it on its way
     const std::int32_t t = conflict.clash == Clash::at_end ? conflict.t : conflict.t - 1;
     if (rests_from(node, resting) > t) continue;
     const Location goal = fleet_.agents[static_cast<std::size_t>(resting)].last_goal();
+    const Ban early{Ban::Kind::finish_by, resting, -1, nowhere, goal, t};
+    const Ban late{Ban::Kind::finish_after, resting, -1, nowhere, goal, t};
     const Ban keep_away{Ban::Kind::rest_near, -1, resting, nowhere, goal, t};
-    add_child(id, {{Ban::Kind::finish_by, resting, -1, nowhere, goal, t}});
-    add_child(id, {{Ban::Kind::finish_after, resting, -1, nowhere, goal, t}, keep_away});
-    return;
+    return {Split{{resting, {early}}, {passing, {late, keep_away}}}};
   }
-  const std::vector<Location>& path = node.paths[static_cast<std::size_t>(conflict.a)]->locations;
-  const Location a0 = at(path, conflict.t - 1);
-  const Location a1 = at(path, conflict.t);
   const bool at_end = conflict.clash == Clash::at_end;
   const Ban::Kind own = at_end ? Ban::Kind::place : Ban::Kind::step;
   const Ban::Kind near = at_end ? Ban::Kind::places_near : Ban::Kind::steps_near;
-  add_child(id, {{own, conflict.a, -1, a0, a1, conflict.t}});
-  add_child(id, {{near, conflict.b, conflict.a, a0, a1, conflict.t}});
+  std::vector<Split> splits;
+  for (const auto& [one, other] : {std::pair(conflict.a, conflict.b), std::pair(conflict.b, conflict.a)}) {
+    const std::vector<Location>& path = node.paths[static_cast<std::size_t>(one)]->locations;
+    const Location from = at(path, conflict.t - 1);
+    const Location to = at(path, conflict.t);
+    const Ban here{own, one, -1, from, to, conflict.t};
+    const Ban around{near, other, one, from, to, conflict.t};
+    splits.push_back({{one, {here}}, {other, {around}}});
+  }
+  return splits;
 }
 
-// An agent in its way at rest first: its split raises the cost most. Otherwise the earliest conflict.
+// By how much the cost of the side's agent rises at least.
+std::int32_t LargeAgentSearch::rise_of(const Node& node, const Side& side) {
+  const auto index = static_cast<std::size_t>(side.agent);
+  gather_bans(node);
+  bans_.insert(bans_.end(), side.bans.begin(), side.bans.end());
+  table_.fill(side.agent, bans_);
+  const std::vector<PathView> nobody(node.paths.size());
+  const std::int32_t known = node.paths[index]->lower_bound;
+  SinglePath path;
+  const SingleRequest request{side.agent, prepared_.tables[index], table_, nobody, 1, known};
+  switch (low_level_.search(request, stop_, path)) {
+    case SingleSearch::Result::found:
+      return path.lower_bound - known;
+    case SingleSearch::Result::none:
+      return impossible_rise;
+    case SingleSearch::Result::stopped:
+      return 0;
+  }
+  return 0;
+}
+
+// The conflict whose split raises the cost most, as far as that is known. Otherwise an agent at rest in another's way
+// first, because its split raises the cost most; then the earliest conflict.
 const LargeAgentSearch::Conflict& LargeAgentSearch::choose(const Node& node) const {
   const auto rank = [&](const Conflict& conflict) {
     const bool rests = std::min(rests_from(node, conflict.a), rests_from(node, conflict.b)) < conflict.t;
-    return std::tuple(rests ? 0 : 1, conflict.t, conflict.a, conflict.b);
+    return std::tuple(-conflict.rise, -conflict.greatest, rests ? 0 : 1, conflict.t, conflict.a, conflict.b);
   };
   return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
                            [&](const Conflict& one, const Conflict& two) { return rank(one) < rank(two); });
 }
 
-void LargeAgentSearch::add_child(NodeId parent, std::vector<Ban> bans) {
-  if (stop_.raised()) return;
+// Nothing if an agent has no path under the bans, or after a stop.
+std::optional<LargeAgentSearch::Node> LargeAgentSearch::make_child(NodeId parent, std::vector<Ban> bans) {
+  if (stop_.raised()) return std::nullopt;
+  const Node& above = nodes_[static_cast<std::size_t>(parent)];
   Node child;
   child.parent = parent;
   child.bans = std::move(bans);
-  const Node& above = nodes_[static_cast<std::size_t>(parent)];
   child.paths = above.paths;
   child.bound = above.bound;
   gather_bans(child);
   std::vector<bool> is_new(child.paths.size(), false);
   for (AgentIndex agent = 0; agent < fleet_.size(); ++agent) {
     if (obeys(child, agent)) continue;
-    if (!replan(child, agent)) return;
+    if (!replan(child, agent)) return std::nullopt;
     is_new[static_cast<std::size_t>(agent)] = true;
   }
   const auto changed = [&](AgentIndex agent) { return is_new[static_cast<std::size_t>(agent)]; };
-  for (const Conflict& conflict : nodes_[static_cast<std::size_t>(parent)].conflicts)
+  for (const Conflict& conflict : above.conflicts)
     if (!changed(conflict.a) && !changed(conflict.b)) child.conflicts.push_back(conflict);
   for (AgentIndex a = 0; a < fleet_.size(); ++a)
     for (AgentIndex b = a + 1; b < fleet_.size(); ++b)
       if (changed(a) || changed(b))
         if (const auto conflict = find_conflict(child, a, b)) child.conflicts.push_back(*conflict);
-  add_to_queues(std::move(child));
+  for (const Path& path : child.paths) child.cost += cost_of(path->locations);
+  return child;
 }
 
-void LargeAgentSearch::add_to_queues(Node node) {
+void LargeAgentSearch::insert(Node node) {
   std::int64_t bound = 0;
   node.cost = 0;
   for (const Path& path : node.paths) {
@@ -144,7 +233,7 @@ void LargeAgentSearch::add_to_queues(Node node) {
   node.bound = std::max(node.bound, bound);
   const auto id = static_cast<NodeId>(nodes_.size());
   open_.emplace(node.bound, id);
-  beyond_.emplace(node.cost, id);
+  beyond_.emplace(node.dearness(), id);
   nodes_.push_back(std::move(node));
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // conflict_search.hpp: conflict-based search for large agents: MC-CBS (Li et al. 2019) with target reasoning (Li et al.
 // 2020), and with a factor its variant with focal search on both levels (Barer et al. 2014).
+//
+// The optimal variant looks ahead: it tries the children of all conflicts of a node, splits on the one that raises the
+// cost most (cardinal conflicts, Boyarski et al. 2015), takes the least rises of disjoint pairs as a heuristic (Felner et
+// al. 2018), and adopts a child's paths that cost no more and have fewer conflicts instead of splitting (bypass).
 #pragma once
 
 #include <deque>
@@ -36,12 +40,25 @@ class LargeAgentSearch {
   using NodeId = std::int32_t;
   using Path = std::shared_ptr<const SinglePath>;
 
+  // A child of a split: its bans, and the agent in conflict that has to obey them.
+  struct Side {
+    AgentIndex agent;
+    std::vector<Ban> bans;
+  };
+  // Every plan without the conflict obeys one of the two sides.
+  struct Split {
+    Side first;
+    Side second;
+  };
   // The first conflict of two agents, a < b; their steps arrive at time t.
   struct Conflict {
     AgentIndex a;
     AgentIndex b;
     Clash clash;
     std::int32_t t;
+    std::int32_t rise = -1;      // the two agents' costs rise by at least this; -1: not known yet
+    std::int32_t greatest = 0;   // the greater rise of the two children
+    std::size_t best_split = 0;  // of splits_of()
   };
   struct Node {
     NodeId parent = -1;
@@ -50,14 +67,21 @@ class LargeAgentSearch {
     std::vector<Conflict> conflicts;
     std::int64_t cost = 0;
     std::int64_t bound = 0;  // no plan below this node costs less
+    bool looked_ahead = false;
+
+    // What FOCAL compares with the bound.
+    std::int64_t dearness() const { return std::max(cost, bound); }
   };
 
   bool make_root();
-  void expand(NodeId id);
-  void add_child(NodeId parent, std::vector<Ban> bans);
-  bool replan(Node& node, AgentIndex agent);
-  void add_to_queues(Node node);
   void advance();
+  bool look_ahead(NodeId id);
+  void expand(NodeId id);
+  std::vector<Split> splits_of(const Node& node, const Conflict& conflict) const;
+  std::int32_t rise_of(const Node& node, const Side& side);
+  std::optional<Node> make_child(NodeId parent, std::vector<Ban> bans);
+  bool replan(Node& node, AgentIndex agent);
+  void insert(Node node);
   void gather_bans(const Node& node);
   std::optional<Conflict> find_conflict(const Node& node, AgentIndex a, AgentIndex b) const;
   bool obeys(const Node& node, AgentIndex agent) const;
@@ -74,7 +98,7 @@ class LargeAgentSearch {
   std::vector<Ban> bans_;                                          // of the node at hand and its ancestors
   std::deque<Node> nodes_;                                         // they do not move
   std::set<std::pair<std::int64_t, NodeId>> open_;                 // by bound
-  std::set<std::tuple<std::size_t, std::int64_t, NodeId>> focal_;  // by conflicts, then cost
+  std::set<std::tuple<std::size_t, std::int64_t, NodeId>> focal_;  // by conflicts, then dearness
   std::set<std::pair<std::int64_t, NodeId>> beyond_;               // too dear for FOCAL so far, by cost
   std::int64_t bound_ = 0;
   std::int64_t expanded_ = 0;
