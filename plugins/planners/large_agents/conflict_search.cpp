@@ -2,6 +2,7 @@
 #include "planners/large_agents/conflict_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace dmrp::planners {
@@ -10,6 +11,10 @@ namespace {
 
 // Of a split on whose side an agent has no path.
 constexpr std::int32_t impossible_rise = 1'000'000;
+
+// A pair is solved as a pair after so many splits, by a search of at most so many nodes.
+constexpr std::int32_t splits_of_a_pair = 8;
+constexpr std::size_t pair_nodes = 300'000;
 
 Location at(const std::vector<Location>& path, std::int32_t t) {
   return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
@@ -25,7 +30,9 @@ LargeAgentSearch::LargeAgentSearch(const PreparedFleet& prepared, double subopti
       node_limit_(node_limit),
       stop_(stop),
       low_level_(fleet_),
-      table_(fleet_) {}
+      pair_search_(fleet_),
+      table_(fleet_),
+      splits_(prepared.fleet.agents.size() * prepared.fleet.agents.size(), 0) {}
 
 LargeAgentSearch::Result LargeAgentSearch::run() {
   bound_ = static_cast<std::int64_t>(prepared_.lower_bound());
@@ -93,7 +100,13 @@ bool LargeAgentSearch::look_ahead(NodeId id) {
       conflict.best_split = i;
     }
   }
-  // pairs without a common agent, the greatest rises first
+  return raise_bound(id);
+}
+
+// Adds up the rises of pairs without a common agent, the greatest ones first. True if that raises the bound of the first
+// of FOCAL: it is back in the queues then.
+bool LargeAgentSearch::raise_bound(NodeId id) {
+  Node& node = nodes_[static_cast<std::size_t>(id)];
   std::vector<const Conflict*> by_rise;
   for (const Conflict& conflict : node.conflicts) by_rise.push_back(&conflict);
   std::stable_sort(by_rise.begin(), by_rise.end(),
@@ -119,10 +132,20 @@ bool LargeAgentSearch::look_ahead(NodeId id) {
 
 void LargeAgentSearch::expand(NodeId id) {
   ++expanded_;
-  const Node& node = nodes_[static_cast<std::size_t>(id)];
+  Node& node = nodes_[static_cast<std::size_t>(id)];
+  Conflict& conflict = choose(node);
+  if (suboptimality_ == 1 && !conflict.path_a &&
+      ++splits_[static_cast<std::size_t>(conflict.a) * node.paths.size() + static_cast<std::size_t>(conflict.b)] >
+          splits_of_a_pair) {
+    solve_pair(node, conflict);
+    if (raise_bound(id)) return;
+  }
   open_.erase({node.bound, id});
   focal_.erase(focal_.begin());
-  const Conflict& conflict = choose(node);
+  if (auto solved = with_pair(node, conflict)) {
+    insert(std::move(*solved));
+    return;
+  }
   const Split split = splits_of(node, conflict)[conflict.best_split];
   std::optional<Node> children[2] = {make_child(id, split.first.bans), make_child(id, split.second.bans)};
   if (suboptimality_ == 1)
@@ -135,6 +158,47 @@ void LargeAgentSearch::expand(NodeId id) {
       }
   for (std::optional<Node>& child : children)
     if (child) insert(std::move(*child));
+}
+
+// Finds what the two agents cost at least under the node's bans, and paths that cost so much.
+void LargeAgentSearch::solve_pair(const Node& node, Conflict& conflict) {
+  gather_bans(node);
+  BanTable bans_a(fleet_);
+  BanTable bans_b(fleet_);
+  bans_a.fill(conflict.a, bans_);
+  bans_b.fill(conflict.b, bans_);
+  const auto a = static_cast<std::size_t>(conflict.a);
+  const auto b = static_cast<std::size_t>(conflict.b);
+  std::array<std::vector<Location>, 2> paths;
+  const PairSearch::Result result = pair_search_.search(
+      {conflict.a, prepared_.tables[a], bans_a}, {conflict.b, prepared_.tables[b], bans_b}, pair_nodes, stop_, paths);
+  const std::int32_t bound_a = node.paths[a]->lower_bound;
+  const std::int32_t bound_b = node.paths[b]->lower_bound;
+  if (result == PairSearch::Result::none) conflict.rise = impossible_rise;
+  if (result != PairSearch::Result::found) return;
+  conflict.rise = std::max(conflict.rise, cost_of(paths[0]) + cost_of(paths[1]) - bound_a - bound_b);
+  conflict.path_a = std::make_shared<const SinglePath>(SinglePath{std::move(paths[0]), bound_a});
+  conflict.path_b = std::make_shared<const SinglePath>(SinglePath{std::move(paths[1]), bound_b});
+}
+
+// The node with the cheapest pair of paths for the two agents, if these are known, it has fewer conflicts then, and it
+// costs no more than its bound: FOCAL of an optimal search has only nodes that do not.
+std::optional<LargeAgentSearch::Node> LargeAgentSearch::with_pair(const Node& node, const Conflict& conflict) const {
+  if (!conflict.path_a) return std::nullopt;
+  Node solved;
+  solved.parent = node.parent;
+  solved.bans = node.bans;
+  solved.paths = node.paths;
+  solved.bound = node.bound;
+  std::vector<bool> is_new(node.paths.size(), false);
+  for (const auto& [agent, path] : {std::pair(conflict.a, conflict.path_a), std::pair(conflict.b, conflict.path_b)}) {
+    solved.paths[static_cast<std::size_t>(agent)] = path;
+    is_new[static_cast<std::size_t>(agent)] = true;
+  }
+  for (const Path& path : solved.paths) solved.cost += cost_of(path->locations);
+  if (solved.cost > solved.bound) return std::nullopt;
+  find_conflicts(solved, node.conflicts, is_new);
+  return solved.conflicts.size() < node.conflicts.size() ? std::optional(std::move(solved)) : std::nullopt;
 }
 
 std::vector<LargeAgentSearch::Split> LargeAgentSearch::splits_of(const Node& node, const Conflict& conflict) const {
@@ -187,7 +251,7 @@ std::int32_t LargeAgentSearch::rise_of(const Node& node, const Side& side) {
 
 // The conflict whose split raises the cost most, as far as that is known. Otherwise an agent at rest in another's way
 // first, because its split raises the cost most; then the earliest conflict.
-const LargeAgentSearch::Conflict& LargeAgentSearch::choose(const Node& node) const {
+LargeAgentSearch::Conflict& LargeAgentSearch::choose(Node& node) const {
   const auto rank = [&](const Conflict& conflict) {
     const bool rests = std::min(rests_from(node, conflict.a), rests_from(node, conflict.b)) < conflict.t;
     return std::tuple(-conflict.rise, -conflict.greatest, rests ? 0 : 1, conflict.t, conflict.a, conflict.b);
@@ -208,19 +272,31 @@ std::optional<LargeAgentSearch::Node> LargeAgentSearch::make_child(NodeId parent
   gather_bans(child);
   std::vector<bool> is_new(child.paths.size(), false);
   for (AgentIndex agent = 0; agent < fleet_.size(); ++agent) {
-    if (obeys(child, agent)) continue;
+    const SinglePath& path = *child.paths[static_cast<std::size_t>(agent)];
+    const bool is_of_pair = suboptimality_ == 1 && cost_of(path.locations) > path.lower_bound;
+    if (!is_of_pair && obeys(child, agent)) continue;
     if (!replan(child, agent)) return std::nullopt;
     is_new[static_cast<std::size_t>(agent)] = true;
   }
+  find_conflicts(child, above.conflicts, is_new);
+  for (Conflict& conflict : child.conflicts)
+    if (std::any_of(child.bans.begin(), child.bans.end(),
+                    [&](const Ban& ban) { return ban.binds(conflict.a) || ban.binds(conflict.b); }))
+      conflict.path_a = conflict.path_b = nullptr;  // they may break the new bans
+  for (const Path& path : child.paths) child.cost += cost_of(path->locations);
+  return child;
+}
+
+// Of the conflicts before, those of agents without a new path stay.
+void LargeAgentSearch::find_conflicts(Node& node, const std::vector<Conflict>& before,
+                                      const std::vector<bool>& is_new) const {
   const auto changed = [&](AgentIndex agent) { return is_new[static_cast<std::size_t>(agent)]; };
-  for (const Conflict& conflict : above.conflicts)
-    if (!changed(conflict.a) && !changed(conflict.b)) child.conflicts.push_back(conflict);
+  for (const Conflict& conflict : before)
+    if (!changed(conflict.a) && !changed(conflict.b)) node.conflicts.push_back(conflict);
   for (AgentIndex a = 0; a < fleet_.size(); ++a)
     for (AgentIndex b = a + 1; b < fleet_.size(); ++b)
       if (changed(a) || changed(b))
-        if (const auto conflict = find_conflict(child, a, b)) child.conflicts.push_back(*conflict);
-  for (const Path& path : child.paths) child.cost += cost_of(path->locations);
-  return child;
+        if (const auto conflict = find_conflict(node, a, b)) node.conflicts.push_back(*conflict);
 }
 
 void LargeAgentSearch::insert(Node node) {
@@ -280,7 +356,7 @@ std::optional<LargeAgentSearch::Conflict> LargeAgentSearch::find_conflict(const 
   const std::int32_t end = std::max(cost_of(path_a), cost_of(path_b));
   for (std::int32_t t = 1; t <= end; ++t) {
     const Clash clash = fleet_.clash(a, at(path_a, t - 1), at(path_a, t), b, at(path_b, t - 1), at(path_b, t));
-    if (clash != Clash::none) return Conflict{a, b, clash, t};
+    if (clash != Clash::none) return Conflict{a, b, clash, t, -1, 0, 0, {}, {}};
   }
   return std::nullopt;
 }

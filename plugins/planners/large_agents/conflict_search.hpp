@@ -4,7 +4,8 @@
 //
 // The optimal variant looks ahead: it tries the children of all conflicts of a node, splits on the one that raises the
 // cost most (cardinal conflicts, Boyarski et al. 2015), takes the least rises of disjoint pairs as a heuristic (Felner et
-// al. 2018), and adopts a child's paths that cost no more and have fewer conflicts instead of splitting (bypass).
+// al. 2018), and adopts a child's paths that cost no more and have fewer conflicts instead of splitting (bypass). A pair
+// that conflicts again and again is solved as a pair (pair_search.hpp).
 #pragma once
 
 #include <deque>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "planners/large_agents/pair_search.hpp"
 #include "planners/large_agents/single_search.hpp"
 
 namespace dmrp::planners {
@@ -59,6 +61,8 @@ class LargeAgentSearch {
     std::int32_t rise = -1;      // the two agents' costs rise by at least this; -1: not known yet
     std::int32_t greatest = 0;   // the greater rise of the two children
     std::size_t best_split = 0;  // of splits_of()
+    Path path_a{};               // of the cheapest pair of paths, if that is known
+    Path path_b{};
   };
   struct Node {
     NodeId parent = -1;
@@ -76,7 +80,11 @@ class LargeAgentSearch {
   bool make_root();
   void advance();
   bool look_ahead(NodeId id);
+  bool raise_bound(NodeId id);
   void expand(NodeId id);
+  void solve_pair(const Node& node, Conflict& conflict);
+  std::optional<Node> with_pair(const Node& node, const Conflict& conflict) const;
+  void find_conflicts(Node& node, const std::vector<Conflict>& before, const std::vector<bool>& is_new) const;
   std::vector<Split> splits_of(const Node& node, const Conflict& conflict) const;
   std::int32_t rise_of(const Node& node, const Side& side);
   std::optional<Node> make_child(NodeId parent, std::vector<Ban> bans);
@@ -86,7 +94,7 @@ class LargeAgentSearch {
   std::optional<Conflict> find_conflict(const Node& node, AgentIndex a, AgentIndex b) const;
   bool obeys(const Node& node, AgentIndex agent) const;
   std::int32_t rests_from(const Node& node, AgentIndex agent) const;
-  const Conflict& choose(const Node& node) const;
+  Conflict& choose(Node& node) const;
 
   const PreparedFleet& prepared_;
   const Fleet& fleet_;
@@ -94,12 +102,14 @@ class LargeAgentSearch {
   std::int64_t node_limit_;
   StopSignal& stop_;
   SingleSearch low_level_;
+  PairSearch pair_search_;
   BanTable table_;
   std::vector<Ban> bans_;                                          // of the node at hand and its ancestors
   std::deque<Node> nodes_;                                         // they do not move
   std::set<std::pair<std::int64_t, NodeId>> open_;                 // by bound
   std::set<std::tuple<std::size_t, std::int64_t, NodeId>> focal_;  // by conflicts, then dearness
   std::set<std::pair<std::int64_t, NodeId>> beyond_;               // too dear for FOCAL so far, by cost
+  std::vector<std::int32_t> splits_;                               // by pair of agents
   std::int64_t bound_ = 0;
   std::int64_t expanded_ = 0;
   NodeId solved_ = -1;
