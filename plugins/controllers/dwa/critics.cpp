@@ -15,7 +15,7 @@ namespace {
 int obstacle_cost(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint,
                   DirectedPoint& at) {
   const double fast = std::max(scene.v_max - tuning.scaling_speed, 1e-9);
-  const double share = std::clamp((std::abs(sample.v) - tuning.scaling_speed) / fast, 0.0, 1.0);
+  const double share = std::clamp((speed_of(sample) - tuning.scaling_speed) / fast, 0.0, 1.0);
   footprint.scale(1.0 + tuning.max_scaling_factor * share);
   const int steps = simulation_steps(sample, tuning);
   Rollout rollout(sample, scene, tuning.sim_time, steps);
@@ -60,13 +60,13 @@ Scene with_heading(const Scene& scene, double heading, const OscillationGuard& o
 }
 
 int simulation_steps(const Sample& sample, const Tuning& tuning) {
-  const double straight = std::abs(sample.v) * tuning.sim_time / tuning.sim_granularity;
+  const double straight = speed_of(sample) * tuning.sim_time / tuning.sim_granularity;
   const double turning = std::abs(sample.omega) * tuning.sim_time / tuning.angular_sim_granularity;
   return std::max(1, static_cast<int>(std::ceil(std::max(straight, turning))));
 }
 
 double score(const Sample& sample, const Scene& scene, const Tuning& tuning, FootprintCheck& footprint, double best) {
-  if (!scene.oscillation.allows(sample.v, sample.omega)) return rejected;
+  if (!scene.oscillation.allows(sample)) return rejected;
 
   DirectedPoint end = directed(scene.pose);
   const int obstacle = obstacle_cost(sample, scene, tuning, footprint, end);
@@ -99,12 +99,14 @@ std::optional<Sample> cheapest(const VelocityWindow& window, const Scene& scene,
   std::optional<Sample> choice;
   double best = std::numeric_limits<double>::infinity();
   for (const double v : window.v) {
-    for (const double omega : window.omega) {
-      const Sample sample = {v, omega};
-      const double cost = score(sample, scene, tuning, footprint, best);
-      if (cost == rejected || !(cost < best)) continue;
-      choice = sample;
-      best = cost;
+    for (const double v_y : window.v_y) {
+      for (const double omega : window.omega) {
+        const Sample sample = window.at(v, v_y, omega);
+        const double cost = score(sample, scene, tuning, footprint, best);
+        if (cost == rejected || !(cost < best)) continue;
+        choice = sample;
+        best = cost;
+      }
     }
   }
   return choice;

@@ -12,12 +12,6 @@
 
 namespace dmrp::controllers::dwa {
 
-// A velocity, constant over the simulated time.
-struct Sample {
-  double v = 0.0;
-  double omega = 0.0;
-};
-
 // The robot's current velocity and its acceleration limits. Samples that the robot cannot reach within one control
 // period (use_dwa off) begin with an acceleration phase.
 struct Ramp {
@@ -77,13 +71,15 @@ class Rollout {
         sample_(sample),
         now_(scene.ramp ? scene.ramp->now : sample),
         dt_s_(duration_s / steps),
-        constant_(sample.v, sample.omega, dt_s_) {}
+        constant_(sample.v, sample.v_y, sample.omega, dt_s_) {}
 
   void step(DirectedPoint& at) {
     if (!ramp_) return constant_.step(at);
-    now_.v = toward(now_.v, sample_.v, ramp_->a_max * dt_s_);
+    const Vec2 v = toward(Vec2{now_.v, now_.v_y}, Vec2{sample_.v, sample_.v_y}, ramp_->a_max * dt_s_);
+    now_.v = v.x;
+    now_.v_y = v.y;
     now_.omega = toward(now_.omega, sample_.omega, ramp_->alpha_max * dt_s_);
-    ArcStepper(now_.v, now_.omega, dt_s_).step(at);
+    ArcStepper(now_.v, now_.v_y, now_.omega, dt_s_).step(at);
   }
 
  private:

@@ -43,7 +43,7 @@ Descriptor Dwa::describe() {
       .source(
           "Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation "
           "Magazine 4 (1997); critics as in ROS's dwa_local_planner")
-      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC)
       .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .uses(DMRP_EXT_ANNOTATE);
@@ -55,6 +55,7 @@ Status Dwa::start(const Start& start) {
   tuning_ = {sim_time,      sim_granularity, angular_sim_granularity, path_distance_bias, goal_distance_bias,
              occdist_scale, twirling_scale,  forward_point_distance,  scaling_speed,      max_scaling_factor};
   window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
+  window_.v_y.reserve(static_cast<std::size_t>(*vy_samples) + 1);
   window_.omega.reserve(static_cast<std::size_t>(*vth_samples) + 1);
   fronts_.reserve();
   tracker_.clear();
@@ -85,7 +86,7 @@ Status Dwa::step(const Observation& now, Command& command) {
   } else {
     return choose(now, map, footprint, command);
   }
-  annotations_.arc(now.pose, command.v_x, command.omega, tuning_.sim_time);
+  annotations_.arc(now.pose, command, tuning_.sim_time);
   return Status::ok;
 }
 
@@ -106,7 +107,8 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   // paths are not replanned around people: past an obstacle on the path, the goal critics alone guide the robot
   const bool follow = goal.path_is_free;
   const bool align = to_goal_m > forward_point_distance;
-  const dwa::Ramp ramp = {{now.velocity.v_x, now.velocity.omega}, now.limits.a_max, now.limits.alpha_max};
+  const dwa::Ramp ramp = {
+      {now.velocity.v_x, now.velocity.omega, now.velocity.v_y}, now.limits.a_max, now.limits.alpha_max};
   const dwa::Scene scene = {now.pose,
                             now.limits.v_max,
                             map,
@@ -126,7 +128,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
     return Status::no_solution;
   }
   annotate(scene, *choice);
-  if (choice->v == 0.0 && std::abs(now.velocity.v_x) < standing_m_s) {
+  if (speed_of(*choice) == 0.0 && speed_of(now.velocity) < standing_m_s) {
     if (at_goal_.settles(tracker_.stop(), now)) {
       command = at_goal_.command(tracker_.stop(), now);
       return Status::ok;
@@ -137,20 +139,20 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
       return Status::ok;
     }
   }
-  oscillation_.record(now.pose, choice->v, choice->omega);
+  oscillation_.record(now.pose, *choice);
   command = approach(now, *choice);
   return Status::ok;
 }
 
 void Dwa::sample_window(const Observation& now) {
-  const auto v_count = static_cast<std::size_t>(*vx_samples);
-  const auto omega_count = static_cast<std::size_t>(*vth_samples);
+  const dwa::SampleCounts counts = {static_cast<std::size_t>(*vx_samples), static_cast<std::size_t>(*vy_samples),
+                                    static_cast<std::size_t>(*vth_samples)};
   if (use_dwa) {
-    window_.sample(now, seconds(now.dt_ns), now.limits.v_max, v_count, omega_count);
+    window_.sample(now, seconds(now.dt_ns), std::max(now.limits.v_max, now.limits.v_y_max), counts);
   } else {
     // a velocity kept for the whole simulated time must not overshoot the goal
     const double stop_m = toolkit::distance(toolkit::position(now.pose), tracker_.stop().position);
-    window_.sample(now, sim_time, stop_m / sim_time, v_count, omega_count);
+    window_.sample(now, sim_time, stop_m / sim_time, counts);
   }
 }
 
@@ -161,19 +163,22 @@ std::array<dwa::Box, 2> Dwa::reachable_boxes(const Observation& now) const {
   const auto box_about = [robot](double half_m) {
     return dwa::Box{robot - Vec2{half_m, half_m}, robot + Vec2{half_m, half_m}};
   };
-  const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
+  const bool is_standing = speed_of(now.velocity) < standing_m_s;
   const dwa::Box near = box_about(is_standing ? probe_m + forward_point_distance : 0.0);
 
-  const double fastest = std::max(std::abs(window_.v.front()), std::abs(window_.v.back()));
+  const double fastest = std::hypot(std::max(std::abs(window_.v.front()), std::abs(window_.v.back())),
+                                    window_.v_y.back() - window_.v_y.front());
   if (!use_dwa) return {near, box_about(fastest * sim_time + forward_point_distance)};
   dwa::Box ends;
   for (const double omega : window_.omega) {
-    // the end of an arc is proportional to its speed
+    // the end of an arc is linear in its speeds
     DirectedPoint unit_end = directed({0.0, 0.0}, now.pose.theta);
     ArcStepper(1.0, omega, sim_time).step(unit_end);
+    const Vec2 unit_aside = toolkit::perpendicular(unit_end.at);
     for (const double v : {window_.v.front(), window_.v.back()})
-      for (const double nose_m : {0.0, *forward_point_distance})
-        ends.add(robot + v * unit_end.at + nose_m * unit_end.heading);
+      for (const double v_y : {window_.v_y.front(), window_.v_y.back()})
+        for (const double nose_m : {0.0, *forward_point_distance})
+          ends.add(robot + v * unit_end.at + v_y * unit_aside + nose_m * unit_end.heading);
   }
   return {near, ends};
 }
@@ -200,7 +205,7 @@ std::optional<FootprintCheck> Dwa::room_to_leave_for(const Observation& now, con
 
 // True once each time that the robot has stood for stall_ns.
 bool Dwa::is_stalled(const Observation& now) {
-  const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
+  const bool is_standing = speed_of(now.velocity) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
   standing_ns_ = is_standing ? standing_ns_ + now.dt_ns : 0;
   if (standing_ns_ < stall_ns) return false;
   standing_ns_ = 0;
@@ -243,12 +248,15 @@ Command Dwa::turn(const Observation& now, double heading, FootprintCheck& footpr
 Command Dwa::approach(const Observation& now, const dwa::Sample& choice) const {
   Command command;
   command.v_x = choice.v;
+  command.v_y = choice.v_y;
   command.omega = choice.omega;
   if (use_dwa) return command;
   const double period_s = seconds(now.dt_ns);
-  const double v = toward(now.velocity.v_x, choice.v, now.limits.a_max * period_s);
+  const Vec2 v =
+      toward(Vec2{now.velocity.v_x, now.velocity.v_y}, Vec2{choice.v, choice.v_y}, now.limits.a_max * period_s);
   const double omega = toward(now.velocity.omega, choice.omega, now.limits.alpha_max * period_s);
-  command.v_x = std::clamp(v, now.limits.v_min, now.limits.v_max);
+  command.v_x = std::clamp(v.x, now.limits.v_min, now.limits.v_max);
+  command.v_y = std::clamp(v.y, -now.limits.v_y_max, now.limits.v_y_max);
   command.omega = std::clamp(omega, -now.limits.omega_max, now.limits.omega_max);
   return command;
 }
@@ -268,7 +276,8 @@ void Dwa::annotate(const dwa::Scene& scene, const dwa::Sample& choice) const {
     annotations_.trajectory(role, poses, tuning_.sim_time / steps);
   };
   for (const double v : window_.v)
-    for (const double omega : window_.omega) add({v, omega}, DMRP_ANNOTATE_CANDIDATE);
+    for (const double v_y : window_.v_y)
+      for (const double omega : window_.omega) add(window_.at(v, v_y, omega), DMRP_ANNOTATE_CANDIDATE);
   add(choice, DMRP_ANNOTATE_PREDICTED);
 }
 

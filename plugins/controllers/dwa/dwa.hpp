@@ -32,6 +32,8 @@ class Dwa final : public LocalController {
                                               .range(0.001, 1.0)
                                               .doc("step of the collision check along a turn");
   Param<std::int64_t> vx_samples = param("vx_samples", 3).unit("1").range(2, 100).doc("number of speeds sampled");
+  Param<std::int64_t> vy_samples =
+      param("vy_samples", 5).unit("1").range(2, 100).doc("number of speeds sideways sampled; holonomic drives only");
   Param<std::int64_t> vth_samples =
       param("vth_samples", 20).unit("1").range(2, 200).doc("number of turning rates sampled");
   Param<double> path_distance_bias =

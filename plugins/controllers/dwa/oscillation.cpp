@@ -29,14 +29,19 @@ void OscillationGuard::release(const Pose& now, double reset_distance_m, double 
   if (moved_m > reset_distance_m || std::abs(toolkit::difference(since_.theta, now.theta)) > reset_angle_rad) reset();
 }
 
-void OscillationGuard::record(const Pose& now, double v, double omega) {
+void OscillationGuard::record(const Pose& now, const Sample& command) {
   bool reversed = false;
-  if (reverses(v, drive_)) {
+  if (reverses(command.v, drive_)) {
     only_drive_ = drive_;
     reversed = true;
   }
-  if (std::abs(v) <= hardly_driving_m_s && reverses(omega, turn_)) {
+  const bool hardly_drives = std::abs(command.v) <= hardly_driving_m_s;
+  if (hardly_drives && reverses(command.omega, turn_)) {
     only_turn_ = turn_;
+    reversed = true;
+  }
+  if (hardly_drives && reverses(command.v_y, strafe_)) {
+    only_strafe_ = strafe_;
     reversed = true;
   }
   if (reversed) since_ = now;

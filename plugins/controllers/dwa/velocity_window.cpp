@@ -19,16 +19,23 @@ void sample_range(double lowest, double highest, std::size_t count, std::vector<
   }
 }
 
-void VelocityWindow::sample(const Observation& now, double reach_s, double v_most, std::size_t v_count,
-                            std::size_t omega_count) {
+void VelocityWindow::sample(const Observation& now, double reach_s, double v_most, const SampleCounts& counts) {
   const Limits& limits = now.limits;
   // a measured velocity outside the limits (noise) gives a window at the limit
   const auto window = [](double current, double step, double lower, double upper, std::size_t count,
                          std::vector<double>& values) {
     sample_range(std::clamp(current - step, lower, upper), std::clamp(current + step, lower, upper), count, values);
   };
-  window(now.velocity.v_x, limits.a_max * reach_s, limits.v_min, std::min(limits.v_max, v_most), v_count, v);
-  window(now.velocity.omega, limits.alpha_max * reach_s, -limits.omega_max, limits.omega_max, omega_count, omega);
+  window(now.velocity.v_x, limits.a_max * reach_s, limits.v_min, std::min(limits.v_max, v_most), counts.v_x, v);
+  const double v_y_most = std::min(limits.v_y_max, v_most);
+  if (v_y_most > 0.0)
+    window(now.velocity.v_y, limits.a_max * reach_s, -v_y_most, v_y_most, counts.v_y, v_y);
+  else
+    v_y.assign(1, 0.0);
+  window(now.velocity.omega, limits.alpha_max * reach_s, -limits.omega_max, limits.omega_max, counts.omega, omega);
+  center_ = {std::clamp(now.velocity.v_x, limits.v_min, limits.v_max),
+             std::clamp(now.velocity.v_y, -limits.v_y_max, limits.v_y_max)};
+  reach_m_s_ = limits.a_max * reach_s;
 }
 
 }  // namespace dmrp::controllers::dwa

@@ -38,11 +38,11 @@ class Annotations {
   }
 
   // The arc of a command, if it is wanted.
-  void arc(const Pose& from, double v, double omega, double duration_s) const {
+  void arc(const Pose& from, const Command& command, double duration_s) const {
     if (!wanted()) return;
     constexpr std::size_t count = 18;
     const double step_s = duration_s / (count - 1);
-    const ArcStepper stepper(v, omega, step_s);
+    const ArcStepper stepper(command.v_x, command.v_y, command.omega, step_s);
     DirectedPoint at = directed(from);
     std::array<Pose, count> poses;
     for (Pose& pose : poses) {

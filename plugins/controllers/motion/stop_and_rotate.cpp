@@ -5,7 +5,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "controllers/motion/unicycle.hpp"
+#include "controllers/motion/drive_ability.hpp"
 
 namespace dmrp::controllers {
 
@@ -32,9 +32,14 @@ double turning_rate(double angle, const Observation& now) {
 
 Command braking(const Observation& now) {
   const double period_s = seconds(now.dt_ns);
+  const Vec2 slower = toward(Vec2{now.velocity.v_x, now.velocity.v_y}, Vec2{0.0, 0.0}, now.limits.a_max * period_s);
+  if (is_car_like(now.limits)) {
+    const double v_x = std::clamp(slower.x, now.limits.v_min, now.limits.v_max);
+    return steered(v_x, v_x == 0.0 ? 0.0 : now.velocity.omega / now.velocity.v_x, now.limits);
+  }
   Command command;
-  command.v_x = toward(now.velocity.v_x, 0.0, now.limits.a_max * period_s);
-  command.v_y = toward(now.velocity.v_y, 0.0, now.limits.a_max * period_s);
+  command.v_x = slower.x;
+  command.v_y = slower.y;
   command.omega = toward(now.velocity.omega, 0.0, now.limits.alpha_max * period_s);
   return command;
 }
@@ -43,6 +48,12 @@ bool StopAndRotate::reached(const StopPoint& stop, const Observation& now) {
   const double distance_m = toolkit::distance(toolkit::position(now.pose), stop.position);
   if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_m > stop.tolerance_m)) reset();
   return latched_ || latch(stop, now, reached_fraction);
+}
+
+bool StopAndRotate::arrived(const StopPoint& stop, const Observation& now) {
+  if (!reached(stop, now)) return false;
+  if (!is_car_like(now.limits) || std::isnan(stop.heading)) return true;
+  return std::abs(toolkit::difference(now.pose.theta, stop.heading)) <= stop.tolerance_rad;
 }
 
 bool StopAndRotate::settles(const StopPoint& stop, const Observation& now) {
@@ -60,10 +71,10 @@ Command StopAndRotate::command(const StopPoint& stop, const Observation& now) {
   // stops turning at half the tolerance and starts again only above three quarters of it
   if (std::abs(angle) <= 0.5 * stop.tolerance_rad || std::isnan(stop.heading))
     turning_ = false;
-  else if (std::abs(now.velocity.v_x) <= standing_m_s && std::abs(now.velocity.omega) <= standing_rad_s)
+  else if (speed_of(now.velocity) <= standing_m_s && std::abs(now.velocity.omega) <= standing_rad_s)
     turning_ = turning_ || std::abs(angle) > 0.75 * stop.tolerance_rad;
   Command command = braking(now);
-  if (turning_) command.omega = turning_rate(angle, now);
+  if (turning_ && !is_car_like(now.limits)) command.omega = turning_rate(angle, now);
   return command;
 }
 

@@ -10,7 +10,7 @@ namespace dmrp::controllers {
 // acceleration, and slow enough to stop in time, omega <= sqrt(2 alpha |angle|).
 double turning_rate(double angle, const Observation& now);
 
-// The command that brakes at the maximum deceleration.
+// The command that brakes at the maximum deceleration; a car-like robot keeps its curvature.
 Command braking(const Observation& now);
 
 // A latch on the stop point: once the robot is close, command() controls it until the stop point moves or the robot is
@@ -22,10 +22,13 @@ class StopAndRotate {
   // Whether the robot has reached the stop point now, or reached it before and the latch holds.
   bool reached(const StopPoint& stop, const Observation& now);
 
+  // The same; but a car-like robot, which cannot turn there, has to arrive with the stop point's heading, if any.
+  bool arrived(const StopPoint& stop, const Observation& now);
+
   // For a robot that cannot come closer: latches if it is within the tolerance, with a small margin.
   bool settles(const StopPoint& stop, const Observation& now);
 
-  // Brakes to a stop, then turns to the stop point's heading if it has one.
+  // Brakes to a stop, then turns to the stop point's heading if it has one. A car-like robot does not turn.
   Command command(const StopPoint& stop, const Observation& now);
 
  private:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// unicycle.hpp: exact motion of a differential drive under (v, omega), and the speeds it can reach and brake from.
+// unicycle.hpp: exact motion under a constant velocity, and the speeds that a robot can reach and brake from.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/cpp/local_controller.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers {
 
@@ -24,17 +25,20 @@ inline Pose pose_of(const DirectedPoint& point) {
   return {point.at.x, point.at.y, std::atan2(point.heading.y, point.heading.x)};
 }
 
-// Steps of equal duration along the arc of a constant (v, omega): each moves along the chord and turns by omega dt.
+// Steps of equal duration along the arc of a constant velocity: each moves along the chord and turns by omega dt.
 class ArcStepper {
  public:
-  ArcStepper(double v, double omega, double dt) {
+  ArcStepper(double v, double omega, double dt) : ArcStepper(v, 0.0, omega, dt) {}
+
+  ArcStepper(double v_x, double v_y, double omega, double dt) {
     const double half_turn = 0.5 * omega * dt;
     // sin(x)/x; the series avoids the quotient of two small numbers
     const double sinc =
         std::abs(half_turn) > 1e-4 ? std::sin(half_turn) / half_turn : 1.0 - half_turn * half_turn / 6.0;
-    const double chord = v * dt * sinc;
-    ahead_ = chord * std::cos(half_turn);
-    left_ = chord * std::sin(half_turn);
+    const double chord_x = v_x * dt * sinc;
+    const double chord_y = v_y * dt * sinc;
+    ahead_ = chord_x * std::cos(half_turn) - chord_y * std::sin(half_turn);
+    left_ = chord_x * std::sin(half_turn) + chord_y * std::cos(half_turn);
     cos_turn_ = std::cos(omega * dt);
     sin_turn_ = std::sin(omega * dt);
   }
@@ -56,6 +60,19 @@ class ArcStepper {
 // Moves `current` toward `target` by at most `step`.
 inline double toward(double current, double target, double step) {
   return std::clamp(target, current - step, current + step);
+}
+
+// Moves the velocity (v_x, v_y) of a holonomic drive toward `target` by at most `step`.
+inline Vec2 toward(Vec2 current, Vec2 target, double step) {
+  const Vec2 change = target - current;
+  if (change.y == 0.0) return {toward(current.x, target.x, step), current.y};
+  const double length = toolkit::norm(change);
+  return length <= step ? target : current + (step / length) * change;
+}
+
+// The speed of translation.
+inline double speed_of(const Twist& velocity) {
+  return std::hypot(velocity.v_x, velocity.v_y);
 }
 
 // The highest speed at which the robot still stops within `distance` (metres or radians) if it keeps that speed for one

@@ -6,6 +6,8 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "controllers/motion/drive_ability.hpp"
+
 namespace dmrp::controllers::mpc {
 
 namespace {
@@ -38,24 +40,33 @@ void InitialGuess::along(const Problem& problem, const std::vector<Vec2>& points
     State turned = nodes_.back().state;
     const double angle = theta - turned.theta;
     turned.theta = theta;
-    append(turned, std::abs(angle) / problem.omega_max);
+    append(turned, std::abs(angle) / problem.fastest_turn());
+  };
+  // a car-like robot turns along its tightest arc
+  const auto drive_arc_to = [&](const State& to) {
+    const double radius_m = problem.wheelbase_m / std::tan(problem.omega_max);
+    face_by_arc(nodes_.back().state, {to.x, to.y}, radius_m, sharp_rad, [&](const State& state, double length_m) {
+      append(state, std::max(length_m / problem.v_max, length_m / radius_m / problem.fastest_turn()));
+    });
   };
   for (std::size_t i = 1; i <= points.size(); ++i) {
     const bool is_goal = i == points.size();
     State next = is_goal ? problem.goal : State{points[i].x, points[i].y, 0.0};
-    const State& last = nodes_.back().state;
+    if (problem.is_car_like() && i == 1) drive_arc_to(next);
+    const State last = nodes_.back().state;
     const double leg_m = distance(last, next);
     const double to_goal_m = distance(next, problem.goal);
     if (!is_goal && (leg_m < near_m || to_goal_m < near_m)) continue;
     if (leg_m < 1e-3) continue;
     next.theta = unwrapped(std::atan2(next.y - last.y, next.x - last.x), last.theta);
-    if (nodes_.size() == 1 && std::abs(next.theta - last.theta) > sharp_rad) turn_to(next.theta);
+    if (nodes_.size() == 1 && !problem.is_car_like() && std::abs(next.theta - last.theta) > sharp_rad)
+      turn_to(next.theta);
     const double turn = std::abs(next.theta - nodes_.back().state.theta);
-    append(next, std::max(leg_m / problem.v_max, turn / problem.omega_max));
+    append(next, std::max(leg_m / problem.v_max, turn / problem.fastest_turn()));
   }
   if (problem.fixes_heading) {
     const double theta = unwrapped(problem.goal.theta, nodes_.back().state.theta);
-    if (std::abs(theta - nodes_.back().state.theta) > sharp_rad)
+    if (!problem.is_car_like() && std::abs(theta - nodes_.back().state.theta) > sharp_rad)
       turn_to(theta);
     else if (nodes_.size() > 1)
       nodes_.back().state.theta = theta;
@@ -83,7 +94,7 @@ void InitialGuess::shifted(const Problem& problem, double elapsed_s, Trajectory&
   const State& last = nodes_.back().state;
   const double leg_m = distance(last, end);
   end.theta = problem.fixes_heading ? unwrapped(end.theta, last.theta) : last.theta;
-  append(end, std::max(leg_m / problem.v_max, std::abs(end.theta - last.theta) / problem.omega_max));
+  append(end, std::max(leg_m / problem.v_max, std::abs(end.theta - last.theta) / problem.fastest_turn()));
   sample(problem, states, trajectory);
 }
 
@@ -117,8 +128,12 @@ void InitialGuess::sample(const Problem& problem, std::size_t states, Trajectory
     const State& a = out.states[k];
     const State& b = out.states[k + 1];
     const double ahead_m = (b.x - a.x) * std::cos(a.theta) + (b.y - a.y) * std::sin(a.theta);
+    const double turned = b.theta - a.theta;
+    const double second = problem.is_car_like()
+                              ? std::atan(turned * problem.wheelbase_m / std::max(std::abs(ahead_m), 1e-3))
+                              : turned / out.dt_s;
     out.controls[k] = {std::clamp(ahead_m / out.dt_s, problem.v_min, problem.v_max),
-                       std::clamp((b.theta - a.theta) / out.dt_s, -problem.omega_max, problem.omega_max)};
+                       std::clamp(second, -problem.omega_max, problem.omega_max)};
   }
 }
 

@@ -8,8 +8,6 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
-#include "controllers/motion/unicycle.hpp"
-
 namespace dmrp::controllers {
 
 namespace {
@@ -55,7 +53,7 @@ Descriptor Mpc::describe() {
       .source(
           "Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with "
           "Non-Euclidean Rotation Groups, ECC 2021; as in ROS's mpc_local_planner")
-      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_ACKERMANN)
       .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
@@ -76,8 +74,9 @@ Status Mpc::start(const Start& start) {
   annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
+  steering_.reset();
   const auto states = static_cast<std::size_t>(std::max<int>(max_grid_size, grid_size_ref));
-  constexpr std::size_t bounds_per_state = 10;
+  constexpr std::size_t bounds_per_state = 12;
   constexpr std::size_t obstacles_per_state = mpc::most_obstacles_per_state + 2;
   optimizer_.reserve(states, states * (bounds_per_state + obstacles_per_state), usual_obstacles);
   guide_.reserve(usual_bucket);
@@ -100,7 +99,8 @@ Status Mpc::step(const Observation& now, Command& command) {
   command = braking(now);
   tracker_.update(now);
   if (tracker_.empty()) return Status::ok;
-  if (at_goal_.reached(tracker_.stop(), now)) {
+  steering_.update(now);
+  if (at_goal_.arrived(tracker_.stop(), now)) {
     trajectory_.clear();
     turn_to_.reset();
     command = at_goal_.command(tracker_.stop(), now);
@@ -123,20 +123,30 @@ Status Mpc::step(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
-    if (is_standing && turn_if_stuck && mpc::stands_too_close(cycle.around)) begin_turn(now);
+    if (is_standing && turn_if_stuck && !is_car_like(now.limits) && mpc::stands_too_close(cycle.around))
+      begin_turn(now);
     if (is_standing) return Status::ok;
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
   if (is_standing) skip_waiting(cycle.around);
-  const double period_s = seconds(now.dt_ns);
-  const mpc::Control& control = trajectory_.controls[0];
-  command.v_x =
-      std::clamp(toward(now.velocity.v_x, control.v, now.limits.a_max * period_s), now.limits.v_min, now.limits.v_max);
-  command.omega = std::clamp(toward(now.velocity.omega, control.omega, now.limits.alpha_max * period_s),
-                             -now.limits.omega_max, now.limits.omega_max);
+  command = first_command(now);
   annotate(*solver_iterations);
   return Status::ok;
+}
+
+Command Mpc::first_command(const Observation& now) const {
+  const double period_s = seconds(now.dt_ns);
+  const Limits& limits = now.limits;
+  const mpc::Control& control = trajectory_.controls[0];
+  const double v_x =
+      std::clamp(toward(now.velocity.v_x, control.v, limits.a_max * period_s), limits.v_min, limits.v_max);
+  if (is_car_like(limits)) return steered(v_x, curvature_at(control.omega, limits), limits);
+  Command command;
+  command.v_x = v_x;
+  command.omega = std::clamp(toward(now.velocity.omega, control.omega, limits.alpha_max * period_s), -limits.omega_max,
+                             limits.omega_max);
+  return command;
 }
 
 const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const CostmapView& map) {
@@ -150,11 +160,24 @@ const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const
   return obstacles_;
 }
 
+// A car-like robot that has cut a corner could not reach a goal close beside it, so its goal is at the look-ahead
+// distance as the crow flies.
+void Mpc::look_ahead(const Observation& now, const CostmapView& map) {
+  constexpr double step_m = 0.3;
+  const double whole_m = max_global_plan_lookahead_dist;
+  ahead_.look(tracker_, now, map, whole_m);
+  if (!is_car_like(now.limits)) return;
+  for (double along_m = whole_m + step_m; along_m <= 2.0 * whole_m && !ahead_.ends_at_stop(); along_m += step_m) {
+    if (toolkit::distance(toolkit::position(now.pose), toolkit::position(ahead_.goal())) >= whole_m) return;
+    ahead_.look(tracker_, now, map, along_m);
+  }
+}
+
 // The end of the path ahead; if the path is blocked, its last point that can be reached. Nothing if the robot already
 // stands there. Sets route_.
 std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const CostmapView& map,
                                               FootprintCheck& footprint) {
-  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist);
+  look_ahead(now, map);
   const std::vector<Vec2>& points = ahead_.points();
   Target target;
   target.goal = ahead_.goal();
@@ -207,6 +230,13 @@ void Mpc::pose_problem(const Observation& now, const Target& target) {
   problem_.omega_max = limits.omega_max;
   problem_.a_max = limits.a_max;
   problem_.alpha_max = limits.alpha_max;
+  if (is_car_like(limits)) {
+    problem_.before.omega = steering_.angle_rad();
+    problem_.omega_max = limits.steering_max;
+    problem_.alpha_max = limits.steering_rate_max;
+    problem_.turning_max = limits.omega_max;
+  }
+  problem_.wheelbase_m = limits.wheelbase_m;
   problem_.dt_min_s = min_dt;
   problem_.dt_max_s = longest_step_s(now);
   problem_.min_obstacle_dist_m = min_obstacle_dist;

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "controllers/motion/annotations.hpp"
+#include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -96,8 +97,10 @@ class Mpc final : public LocalController {
     const CostmapView& map;
   };
 
+  Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  void look_ahead(const Observation& now, const CostmapView& map);
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const Target& target);
   double longest_step_s(const Observation& now) const;
@@ -117,6 +120,7 @@ class Mpc final : public LocalController {
   // state from one control cycle to the next
   PathTracker tracker_;
   StopAndRotate at_goal_;
+  SteeringEstimate steering_;
   mpc::Trajectory trajectory_;     // the warm start; empty if there is none
   std::optional<double> turn_to_;  // the heading of a turn in place
 

@@ -10,9 +10,10 @@ namespace dmrp::controllers::mpc {
 
 namespace {
 
-constexpr std::size_t bounds_count = 4;  // of a control
-constexpr std::size_t rates_count = 4;   // of a control after another
-constexpr std::size_t step_count = 2;    // of dt
+constexpr std::size_t bounds_count = 4;   // of a control
+constexpr std::size_t rates_count = 4;    // of a control after another
+constexpr std::size_t step_count = 2;     // of dt
+constexpr std::size_t turning_count = 2;  // of the turning rate of a car
 
 // sign * w[entry] + offset <= 0
 Constraint bound(double sign, StageEntry entry, const StageVector& w, double offset) {
@@ -29,6 +30,16 @@ Constraint rate_bound(double sign, StageEntry to, StageEntry from, const StageVe
   c.gradient[to] = sign;
   c.gradient[from] = -sign;
   c.gradient[at_dt] = -rate;
+  return c;
+}
+
+// sign * v tan(steering) / wheelbase - turning_max <= 0. The second derivative is neglected.
+Constraint turning_bound(double sign, const Problem& problem, const StageVector& w) {
+  const double tangent = std::tan(w[at_omega]);
+  Constraint c;
+  c.value = sign * w[at_v] * tangent / problem.wheelbase_m - problem.turning_max;
+  c.gradient[at_v] = sign * tangent / problem.wheelbase_m;
+  c.gradient[at_omega] = sign * w[at_v] * (1.0 + tangent * tangent) / problem.wheelbase_m;
   return c;
 }
 
@@ -68,6 +79,10 @@ std::array<double, 3> Problem::terminal_error(const State& last) const {
   return {last.x - goal.x, last.y - goal.y, fixes_heading ? toolkit::wrap(last.theta - goal.theta) : 0.0};
 }
 
+double Problem::fastest_turn() const {
+  return is_car_like() ? std::min(turning_max, v_max * std::tan(omega_max) / wheelbase_m) : omega_max;
+}
+
 StageVector Problem::stage(const Trajectory& at, std::size_t k) const {
   const State& s = at.states[k];
   const Control& previous = k > 0 ? at.controls[k - 1] : before;
@@ -78,7 +93,7 @@ StageVector Problem::stage(const Trajectory& at, std::size_t k) const {
 std::size_t Problem::constraint_count(std::size_t stages, std::size_t k) const {
   std::size_t count = obstacles[k].size();
   if (k == 0) count += step_count;
-  if (k + 1 < stages) return count + bounds_count + rates_count;
+  if (k + 1 < stages) return count + bounds_count + rates_count + (is_car_like() ? turning_count : 0);
   return count + (ends_at_rest ? rates_count : 0);
 }
 
@@ -96,6 +111,8 @@ void Problem::constraints(std::size_t stages, std::size_t k, const StageVector& 
     *out++ = bound(-1.0, at_v, w, v_min);
     *out++ = bound(1.0, at_omega, w, -omega_max);
     *out++ = bound(-1.0, at_omega, w, -omega_max);
+    if (is_car_like())
+      for (const double sign : {1.0, -1.0}) *out++ = turning_bound(sign, *this, w);
   } else if (ends_at_rest) {
     for (const double sign : {1.0, -1.0}) {
       *out = bound(sign, at_v_before, w, -a_max * w[at_dt]);
@@ -112,17 +129,22 @@ Transition Problem::transition(const StageVector& w, const State& next) const {
   const double s = std::sin(w[at_theta]);
   const double dt = w[at_dt];
   const double v = w[at_v];
+  const double tangent = is_car_like() ? std::tan(w[at_omega]) : 0.0;
+  const double turning = is_car_like() ? v * tangent / wheelbase_m : w[at_omega];
   Transition t;
   t.defect = {w[at_x] + dt * v * c - next.x, w[at_y] + dt * v * s - next.y,
-              toolkit::wrap(w[at_theta] + dt * w[at_omega] - next.theta)};
+              toolkit::wrap(w[at_theta] + dt * turning - next.theta)};
   t.x_by_theta = -dt * v * s;
   t.x_by_dt = v * c;
   t.x_by_v = dt * c;
   t.y_by_theta = dt * v * c;
   t.y_by_dt = v * s;
   t.y_by_v = dt * s;
-  t.theta_by_dt = w[at_omega];
+  t.theta_by_dt = turning;
   t.theta_by_omega = dt;
+  if (!is_car_like()) return t;
+  t.theta_by_v = dt * tangent / wheelbase_m;
+  t.theta_by_omega = dt * v * (1.0 + tangent * tangent) / wheelbase_m;
   return t;
 }
 
@@ -135,7 +157,17 @@ void Problem::add_transition_curvature(const StageVector& w, const double* multi
   hessian[at_theta][at_dt] += across * w[at_v];
   hessian[at_theta][at_v] += across * w[at_dt];
   hessian[at_dt][at_v] += along;
-  hessian[at_dt][at_omega] += multipliers[2];
+  if (!is_car_like()) {
+    hessian[at_dt][at_omega] += multipliers[2];
+    return;
+  }
+  const double turning = multipliers[2] / wheelbase_m;
+  const double tangent = std::tan(w[at_omega]);
+  const double slope = 1.0 + tangent * tangent;
+  hessian[at_dt][at_v] += turning * tangent;
+  hessian[at_dt][at_omega] += turning * w[at_v] * slope;
+  hessian[at_v][at_omega] += turning * w[at_dt] * slope;
+  hessian[at_omega][at_omega] += turning * w[at_dt] * w[at_v] * 2.0 * tangent * slope;
 }
 
 double Problem::cost(const Trajectory& at) const {

@@ -6,6 +6,7 @@
 //
 //   minimise (N - 1) dt   subject to   s(k + 1) = s(k) + dt f(s(k), u(k)),  s(0) and s(N - 1) given,
 //
+// for a unicycle, or for upstream's simple car with the steering angle as its second control;
 // bounds on speeds, accelerations and dt, and min_obstacle_dist - distance <= 0 at every state. Angle differences in
 // the transitions and in the terminal condition are wrapped.
 //
@@ -51,7 +52,7 @@ struct Transition {
   std::array<double, 3> defect = {};
   double x_by_theta = 0.0, x_by_dt = 0.0, x_by_v = 0.0;
   double y_by_theta = 0.0, y_by_dt = 0.0, y_by_v = 0.0;
-  double theta_by_dt = 0.0, theta_by_omega = 0.0;
+  double theta_by_dt = 0.0, theta_by_v = 0.0, theta_by_omega = 0.0;
 };
 
 struct Problem {
@@ -63,6 +64,10 @@ struct Problem {
 
   double v_min = 0.0, v_max = 1.0, omega_max = 1.0;  // m/s, rad/s
   double a_max = 1.0, alpha_max = 1.0;               // m/s^2, rad/s^2
+  // Of a car-like robot, otherwise 0. Then omega is the steering angle, omega_max its largest value and alpha_max its
+  // largest rate, and turning_max bounds the turning rate.
+  double wheelbase_m = 0.0;
+  double turning_max = 0.0;  // rad/s
   double dt_min_s = 0.0, dt_max_s = 10.0;
   double min_obstacle_dist_m = 0.1;  // between the outlines
 
@@ -73,6 +78,10 @@ struct Problem {
   const Footprint* footprint = nullptr;
   // The obstacles that constrain each state (see Association); at least as many lists as states, the first one empty.
   std::vector<std::vector<const Obstacle*>> obstacles;
+
+  bool is_car_like() const { return wheelbase_m > 0.0; }
+  // The fastest turn of a robot at full speed (rad/s).
+  double fastest_turn() const;
 
   // The penalty weights of the terminal condition's three components.
   std::array<double, 3> terminal_weights() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trajectory.hpp: states and controls of a unicycle on a grid of equal time steps.
+// trajectory.hpp: states and controls of a robot on a grid of equal time steps.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ inline State between(const State& a, const State& b, double share) {
 
 struct Control {
   double v = 0.0;      // m/s
-  double omega = 0.0;  // rad/s
+  double omega = 0.0;  // rad/s; of a car-like robot instead the steering angle, rad
 };
 
 // controls[k] leads from states[k] to states[k + 1] in dt_s.

@@ -81,7 +81,7 @@ Status OrcaController::step(const Observation& now, Command& command) {
   const double fastest = holonomic_ ? std::hypot(now.limits.v_max, now.limits.v_y_max) : now.limits.v_max;
   const Vec2 velocity = program_.solve(planes_, hard_count, fastest, preferred(now));
   command = holonomic_ ? translate(now, velocity) : follow(now, velocity);
-  annotations_.arc(now.pose, command.v_x, command.omega, time_horizon_obst);
+  annotations_.arc(now.pose, command, time_horizon_obst);
   return Status::ok;
 }
 

@@ -8,14 +8,6 @@
 
 namespace dmrp::controllers {
 
-namespace {
-
-double speed_of(const Observation& now) {
-  return std::hypot(now.velocity.v_x, now.velocity.v_y);
-}
-
-}  // namespace
-
 Descriptor PurePursuit::describe() {
   return Descriptor("dmrp.controller.pure_pursuit", "Pure pursuit", "1.0.0")
       .vendor("dmrp")
@@ -58,7 +50,7 @@ Status PurePursuit::step(const Observation& now, Command& command) {
     blocked = is_blocked(now, command, map);
   }
   if (!blocked) {
-    annotations_.arc(now.pose, command.v_x, command.omega, max_allowed_time_to_collision_up_to_carrot);
+    annotations_.arc(now.pose, command, max_allowed_time_to_collision_up_to_carrot);
     return Status::ok;
   }
   command = braking(now);
@@ -70,7 +62,8 @@ Status PurePursuit::step(const Observation& now, Command& command) {
 
 double PurePursuit::look_ahead(const Observation& now) const {
   if (!use_velocity_scaled_lookahead_dist) return lookahead_dist;
-  return std::max<double>(min_lookahead_dist, std::min<double>(speed_of(now) * lookahead_time, max_lookahead_dist));
+  return std::max<double>(min_lookahead_dist,
+                          std::min<double>(speed_of(now.velocity) * lookahead_time, max_lookahead_dist));
 }
 
 Command PurePursuit::stop(const Observation& now) {

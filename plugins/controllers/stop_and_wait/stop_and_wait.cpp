@@ -93,7 +93,7 @@ Status StopAndWait::step(const Observation& now, Command& command) {
   } else {
     command = drive(now, leg, check);
   }
-  annotations_.arc(now.pose, command.v_x, command.omega, 1.0);
+  annotations_.arc(now.pose, command, 1.0);
   return Status::ok;
 }
 

@@ -7,7 +7,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "controllers/motion/unicycle.hpp"
+#include "controllers/motion/drive_ability.hpp"
 #include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers::teb {
@@ -26,11 +26,24 @@ inline Command first_command(const TimedElasticBand& band, std::size_t poses, co
 
   const Limits& limits = now.limits;
   const double period_s = seconds(now.dt_ns);
+  if (is_car_like(limits)) {
+    const double reached = toward(now.velocity.v_x, std::clamp(v, limits.v_min, limits.v_max), limits.a_max * period_s);
+    return steered(std::clamp(reached, limits.v_min, limits.v_max), v == 0.0 ? 0.0 : omega / v, limits);
+  }
   Command command;
-  command.v_x = toward(now.velocity.v_x, std::clamp(v, limits.v_min, limits.v_max), limits.a_max * period_s);
+  if (is_holonomic(limits)) {
+    const Vec2 wanted = toolkit::rotate(chord, -band.theta[0]) / duration_s;
+    const Vec2 bounded = {std::clamp(wanted.x, limits.v_min, limits.v_max),
+                          std::clamp(wanted.y, -limits.v_y_max, limits.v_y_max)};
+    const Vec2 reached = toward(Vec2{now.velocity.v_x, now.velocity.v_y}, bounded, limits.a_max * period_s);
+    command.v_x = std::clamp(reached.x, limits.v_min, limits.v_max);
+    command.v_y = std::clamp(reached.y, -limits.v_y_max, limits.v_y_max);
+  } else {
+    command.v_x = toward(now.velocity.v_x, std::clamp(v, limits.v_min, limits.v_max), limits.a_max * period_s);
+    command.v_x = std::clamp(command.v_x, limits.v_min, limits.v_max);
+  }
   command.omega =
       toward(now.velocity.omega, std::clamp(omega, -limits.omega_max, limits.omega_max), limits.alpha_max * period_s);
-  command.v_x = std::clamp(command.v_x, limits.v_min, limits.v_max);
   command.omega = std::clamp(command.omega, -limits.omega_max, limits.omega_max);
   return command;
 }

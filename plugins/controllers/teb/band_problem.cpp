@@ -5,6 +5,8 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "controllers/motion/drive_ability.hpp"
+
 namespace dmrp::controllers::teb {
 
 namespace {
@@ -20,6 +22,9 @@ constexpr double forbidding_weight = 1000.0;
 // The maximum number of intervals that the check between two poses divides their distance into.
 constexpr int most_pieces = 20;
 
+// The greatest weight of moving along arcs for a holonomic drive, as in upstream's example of one.
+constexpr double holonomic_arc_weight = 1.0;
+
 constexpr std::size_t first_of(std::size_t pose) {
   return 4 * pose;
 }
@@ -30,6 +35,7 @@ void BandProblem::reserve(std::size_t poses) {
   kept_.reserve(poses);
   poses_.reserve(poses);
   motions_.reserve(poses);
+  aside_.reserve(poses);
   links_.reserve(8 * poses);
   via_links_.reserve(poses);
 }
@@ -104,8 +110,14 @@ double BandProblem::evaluate(const NormalEquations& normal, const CostScales& sc
   motions_.resize(band.dt.size());
   for (std::size_t i = 0; i < band.size(); ++i)
     poses_[i] = {band.position(i), band.theta[i], toolkit::from_angle(band.theta[i])};
-  for (std::size_t i = 0; i < band.dt.size(); ++i)
-    motion_between<with_derivatives>(poses_[i], poses_[i + 1], band.dt[i], motions_[i]);
+  if (is_holonomic(*scene_->limits)) {
+    aside_.resize(band.dt.size());
+    for (std::size_t i = 0; i < band.dt.size(); ++i)
+      holonomic_motion_between<with_derivatives>(poses_[i], poses_[i + 1], band.dt[i], motions_[i], aside_[i]);
+  } else {
+    for (std::size_t i = 0; i < band.dt.size(); ++i)
+      motion_between<with_derivatives>(poses_[i], poses_[i + 1], band.dt[i], motions_[i]);
+  }
 
   WeightedSquares<with_derivatives> squares = {normal};
   add_intervals(squares, !scales.whole_duration);
@@ -130,6 +142,10 @@ void BandProblem::add_intervals(WeightedSquares<with_derivatives>& squares, bool
   const double forward_weight = limits.v_min < 0.0
                                     ? parameters.weight_kinematics_forward_drive
                                     : std::max(parameters.weight_kinematics_forward_drive, forbidding_weight);
+  const bool holonomic = is_holonomic(limits);
+  const double arc_weight =
+      holonomic ? std::min(parameters.weight_kinematics_nh, holonomic_arc_weight) : parameters.weight_kinematics_nh;
+  const double least_radius_m = is_car_like(limits) ? 1.0 / sharpest_curvature(limits) : 0.0;
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const std::size_t first = first_of(i);
     const Motion& motion = motions_[i];
@@ -137,9 +153,17 @@ void BandProblem::add_intervals(WeightedSquares<with_derivatives>& squares, bool
     squares.add(first, within(motion.v, limits.v_min, limits.v_max, margin), motion.v_by, parameters.weight_max_vel_x);
     squares.add(first, within(motion.omega, -limits.omega_max, limits.omega_max, margin), motion.omega_by,
                 parameters.weight_max_vel_theta);
-    squares.add(first, non_holonomic(poses_[i], poses_[i + 1]), parameters.weight_kinematics_nh);
+    squares.add(first, non_holonomic(poses_[i], poses_[i + 1]), arc_weight);
     const Residual<pair_block> ahead = forward(poses_[i], poses_[i + 1]);
     squares.add(first, above(ahead.error, 0.0, 0.0), ahead.by, forward_weight);
+    if (holonomic)
+      squares.add(first, within(aside_[i].value, -limits.v_y_max, limits.v_y_max, margin), aside_[i].by,
+                  parameters.weight_max_vel_y);
+    if (least_radius_m > 0.0) {
+      const Residual<pair_block> radius = turning_radius(poses_[i], poses_[i + 1]);
+      squares.add(first, above(radius.error, least_radius_m, 0.0), radius.by,
+                  parameters.weight_kinematics_turning_radius);
+    }
     if (parameters.weight_shortest_path > 0.0)
       squares.add(first, length(poses_[i], poses_[i + 1]), parameters.weight_shortest_path);
   }
@@ -167,10 +191,28 @@ void BandProblem::add_accelerations(WeightedSquares<with_derivatives>& squares) 
     penalise(i, acceleration(a.v, a.v_by, b.v, b.v_by, dt[i], dt[i + 1]),
              acceleration(a.omega, a.omega_by, b.omega, b.omega_by, dt[i], dt[i + 1]));
   }
+  if (is_holonomic(limits)) add_sideways_accelerations(squares);
   if (!scene_->stops_at_goal) return;
   const Motion& end = motions_.back();
   penalise(motions_.size() - 1, end_acceleration(0.0, end.v, end.v_by, dt.back(), -1.0),
            end_acceleration(0.0, end.omega, end.omega_by, dt.back(), -1.0));
+}
+
+template <bool with_derivatives>
+void BandProblem::add_sideways_accelerations(WeightedSquares<with_derivatives>& squares) const {
+  const double a_max = scene_->limits->a_max;
+  const std::vector<double>& dt = band_->dt;
+  const auto penalise = [&](std::size_t interval, const auto& a) {
+    squares.add(first_of(interval), within(a.error, -a_max, a_max, parameters_->penalty_epsilon), a.by,
+                parameters_->weight_acc_lim_y);
+  };
+  const Velocity& begin = aside_.front();
+  penalise(0, end_acceleration(scene_->start_velocity.v_y, begin.value, begin.by, dt[0], 1.0));
+  for (std::size_t i = 0; i + 1 < aside_.size(); ++i)
+    penalise(i, acceleration(aside_[i].value, aside_[i].by, aside_[i + 1].value, aside_[i + 1].by, dt[i], dt[i + 1]));
+  if (!scene_->stops_at_goal) return;
+  const Velocity& end = aside_.back();
+  penalise(aside_.size() - 1, end_acceleration(0.0, end.value, end.by, dt.back(), -1.0));
 }
 
 template <bool with_derivatives>

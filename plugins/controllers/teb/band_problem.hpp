@@ -60,6 +60,8 @@ class BandProblem {
   template <bool with_derivatives>
   void add_accelerations(WeightedSquares<with_derivatives>& squares) const;
   template <bool with_derivatives>
+  void add_sideways_accelerations(WeightedSquares<with_derivatives>& squares) const;
+  template <bool with_derivatives>
   void add_obstacles(WeightedSquares<with_derivatives>& squares) const;
   template <bool with_derivatives>
   void add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
@@ -77,6 +79,7 @@ class BandProblem {
   double obstacle_factor_ = 1.0;
   std::vector<DirectedPose> poses_;
   std::vector<Motion> motions_;
+  std::vector<Velocity> aside_;  // of a holonomic drive, one a motion
   ObstacleLinker linker_;
   std::vector<ObstacleLink> links_;
   std::vector<ViaPointLink> via_links_;

@@ -64,6 +64,12 @@ struct Motion {
   std::array<double, pair_block> omega_by = {};
 };
 
+// One component of a mean velocity, and its derivatives.
+struct Velocity {
+  double value = 0.0;  // m/s
+  std::array<double, pair_block> by = {};
+};
+
 template <bool with_derivatives>
 inline void motion_between(const DirectedPose& a, const DirectedPose& b, double dt_s, Motion& motion) {
   constexpr double sharpness = 100.0;  // 1/m
@@ -81,6 +87,27 @@ inline void motion_between(const DirectedPose& a, const DirectedPose& b, double 
     const Vec2 by = by_distance * chord + by_ahead * a.heading;
     const double by_theta = by_ahead * toolkit::cross(a.heading, chord);
     motion.v_by = {-by.x, -by.y, by_theta, -motion.v * inverse_dt, by.x, by.y, 0.0};
+    motion.omega_by = {0.0, 0.0, -inverse_dt, -motion.omega * inverse_dt, 0.0, 0.0, inverse_dt};
+  }
+}
+
+// The mean velocity of a holonomic drive between two poses dt apart: motion.v ahead, `aside` to the left. Sets the rest
+// of `motion` too.
+template <bool with_derivatives>
+inline void holonomic_motion_between(const DirectedPose& a, const DirectedPose& b, double dt_s, Motion& motion,
+                                     Velocity& aside) {
+  const Vec2 chord = b.at - a.at;
+  const Vec2 ahead = a.heading;
+  const Vec2 left = toolkit::perpendicular(ahead);
+  const double inverse_dt = 1.0 / dt_s;
+  motion.v = toolkit::dot(chord, ahead) * inverse_dt;
+  aside.value = toolkit::dot(chord, left) * inverse_dt;
+  motion.omega = toolkit::wrap(b.theta - a.theta) * inverse_dt;
+  if constexpr (with_derivatives) {
+    const Vec2 by_x = inverse_dt * ahead;
+    const Vec2 by_y = inverse_dt * left;
+    motion.v_by = {-by_x.x, -by_x.y, aside.value, -motion.v * inverse_dt, by_x.x, by_x.y, 0.0};
+    aside.by = {-by_y.x, -by_y.y, -motion.v, -aside.value * inverse_dt, by_y.x, by_y.y, 0.0};
     motion.omega_by = {0.0, 0.0, -inverse_dt, -motion.omega * inverse_dt, 0.0, 0.0, inverse_dt};
   }
 }
@@ -106,6 +133,21 @@ inline Residual<pair_block> forward(const DirectedPose& a, const DirectedPose& b
   const Vec2 chord = b.at - a.at;
   const Vec2 ahead = a.heading;
   return {toolkit::dot(chord, ahead), {-ahead.x, -ahead.y, toolkit::cross(ahead, chord), 0.0, ahead.x, ahead.y, 0.0}};
+}
+
+// The radius of the arc between two poses: their distance divided by the angle. Far larger than any least radius if the
+// robot does not turn.
+inline Residual<pair_block> turning_radius(const DirectedPose& a, const DirectedPose& b) {
+  constexpr double straight_rad = 1e-4;
+  constexpr double straight_m = 1e6;
+  const double turned = toolkit::wrap(b.theta - a.theta);
+  const double angle = std::abs(turned);
+  if (angle < straight_rad) return {straight_m, {}};
+  const Vec2 chord = b.at - a.at;
+  const double distance = smooth_norm(chord);
+  const Vec2 by = chord / (distance * angle);
+  const double by_theta = -std::copysign(distance / (angle * angle), turned);
+  return {distance / angle, {-by.x, -by.y, -by_theta, 0.0, by.x, by.y, by_theta}};
 }
 
 // The distance between two poses.

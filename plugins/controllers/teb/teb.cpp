@@ -48,7 +48,8 @@ Descriptor Teb::describe() {
       .source(
           "Roesmann, Hoffmann, Bertram: Integrated online trajectory planning and optimization in distinctive "
           "topologies, Robotics and Autonomous Systems 88 (2017); as ROS's teb_local_planner")
-      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL)
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC |
+                  1u << DMRP_KINEMATICS_ACKERMANN)
       .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
@@ -61,6 +62,7 @@ Status Teb::start(const Start& start) {
   annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
+  steering_.reset();
   obstacles_.clear();
   parameters_ = parameters();
   const double periods = parameters_.oscillation_filter_duration / seconds(start.world->control_period_ns);
@@ -82,7 +84,8 @@ Status Teb::step(const Observation& now, Command& command) {
   command = braking(now);
   tracker_.update(now);
   if (tracker_.empty()) return Status::ok;
-  if (at_goal_.reached(tracker_.stop(), now)) {
+  steering_.update(now);
+  if (at_goal_.arrived(tracker_.stop(), now)) {
     planner_.clear();
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
@@ -187,9 +190,9 @@ teb::Task Teb::task(const Observation& now, bool is_cut) {
   teb::Task task;
   task.t_ns = now.t_ns;
   task.start = now.pose;
-  // the band ends along the path's direction; the robot turns to the goal's heading in place
+  // the band ends along the path's direction; a robot that is no car turns to the goal's heading in place
   task.goal = path_.goal();
-  if (path_.has_heading() && points.size() > 1)
+  if (path_.has_heading() && points.size() > 1 && !is_car_like(now.limits))
     task.goal.theta = toolkit::bearing(points[points.size() - 2], points.back());
   task.path = &points;
   task.scene = {&now.limits,    &now.footprint, &obstacles_.all(),
@@ -231,24 +234,27 @@ bool Teb::is_free(const Pose& pose, double ahead_s, const Observation& now, Foot
 bool Teb::stops_in_time(const Command& command, const Observation& now, FootprintCheck& footprint) const {
   const double period_s = seconds(now.dt_ns);
   DirectedPoint at = directed(now.pose);
-  double v = command.v_x;
-  double omega = command.omega;
+  Twist v = {command.v_x, command.v_y, command.omega};
+  SteeringEstimate steering = steering_;
   for (double ahead_s = period_s; ahead_s < 10.0; ahead_s += period_s) {
-    ArcStepper(v, omega, period_s).step(at);
+    if (is_car_like(now.limits)) v.omega = v.v_x * steering.turn_toward(command, now.limits, period_s);
+    ArcStepper(v.v_x, v.v_y, v.omega, period_s).step(at);
     if (!is_free(pose_of(at), ahead_s, now, footprint)) return false;
-    if (v == 0.0 && omega == 0.0) break;
-    v = toward(0.0, v, std::max(0.0, std::abs(v) - now.limits.a_max * period_s));
-    omega = toward(0.0, omega, std::max(0.0, std::abs(omega) - now.limits.alpha_max * period_s));
+    if (v.v_x == 0.0 && v.v_y == 0.0 && v.omega == 0.0) break;
+    v = braked(v, now.limits, period_s);
   }
   return true;
 }
 
 // Lowers the speed until the robot can stop in time. False if not even braking is enough.
 bool Teb::slow_down(Command& command, const Observation& now, FootprintCheck& footprint) const {
-  const double least = toward(now.velocity.v_x, 0.0, now.limits.a_max * seconds(now.dt_ns));
-  const double wanted = command.v_x;
+  const Command least = braking(now);
+  const Command wanted = command;
   for (const double share : {1.0, 0.5, 0.0}) {
-    command.v_x = least + share * (wanted - least);
+    command.v_x = least.v_x + share * (wanted.v_x - least.v_x);
+    command.v_y = least.v_y + share * (wanted.v_y - least.v_y);
+    if (is_car_like(now.limits) && wanted.v_x != 0.0)
+      command = steered(command.v_x, wanted.omega / wanted.v_x, now.limits);
     if (stops_in_time(command, now, footprint)) return true;
   }
   return false;
@@ -258,10 +264,11 @@ bool Teb::slow_down(Command& command, const Observation& now, FootprintCheck& fo
 // turns toward the path, to be ready once the path is free.
 Status Teb::wait(const Observation& now, FootprintCheck& footprint, Command& command) {
   command = braking(now);
-  if (std::abs(now.velocity.v_x) > standing_m_s) {
+  if (speed_of(now.velocity) > standing_m_s) {
     set_error("no feasible band: braking");
     return Status::no_solution;
   }
+  if (is_car_like(now.limits)) return Status::ok;
   const Vec2 ahead = tracker_.point_at_distance(toolkit::position(now.pose), face_ahead_m);
   const double angle = toolkit::difference(now.pose.theta, toolkit::bearing(toolkit::position(now.pose), ahead));
   const bool is_turning = std::abs(now.velocity.omega) > standing_rad_s;

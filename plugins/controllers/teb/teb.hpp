@@ -8,6 +8,7 @@
 #include <dmrp/plugin.hpp>
 
 #include "controllers/motion/annotations.hpp"
+#include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/oscillation_detector.hpp"
 #include "controllers/motion/path_ahead.hpp"
@@ -48,6 +49,7 @@ class Teb final : public teb::DeclaredParameters {
   PathAhead path_;
   Guide guide_;
   StopAndRotate at_goal_;
+  SteeringEstimate steering_;
   ObstacleSet obstacles_;
   OscillationDetector oscillation_;
   teb::Parameters parameters_;

@@ -6,6 +6,8 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "controllers/motion/drive_ability.hpp"
+
 namespace dmrp::controllers::teb {
 
 namespace {
@@ -37,6 +39,14 @@ void append_turn(TimedElasticBand& band, double heading, const Limits& limits, c
     const double theta = toolkit::wrap(from.theta + angle * i / steps);
     band.append({from.x, from.y, theta}, duration_s / steps);
   }
+}
+
+// For a car-like drive, instead of a turn: the tightest arc.
+void append_arc(TimedElasticBand& band, Vec2 to, const Limits& limits) {
+  face_by_arc(band.pose(band.size() - 1), to, 1.0 / sharpest_curvature(limits), turn_first_rad,
+              [&](const Pose& pose, double length_m) {
+                band.append({pose.x, pose.y, toolkit::wrap(pose.theta)}, length_m / limits.v_max);
+              });
 }
 
 // Appends a straight leg to a point, with the heading along the leg.
@@ -123,7 +133,9 @@ void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const 
     first = point;
     break;
   }
-  if (toolkit::distance(toolkit::position(start), first) > 1e-6)
+  if (is_car_like(limits))
+    append_arc(band, first, limits);
+  else if (!is_holonomic(limits) && toolkit::distance(toolkit::position(start), first) > 1e-6)
     append_turn(band, toolkit::bearing(start, first), limits, parameters, turn);
   for (const Vec2 point : points) {
     const Vec2 last = band.position(band.size() - 1);

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/polyline.hpp>
-#include <dmrp/toolkit/rectangle.hpp>
 
-#include "tests/unit/controllers/robot_body.hpp"
+#include "core/world/drive.hpp"
 
 namespace dmrp::test {
 
@@ -24,11 +23,37 @@ dmrp_pose moved(const dmrp_pose& from, const dmrp_twist& velocity, double dt) {
           toolkit::wrap(from.theta + velocity.omega * dt)};
 }
 
+// The gap between two convex outlines along the axis, of all their edges' normals, on which it is widest: a lower bound
+// of their distance, negative if and only if they overlap.
+double gap_between(const std::vector<dmrp_vec2>& a, const std::vector<dmrp_vec2>& b) {
+  double widest = -1e9;
+  const auto try_edges = [&widest](const std::vector<dmrp_vec2>& of, const std::vector<dmrp_vec2>& other) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const dmrp_vec2 edge = of[(i + 1) % of.size()] - of[i];
+      const dmrp_vec2 outward = toolkit::normalized({edge.y, -edge.x});
+      double least = 1e9;
+      for (const dmrp_vec2 corner : other) least = std::min(least, toolkit::dot(outward, corner - of[i]));
+      widest = std::max(widest, least);
+    }
+  };
+  try_edges(a, b);
+  try_edges(b, a);
+  return widest;
+}
+
 double ramp(double value, double target, double step) {
   return value + std::clamp(target - value, -step, step);
 }
 
 }  // namespace
+
+Body with_rectangle(Body body, double ahead_m, double behind_m, double half_width_m) {
+  body.corners = {
+      {-behind_m, -half_width_m}, {ahead_m, -half_width_m}, {ahead_m, half_width_m}, {-behind_m, half_width_m}};
+  body.radius_m = std::hypot(std::max(ahead_m, behind_m), half_width_m);
+  body.inscribed_radius_m = std::min({ahead_m, behind_m, half_width_m});
+  return body;
+}
 
 Walker standing(dmrp_vec2 at) {
   return {0.3, [at](double, dmrp_vec2) { return at; }};
@@ -58,10 +83,18 @@ std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
 
 Trip::Trip(const std::string& controller, Course course, ParamOverrides overrides)
     : original_(std::move(course)),
-      sensors_(original_.sight),
+      sensors_(original_.sight, original_.body.inscribed_radius_m),
       plugin_(std::make_unique<PluginUnderTest>("libdmrp_controllers.so", controller, std::move(overrides))) {
-  limits_ = differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
-  footprint_ = disc_footprint(0.25);
+  const Body& body = original_.body;
+  limits_ = body.limits;
+  footprint_ = disc_footprint(body.radius_m);
+  if (!body.corners.empty()) {
+    part_ = polygon_of(body.corners);
+    footprint_.part_count = 1;
+    footprint_.parts = &part_;
+    footprint_.part_stride = sizeof(part_);
+    footprint_.inscribed_radius_m = body.inscribed_radius_m;
+  }
   grid_.struct_size = sizeof(grid_);
   grid_.resolution_m = 1.0;
   if (original_.costmap) sensors_.offer(plugin_->host());
@@ -79,6 +112,7 @@ void Trip::start() {
   notes_.notes.clear();
   pose_ = course_.start;
   velocity_ = {0.0, 0.0, 0.0};
+  steering_rad_ = 0.0;
   t_ns_ = 0;
   settled_ns_ = 0;
   no_solution_s_ = 0.0;
@@ -91,7 +125,7 @@ void Trip::start() {
   goal_.settle_ns = 500'000'000;
   robot_.name = "robot";
   robot_.type = "";
-  robot_.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
+  robot_.kinematics = original_.body.kinematics;
   robot_.goals = &goal_;
   robot_.goal_count = 1;
   robot_.goal_stride = sizeof(goal_);
@@ -116,7 +150,7 @@ bool Trip::finished() const {
 }
 
 dmrp_vec2 Trip::velocity() const {
-  return finished() ? dmrp_vec2{0.0, 0.0} : velocity_.v_x * toolkit::from_angle(pose_.theta);
+  return finished() ? dmrp_vec2{0.0, 0.0} : toolkit::rotate({velocity_.v_x, velocity_.v_y}, pose_.theta);
 }
 
 void Trip::control_period() {
@@ -214,6 +248,8 @@ void Trip::command() {
   };
   if (status == DMRP_NO_SOLUTION) {
     command_.v_x = command_.v_y = command_.omega = 0.0;
+  } else if (original_.body.kinematics != DMRP_KINEMATICS_DIFFERENTIAL) {
+    demand_ability(status);
   } else {
     const double rounding = 1e-9;
     demand(status == DMRP_OK, "a status that is neither OK nor NO_SOLUTION");
@@ -227,32 +263,67 @@ void Trip::command() {
   drive_.commands.push_back(command_);
 }
 
+// Of a drive that is not differential.
+void Trip::demand_ability(std::int32_t status) {
+  const double rounding = 1e-9;
+  const auto demand = [this](bool held, const char* what) {
+    if (!held) drive_.breaches.push_back(std::string(what) + " at " + std::to_string(drive_.time_s) + " s");
+  };
+  demand(status == DMRP_OK, "a status that is neither OK nor NO_SOLUTION");
+  demand(std::isfinite(command_.v_x) && std::isfinite(command_.v_y) && std::isfinite(command_.omega), "not finite");
+  const dmrp_twist given = {command_.v_x, command_.v_y, command_.omega};
+  const dmrp_twist able = core::clip_to_drive(given, static_cast<core::Drive>(original_.body.kinematics), limits_);
+  demand(std::abs(able.v_x - given.v_x) <= rounding, "v_x outside the drive's ability");
+  demand(std::abs(able.v_y - given.v_y) <= rounding, "v_y outside the drive's ability");
+  demand(std::abs(able.omega - given.omega) <= rounding, "omega outside the drive's ability");
+}
+
 void Trip::drive_on() {
   if (finished()) return;
+  if (original_.body.kinematics != DMRP_KINEMATICS_DIFFERENTIAL) {
+    const auto kind = static_cast<core::Drive>(original_.body.kinematics);
+    const dmrp_twist able = core::clip_to_drive({command_.v_x, command_.v_y, command_.omega}, kind, limits_);
+    const core::DriveState next = core::advance({pose_, velocity_, steering_rad_}, able, kind, limits_, step_s);
+    observation_.applied = able;
+    pose_ = next.pose;
+    velocity_ = next.velocity;
+    steering_rad_ = next.steering_rad;
+    end_step();
+    return;
+  }
   velocity_.v_x = ramp(velocity_.v_x, command_.v_x, limits_.a_max * step_s);
   velocity_.omega = ramp(velocity_.omega, command_.omega, limits_.alpha_max * step_s);
   observation_.applied = velocity_;
   pose_ = moved(pose_, velocity_, step_s);
+  end_step();
+}
+
+void Trip::end_step() {
   drive_.turned_rad += std::abs(velocity_.omega) * step_s;
   t_ns_ += step_ns;
   drive_.time_s = static_cast<double>(t_ns_) * 1e-9;
   judge();
 }
 
-double Trip::static_clearance(dmrp_vec2 at) const {
+double Trip::clearance_from(const toolkit::Rectangle& box) const {
+  const dmrp_vec2 at = toolkit::position(pose_);
+  if (original_.body.corners.empty())
+    return (toolkit::contains(box, at) ? -toolkit::depth(box, at) : toolkit::distance(box, at)) - footprint_.radius_m;
+  std::vector<dmrp_vec2> outline;
+  for (const dmrp_vec2 corner : original_.body.corners) outline.push_back(toolkit::to_world(pose_, corner));
+  return gap_between(outline, {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}});
+}
+
+double Trip::static_clearance() const {
   double nearest = 1e9;
-  for (const Box& box : course_.boxes) {
-    const toolkit::Rectangle rectangle = {box.lower, box.upper};
-    nearest = std::min(
-        nearest, toolkit::contains(rectangle, at) ? -toolkit::depth(rectangle, at) : toolkit::distance(rectangle, at));
-  }
-  return nearest - footprint_.radius_m;
+  for (const Box& box : course_.boxes) nearest = std::min(nearest, clearance_from({box.lower, box.upper}));
+  return nearest;
 }
 
 void Trip::judge() {
   const dmrp_vec2 at = toolkit::position(pose_);
   drive_.end = pose_;
-  drive_.static_clearance_m = std::min(drive_.static_clearance_m, static_clearance(at));
+  drive_.static_clearance_m = std::min(drive_.static_clearance_m, static_clearance());
   for (const Walker& walker : course_.walkers) {
     const dmrp_vec2 other = walker.at(drive_.time_s, at);
     const double clearance = toolkit::distance(other, at) - walker.radius_m - footprint_.radius_m;
@@ -262,7 +333,8 @@ void Trip::judge() {
     if (approach > 0.05) drive_.own_walker_clearance_m = std::min(drive_.own_walker_clearance_m, clearance);
   }
   drive_.goal_distance_m = toolkit::distance(at, toolkit::position(goal_.pose));
-  const bool there = drive_.goal_distance_m <= goal_.tolerance_m && std::abs(velocity_.v_x) <= goal_.tolerance_speed &&
+  const bool there = drive_.goal_distance_m <= goal_.tolerance_m &&
+                     toolkit::norm({velocity_.v_x, velocity_.v_y}) <= goal_.tolerance_speed &&
                      (std::isnan(goal_.pose.theta) ||
                       std::abs(toolkit::difference(pose_.theta, goal_.pose.theta)) <= goal_.tolerance_rad);
   settled_ns_ = there ? settled_ns_ + step_ns : 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // arena.hpp: a small world in which controllers drive robots in closed loop through the C ABI.
 //
-// A unicycle with acceleration limits at 50 Hz, control at 10 Hz, progress and arrival as in a host, the sensors of
+// A robot with acceleration limits at 50 Hz, control at 10 Hz, progress and arrival as in a host, the sensors of
 // arena_sensors.hpp. One robot per Trip; several Trips can share a world (drive_together).
 #pragma once
 
@@ -10,12 +10,14 @@
 
 #include <array>
 #include <cstdint>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "tests/unit/controllers/arena_sensors.hpp"
+#include "tests/unit/controllers/robot_body.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
@@ -34,7 +36,20 @@ Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s = 0.0)
 class Trip;
 Walker robot_of(const Trip& other);  // `other` must outlive it
 
+// What drives. No corners: a disc.
+struct Body {
+  std::uint32_t kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
+  dmrp_limits limits = differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
+  std::vector<dmrp_vec2> corners = {};  // of a convex polygon about the origin, counter-clockwise
+  double radius_m = 0.25;               // of the disc, or of the circle that contains the polygon
+  double inscribed_radius_m = 0.25;
+};
+
+// An axis-aligned rectangle about the origin, `behind_m` of it behind.
+Body with_rectangle(Body body, double ahead_m, double behind_m, double half_width_m);
+
 struct Course {
+  Body body;
   std::vector<Box> boxes;
   std::vector<Walker> walkers;
   std::vector<dmrp_vec2> path;  // the goal is its end
@@ -94,8 +109,11 @@ class Trip {
   void observe();
   void track();
   void command();
+  void end_step();
   void judge();
-  double static_clearance(dmrp_vec2 at) const;
+  void demand_ability(std::int32_t status);
+  double clearance_from(const toolkit::Rectangle& box) const;
+  double static_clearance() const;
 
   Course original_;
   Course course_;
@@ -106,6 +124,7 @@ class Trip {
   dmrp_world world_{};
   dmrp_robot robot_{};
   dmrp_limits limits_{};
+  dmrp_polygon part_{};
   dmrp_footprint footprint_{};
   dmrp_goal goal_{};
   dmrp_grid grid_{};
@@ -119,6 +138,7 @@ class Trip {
   std::int64_t t_ns_ = 0;
   dmrp_pose pose_{};
   dmrp_twist velocity_{};
+  double steering_rad_ = 0.0;
   std::int64_t settled_ns_ = 0;
   double no_solution_s_ = 0.0;
 };

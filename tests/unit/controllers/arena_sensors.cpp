@@ -11,17 +11,16 @@ namespace dmrp::test {
 
 namespace {
 
-constexpr double robot_radius_m = 0.25;
 constexpr std::uint32_t window_cells = 120;
 constexpr double resolution_m = 0.05;
 constexpr double cost_scaling = 5.0;
-constexpr double inflation_radius_m = 0.55;
+constexpr double inflated_beyond_m = 0.3;
 constexpr double field_cap_m = 6.0;
 
-std::uint8_t cost_at(double distance) {
+std::uint8_t cost_at(double distance, double robot_radius_m) {
   if (distance <= 0.0) return DMRP_COST_LETHAL;
   if (distance < robot_radius_m - 1e-6) return DMRP_COST_INSCRIBED;
-  if (distance > inflation_radius_m + 1e-6) return DMRP_COST_FREE;
+  if (distance > robot_radius_m + inflated_beyond_m + 1e-6) return DMRP_COST_FREE;
   return static_cast<std::uint8_t>(std::min(252.0, 252.0 * std::exp(-cost_scaling * (distance - robot_radius_m))));
 }
 
@@ -44,7 +43,8 @@ bool same(const Box& a, const Box& b) {
 
 }  // namespace
 
-ArenaSensors::ArenaSensors(Sight sight) : sight_(sight), rolling_(core::CostmapSettings{}, robot_radius_m) {
+ArenaSensors::ArenaSensors(Sight sight, double inscribed_radius_m)
+    : sight_(sight), inscribed_radius_m_(inscribed_radius_m), rolling_(core::CostmapSettings{}, inscribed_radius_m) {
   lidar_extension_ = {sizeof(dmrp_lidar), 0, this, [](const dmrp_lidar* self, std::uint32_t robot) {
                         return of(self).given(robot, of(self).scan_);
                       }};
@@ -98,9 +98,17 @@ void ArenaSensors::see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, cons
   const auto corner = [](double centre) {
     return (std::floor(centre / resolution_m) - window_cells / 2) * resolution_m;
   };
-  costmap_ = {
-      sizeof(costmap_), window_cells,       window_cells, 0,      t_ns, resolution_m, {corner(pose.x), corner(pose.y)},
-      robot_radius_m,   inflation_radius_m, cost_scaling, nullptr};
+  costmap_ = {sizeof(costmap_),
+              window_cells,
+              window_cells,
+              0,
+              t_ns,
+              resolution_m,
+              {corner(pose.x), corner(pose.y)},
+              inscribed_radius_m_,
+              inscribed_radius_m_ + inflated_beyond_m,
+              cost_scaling,
+              nullptr};
   lethal_.assign(window_cells * window_cells, 0);
   const auto mark = [&](dmrp_vec2 at) {
     const auto column = static_cast<std::int64_t>(std::floor((at.x - costmap_.origin.x) / resolution_m));
@@ -122,7 +130,8 @@ void ArenaSensors::see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, cons
   const std::vector<float>& distances =
       transform_.compute(window_cells, window_cells, resolution_m, lethal_.data(), field_cap_m);
   costs_.resize(lethal_.size());
-  std::transform(distances.begin(), distances.end(), costs_.begin(), [](float d) { return cost_at(d); });
+  std::transform(distances.begin(), distances.end(), costs_.begin(),
+                 [this](float d) { return cost_at(d, inscribed_radius_m_); });
   costmap_.costs = costs_.data();
   field_ = {sizeof(field_),  window_cells, window_cells,    0, t_ns, resolution_m,
             costmap_.origin, field_cap_m,  distances.data()};

@@ -34,7 +34,7 @@ enum class Sight {
 // Offers lidar, costmap, distance field and obstacle clusters.
 class ArenaSensors {
  public:
-  explicit ArenaSensors(Sight sight);
+  ArenaSensors(Sight sight, double inscribed_radius_m);
   ArenaSensors(const ArenaSensors&) = delete;
   ArenaSensors& operator=(const ArenaSensors&) = delete;
 
@@ -66,6 +66,7 @@ class ArenaSensors {
   void see_everywhere(const dmrp_pose& pose, std::int64_t t_ns, const std::vector<core::Disc>& bodies);
 
   Sight sight_;
+  double inscribed_radius_m_;
   std::vector<Box> boxes_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   std::unique_ptr<core::Lidar> lidar_;

@@ -27,6 +27,12 @@ Course eventful() {
   return course;
 }
 
+const std::vector<std::string> drive_holonomic_robots = {
+    "dmrp.controller.dwa", "dmrp.controller.mppi",         "dmrp.controller.orca",
+    "dmrp.controller.teb", "dmrp.controller.pure_pursuit", "dmrp.controller.stop_and_wait"};
+const std::vector<std::string> drive_car_like_robots = {"dmrp.controller.teb", "dmrp.controller.mpc",
+                                                        "dmrp.controller.pure_pursuit"};
+
 bool same_bits(const Drive& a, const Drive& b) {
   if (a.commands.size() != b.commands.size()) return false;
   for (std::size_t i = 0; i < a.commands.size(); ++i)
@@ -44,13 +50,12 @@ TEST_CASE("The library describes its controllers") {
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_LOCAL_CONTROLLER);
     CHECK(std::string(descriptor->license) == "MIT");
-    const bool all_drives = controller.id == "dmrp.controller.pure_pursuit";
-    const std::vector<std::string> holonomic = {"dmrp.controller.mppi", "dmrp.controller.orca",
-                                                "dmrp.controller.pure_pursuit", "dmrp.controller.stop_and_wait"};
-    const bool is_holonomic = std::find(holonomic.begin(), holonomic.end(), controller.id) != holonomic.end();
-    CHECK(descriptor->kinematics ==
-          (1u << DMRP_KINEMATICS_DIFFERENTIAL | (is_holonomic ? 1u << DMRP_KINEMATICS_HOLONOMIC : 0u) |
-           (all_drives ? 1u << DMRP_KINEMATICS_ACKERMANN : 0u)));
+    const auto is_one_of = [&](const std::vector<std::string>& ids) {
+      return std::find(ids.begin(), ids.end(), controller.id) != ids.end();
+    };
+    CHECK((descriptor->kinematics & 1u << DMRP_KINEMATICS_DIFFERENTIAL) != 0);
+    CHECK(((descriptor->kinematics & 1u << DMRP_KINEMATICS_HOLONOMIC) != 0) == is_one_of(drive_holonomic_robots));
+    CHECK(((descriptor->kinematics & 1u << DMRP_KINEMATICS_ACKERMANN) != 0) == is_one_of(drive_car_like_robots));
     CHECK(descriptor->flags == (controller.reverses ? DMRP_FLAG_BACKWARDS : 0u));
     for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
       const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);

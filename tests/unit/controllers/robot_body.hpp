@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// robot_body.hpp: footprints and limits of differential drives.
+// robot_body.hpp: footprints and limits of robots.
 #pragma once
 
 #include <dmrp/robot.h>
@@ -32,6 +32,15 @@ inline dmrp_footprint polygon_footprint(const std::vector<dmrp_polygon>& parts, 
 
 inline dmrp_limits differential_limits(double v_min, double v_max, double omega_max, double a_max, double alpha_max) {
   return {sizeof(dmrp_limits), 0, v_min, v_max, 0.0, omega_max, a_max, alpha_max, 0.0, 0.0, 0.0};
+}
+
+inline dmrp_limits holonomic_limits(double v_min, double v_max, double v_y_max, double omega_max, double a_max,
+                                    double alpha_max) {
+  return {sizeof(dmrp_limits), 0, v_min, v_max, v_y_max, omega_max, a_max, alpha_max, 0.0, 0.0, 0.0};
+}
+
+inline dmrp_limits ackermann_limits(double v_min, double v_max, double a_max, double wheelbase_m, double steering_max) {
+  return {sizeof(dmrp_limits), 0, v_min, v_max, 0.0, 1.0, a_max, 1.0, wheelbase_m, steering_max, 1.0};
 }
 
 }  // namespace dmrp::test

@@ -104,17 +104,17 @@ TEST_CASE("Samples cover the range and include zero if it lies inside") {
 TEST_CASE("The window contains the velocities that the accelerations allow, within the limits") {
   const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 0.5, 2.0);
   VelocityWindow window;
-  window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 0.1, 0.8, 3, 4);
+  window.sample(dmrp::Observation(moving(limits, 0.4, 0.9)), 0.1, 0.8, {3, 2, 4});
   CHECK(window.v.front() == Approx(0.35));
   CHECK(window.v.back() == Approx(0.45));
   CHECK(window.omega.front() == Approx(0.7));
   CHECK(window.omega.back() == 1.0);
-  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, 3, 4);
+  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, {3, 2, 4});
   CHECK(window.v.front() == 0.0);  // v_min
   CHECK(std::count(window.omega.begin(), window.omega.end(), 0.0) == 1);
-  window.sample(dmrp::Observation(moving(limits, 0.9, -1.5)), 0.1, 0.8, 3, 4);  // measured with noise
+  window.sample(dmrp::Observation(moving(limits, 0.9, -1.5)), 0.1, 0.8, {3, 2, 4});  // measured with noise
   CHECK(window.v == std::vector<double>{0.8});
-  window.sample(dmrp::Observation(moving(limits, 0.4, 0.0)), 1.7, 0.6, 3, 4);
+  window.sample(dmrp::Observation(moving(limits, 0.4, 0.0)), 1.7, 0.6, {3, 2, 4});
   CHECK(window.v == std::vector<double>{0.0, 0.3, 0.6});
   CHECK(window.omega.front() == -1.0);
 }
@@ -122,31 +122,31 @@ TEST_CASE("The window contains the velocities that the accelerations allow, with
 TEST_CASE("Turning back and forth on the spot is prevented until the robot has moved or turned") {
   OscillationGuard guard;
   const dmrp_pose here = {0.0, 0.0, 0.0};
-  guard.record(here, 0.0, 0.3);
-  CHECK(guard.allows(0.0, -0.3));
-  guard.record(here, 0.0, -0.1);  // reverses
-  CHECK_FALSE(guard.allows(0.0, 0.1));
-  CHECK_FALSE(guard.allows(0.5, 0.1));
-  CHECK(guard.allows(0.5, 0.0));
-  for (int i = 0; i < 100; ++i) CHECK_FALSE(guard.allows(0.1, 0.1));  // asking does not wear it off
+  guard.record(here, {0.0, 0.3});
+  CHECK(guard.allows({0.0, -0.3}));
+  guard.record(here, {0.0, -0.1});  // reverses
+  CHECK_FALSE(guard.allows({0.0, 0.1}));
+  CHECK_FALSE(guard.allows({0.5, 0.1}));
+  CHECK(guard.allows({0.5, 0.0}));
+  for (int i = 0; i < 100; ++i) CHECK_FALSE(guard.allows({0.1, 0.1}));  // asking does not wear it off
   guard.release({0.04, 0.0, 0.1}, 0.05, 0.2);
-  CHECK_FALSE(guard.allows(0.0, 0.1));
+  CHECK_FALSE(guard.allows({0.0, 0.1}));
   SECTION("moved") {
     guard.release({0.06, 0.0, 0.0}, 0.05, 0.2);
   }
   SECTION("turned") {
     guard.release({0.0, 0.0, -0.21}, 0.05, 0.2);
   }
-  CHECK(guard.allows(0.0, 0.1));
+  CHECK(guard.allows({0.0, 0.1}));
   // turning either way while driving is steering
   guard.reset();
-  guard.record(here, 0.5, 0.3);
-  guard.record(here, 0.5, -0.3);
-  CHECK(guard.allows(0.5, 0.3));
+  guard.record(here, {0.5, 0.3});
+  guard.record(here, {0.5, -0.3});
+  CHECK(guard.allows({0.5, 0.3}));
   // so is no going back and forth
-  guard.record(here, -0.1, 0.0);
-  CHECK_FALSE(guard.allows(0.1, 0.0));
-  CHECK(guard.allows(-0.1, 0.0));
+  guard.record(here, {-0.1, 0.0});
+  CHECK_FALSE(guard.allows({0.1, 0.0}));
+  CHECK(guard.allows({-0.1, 0.0}));
 }
 
 TEST_CASE("Fronts give the shortest distances") {
@@ -303,15 +303,15 @@ TEST_CASE("The choice equals that of an exhaustive search over the samples") {
     bench.spread(path, {5.3, 3.0 + 2.3 * slope});
     const dmrp_pose pose = {3.0, 3.0, random.uniform(-3.0, 3.0)};
     if (round % 3 == 0) {
-      bench.oscillation.record(pose, 0.0, 0.5);
-      bench.oscillation.record(pose, 0.0, -0.5);
+      bench.oscillation.record(pose, {0.0, 0.5});
+      bench.oscillation.record(pose, {0.0, -0.5});
     }
     const Scene scene = {pose,        0.8, map,  bench.terrain, bench.path,       bench.goal,
                          bench.front, 0.3, true, true,          bench.oscillation};
     FootprintCheck footprint(map, disc, 0.05, pose);
     VelocityWindow window;
-    window.sample(dmrp::Observation(moving(limits, random.uniform(0.0, 0.8), random.uniform(-1.0, 1.0))), 0.1, 0.8, 3,
-                  20);
+    window.sample(dmrp::Observation(moving(limits, random.uniform(0.0, 0.8), random.uniform(-1.0, 1.0))), 0.1, 0.8,
+                  {3, 2, 20});
 
     double best = infinity;
     std::optional<Sample> expected;
@@ -353,7 +353,7 @@ TEST_CASE("A path that weighs more than twice the goal stops the robot before a 
                        bench.front, 0.3, true, true,          bench.oscillation};
   FootprintCheck footprint(map, disc, 0.01, pose);
   VelocityWindow window;
-  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, 3, 20);
+  window.sample(dmrp::Observation(moving(limits, 0.0, 0.0)), 0.1, 0.8, {3, 2, 20});
   const auto moves = [&](double path_distance_bias, double goal_distance_bias) {
     bench.tuning.path_distance_bias = path_distance_bias;
     bench.tuning.goal_distance_bias = goal_distance_bias;

@@ -80,6 +80,14 @@ Problem in_the_open(State start, State goal) {
   return problem;
 }
 
+// The same robot, steered like a car.
+Problem of_car(Problem problem) {
+  problem.wheelbase_m = 0.5;
+  problem.omega_max = 0.6;
+  problem.turning_max = 0.9;
+  return problem;
+}
+
 struct Solved {
   Trajectory trajectory;
   SolverReport report;
@@ -109,7 +117,7 @@ Solved solve(Problem& problem, const std::vector<Obstacle>& obstacles = {}, std:
 TEST_CASE("Gradients and curvatures of all constraints agree with finite differences") {
   const dmrp_footprint& footprint = GENERATE(0, 1) == 0 ? disc : box;
   const KindsOfObstacles around;
-  Problem problem = in_the_open({}, {});
+  Problem problem = GENERATE(false, true) ? of_car(in_the_open({}, {})) : in_the_open({}, {});
   problem.footprint = &footprint;
   problem.ends_at_rest = true;
   problem.obstacles.resize(4);
@@ -153,7 +161,7 @@ TEST_CASE("Gradients and curvatures of all constraints agree with finite differe
 }
 
 TEST_CASE("First and second derivatives of transitions agree with finite differences") {
-  const Problem problem = in_the_open({}, {});
+  const Problem problem = GENERATE(false, true) ? of_car(in_the_open({}, {})) : in_the_open({}, {});
   Stream random(2, "transitions");
   const double h = 1e-5;
   for (int round = 0; round < 100; ++round) {
@@ -168,7 +176,7 @@ TEST_CASE("First and second derivatives of transitions agree with finite differe
       s[at_y] = multipliers[1];
       s[at_theta] = multipliers[0] * x.x_by_theta + multipliers[1] * x.y_by_theta + multipliers[2];
       s[at_dt] = multipliers[0] * x.x_by_dt + multipliers[1] * x.y_by_dt + multipliers[2] * x.theta_by_dt;
-      s[at_v] = multipliers[0] * x.x_by_v + multipliers[1] * x.y_by_v;
+      s[at_v] = multipliers[0] * x.x_by_v + multipliers[1] * x.y_by_v + multipliers[2] * x.theta_by_v;
       s[at_omega] = multipliers[2] * x.theta_by_omega;
       return s;
     };
@@ -291,6 +299,17 @@ TEST_CASE("From rest to rest the speeds are a trapezoid within the acceleration 
   CHECK(solved.trajectory.duration_s() == Approx(3.3).margin(0.15));
   CHECK(solved.trajectory.controls.front().v <= solved.trajectory.dt_s + 1e-6);
   CHECK(solved.trajectory.controls.back().v <= solved.trajectory.dt_s + 1e-6);
+}
+
+TEST_CASE("A car drives a half turn along its tightest arc, no faster than it may turn") {
+  Problem problem = of_car(in_the_open({0.0, 0.0, 0.0}, {0.0, 2.0, 3.141592653589793}));
+  const Solved solved = solve(problem, {}, 30);
+  CHECK(solved.report.converged);
+  CHECK(solved.report.terminal_error_m < 0.02);
+  for (const Control& control : solved.trajectory.controls) {
+    CHECK(std::abs(control.omega) < problem.omega_max + 1e-6);
+    CHECK(std::abs(control.v * std::tan(control.omega) / problem.wheelbase_m) < problem.turning_max + 1e-6);
+  }
 }
 
 TEST_CASE("The trajectory passes through a gap between two points, and around a single point") {

@@ -80,6 +80,17 @@ std::array<double, 11> random_block(toolkit::Stream& random) {
   return block;
 }
 
+struct HolonomicMotion {
+  Motion motion;
+  Velocity aside;
+};
+
+HolonomicMotion holonomic_at(const double* v) {
+  HolonomicMotion at;
+  holonomic_motion_between<true>(directed(v[0], v[1], v[2]), directed(v[4], v[5], v[6]), v[3], at.motion, at.aside);
+  return at;
+}
+
 Motion motion_at(const double* v) {
   Motion motion;
   motion_between<true>(directed(v[0], v[1], v[2]), directed(v[4], v[5], v[6]), v[3], motion);
@@ -107,6 +118,16 @@ TEST_CASE("TEB: every residual's derivatives agree with finite differences") {
                            [&](const auto& v) { return forward(a(v), b(v)).error; }) < tolerance);
     CHECK(derivative_error(length(a(pair), b(pair)).by, pair, [&](const auto& v) { return length(a(v), b(v)).error; }) <
           tolerance);
+
+    const HolonomicMotion holonomic = holonomic_at(pair.data());
+    CHECK(derivative_error(holonomic.motion.v_by, pair, [](const auto& v) { return holonomic_at(v.data()).motion.v; }) <
+          tolerance);
+    CHECK(derivative_error(holonomic.aside.by, pair, [](const auto& v) { return holonomic_at(v.data()).aside.value; }) <
+          tolerance);
+    if (std::abs(pair[6] - pair[2]) > 0.1) {
+      CHECK(derivative_error(turning_radius(a(pair), b(pair)).by, pair,
+                             [&](const auto& v) { return turning_radius(a(v), b(v)).error; }) < tolerance);
+    }
 
     const auto starting = [](const auto& v) {
       const Motion m = motion_at(v.data());
