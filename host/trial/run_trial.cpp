@@ -138,7 +138,9 @@ class Run {
 
   // Without a command the robot brakes.
   void drive(std::uint32_t robot, const std::optional<dmrp_twist>& command) {
+    const std::uint64_t clipped_before = world_.robots()[robot].clipped_commands;
     world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
+    if (world_.robots()[robot].clipped_commands > clipped_before) plugins_.note_clipped(robot);
     if (command) monitor_.command_given(robot, world_.t_ns());
     if (monitor_.failure(robot) == DMRP_FAILURE_CONTROLLER) world_.fail(robot);
   }
@@ -148,7 +150,7 @@ class Run {
     for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
       robots_.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index,
-                         dispatcher_.progress()[i].progress_m(), 0.0});
+                         dispatcher_.progress()[i].progress_m(), robot.steering_rad});
     }
     const auto people = world_.people();
     const auto calls = plugins_.take_calls();

@@ -67,6 +67,9 @@ class TrialPlugins {
   // The trial has ended without a fault.
   void end_trial(const dmrp_trial_end& end, std::int64_t step);
 
+  // The command of a robot was beyond its drive's ability.
+  void note_clipped(std::uint32_t robot) { calls_.push_back({DMRP_CALL_CLIPPED, robot, DMRP_OK, 0, 0}); }
+
   // The calls of plugins since the previous take_calls().
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plugin library of the built-in metrics.
 #include "metrics/compute/compute_time.hpp"
+#include "metrics/execution/clipped_commands.hpp"
 #include "metrics/execution/idle_time.hpp"
 #include "metrics/execution/smoothness.hpp"
 #include "metrics/interaction/blocked_time.hpp"
@@ -33,4 +34,5 @@ DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::P
              dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime,
              dmrp::metrics::Deadlock, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics,
              dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress,
-             dmrp::metrics::Smoothness, dmrp::metrics::IdleTime, dmrp::metrics::ComputeTime)
+             dmrp::metrics::Smoothness, dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands,
+             dmrp::metrics::ComputeTime)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <limits>
 
 namespace dmrp::metrics {
 
@@ -27,24 +26,6 @@ inline Disc disc_of(const Person& person) {
 inline double surface_distance(const Disc& a, const Disc& b) {
   return toolkit::distance(a.center, b.center) - a.radius_m - b.radius_m;
 }
-
-// The least surface distance from a disc to discs added one by one. Computes a square root only for nearer ones.
-class NearestDisc {
- public:
-  explicit NearestDisc(const Disc& own) : own_(own) {}
-  void add(const Disc& other) {
-    const double reach_m = distance_m_ + own_.radius_m + other.radius_m;
-    const double squared_distance = toolkit::squared_distance(own_.center, other.center);
-    if (reach_m > 0.0 && squared_distance < reach_m * reach_m) distance_m_ = surface_distance(own_, other);
-  }
-
-  // NaN if no disc was added.
-  double distance_m() const { return std::isinf(distance_m_) ? undefined : distance_m_; }
-
- private:
-  Disc own_;
-  double distance_m_ = std::numeric_limits<double>::infinity();
-};
 
 // The measured velocity in the world frame, m/s. (Samples hold it in the robot's frame.)
 inline Vec2 world_velocity(const RobotSample& robot) {

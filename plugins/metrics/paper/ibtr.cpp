@@ -29,7 +29,8 @@ Descriptor Ibtr::describe() {
       .summary("share of the mission in which two active robots near each other both crawl")
       .source("Hu et al., DMRP-Bench, ICRA 2026: IBTR")
       .value("ibtr", "%", Direction::lower_is_better, Subjects::system_and_robots,
-             "time in which two active robots are within distance_m and both slower than speed_fraction of their own "
+             "time in which two active robots are within distance_m (centre to centre) and both slower than "
+             "speed_fraction of their own "
              "mean speed while active, over mission time; events of several pairs count as their union; robot: its "
              "events; undefined if planning failed")
       .value("ibtr_pair_sum", "%", Direction::lower_is_better, Subjects::system,

@@ -26,10 +26,10 @@ Descriptor Ldf::describe() {
   return describe_metric("dmrp.metric.ldf", "Local density fluctuation")
       .summary("variance over time of the number of robots around a robot")
       .source("Hu et al., DMRP-Bench, ICRA 2026: LDF")
-      .value(
-          "ldf", "1", Direction::lower_is_better, Subjects::system_and_robots,
-          "variance (normalised by n) of the number of robots within distance_m, including parked ones, counted every "
-          "period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
+      .value("ldf", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "variance (normalised by n) of the number of robots within distance_m (centre to centre), including "
+             "parked ones, counted every "
+             "period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
       .value("ldf_active", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "the same for active robots only, counted while the robot itself is active; undefined if planning "
              "failed")

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "metrics/measure/bodies.hpp"
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/surface_distance.hpp"
 
 namespace dmrp::metrics {
 
@@ -14,7 +14,7 @@ Descriptor Clearance::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.clearance", "Clearance")
-      .summary("surface distances to walls, robots and people, and the time below a safe distance")
+      .summary("surface distances, of the true shapes, to walls, robots and people, and the time below a safe distance")
       .source("Wen et al., MRPB 1.0, ICRA 2021: distance to obstacles, time in the dangerous area")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value("clearance_static_min", "m", higher, robots,
@@ -23,12 +23,13 @@ Descriptor Clearance::describe() {
       .value("clearance_static_mean", "m", higher, robots,
              "mean over active time of the same distance; system: mean over robots; undefined if planning failed")
       .value("clearance_robot_min", "m", higher, robots,
-             "minimum over active time of |p - p'| - r - r' to the nearest other robot, including parked ones; system: "
-             "minimum over robots; undefined without another robot")
+             "minimum over active time of the distance from the robot's surface to that of the nearest other robot, "
+             "including parked ones; system: minimum over robots; undefined without another robot")
       .value("clearance_robot_mean", "m", higher, robots,
              "mean over active time of the same distance; system: mean over robots; undefined without another robot")
       .value("clearance_person_min", "m", higher, robots,
-             "minimum over active time of |p - p'| - r - r' to the nearest person; system: minimum over robots; "
+             "minimum over active time of the distance from the robot's surface to that of the nearest person; system: "
+             "minimum over robots; "
              "undefined without people")
       .value("clearance_person_mean", "m", higher, robots,
              "mean over active time with people present of the same distance; system: mean over robots; undefined "
@@ -63,16 +64,17 @@ void Clearance::observe(const Sample& sample) {
 
 void Clearance::measure(const Sample& sample, std::size_t robot) {
   RobotDistances& distances = distances_[robot];
-  const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
-  const double to_static_m = distances.wall.find(own.center).distance_m - own.radius_m;
+  const Outline own = outline_of(world().robots()[robot], sample.robots[robot]);
+  const double to_static_m = own.parts.empty() ? distances.wall.find(own.disc.center).distance_m - own.disc.radius_m
+                                               : distance_to_walls(own, world());
   distances.to_static.add(to_static_m, sample.dt_ns);
   bool danger = to_static_m < safe_distance_m;
 
-  NearestDisc nearest_robot(own);
+  NearestBody nearest_robot(own);
   for (std::size_t other = 0; other < distances_.size(); ++other)
-    if (other != robot) nearest_robot.add(disc_of(world().robots()[other], sample.robots[other]));
-  NearestDisc nearest_person(own);
-  for (const Person& person : sample.people) nearest_person.add(disc_of(person));
+    if (other != robot) nearest_robot.add(outline_of(world().robots()[other], sample.robots[other]));
+  NearestBody nearest_person(own);
+  for (const Person& person : sample.people) nearest_person.add(outline_of(person));
 
   const auto add = [&](double distance_m, Distances& to, TimeShare& share) {
     if (std::isnan(distance_m)) return;

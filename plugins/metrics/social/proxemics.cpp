@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "metrics/social/proxemics.hpp"
 
-#include "metrics/measure/bodies.hpp"
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/surface_distance.hpp"
 
 namespace dmrp::metrics {
 namespace {
@@ -24,9 +24,10 @@ Descriptor Proxemics::describe() {
           "zones: Hall, The Hidden Dimension, 1966; surface distances as in HuNavSim, Perez-Higueras et al., "
           "RA-L 2023")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value("proxemics_intimate", "%", lower, robots,
-             "share of active time with people present in which d <= 0.45 m, d = |p - p'| - r - r' to the nearest "
-             "person; system: mean over robots; undefined without people")
+      .value(
+          "proxemics_intimate", "%", lower, robots,
+          "share of active time with people present in which d <= 0.45 m, d the distance between the surfaces of the "
+          "robot and the nearest person; system: mean over robots; undefined without people")
       .value("proxemics_personal", "%", lower, robots,
              "the same with 0.45 m < d <= 1.2 m; system: mean over robots; undefined without people")
       .value("proxemics_social", "%", Direction::none, robots,
@@ -43,9 +44,9 @@ void Proxemics::observe(const Sample& sample) {
   if (sample.people.empty()) return;
   for (std::size_t robot = 0; robot < shares_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
-    const Disc own = disc_of(world().robots()[robot], sample.robots[robot]);
-    NearestDisc nearest(own);
-    for (const Person& person : sample.people) nearest.add(disc_of(person));
+    const Outline own = outline_of(world().robots()[robot], sample.robots[robot]);
+    NearestBody nearest(own);
+    for (const Person& person : sample.people) nearest.add(outline_of(person));
     const double nearest_m = nearest.distance_m();
     Shares& shares = shares_[robot];
     shares.intimate.add(nearest_m <= intimate_m, sample.dt_ns);

@@ -47,11 +47,12 @@ typedef struct dmrp_contact {
 #define DMRP_CALL_PLAN 1
 #define DMRP_CALL_CONTROL 2
 #define DMRP_CALL_PEOPLE 3
+#define DMRP_CALL_CLIPPED 4  // no call: the command of `robot` was beyond its drive's ability, and the host clipped it
 
 // A plugin call since the last sample. Array element.
 typedef struct dmrp_call {
   uint32_t kind;   // DMRP_CALL_*
-  uint32_t robot;  // of DMRP_CALL_CONTROL; 0 otherwise
+  uint32_t robot;  // of DMRP_CALL_CONTROL and DMRP_CALL_CLIPPED; 0 otherwise
   int32_t status;  // the returned status
   uint32_t reserved;
   int64_t duration_ns;  // wall time

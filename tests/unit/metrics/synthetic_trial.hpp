@@ -91,6 +91,20 @@ class SyntheticTrial {
     footprint_->radius_m = footprint_->inscribed_radius_m = radius_m;
     return *this;
   }
+  // All robots are rectangles about their origin.
+  SyntheticTrial& robot_rectangle(double half_length_m, double half_width_m) {
+    outlines_.push_back({{-half_length_m, -half_width_m},
+                         {half_length_m, -half_width_m},
+                         {half_length_m, half_width_m},
+                         {-half_length_m, half_width_m}});
+    part_->element = {outlines_.back().data(), 4, 0};
+    footprint_->part_count = 1;
+    footprint_->parts = &part_->element;
+    footprint_->part_stride = sizeof(*part_);
+    footprint_->radius_m = std::hypot(half_length_m, half_width_m);
+    footprint_->inscribed_radius_m = std::min(half_length_m, half_width_m);
+    return *this;
+  }
   SyntheticTrial& bounds(dmrp_vec2 lower, dmrp_vec2 upper) {
     lower_ = lower;
     upper_ = upper;
@@ -296,6 +310,7 @@ class SyntheticTrial {
 
   // addresses stay when the trial is moved
   std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
+  std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
   std::deque<std::vector<dmrp_vec2>> outlines_;

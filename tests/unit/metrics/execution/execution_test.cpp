@@ -149,3 +149,18 @@ TEST_CASE("compute time comes from the recorded calls") {
   CHECK(m.system("control_call_p99") == 198.0);  // the 200th of 202
   CHECK_THAT(m.system("control_missed"), WithinAbs(100.0 * 100 / 202, 1e-12));
 }
+
+TEST_CASE("clipped commands are counted by robot") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  for (int i = 0; i < 10; ++i) {
+    std::vector<dmrp_call> calls = {call(DMRP_CALL_CONTROL, 0, 1.0), call(DMRP_CALL_CONTROL, 1, 1.0)};
+    if (i % 3 == 0) calls.push_back({DMRP_CALL_CLIPPED, 1, DMRP_OK, 0, 0});
+    trial.sample(i, {at(0, 0), at(0, 0)}).calls(calls);
+  }
+  trial.end(10.0, {never, never});
+  const Measurement m = measure("dmrp.metric.clipped_commands", trial);
+  CHECK(m.robot("clipped_commands", 0) == 0.0);
+  CHECK(m.robot("clipped_commands", 1) == 4.0);
+  CHECK(m.system("clipped_commands") == 4.0);
+}

@@ -31,6 +31,38 @@ dmrp_robot_sample turned(dmrp_robot_sample robot, double theta) {
 
 }  // namespace
 
+TEST_CASE("clearance and proxemics measure from the true outline of a polygonal robot") {
+  SyntheticTrial trial(2);
+  trial.robot_rectangle(0.6, 0.3);
+  trial.box("wall", {1, -5}, {2, 5}).circle("pillar", {0, -2}, 1.0);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  // robot 0 faces the end of robot 1 with its side
+  const dmrp_robot_sample along_wall = turned(at(0, 0), M_PI / 2);
+  trial.sample(0.0, {along_wall, at(-3, 0)}).crowd({person(0, 1.5)});
+  trial.sample(1.0, {along_wall, at(-3, 0)}).crowd({person(0, 1.5)});
+  trial.end(1.0, {never, never});
+
+  const Measurement m = measure("dmrp.metric.clearance", trial);
+  CHECK_THAT(m.robot("clearance_static_min", 0), WithinAbs(0.4, 1e-12));  // the pillar: 1 - 0.6; the wall: 1 - 0.3
+  CHECK_THAT(m.robot("clearance_robot_min", 0), WithinAbs(2.1, 1e-12));   // 3 - 0.3 - 0.6
+  CHECK_THAT(m.robot("clearance_robot_min", 1), WithinAbs(2.1, 1e-12));
+  CHECK_THAT(m.robot("clearance_person_min", 0), WithinAbs(0.6, 1e-12));                         // 1.5 - 0.6 - 0.3
+  CHECK_THAT(m.robot("clearance_person_min", 1), WithinAbs(std::hypot(2.4, 1.2) - 0.3, 1e-12));  // from a corner
+  const Measurement zones = measure("dmrp.metric.proxemics", trial);
+  CHECK(zones.robot("proxemics_personal", 0) == 100.0);
+  CHECK(zones.robot("proxemics_social", 1) == 100.0);
+}
+
+TEST_CASE("the clearance of polygons that overlap is negative") {
+  SyntheticTrial trial(2);
+  trial.robot_rectangle(0.6, 0.3);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {at(0, 0), at(1.1, 0.1)});
+  trial.sample(1.0, {at(0, 0), at(1.1, 0.1)});
+  trial.end(1.0, {never, never});
+  CHECK_THAT(measure("dmrp.metric.clearance", trial).robot("clearance_robot_min", 0), WithinAbs(-0.1, 1e-12));
+}
+
 TEST_CASE("clearance is the time average of the surface distance until arrival") {
   SyntheticTrial trial(2);
   trial.box("wall", {2, -1}, {3, 1}).circle("pillar", {0, 4}, 1.0);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "metrics/execution/clipped_commands.hpp"
+
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+
+Descriptor ClippedCommands::describe() {
+  return describe_metric("dmrp.metric.clipped_commands", "Clipped commands")
+      .summary("commands that the robot's drive cannot execute")
+      .source("own definition")
+      .channels(DMRP_CHANNEL_CALLS)
+      .value("clipped_commands", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "number of commands outside the velocity limits or the ability of the robot's drive (sideways, or an arc "
+             "tighter than the steering allows), which the host clipped; system: sum over robots; undefined if "
+             "planning failed");
+}
+
+void ClippedCommands::begin(const dmrp_plan* plan) {
+  counts_.assign(world().robots().size(), plan ? 0.0 : undefined);
+}
+
+void ClippedCommands::observe(const Sample& sample) {
+  for (const Call& call : sample.calls)
+    if (call.kind == DMRP_CALL_CLIPPED && call.robot < counts_.size()) counts_[call.robot] += 1.0;
+}
+
+void ClippedCommands::finish(const TrialEnd&, MetricSink& sink) {
+  give(sink, "clipped_commands", counts_, &sum_of_defined);
+}
+
+}  // namespace dmrp::metrics
