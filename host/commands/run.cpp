@@ -30,6 +30,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TypesOfRobots types_of_robots(const Experiment& experiment) {
+  TypesOfRobots types;
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    std::vector<std::string> names = core::drawn_types(variant.drawn_types, variant.drawn_robots);
+    for (const core::RobotTask& task : variant.scenario.robots) names.push_back(task.type);
+    std::vector<std::string>& known = types[{variant.scenario.name, robot_count(variant)}];
+    // trials of variants that differ in their types alone cannot be told apart
+    known = known.empty() || known == names ? names : std::vector<std::string>();
+  }
+  return types;
+}
+
 std::vector<MetricColumn> columns_of(const Experiment& experiment) {
   std::vector<MetricColumn> columns;
   for (const PluginUse& use : experiment.metrics)
@@ -189,7 +201,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const RunResults results = read_results(database, layout);
   write_tables(results, files.directory());
   const bool reported = try_to_report(results, files.directory());
-  if (!options.quiet) print_results(results, layout, files.directory(), reported);
+  if (!options.quiet) print_results(results, layout, files.directory(), reported, types_of_robots(experiment));
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());

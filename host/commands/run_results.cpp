@@ -47,7 +47,8 @@ bool try_to_report(const RunResults& results, const fs::path& directory) {
   }
 }
 
-void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported) {
+void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported,
+                   const TypesOfRobots& types) {
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0;
@@ -57,6 +58,8 @@ void print_results(const RunResults& results, const SummaryLayout& layout, const
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
     fmt::print("{}\n", answer_block(found.front(), failures, style.width));
   fmt::print("  {}\n", closing_line(layout, results.trials));
+  if (const std::string by_type = arrivals_by_type(layout, types, results.trials); !by_type.empty())
+    fmt::print("  {}\n", by_type);
   if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");

@@ -8,6 +8,7 @@
 #include "host/results/database.hpp"
 #include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
+#include "host/terminal/arrivals_by_type.hpp"
 
 namespace dmrp::host {
 
@@ -26,8 +27,8 @@ void write_tables(const RunResults& results, const std::filesystem::path& direct
 // the machine are thrown.
 bool try_to_report(const RunResults& results, const std::filesystem::path& directory);
 
-// Prints the table, the closing line and the files.
+// Prints the table, the closing line, the arrivals by type of robot if there are several types, and the files.
 void print_results(const RunResults& results, const SummaryLayout& layout, const std::filesystem::path& directory,
-                   bool reported);
+                   bool reported, const TypesOfRobots& types = {});
 
 }  // namespace dmrp::host
