@@ -20,6 +20,13 @@ Location at(const std::vector<Location>& path, std::int32_t t) {
   return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
 }
 
+// Whether the paths of a child prove no more than those of its parent, so that they may stand for them without its bans.
+template <class Node>
+bool has_bounds_of(const Node& child, const Node& parent) {
+  return std::equal(child.paths.begin(), child.paths.end(), parent.paths.begin(),
+                    [](const auto& one, const auto& two) { return one->lower_bound == two->lower_bound; });
+}
+
 }  // namespace
 
 LargeAgentSearch::LargeAgentSearch(const PreparedFleet& prepared, double suboptimality, std::int64_t node_limit,
@@ -150,7 +157,7 @@ void LargeAgentSearch::expand(NodeId id) {
   std::optional<Node> children[2] = {make_child(id, split.first.bans), make_child(id, split.second.bans)};
   if (suboptimality_ == 1)
     for (std::optional<Node>& child : children)
-      if (child && child->cost == node.cost && child->conflicts.size() < node.conflicts.size()) {
+      if (child && has_bounds_of(*child, node) && child->conflicts.size() < node.conflicts.size()) {
         child->parent = node.parent;
         child->bans = node.bans;
         insert(std::move(*child));
