@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
@@ -47,16 +49,35 @@ bool try_to_report(const RunResults& results, const fs::path& directory) {
   }
 }
 
+namespace {
+
+constexpr std::uint32_t few_trials = 5;
+
+std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
+  std::uint32_t least = few_trials;
+  for (const CombinationSummary& summary : summaries) least = std::min(least, summary.trials);
+  return least < few_trials ? fmt::format("caution: {}: means of so few can mislead",
+                                          least == 1 ? "1 trial each" : fmt::format("{} trials each", least))
+                            : "";
+}
+
+}  // namespace
+
 void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported,
                    const TypesOfRobots& types) {
+  constexpr std::size_t text_width = 120;  // of sentences where no terminal limits them
   TableStyle style;
   style.width = terminal_width();
-  style.ansi = style.width > 0;
+  style.ansi = style.width > 0 && !std::getenv("NO_COLOR");
   const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
-  fmt::print("\n{}\n", summary_table(layout, results.metrics, results.summaries, marks, style));
+  fmt::print("\n{}", summary_table(layout, results.metrics, results.summaries, marks, style));
+  const std::size_t width = style.width > 0 ? style.width : text_width;
+  fmt::print("{}\n", table_legend(layout, results.metrics, marks, {width, style.ansi}));
+  if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
+    fmt::print("  {}\n\n", caution);
   const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
-    fmt::print("{}\n", answer_block(found.front(), failures, style.width));
+    fmt::print("{}\n", answer_block(found.front(), failures, width));
   fmt::print("  {}\n", closing_line(layout, results.trials));
   if (const std::string by_type = arrivals_by_type(layout, types, results.trials); !by_type.empty())
     fmt::print("  {}\n", by_type);

@@ -22,6 +22,10 @@ SummaryTableColumn parse_column(const nlohmann::json& json) {
       column.decimals = value.get<std::uint32_t>();
     else if (key == "spread")
       column.spread = value.get<std::string>();
+    else if (key == "median")
+      column.median = value.get<bool>();
+    else if (key == "legend")
+      column.legend = value.get<std::string>();
     else
       throw std::runtime_error("unknown key '" + key + "' of a column");
   }

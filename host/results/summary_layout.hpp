@@ -14,7 +14,9 @@ struct SummaryTableColumn {
   std::string metric;  // name of a value; omits columns of metrics that were not measured
   std::string header;  // the unit is appended
   std::uint32_t decimals = 2;
-  std::string spread;  // metric shown as "±0.17" after the value; empty for none
+  std::string spread;   // metric shown as "±0.17" after the value; empty for none
+  bool median = false;  // of the trials, instead of the mean: for times of the machine, which have outliers
+  std::string legend;   // what the header stands for; empty: nothing to explain
 };
 
 // The metrics by which combinations are ordered (host/ranking/answer.hpp).

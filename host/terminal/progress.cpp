@@ -70,11 +70,14 @@ void Progress::draw() const {
         fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
   const unsigned columns = terminal_width();  // 0 if unknown
   const std::size_t width = (columns > 0 ? columns : 80) - 1;
-  // A wrapped line cannot be overwritten: a narrow terminal gets no heading, then no bar.
+  // A wrapped line cannot be overwritten: a narrow terminal gets the run's name alone, then no heading, then no bar.
   std::string line = fmt::format("{} {}{}", bar, count, times);
   const std::size_t used = display_width(heading_) + display_width(line);
+  const std::string name = heading_.substr(0, heading_.find(" · "));
   if (used + 2 <= width)
     line = heading_ + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
+  else if (display_width(name) + 2 + display_width(line) <= width)
+    line = name + "  " + line;
   else if (display_width(line) > width)
     line = count.size() + times.size() <= width ? count + times : count;
   fmt::print("\r\x1b[2K{}", line);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/terminal/display_width.hpp"
+#include "host/terminal/wrapped_text.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* plain = "\x1b[0m";
 
 struct Cell {
   std::string text;
+  std::string note;  // behind the text
   bool best = false;
 };
 
@@ -93,10 +95,13 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
   const std::optional<std::size_t> spread = index_of(metrics, layout.spread);
 
   for (const Row& row : rows) {
-    const double mean = row.summary->metrics[metric].mean;
-    Cell cell{std::isnan(mean) ? undefined_cell : fixed(mean, layout.decimals), false};
-    if (!std::isnan(mean) && spread && !std::isnan(row.summary->metrics[*spread].mean))
+    const MetricSummary& summary = row.summary->metrics[metric];
+    const double shown = layout.median ? summary.median : summary.mean;
+    Cell cell{std::isnan(shown) ? undefined_cell : fixed(shown, layout.decimals), "", false};
+    if (!std::isnan(shown) && spread && !std::isnan(row.summary->metrics[*spread].mean))
       cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
+    if (summary.defined > 0 && summary.defined < row.summary->trials)
+      cell.note = " (" + std::to_string(summary.defined) + "/" + std::to_string(row.summary->trials) + ")";
     cell.best = std::find(marks.begin(), marks.end(), BestMark{row.summary->combination, layout.metric}) != marks.end();
     column.cells.push_back(std::move(cell));
   }
@@ -106,8 +111,11 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
 void set_width(Column& column, const TableStyle& style) {
   const bool marked =
       !style.ansi && std::any_of(column.cells.begin(), column.cells.end(), [](const Cell& cell) { return cell.best; });
+  std::size_t note_width = 0;
+  for (const Cell& cell : column.cells) note_width = std::max(note_width, cell.note.size());
   column.width = display_width(column.header);
   for (Cell& cell : column.cells) {
+    cell.text += pad_right(cell.note, note_width);
     if (marked) cell.text += cell.best ? "*" : " ";
     column.width = std::max(column.width, display_width(cell.text));
   }
@@ -181,6 +189,25 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
     begin += count;
   } while (begin < columns.size());
   return text;
+}
+
+std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
+                         std::span<const BestMark> marks, const TableStyle& style) {
+  std::vector<std::string> parts;
+  bool spread = false;
+  bool marked = false;
+  for (const SummaryTableColumn& column : layout.columns) {
+    if (!index_of(metrics, column.metric)) continue;
+    if (!column.legend.empty()) parts.push_back(column.header + ": " + column.legend);
+    spread = spread || index_of(metrics, column.spread);
+    marked = marked || std::any_of(marks.begin(), marks.end(),
+                                   [&](const BestMark& mark) { return mark.metric == column.metric; });
+  }
+  if (spread) parts.push_back("±: deviation over time");
+  if (marked) parts.push_back(std::string(style.ansi ? "bold" : "*") + ": told apart from all others");
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
+  return text.empty() ? text : wrapped_text(text, style.width, std::string(indent, ' '));
 }
 
 }  // namespace dmrp::host

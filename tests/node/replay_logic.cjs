@@ -213,6 +213,18 @@ const tests = {
     assert.ok(events.is_now(found[2], 1.0), 'a contact is seen for a second');
   },
 
+  'an event of a metric that resumes after a pause is one event'() {
+    const replay = recording.from_json(packed());
+    const block = (from, to, text = 'robots 6 and 7 block each other') => ({...replay.events[0], from, to, text});
+    replay.events = [block(22.7, 25), block(26, 30.5), block(31, 42), block(24, 25, 'others'), block(50, 51)];
+    const found = events.all_events(replay).filter((event) => event.kind === 'metric');
+    assert.deepStrictEqual(plain(found.map((event) => [event.from, event.to])), [
+      [22.7, 42],
+      [24, 25],
+      [50, 51],
+    ]);
+  },
+
   'the active part of the world contains tracks and goals, and lies inside the world'() {
     const [lower, upper] = recording.active_box(recording.from_json(packed()));
     assert.deepStrictEqual(plain([lower, upper]), [

@@ -18,6 +18,7 @@ const {
   metrics_table,
   provenance,
   heat_map,
+  threshold_curves,
 } = page_modules(process.argv[2], {
   numbers: 'numbers.js',
   ranking: 'ranking.js',
@@ -32,6 +33,7 @@ const {
   metrics_table: 'tables/metrics_table.js',
   provenance: 'run/provenance.js',
   heat_map: 'tables/heat_map.js',
+  threshold_curves: 'plots/threshold_curves.js',
 });
 
 const plain = (value) => JSON.parse(JSON.stringify(value));
@@ -257,6 +259,31 @@ const tests = {
       model.groups[0].rows.map((row) => row.name),
       ['P', 'Q']
     );
+  },
+  'sections open on the first metric that differs'() {
+    const data = sample();
+    data.layouts.report.heat_map = {metric: 'arrived'};
+    same(heat_map.default_metric(data, data.metrics), 'arrived');
+    for (const summaries of data.summaries) summaries[0].mean = 1;
+    same(heat_map.default_metric(data, data.metrics), 'time');
+    const one = (metric, p_holm, mean_difference) => ({metric, p_holm, mean_difference});
+    data.comparisons = [one('a', 1, 0), one('b', 0.4, 1), one('c', 0.01, 2)];
+    same(comparisons.default_metric(data), 'c');
+    data.comparisons.pop();
+    same(comparisons.default_metric(data), 'b');
+    data.comparisons.pop();
+    same(comparisons.default_metric(data), 'a');
+  },
+  'a curve that does not depend on the controller is drawn once'() {
+    const curve = (combination, y) => ({combination, points: [[0.5, y, y, y, 2]]});
+    const stratum = {title: 'mall', combinations: [0, 1]};
+    const drawn = (...curves) =>
+      threshold_curves.panels_of([stratum], curves).map((one) => [one.stratum.title, one.curves.length]);
+    same(drawn(curve(0, 1), curve(1, 2)), [['mall', 2]]);
+    same(drawn(curve(0, 1), curve(1, 1)), [['mall · the same for all controllers', 1]]);
+    same(drawn(curve(0, 0), curve(1, 0)), [['mall · the same for all controllers · 0 at every threshold', 1]]);
+    same(drawn(curve(0, 0)), [['mall · 0 at every threshold', 1]]);
+    same(drawn(curve(7, 1)), []);
   },
   'an answer says what it is about, and how each combination differs from the first'() {
     const data = sample();

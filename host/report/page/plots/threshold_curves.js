@@ -90,15 +90,31 @@ function draw_panel(data, metric, one, extents, holder, width) {
   for (const curve of one.curves) draw_curve(svg, curve, series_of(data, curve), x, y);
 }
 
+// What is remarkable about a panel's curves.
+function remarks(curves, different) {
+  const is_zero = (curve) => curve.points.every((point) => point[1] === 0 || !numbers.is_number(point[1]));
+  return [
+    curves.length > 1 && different.length === 1 && 'the same for all controllers',
+    curves.every(is_zero) && '0 at every threshold',
+  ].filter(Boolean);
+}
+
+// [{stratum, curves}]: of curves that are equal, one alone; the stratum's title says so, and where all values are 0.
+export function panels_of(strata, found) {
+  return strata
+    .map((stratum) => {
+      const curves = found.filter((curve) => stratum.combinations.includes(curve.combination));
+      const points = curves.map((curve) => JSON.stringify(curve.points));
+      const different = curves.filter((_, i) => points.indexOf(points[i]) === i);
+      const title = [stratum.title, ...(curves.length > 0 ? remarks(curves, different) : [])].join(' · ');
+      return {stratum: {...stratum, title}, curves: different};
+    })
+    .filter((one) => one.curves.length > 0);
+}
+
 function show_metric(data, metric, holder, note) {
   const found = data.curves.filter((curve) => curve.metric === metric && has_values(curve));
-  const seen = labels
-    .strata(data)
-    .map((stratum) => ({
-      stratum,
-      curves: found.filter((curve) => stratum.combinations.includes(curve.combination)),
-    }))
-    .filter((one) => one.curves.length > 0);
+  const seen = panels_of(labels.strata(data), found);
   const extents = (stratum) =>
     extents_of(
       data,

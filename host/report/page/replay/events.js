@@ -93,6 +93,21 @@ function is_known(event, known) {
   );
 }
 
+const PAUSE_S = 3; // a metric's event that resumes sooner is the same event
+
+// Joins events of the same metric with the same text that follow one another closely.
+function joined(events) {
+  const found = [];
+  for (const event of [...events].sort((a, b) => a.from - b.from)) {
+    const before = found.find(
+      (one) => one.lane === event.lane && one.text === event.text && event.from - one.to <= PAUSE_S
+    );
+    if (before) before.to = Math.max(before.to, event.to);
+    else found.push(event);
+  }
+  return found;
+}
+
 // lane: the row of the time line.
 export function all_events(replay) {
   const known = [
@@ -109,7 +124,7 @@ export function all_events(replay) {
     at: null,
     text: event.text,
   }));
-  return [...known, ...metric_events.filter((event) => !is_known(event, known))].sort(
+  return [...known, ...joined(metric_events.filter((event) => !is_known(event, known)))].sort(
     (a, b) => a.from - b.from || a.to - b.to
   );
 }

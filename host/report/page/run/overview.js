@@ -76,7 +76,7 @@ function figures(data) {
     t.robots > 0 && figure(show(t.arrived), `of ${show(t.robots)}`, 'robots arrived'),
     t.contacts !== null && figure(show(t.contacts), '', t.contacts === 1 ? 'contact' : 'contacts'),
     figure(show(t.faults), '', t.faults === 1 ? 'fault' : 'faults'),
-    figure(numbers.duration(t.simulated_s), `in ${numbers.duration(t.wall_s)}`, 'simulated, processor time')
+    figure(numbers.duration(t.simulated_s), `in ${numbers.duration(t.wall_s)}`, 'simulated, wall time of the trials')
   );
 }
 

@@ -138,13 +138,23 @@ function note_words(data, rows, chosen) {
   );
 }
 
+// The first metric with a significant difference, else with any.
+export function default_metric(data) {
+  const first = (holds) => (data.comparisons.find(holds) || {}).metric;
+  return (
+    first((one) => one.p_holm !== null && one.p_holm < SIGNIFICANT) ||
+    first((one) => one.mean_difference !== 0) ||
+    data.comparisons[0].metric
+  );
+}
+
 export function mount(body, data) {
   if (data.comparisons.length === 0)
     return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
   const distinct = (key) => labels.distinct(data.comparisons.map((one) => one[key]));
   const variants = labels.variants(data);
   const chosen = {
-    metric: distinct('metric')[0],
+    metric: default_metric(data),
     varied: distinct('varied').includes('local_controller') ? 'local_controller' : distinct('varied')[0],
     variant: controls.first_variant(variants, data.comparisons.length / distinct('metric').length),
   };

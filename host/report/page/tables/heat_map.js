@@ -127,9 +127,20 @@ function key_words(data, metric) {
   return `${labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
 }
 
-function default_metric(data, measured) {
-  const wanted = (data.layouts.report.heat_map || {}).metric;
-  return measured.some((metric) => metric.name === wanted) ? wanted : measured[0].name;
+function differs(data, name) {
+  const index = data.metrics.findIndex((metric) => metric.name === name);
+  return labels
+    .variants(data)
+    .some((variant) => labels.distinct(variant.combinations.map((i) => (data.summaries[i][index] || {}).mean)).length > 1);
+}
+
+// The layout's metric, or the first of the tables in which combinations differ.
+export function default_metric(data, measured) {
+  const columns = data.layouts.report.tables.flatMap((table) => table.columns.map((column) => column.metric));
+  const names = [(data.layouts.report.heat_map || {}).metric, ...columns].filter((name) =>
+    measured.some((metric) => metric.name === name)
+  );
+  return names.find((name) => differs(data, name)) || names[0] || measured[0].name;
 }
 
 export function mount(body, data) {

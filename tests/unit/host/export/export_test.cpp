@@ -74,8 +74,8 @@ TEST_CASE("each trial has the parameters of its plugins and the settings", "[exp
 }
 
 TEST_CASE("a table has the means of the trials that agree in its labels", "[export]") {
-  SummaryTableColumn done{"done", "success", 2, ""};
-  SummaryTableColumn time{"time", "time", 1, ""};
+  SummaryTableColumn done{"done", "success", 2, "", false, ""};
+  SummaryTableColumn time{"time", "time", 1, "", false, ""};
   const MeanTable table = make_mean_table({"t", "Results", {Label::local_controller}, {Label::robots}, {done, time}},
                                           ranking_layout(), ranking_metrics(), example());
   CHECK(table.spans == std::vector<std::string>{"2 robots", "4 robots"});
@@ -95,8 +95,9 @@ TEST_CASE("a table has the means of the trials that agree in its labels", "[expo
 TEST_CASE("names are escaped for LaTeX", "[export]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "50%_a&b{c}\\d~e", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}}; });
-  const MeanTable table = make_mean_table({"t", "A_B", {Label::local_controller}, {}, {{"done", "x_y", 1, ""}}},
-                                          ranking_layout(), ranking_metrics(), trials);
+  const MeanTable table =
+      make_mean_table({"t", "A_B", {Label::local_controller}, {}, {{"done", "x_y", 1, "", false, ""}}},
+                      ranking_layout(), ranking_metrics(), trials);
   const std::string latex = latex_table(table);
   CHECK_THAT(latex, Contains("50\\%\\_a\\&b\\{c\\}\\textbackslash{}d\\~{}e & 1.0"));
   CHECK_THAT(latex, Contains("\\caption{A\\_B"));

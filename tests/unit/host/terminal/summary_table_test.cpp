@@ -51,6 +51,39 @@ TEST_CASE("the best of several is marked", "[terminal]") {
   }
 }
 
+TEST_CASE("a value that some trials lack says in how many it is defined", "[terminal]") {
+  const std::string table =
+      table_of({example_trial(0, "CBS", 0, 40.0, 0.5), example_trial(1, "CBS", 1, std::nullopt, 0.5),
+                example_trial(2, "A*", 0, 50.0, 0.5), example_trial(3, "A*", 1, 52.0, 0.5)});
+  CHECK(table ==
+        "              success       time s    speed m/s   plan ms\n"
+        "  CBS + DWA      0.75   40.0 (1/2)   0.50 ±0.17         –\n"
+        "  A* + DWA       1.00   51.0         0.50 ±0.17         –\n");
+}
+
+TEST_CASE("a column shows the median if its layout says so", "[terminal]") {
+  std::vector<TrialRecord> trials;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    trials.push_back(example_trial(i, "CBS", i, 40.0, 0.5));
+    trials.back().values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, i == 2 ? 20.0 : 0.25});
+  }
+  const auto layout = parse_summary_layout(
+      R"({"columns": [{"metric": "cpu", "header": "plan", "median": true, "legend": "planning time"}]})", "layout");
+  const auto metrics = example_metrics();
+  const std::string table = summary_table(layout, metrics, summarise(metrics, trials, {}), {}, {});
+  CHECK(table.find(" 0.25\n") != std::string::npos);
+}
+
+TEST_CASE("a legend explains what is shown", "[terminal]") {
+  auto layout = example_layout();
+  layout.columns[3].legend = "mean over time";
+  layout.columns[2].legend = "of a metric that was not measured";
+  const auto metrics = example_metrics();
+  CHECK(table_legend(layout, metrics, {}, {}) == "  speed: mean over time · ±: deviation over time\n");
+  CHECK(table_legend(layout, metrics, two_marks(), {30, false}) ==
+        "  speed: mean over time · ±:\n    deviation over time · *:\n    told apart from all others\n");
+}
+
 TEST_CASE("rows that can be compared stand together", "[terminal]") {
   std::vector<TrialRecord> trials = two_planners();
   trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
