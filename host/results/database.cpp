@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/errors/machine_error.hpp"
+#include "host/results/value_views.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -264,6 +265,7 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
   connection.execute("PRAGMA journal_mode = WAL");
   SqliteTransaction transaction(connection);
   connection.execute(schema);
+  connection.execute(create_value_views(metrics));
   connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
   SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
   for (const MetricColumn& metric : metrics) {

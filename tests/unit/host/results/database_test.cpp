@@ -205,6 +205,35 @@ TEST_CASE("the database can be read by SQL", "[results]") {
   CHECK(answer("PRAGMA foreign_key_list(value)") == "0");
 }
 
+TEST_CASE("views have a column for each metric, with its unit", "[results]") {
+  const ScratchFolder folder;
+  std::vector<MetricColumn> metrics = example_metrics();
+  metrics.push_back({"odd'\"name", "m", 0, false, ""});
+  {
+    ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", metrics);
+    database.write(example_trial(0, "CBS", 0, 40.0, 0.5));
+    database.write(example_trial(1, "CBS", 1, std::nullopt, 0.6));
+  }
+  const SqliteConnection connection(folder / "results.sqlite", SqliteMode::read_only);
+  SqliteStatement trials(connection,
+                         "SELECT global_planner, \"time [s]\", \"speed [m/s]\", done, \"odd'\"\"name [m]\" FROM "
+                         "trial_values ORDER BY id");
+  REQUIRE(trials.step());
+  CHECK(trials.column_text(0) == "CBS");
+  CHECK(trials.column_number(1) == 40.0);
+  CHECK(trials.column_number(2) == 0.5);
+  REQUIRE(trials.step());
+  CHECK(trials.column_is_null(1));
+  CHECK(trials.column_number(3) == 0.5);
+  CHECK_FALSE(trials.step());
+  SqliteStatement robots(connection, "SELECT robot, done FROM robot_values WHERE trial_id = 1 ORDER BY robot");
+  REQUIRE(robots.step());
+  CHECK(robots.column_number(1) == 1.0);
+  REQUIRE(robots.step());
+  CHECK(robots.column_number(1) == 0.0);
+  CHECK_FALSE(robots.step());
+}
+
 TEST_CASE("a trial is written whole or not at all", "[results]") {
   const ScratchFolder folder;
   ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
