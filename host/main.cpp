@@ -81,7 +81,8 @@ void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
   command->add_option("--trials", options.trials, "repetitions of each combination; overrides the file")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("K");
-  command->add_flag("--quiet", options.quiet, "print neither progress nor results");
+  CLI::Option* quiet = command->add_flag("--quiet", options.quiet, "print neither progress nor results");
+  command->add_flag("--json", options.json, "print the results as JSON, and no progress")->excludes(quiet);
 }
 
 CLI::App* add_plan(CLI::App& app, PlanOptions& options) {

@@ -33,6 +33,7 @@ struct RunOptions {
   Shard shard;
   std::uint32_t trials = 0;  // 0: as the file says
   bool quiet = false;
+  bool json = false;  // results as JSON, without progress
 };
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line);
 

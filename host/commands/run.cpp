@@ -185,7 +185,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                                                                       : ResultsDatabase::Finished::all);
   std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
 
-  Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet);
+  Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet || options.json);
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
                                    database.write(trial);
@@ -201,7 +201,10 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const RunResults results = read_results(database, layout);
   write_tables(results, files.directory());
   const bool reported = try_to_report(results, files.directory());
-  if (!options.quiet) print_results(results, layout, files.directory(), reported, types_of_robots(experiment));
+  if (options.json)
+    print_results_as_json(results, layout, files.directory());
+  else if (!options.quiet)
+    print_results(results, layout, files.directory(), reported, types_of_robots(experiment));
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());

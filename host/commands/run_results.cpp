@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/ranking/answer.hpp"
+#include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/failure_causes.hpp"
 #include "host/report/write_report.hpp"
@@ -86,6 +88,35 @@ void print_results(const RunResults& results, const SummaryLayout& layout, const
   if (reported) files.insert(files.begin(), "report.html");
   if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");
   fmt::print("  {}\n", files_line(directory, files));
+}
+
+void print_results_as_json(const RunResults& results, const SummaryLayout& layout, const fs::path& directory) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"run_directory", fs::absolute(directory).string()}};
+  for (const char* outcome :
+       {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault, trial_outcome::skipped})
+    json["trials"][outcome] = std::count_if(results.trials.begin(), results.trials.end(),
+                                            [&](const TrialRecord& trial) { return trial.outcome == outcome; });
+  json["answer"] = Json::array();
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
+    json["answer"] = answer_lines(found.front(), failure_causes(layout, results.trials));
+  json["combinations"] = Json::array();
+  for (const CombinationSummary& summary : results.summaries) {
+    const CombinationLabels& labels = summary.combination;
+    Json& one = json["combinations"].emplace_back(Json{{"scenario", labels.scenario},
+                                                       {"robots", labels.robots},
+                                                       {"global_planner", labels.global_planner},
+                                                       {"local_controller", labels.local_controller},
+                                                       {"pedestrian_model", labels.pedestrian_model},
+                                                       {"trials", summary.trials}});
+    for (std::size_t i = 0; i < results.metrics.size(); ++i)
+      one["metrics"][results.metrics[i].name] = {{"unit", results.metrics[i].unit},
+                                                 {"defined", summary.metrics[i].defined},
+                                                 {"mean", summary.metrics[i].mean},
+                                                 {"low", summary.metrics[i].interval.low},
+                                                 {"high", summary.metrics[i].interval.high}};
+  }
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace dmrp::host

@@ -31,4 +31,8 @@ bool try_to_report(const RunResults& results, const std::filesystem::path& direc
 void print_results(const RunResults& results, const SummaryLayout& layout, const std::filesystem::path& directory,
                    bool reported, const TypesOfRobots& types = {});
 
+// Prints the trials' outcomes, the answer and the means of all combinations as JSON.
+void print_results_as_json(const RunResults& results, const SummaryLayout& layout,
+                           const std::filesystem::path& directory);
+
 }  // namespace dmrp::host

@@ -48,6 +48,11 @@ std::string resolve(const TomlValue& value, const ParameterSpec& spec, const fs:
 }
 
 ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, const fs::path& base) {
+  if (value.is_array() && spec.fallback.type != DMRP_PARAM_DOUBLE_ARRAY &&
+      spec.fallback.type != DMRP_PARAM_STRING_ARRAY)
+    value.fail(fmt::format(
+        "'{0}' must be one value, not an array (for variants, the experiment has sweep = {{ {0} = [...] }})",
+        value.key()));
   ParameterValue out;
   out.key = spec.fallback.key;
   out.type = spec.fallback.type;

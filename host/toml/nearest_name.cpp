@@ -25,9 +25,23 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
+// The one known name whose last part is what was written: "pace" is "org.controller.pace". Empty if there are several.
+std::string only_name_ending_with(std::string written, const std::vector<std::string>& known) {
+  for (char& c : written)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  std::string found;
+  for (const std::string& name : known) {
+    if (written.empty() || !name.ends_with("." + written)) continue;
+    if (!found.empty()) return "";
+    found = name;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string nearest_name(const std::string& written, const std::vector<std::string>& known) {
+  if (const std::string name = only_name_ending_with(written, known); !name.empty()) return name;
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
   for (const std::string& name : known) {

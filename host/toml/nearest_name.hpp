@@ -8,7 +8,8 @@
 
 namespace dmrp::host {
 
-// The known name with the least edit distance, if that is small enough; "" otherwise.
+// The only known name that ends with what was written behind a point, in whatever case; else the one with the least edit
+// distance, if that is small enough; "" otherwise.
 std::string nearest_name(const std::string& written, const std::vector<std::string>& known);
 
 // " (did you mean 'x'?)" or "".

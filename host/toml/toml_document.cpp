@@ -145,6 +145,7 @@ double TomlValue::positive() const {
 }
 
 std::string TomlValue::text() const {
+  if (is_array() && key_ == "use") fail("'use' takes one name: write one table, such as [[scenario]], for each");
   if (!node_->is_string()) fail(fmt::format("'{}' must be a string, not {}", key_, type_name()));
   return node_->as_string()->get();
 }

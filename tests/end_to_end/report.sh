@@ -14,6 +14,13 @@ cmp "$scratch/before.html" "$run/report.html" || fail "the same results give a d
 grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a placeholder remains"
 grep -Eq '<(script|img|iframe)[^>]* src=|<link[^>]* href="(http|/)' "$run/report.html" && fail "the page fetches something"
 
+# results for programs
+expect_status 0 "$host" "$here/crossing.toml" --trials 1 --json --out "$scratch/json"
+[[ $(head -c 1 "$scratch/stdout") == "{" && ! -s $scratch/stderr ]] || fail "--json prints something else"
+found=$(sqlite3 :memory: "SELECT json_extract(j, '\$.trials.succeeded') + json_extract(j, '\$.trials.failed'),
+  json_array_length(j, '\$.combinations') FROM (SELECT CAST(readfile('$scratch/stdout') AS TEXT) AS j)")
+[[ $found == "4|4" ]] || fail "--json has $found"
+
 # the data, without a browser
 data() {
   sed -n 's|.*<script type="application/json" id="dmrp-data">\(.*\)</script>$|\1|p' "$run/report.html"

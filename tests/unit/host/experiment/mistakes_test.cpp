@@ -159,7 +159,9 @@ TEST_CASE("mistakes in a parameter file") {
   CHECK(told("greedy = true\n wieght = 2") ==
         "set.toml:2:2: unknown key 'wieght' for test.planner (did you mean 'weight'?)");
   CHECK(told("# heavy\nweight = 20") == "set.toml:2:10: 'weight' must be from 1 to 10 m, not 20");
-  CHECK(told("weight = [2, 3]") == "set.toml:1:10: 'weight' must be a number, not an array");
+  CHECK(told("weight = [2, 3]") ==
+        "set.toml:1:10: 'weight' must be one value, not an array (for variants, the experiment has "
+        "sweep = { weight = [...] })");
   CHECK(told("[params]\nweight = 2") == "set.toml:1:2: unknown key 'params' for test.planner");
   CHECK(told("table = \"tabel.csv\"") == "set.toml:1:9: 'table' names no file: 'tabel.csv'");
   CHECK(told("weight = = 2").substr(0, 14) == "set.toml:1:10:");
