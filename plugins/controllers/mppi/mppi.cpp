@@ -23,6 +23,10 @@ constexpr double standing_rad_s = 0.05;
 
 constexpr double spacing_m = static_cast<double>(mppi::path_spacing_m);
 
+// A robot is off its path by this distance. Where it has cut a corner, no trajectory is aligned with the corner's path,
+// and standing costs least.
+constexpr float stray_m = 0.2f;
+
 // A detour prefers this clearance beyond what the robot needs.
 constexpr double easy_beyond_m = 0.15;
 
@@ -165,8 +169,7 @@ void Mppi::look(const Observation& now) {
   }
   field_.look(*map, now.footprint, footprint_padding, now.pose, moving_);
   look_at_path(now);
-  const auto& free = scene_.path_free;
-  if (detour && std::find(free.begin(), free.end(), 0) != free.end()) take_detour(now, *map);
+  if (detour) take_detour(now, *map);
   const StopPoint& stop = tracker_.stop();
   const Vec2 to_goal = stop.position - toolkit::position(now.pose);
   scene_.theta = static_cast<float>(now.pose.theta);
@@ -207,9 +210,13 @@ void Mppi::add_path_point(Vec2 from_robot, double heading, bool is_free) {
   scene_.path_free.push_back(is_free);
 }
 
-// In nav2, the planner of the whole path goes round what the costmap shows, once a second. Plans of a fleet do not; so
-// the way to the farthest point of the path ahead that can be reached is searched here. There may be none.
+// In nav2, the planner of the whole path begins at the robot and goes round what the costmap shows, once a second. Plans
+// of a fleet do not; so where the path is blocked, or the robot is off it, the way to the farthest point of the path
+// ahead that can be reached is searched here. There may be none.
 void Mppi::take_detour(const Observation& now, const dmrp_costmap& map) {
+  const auto& free = scene_.path_free;
+  const bool strays = std::hypot(scene_.path_x[0], scene_.path_y[0]) > stray_m;
+  if (!strays && std::find(free.begin(), free.end(), 0) == free.end()) return;
   const CostmapView view(map);
   const Vec2 robot = toolkit::position(now.pose);
   const double needed_m = now.footprint.inscribed_radius_m + footprint_padding;
@@ -220,9 +227,8 @@ void Mppi::take_detour(const Observation& now, const dmrp_costmap& map) {
   std::size_t last = scene_.path_x.size();
   while (last > 0 && !(scene_.path_free[last - 1] && guide_.reaches(view, point(last - 1)))) --last;
   // nothing that blocks the path lies before a point that can be reached: follow the path
-  if (std::find(scene_.path_free.begin(), scene_.path_free.begin() + static_cast<std::ptrdiff_t>(last), 0) ==
-      scene_.path_free.begin() + static_cast<std::ptrdiff_t>(last))
-    return;
+  const auto end = free.begin() + static_cast<std::ptrdiff_t>(last);
+  if (last == 0 || (!strays && std::find(free.begin(), end, 0) == end)) return;
   guide_.path_to(view, point(last - 1), route_);
   scene_.path_x.clear();
   scene_.path_y.clear();

@@ -65,6 +65,15 @@ TEST_CASE("MPPI goes round a person on its path by a detour; nav2's own formula 
   CHECK_FALSE(run(mppi, course, tuned_with({{"detour", false}})).arrived);
 }
 
+TEST_CASE("MPPI drives on from a corner that it has cut") {
+  // nearer to the leg before the corner than to the one after it
+  Course course;
+  course.path = metre_path({{0.5, -0.5}, {0.5, 0.5}, {-5.5, 0.5}});
+  course.start = {0.2, 0.1, 2.7};
+  course.time_limit_s = 40.0;
+  CHECK(run(mppi, course, tuned_parameters(mppi)).arrived);
+}
+
 TEST_CASE("MPPI knows of agents only if it is to predict them, as nav2 does not") {
   const auto commands = [](bool tracking, bool predicts) {
     Course course = straight();
