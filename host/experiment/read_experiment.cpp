@@ -36,7 +36,7 @@ std::vector<TomlKeys> keys_of_tables(Experiment& experiment) {
   tables.push_back({"[experiment]", header_keys});
   tables.push_back({"[[scenario]]", scenario_use_keys});
   for (const auto& [kind, uses] : lists_by_kind(experiment))
-    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys});
+    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
   return tables;
 }
 

@@ -9,6 +9,7 @@
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -49,13 +50,28 @@ void check_extensions(const TomlValue& use, const PluginInfo& info) {
   if (const std::string missing = missing_extension(info); !missing.empty()) use.fail(info.id + " " + missing);
 }
 
+// Only a controller has one.
+std::optional<std::int64_t> read_control_latency(const TomlTable& table) {
+  const auto value = table.find("control_latency_s");
+  if (!value) return {};
+  std::int64_t latency_ns = 0;
+  latency(value->key(), latency_ns).read(*value);
+  return latency_ns;
+}
+
 }  // namespace
+
+std::vector<std::string> plugin_use_keys(std::uint32_t kind) {
+  std::vector<std::string> keys = {"use", "label", "params_file", "params", "sweep"};
+  if (kind == DMRP_KIND_LOCAL_CONTROLLER) keys.push_back("control_latency_s");
+  return keys;
+}
 
 void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experiment& experiment,
                       std::vector<PluginUse>& uses) {
   const std::filesystem::path base = experiment.file.parent_path();
   for (const TomlTable& table : root.tables(kind_name(kind))) {
-    table.allow_only(plugin_use_keys);
+    table.allow_only(plugin_use_keys(kind));
     const TomlValue use = table.need("use");
     const auto [library, info] = find_plugin(use, kind, experiment.libraries);
     check_extensions(use, *info);
@@ -69,6 +85,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experimen
       made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
       made.parameters = std::move(variant.values);
       made.parameter_file = file;
+      made.control_latency_ns = read_control_latency(table);
       if (label_taken(uses, made.label))
         (label ? *label : use)
             .fail(fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));

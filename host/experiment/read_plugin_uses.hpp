@@ -12,8 +12,8 @@
 
 namespace dmrp::host {
 
-// The keys of each of these tables.
-inline const std::vector<std::string> plugin_use_keys = {"use", "label", "params_file", "params", "sweep"};
+// The keys of the tables of one kind.
+std::vector<std::string> plugin_use_keys(std::uint32_t kind);
 
 // Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment, whose libraries must be known: one
 // use for each variant of a sweep. Throws InputError.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,10 @@ struct LibraryUse {
 struct PluginUse {
   std::uint32_t library = 0;  // index into Experiment::libraries
   PluginInfo info;
-  std::string label;                       // shown in results; unique among the uses of its kind
-  std::vector<ParameterValue> parameters;  // complete, in the declared order; paths absolute
-  std::filesystem::path parameter_file{};  // the source of some of them; absolute, empty if there is none
+  std::string label;                                 // shown in results; unique among the uses of its kind
+  std::vector<ParameterValue> parameters;            // complete, in the declared order; paths absolute
+  std::filesystem::path parameter_file{};            // the source of some of them; absolute, empty if there is none
+  std::optional<std::int64_t> control_latency_ns{};  // of a controller: in place of [simulation]'s
 };
 
 }  // namespace dmrp::host

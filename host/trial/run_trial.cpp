@@ -16,10 +16,20 @@ namespace dmrp::host {
 
 namespace {
 
+// The experiment's, with the latency of the trial's controller if it has one of its own.
+core::SimulationSettings settings_of(const Trial& trial) {
+  core::SimulationSettings settings = trial.variant.simulation;
+  const std::int32_t controller = trial.combination.local_controller;
+  if (controller < 0) return settings;
+  const PluginUse& use = trial.experiment.local_controllers[static_cast<std::size_t>(controller)];
+  settings.control_latency_ns = use.control_latency_ns.value_or(settings.control_latency_ns);
+  return settings;
+}
+
 class Run {
  public:
   Run(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace)
-      : settings_(trial.variant.simulation),
+      : settings_(settings_of(trial)),
         world_(trial.variant.scenario, trial.variant.types, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
         plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
@@ -192,7 +202,7 @@ class Run {
     return c;
   }
 
-  const core::SimulationSettings& settings_;
+  const core::SimulationSettings settings_;
   core::World world_;
   TrialPlugins plugins_;
   core::TraceEncoder& trace_;

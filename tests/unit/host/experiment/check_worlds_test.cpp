@@ -369,6 +369,22 @@ TEST_CASE("a crowd needs room beside the starts of all listed robots") {
   CHECK(message_of(experiment_text) == "no error");
 }
 
+TEST_CASE("a controller may have a control latency of its own") {
+  const ExperimentFolder folder;
+  CHECK_FALSE(load(experiment_text).local_controllers[0].control_latency_ns);
+  const std::string table = "[[local_controller]]\n";
+  std::string text = experiment_text;
+  const std::size_t at = text.find(table);
+  REQUIRE(at != std::string::npos);
+  text.insert(at + table.size(), "control_latency_s = 0.03\n");
+  const Experiment own = load(text);
+  CHECK(own.local_controllers[0].control_latency_ns == 30'000'000);
+  CHECK(own.simulation.control_latency_ns == 0);
+  check_round_trip(own);
+  text.replace(text.find("0.03"), 4, "30.0");
+  CHECK_THAT(message_of(text), Catch::Contains("control_latency_s"));
+}
+
 TEST_CASE("imperfections are off by default") {
   const ExperimentFolder folder;
   const Experiment off = load(experiment_text);
