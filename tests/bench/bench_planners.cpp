@@ -238,11 +238,19 @@ std::vector<Row> rows_of(const std::vector<SetResult>& results) {
   return rows;
 }
 
+bool lists_robots(const fs::path& scenario) {
+  std::ifstream file(scenario);
+  for (std::string line; std::getline(file, line);)
+    if (line == "[[robot]]") return true;
+  return false;
+}
+
+// The scenarios with a task of their own; the others draw theirs by an experiment's order.
 std::vector<std::string> scenarios_beside(const fs::path& host) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(host.parent_path().parent_path() / "share/dmrp/scenarios", ignored))
-    if (fs::exists(entry.path() / "scenario.toml")) names.push_back(entry.path().filename().string());
+    if (lists_robots(entry.path() / "scenario.toml")) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
