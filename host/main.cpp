@@ -208,6 +208,20 @@ CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
   return command;
 }
 
+CLI::App* add_new(CLI::App& app, NewOptions& options) {
+  CLI::App* command = app.add_subcommand("new", "write the folder of a new plugin, which builds at once");
+  command->add_option("kind", options.kind, "planner, controller, pedestrian-model or metric")
+      ->required()
+      ->type_name("KIND");
+  command->add_option("--id", options.id, "id of the plugin, under a domain of yours: org.example.mine")
+      ->required()
+      ->type_name("ID");
+  command->add_option("folder", options.folder, "folder to create; an empty one may be there")
+      ->required()
+      ->type_name("DIR");
+  return command;
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
   app.set_version_flag("--version", std::string("dmrp-host ") + version);
@@ -258,6 +272,9 @@ int run_main(int argc, char** argv) {
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
+  NewOptions new_plugin;
+  CLI::App* beginning = add_new(app, new_plugin);
+
   std::filesystem::path reported;
   CLI::App* report = app.add_subcommand("report", "write report.html: the results of a run in one file");
   report->add_option("run", reported, "run directory")->required()->type_name("RUN_DIR");
@@ -282,6 +299,7 @@ int run_main(int argc, char** argv) {
   if (comparing->parsed()) return compare_command(compare);
   if (exporting->parsed()) return export_command(exported);
   if (report->parsed()) return report_command(reported, replayed);
+  if (beginning->parsed()) return new_command(new_plugin);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);

@@ -93,6 +93,13 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+struct NewOptions {
+  std::string kind;  // a folder of the templates
+  std::string id;    // of the new plugin
+  std::filesystem::path folder;
+};
+int new_command(const NewOptions& options);
+
 struct EvaluateOptions {
   EvaluationChoice choice;
   std::vector<std::uint64_t> trials;  // empty: all

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The steps of a third party: the installation, moved to another folder; a plugin built against it in a separate folder; an
-# experiment that names the .so by its path. Called as: installed_sdk.sh DMRP_HOST SOURCE_DIR CMAKE C_COMPILER
+# The steps of a third party: the installation, moved to another folder; plugins from its templates, built against it in
+# separate folders; their experiments. Called as: installed_sdk.sh DMRP_HOST SOURCE_DIR CMAKE C_COMPILER
 # CXX_COMPILER
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2 cmake=$3 cc=$4 cxx=$5
-build_dir=$(dirname "$(dirname "$host")")
+build_dir=$(dirname "$(dirname "$host")") ctest=${cmake%cmake}ctest
 
 expect_status 0 "$cmake" --install "$build_dir" --prefix "$scratch/installed"
 mv "$scratch/installed" "$scratch/moved"
@@ -14,7 +14,7 @@ for file in include/dmrp/dmrp.h include/dmrp/plugin.hpp include/dmrp/toolkit/ang
   lib/cmake/dmrp/{dmrpConfig,dmrpConfigVersion,dmrpTargets,dmrp_add_plugin}.cmake lib/cmake/dmrp/plugin_exports.map \
   bin/dmrp-host lib/dmrp/plugins/libdmrp_{planners,controllers,pedestrians,metrics}.so \
   share/dmrp/layouts/summary.json share/dmrp/scenarios/mall/scenario.toml \
-  share/dmrp/parameter_sets/controllers/tuned/dwa.toml; do
+  share/dmrp/parameter_sets/controllers/tuned/dwa.toml share/pkgconfig/dmrp.pc; do
   [[ -f $prefix/$file ]] || fail "$file is not installed"
 done
 # whole folders of theirs: a source tree at /dmrp is no prefix of ${CMAKE_CURRENT_LIST_DIR}/dmrpTargets
@@ -29,24 +29,50 @@ build() {
   expect_status 0 "$cmake" --build "$1/build"
 }
 
-cp -r "$source_dir/examples/plugin_template" "$scratch/mine"
-build "$scratch/mine"
-[[ $(nm -D --defined-only "$scratch/mine/build/libcarrot.so" | awk '{print $3}') == dmrp_entry_v1 ]] ||
-  fail "libcarrot.so should export dmrp_entry_v1 alone"
-cp -r "$here/plugin_in_c" "$scratch/in_c"
-build "$scratch/in_c"
-
+# the template of a controller: built and tested by CMake
 cd "$scratch" || exit 1
-expect_status 0 "$prefix/bin/dmrp-host" plugins mine/build/libcarrot.so
-grep -q org.example.carrot "$scratch/stdout" || fail "dmrp-host plugins does not show org.example.carrot"
-
-# the template's own experiment: the shipped mall, the library by its path
-expect_status 0 "$prefix/bin/dmrp-host" mine/carrot.toml --quiet --trials 1 --out run
-[[ $(query run "SELECT outcome, (SELECT count(*) FROM fault) FROM trial") == @(succeeded|failed)"|0" ]] ||
-  fail "the template should drive: $(query run "SELECT * FROM trial; SELECT * FROM fault")"
-[[ $(query run "SELECT value > 0.5 FROM value WHERE metric = 'success' AND subject_kind = 'system'") == 1 ]] ||
+expect_status 0 "$prefix/bin/dmrp-host" new controller --id org.example.carrot mine
+build mine
+[[ $(nm -D --defined-only mine/build/libcarrot.so | awk '{print $3}') == dmrp_entry_v1 ]] ||
+  fail "libcarrot.so should export dmrp_entry_v1 alone"
+expect_status 0 "$ctest" --test-dir mine/build --output-on-failure
+[[ $(query mine/build/runs/carrot "SELECT count(*), min(outcome), (SELECT count(*) FROM fault) FROM trial") == 2*"|0" ]] ||
+  fail "the template should drive: $(query mine/build/runs/carrot "SELECT * FROM trial; SELECT * FROM fault")"
+[[ $(query mine/build/runs/carrot "SELECT min(value) > 0.5 FROM value WHERE metric = 'success' AND subject_kind = 'system'") == 1 ]] ||
   fail "the template should bring most robots to their goals"
 
+# the other templates: built by the README's command without CMake
+for kind in planner pedestrian-model metric; do
+  expect_status 0 "$prefix/bin/dmrp-host" new "$kind" --id "org.example.${kind}_1" "$kind"
+  awk '/^```/ { fenced = !fenced; if (fenced) ++block; next } fenced && block == 2' "$kind/README.md" >"$kind/commands"
+  (cd "$kind" && PKG_CONFIG_PATH=$prefix/share/pkgconfig expect_status 0 bash -e commands) || exit 1
+  [[ ! -s $scratch/stderr ]] || fail "$kind: the command warns: $(cat "$scratch/stderr")"
+  name=${kind//-/_}_1
+  expect_status 0 "$prefix/bin/dmrp-host" "$kind/$name.toml" --quiet --trials 1 --out "run_$kind"
+  [[ $(query "run_$kind" "SELECT count(*), (SELECT count(*) FROM fault) FROM trial") == "2|0" ]] ||
+    fail "$kind: $(query "run_$kind" "SELECT * FROM trial; SELECT * FROM fault")"
+  [[ $(query "run_$kind" "SELECT min(value) > 0.5 FROM value WHERE metric = 'success' AND subject_kind = 'system'") == 1 ]] ||
+    fail "$kind: most robots should arrive"
+done
+[[ $(query run_metric "SELECT count(*) FROM value WHERE metric = 'time_near_people' AND subject_kind = 'system' AND value > 0") == 2 ]] ||
+  fail "the template of a metric should measure something"
+
+# tours that meet in a lane; the host checks the plan
+expect_status 0 "$prefix/bin/dmrp-host" plan --scenario tours --plugin planner/build/libplanner_1.so --planner org.example.planner_1
+grep -q "cost  *56$" "$scratch/stdout" || fail "the template should plan the tours: $(cat "$scratch/stdout")"
+
+# versions: before 1.0 a minor version may change the contract
+for wish in "" 0 0.1 0.1.0; do
+  printf 'cmake_minimum_required(VERSION 3.16)\nproject(p LANGUAGES NONE)\nfind_package(dmrp %s REQUIRED)\n' "$wish" >CMakeLists.txt
+  expect_status 0 "$cmake" -S . -B "version_$wish" -DCMAKE_PREFIX_PATH="$prefix"
+done
+for wish in 0.0 0.2 0.1.7 1; do
+  sed -i "s/find_package.*/find_package(dmrp $wish REQUIRED)/" CMakeLists.txt
+  expect_status 1 "$cmake" -S . -B "version_$wish" -DCMAKE_PREFIX_PATH="$prefix"
+done
+
+cp -r "$here/plugin_in_c" "$scratch/in_c"
+build "$scratch/in_c"
 sed 's|libdmrp_controllers|./in_c/build/libturner|; /^\[\[local_controller/,/^$/d' "$here/crossing.toml" >turner.toml
 printf '\n[[local_controller]]\nuse = "org.example.turner"\nparams = { rate = 0.8 }\n' >>turner.toml
 expect_status 0 "$prefix/bin/dmrp-host" turner.toml --quiet --trials 1 --out turned

@@ -17,7 +17,7 @@ class CarrotFollower final : public dmrp::LocalController {
  public:
   // The id must stay the same in all versions. Begin it with a domain that you own; `dmrp.` is reserved.
   static dmrp::Descriptor describe() {
-    return dmrp::Descriptor("org.example.carrot", "Carrot follower", "0.1.0")
+    return dmrp::Descriptor("org.example.my_plugin", "Carrot follower", "0.1.0")
         .vendor("Example")
         .license("MIT")
         .summary("steers at a point ahead on the path, gives way to people");
@@ -56,8 +56,13 @@ class CarrotFollower final : public dmrp::LocalController {
     const double to_carrot_m = toolkit::distance(toolkit::position(now.pose), carrot);
     const double remaining_m = to_carrot_m + (end_m - carrot_m);
 
-    // At the end: command zero. The host decides whether the robot has arrived.
-    if (remaining_m < 0.5 * now.goal.tolerance_m) return dmrp::Status::ok;
+    // At the end: turn to the goal's heading if it has one (NaN: any), else command zero. The host decides whether the
+    // robot has arrived.
+    if (remaining_m < 0.5 * now.goal.tolerance_m) {
+      if (!std::isnan(now.goal.pose.theta))
+        command.omega = gain * toolkit::difference(now.pose.theta, now.goal.pose.theta);
+      return dmrp::Status::ok;
+    }
 
     // Turn towards the carrot; drive if the robot faces it, and slowly enough to stop in time.
     const double error = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, carrot));
