@@ -39,7 +39,7 @@ type != "" {
   }
   declaration = ""
 }
-/^#define DMRP_[A-Z0-9_]+ +["0-9]/ { constants[++constant_count] = $2 }
+/^#define DMRP_[A-Z0-9_]+ +["0-9(]/ { constants[++constant_count] = $2 }
 
 BEGIN {
   print "#include <dmrp/dmrp.h>\n#include <stdio.h>\n#include <stdlib.h>"
