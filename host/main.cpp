@@ -124,6 +124,16 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   return command;
 }
 
+CLI::App* add_check(CLI::App& app, CheckOptions& options) {
+  CLI::App* command = app.add_subcommand("check", "test a plugin library against its contract");
+  command->add_option("library", options.library, "plugin library")->required()->type_name("LIB.so");
+  command->add_option("--only", options.only, "only cases whose \"ID GROUP/CASE\" matches this regular expression")
+      ->type_name("REGEX");
+  command->add_option("--seed", options.seed, "seed of all trials")->type_name("N")->capture_default_str();
+  command->add_flag("--json", options.json, "print JSON: all cases, also those that passed");
+  return command;
+}
+
 CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
   CLI::App* command = app.add_subcommand("draw", "draw a scenario, optionally with planned paths");
   command->add_option("scenario", options.scenario, "a shipped scenario, or the path of a scenario.toml")->required();
@@ -254,6 +264,9 @@ int run_main(int argc, char** argv) {
   CLI::Option* as_json = plugins->add_flag("--json", json, "print JSON");
   plugins->add_flag("--markdown", markdown, "print a reference page in Markdown")->excludes(as_json);
 
+  CheckOptions check;
+  CLI::App* checking = add_check(app, check);
+
   DrawOptions draw;
   CLI::App* drawing = add_draw(app, draw);
 
@@ -294,6 +307,7 @@ int run_main(int argc, char** argv) {
     return plugins_command(libraries, json       ? PluginsFormat::json
                                       : markdown ? PluginsFormat::markdown
                                                  : PluginsFormat::text);
+  if (checking->parsed()) return check_command(check);
   if (drawing->parsed()) return draw_command(draw);
   if (planning->parsed()) return plan_command(plan);
   if (comparing->parsed()) return compare_command(compare);

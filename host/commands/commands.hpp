@@ -19,6 +19,7 @@ inline constexpr int done = 0;
 inline constexpr int faults = 1;  // some trials ended in a fault
 inline constexpr int bad_input = 2;
 inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memory
+inline constexpr int findings = 1;        // check: a case failed or crashed
 inline constexpr int worse = 1;           // compare --fail-if: a condition holds
 inline constexpr int undecided = 4;       // compare --fail-if: the trials cannot decide
 inline constexpr int interrupted = 130;
@@ -42,6 +43,14 @@ int validate_command(const std::filesystem::path& experiment);
 // Without names, all libraries of the plugin path.
 enum class PluginsFormat { text, json, markdown };
 int plugins_command(const std::vector<std::string>& libraries, PluginsFormat format);
+
+struct CheckOptions {
+  std::string library;
+  std::string only;  // a regular expression; empty: all cases
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+int check_command(const CheckOptions& options);
 
 struct DrawOptions {
   std::string scenario;

@@ -39,10 +39,7 @@ void print_plugin(const PluginInfo& info) {
 
 int plugins_command(const std::vector<std::string>& named, PluginsFormat format) {
   std::vector<fs::path> files;
-  for (const std::string& name : named) {
-    files.push_back(find_library(name, fs::current_path()));
-    if (files.back().empty()) throw InputError(name + ": there is no such library");
-  }
+  for (const std::string& name : named) files.push_back(library_to_open(name));
   if (named.empty()) files = libraries_of_plugin_path();
 
   nlohmann::json all = nlohmann::json::array();

@@ -2,18 +2,16 @@
 #include "host/plan/planner_process.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "host/errors/machine_error.hpp"
 #include "host/process/child_process.hpp"
+#include "host/process/memory_file.hpp"
 #include "host/process/watchdog.hpp"
 #include "host/trial/instance_pool.hpp"
 
@@ -27,40 +25,12 @@ constexpr std::int64_t least_limit_ns = 15 * second_ns;    // for all functions 
 constexpr std::int64_t process_grace_ns = 60 * second_ns;  // for everything outside calls, such as loading
 
 // The child returns its answer in a file in memory: a line of JSON, then the waypoints of all robots as structs.
-class AnswerFile {
- public:
-  AnswerFile() : file_(memfd_create("dmrp-plan", MFD_CLOEXEC)) {
-    if (!file_.is_open()) throw MachineError("memfd_create", errno);
-  }
-
-  void write(const nlohmann::json& head, const PlannedPaths& paths) const {
-    // texts of plugins need not be UTF-8: invalid bytes are replaced
-    append(head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-    for (const auto& path : paths)
-      append({reinterpret_cast<const char*>(path.data()), path.size() * sizeof(dmrp_waypoint)});
-  }
-
-  std::string read() const {
-    const off_t size = lseek(file_.number(), 0, SEEK_END);
-    std::string text(static_cast<std::size_t>(std::max<off_t>(size, 0)), '\0');
-    std::size_t done = 0;
-    while (done < text.size()) {
-      const ssize_t count = pread(file_.number(), text.data() + done, text.size() - done, static_cast<off_t>(done));
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) break;
-      done += static_cast<std::size_t>(count);
-    }
-    text.resize(done);
-    return text;
-  }
-
- private:
-  void append(std::string_view bytes) const {
-    if (!file_.write(bytes)) throw MachineError("the planner's answer cannot be written", errno);
-  }
-
-  Descriptor file_;
-};
+void write_answer(const MemoryFile& file, const nlohmann::json& head, const PlannedPaths& paths) {
+  // texts of plugins need not be UTF-8: invalid bytes are replaced
+  file.append(head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  for (const auto& path : paths)
+    file.append({reinterpret_cast<const char*>(path.data()), path.size() * sizeof(dmrp_waypoint)});
+}
 
 nlohmann::json head_of(const PlannerAnswer& answer) {
   nlohmann::json statistics = nlohmann::json::array();
@@ -102,7 +72,7 @@ void log_line(std::int32_t level, const std::string& plugin, const std::string& 
 }
 
 // In the child.
-void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, const AnswerFile& file) {
+void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, const MemoryFile& file) {
   try {
     CallGuard guard(note);
     InstancePool pool(experiment.libraries, guard, &log_line);
@@ -110,17 +80,17 @@ void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, co
       Instance& planner = pool.get(experiment.global_planners[0], DMRP_NO_ROBOT);
       planner.start(task.world(), experiment.seed, task.problem.c.time_budget_ns);
       const PlannerAnswer answer = call_planner(planner, task.problem.c, 0);
-      file.write(head_of(answer), answer.paths);
+      write_answer(file, head_of(answer), answer.paths);
     } catch (const PluginFault& fault) {
-      file.write(head_of(fault.kind(), fault.text()), {});
+      write_answer(file, head_of(fault.kind(), fault.text()), {});
       if (fault.fatal()) _exit(0);  // no function of the library may be called again
     }
   } catch (const PluginFault& fault) {
-    file.write(head_of(fault.kind(), fault.text()), {});
+    write_answer(file, head_of(fault.kind(), fault.text()), {});
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    file.write(head_of(fault_kind::abi_breach, error.what()), {});
+    write_answer(file, head_of(fault_kind::abi_breach, error.what()), {});
   }
 }
 
@@ -149,7 +119,7 @@ void read_answer(const std::string& text, std::size_t line_end, PlannerRun& run)
 }  // namespace
 
 PlannerRun run_planner(const Experiment& experiment, const PlanTask& task) {
-  const AnswerFile file;
+  const MemoryFile file;
   const SharedCallNote note(make_call_note());
   const std::int64_t start_ns = monotonic_ns();
   ChildProcess child = ChildProcess::fork({experiment.limits.memory_mb, experiment.limits.processes},

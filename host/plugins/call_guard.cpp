@@ -43,9 +43,15 @@ std::string disallowed_detail(const char* name, std::int32_t status) {
 
 bool CallGuard::should_stop(const dmrp_host* caller) noexcept {
   if (caller_ != caller) return true;
-  const bool over = monotonic_ns() >= deadline_ns_;
+  const std::int64_t asked = ++asks_ - asks_before_;
+  const bool over = most_asks_ < 0 ? monotonic_ns() >= deadline_ns_ : asked > most_asks_;
   if (over) stopped_ = true;
   return over;
+}
+
+void CallGuard::stop_after_asks(std::int64_t count) {
+  most_asks_ = count;
+  asks_ = 0;
 }
 
 void CallGuard::set_error(const dmrp_host* caller, const char* text) noexcept {
@@ -81,6 +87,7 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
   note_.limit_ns.store(budget_ns * grace_factor + grace_ns, std::memory_order_relaxed);
   control_bits_ = fp_control();
   copies_before_ = own_process::copies_made();
+  asks_before_ = asks_;
   start_ns_ = monotonic_ns();
   deadline_ns_ = start_ns_ + budget_ns;
   caller_ = caller;

@@ -52,6 +52,11 @@ class CallGuard {
   bool should_stop(const dmrp_host* caller) noexcept;
   void set_error(const dmrp_host* caller, const char* text) noexcept;
 
+  // From now on should_stop() returns true after so many asks in a call, whatever the time. How often the calls have asked
+  // since.
+  void stop_after_asks(std::int64_t count);
+  std::int64_t asks() const { return asks_; }
+
   // Whether should_stop() has returned true in a call since reset_stopped().
   bool stopped() const { return stopped_; }
   void reset_stopped() { stopped_ = false; }
@@ -79,6 +84,9 @@ class CallGuard {
   std::uint64_t copies_before_ = 0;
   bool processes_allowed_ = false;
   std::atomic<bool> stopped_ = false;
+  std::atomic<std::int64_t> asks_ = 0;
+  std::int64_t asks_before_ = 0;  // the call that runs
+  std::int64_t most_asks_ = -1;   // -1: time alone counts
 };
 
 }  // namespace dmrp::host

@@ -38,6 +38,7 @@ class Instance {
     return copy_struct(*static_cast<const Table*>(plugin_.interface_));
   }
 
+  const dmrp_plugin& plugin() const { return plugin_; }
   dmrp_instance* self() const { return plugin_.self; }
   CallGuard& guard() const { return guard_; }
   CallSite site(const char* function, std::int64_t step) const { return {id_, function, step, robot_}; }

@@ -60,11 +60,23 @@ dmrp_entry copy_entry(const dmrp_entry& theirs) {
   return ours;
 }
 
+// Why there is no entry of this contract.
+std::string missing_entry(const std::function<bool(const char*)>& has) {
+  constexpr int newest_major = 9;  // further than this contract will come
+  for (int major = 0; major <= newest_major; ++major)
+    if (major != DMRP_ABI_MAJOR && has(fmt::format("dmrp_entry_v{}", major).c_str()))
+      return fmt::format("built for v{} of the contract, this host speaks v{}: build it with this host's SDK", major,
+                         DMRP_ABI_MAJOR);
+  return "not a dmrp v1 plugin (no symbol " DMRP_ENTRY_SYMBOL
+         "): end it with DMRP_PLUGINS(...) or DMRP_ENTRY, and build it with dmrp_add_plugin()";
+}
+
 }  // namespace
 
-Library::Library(const std::filesystem::path& file)
+Library::Library(const std::filesystem::path& file, const std::function<void(const std::string&)>& stage)
     : handle_(std::make_unique<Handle>()), file_(std::filesystem::absolute(file)) {
   const std::uint32_t control_bits = fp_control();
+  if (stage) stage("dlopen");
   try {
     handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
@@ -76,17 +88,19 @@ Library::Library(const std::filesystem::path& file)
         "changed the floating-point control bits when it was loaded (built with -ffast-math?); they were restored");
   }
   if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
-    throw std::runtime_error("not a dmrp v1 plugin (no symbol " DMRP_ENTRY_SYMBOL "; built with dmrp_add_plugin()?)");
+    throw std::runtime_error(missing_entry([&](const char* symbol) { return handle_->library.has(symbol); }));
   entry_ = copy_entry(handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL));
 
-  read_descriptors();
+  read_descriptors(stage);
 }
 
-void Library::read_descriptors() {
+void Library::read_descriptors(const std::function<void(const std::string&)>& stage) {
+  if (stage) stage("plugin_count()");
   const std::uint32_t count = entry_.plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
   const bool built_in = is_built_in(file_);
   for (std::uint32_t i = 0; i < count; ++i) {
+    if (stage) stage(fmt::format("descriptor({})", i));
     const dmrp_descriptor* descriptor = entry_.descriptor(i);
     if (!descriptor) throw std::runtime_error(fmt::format("gives no descriptor for its plugin {}", i));
     PluginInfo info = copy_descriptor(*descriptor);

@@ -5,6 +5,7 @@
 #include <dmrp/entry.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ class Library {
  public:
   // Loads the file with every symbol resolved, and checks the entry object. Throws std::runtime_error, one line without
   // the file's name. Load only files that probe_library() has loaded: a truncated file kills the process.
-  explicit Library(const std::filesystem::path& file);
+  // `stage` is told what comes next, "dlopen" or "descriptor(0)": a library that ends the process cannot be asked.
+  explicit Library(const std::filesystem::path& file, const std::function<void(const std::string&)>& stage = {});
   ~Library();
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
@@ -31,7 +33,7 @@ class Library {
 
  private:
   struct Handle;
-  void read_descriptors();
+  void read_descriptors(const std::function<void(const std::string&)>& stage);
 
   std::unique_ptr<Handle> handle_;
   std::filesystem::path file_;
@@ -46,6 +48,10 @@ inline constexpr std::int64_t init_budget_ns = 10'000'000'000;
 // The file of a library that an experiment names. A name without a slash is searched in plugin_path(); a path is relative
 // to `base`. Empty if there is no such file.
 std::filesystem::path find_library(const std::string& name, const std::filesystem::path& base);
+
+// The file of a library that a command line names: as above, and a name without a slash may be a file of the working
+// directory. Throws InputError: there is no such library, or it is none that this host can load.
+std::filesystem::path library_to_open(const std::string& name);
 
 // DMRP_PLUGIN_PATH, then ../lib/dmrp/plugins beside the executable.
 std::vector<std::filesystem::path> plugin_path();

@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "host/errors/escaped_text.hpp"
 #include "host/plugins/library.hpp"
 #include "host/plugins/plugin_host.hpp"
 #include "host/process/box.hpp"
@@ -48,21 +49,25 @@ nlohmann::json answer_of_child(const std::filesystem::path& file) {
       if (late = watchdog.elapsed_ns(start_ns) > probe_limit_s * 1'000'000'000; late) return false;
     return watched[0].revents != 0;
   };
-  const std::optional<nlohmann::json> answer = channel.receive(wait);
+  std::optional<nlohmann::json> answer;
+  std::string stage = "dlopen";  // what the child said last that it does
+  while ((answer = channel.receive(wait)) && answer->is_object() && answer->contains("stage"))
+    if ((*answer)["stage"].is_string()) stage = escaped((*answer)["stage"].get<std::string>().c_str());
   const bool closed = !answer && !late && !watchdog.wait(child.ended().number(), [] { return true; });
   child.kill();
   child.wait();
   kill_orphans({});
-  if (late) throw std::runtime_error(fmt::format("hangs while it is loaded ({} s)", probe_limit_s));
+  if (late) throw std::runtime_error(fmt::format("hangs while it is loaded, in {} ({} s)", stage, probe_limit_s));
   if (answer) return *answer;
-  if (closed) throw std::runtime_error("closes its channel to the host while it is loaded");
+  if (closed) throw std::runtime_error("closes its channel to the host while it is loaded, in " + stage);
   const ProcessEnding& ending = child.wait();
   if (ending.signal == SIGSYS)
-    throw std::runtime_error("makes a system call while it is loaded that the box refuses (see --no-box)");
+    throw std::runtime_error("makes a system call while it is loaded, in " + stage +
+                             ", that the box refuses (see --no-box)");
   if (ending.signal != 0)
-    throw std::runtime_error(fmt::format("crashes while it is loaded (signal {}, {}; a truncated file?)", ending.signal,
-                                         strsignal(ending.signal)));
-  throw std::runtime_error("ends the process while it is loaded");
+    throw std::runtime_error(fmt::format("crashes while it is loaded, in {} (signal {}, {}{})", stage, ending.signal,
+                                         strsignal(ending.signal), stage == "dlopen" ? "; a truncated file?" : ""));
+  throw std::runtime_error("ends the process while it is loaded, in " + stage);
 }
 
 // Calls init(), so that a library that cannot work here is found before a run begins. Why it cannot; "" if it can.
@@ -96,18 +101,21 @@ Probe probe_library(const std::filesystem::path& file) {
 }
 
 void run_probe(const std::filesystem::path& file, int descriptor) {
+  LineChannel channel{Descriptor(), Descriptor(descriptor)};
   nlohmann::json answer;
   try {
     own_process::watch({descriptor});
     box::enter(true);  // which plugins may start processes is known only after loading
-    const Library library(file);
+    const auto send_stage = [&](const std::string& stage) { channel.send({{"stage", stage}}); };
+    const Library library(file, send_stage);
+    send_stage("init()");
     box::enter(starts_processes(library));
     answer = {{"plugins", library.plugins()}, {"warnings", library.warnings()}, {"init_error", try_init(library)}};
   } catch (const std::exception& error) {
     answer = {{"error", error.what()}};
   }
   if (own_process::is_other_process()) _exit(0);
-  const bool sent = LineChannel(Descriptor(), Descriptor(descriptor)).send(answer);
+  const bool sent = channel.send(answer);
   _exit(sent ? 0 : 1);  // not exit(): that would run destructors of the library's static objects
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
+#include "host/errors/input_error.hpp"
+#include "host/plugins/elf_file.hpp"
 #include "host/plugins/library.hpp"
 #include "host/program/executable.hpp"
 
@@ -36,6 +40,22 @@ std::filesystem::path find_library(const std::string& name, const std::filesyste
   for (const fs::path& candidate : candidates)
     if (std::error_code ignored; fs::is_regular_file(candidate, ignored)) return fs::canonical(candidate);
   return {};
+}
+
+std::filesystem::path library_to_open(const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  fs::path file = find_library(name, fs::current_path());
+  if (file.empty()) file = find_library("./" + name, fs::current_path());
+  if (!file.empty()) {
+    if (const std::string why = why_not_loadable(file); !why.empty()) throw InputError(file.string() + ": " + why);
+    return file;
+  }
+  if (fs::is_directory(name, ignored)) throw InputError(name + ": is a folder, not a plugin library");
+  if (fs::is_symlink(name, ignored))
+    throw InputError(
+        fmt::format("{}: is a link to {}, which does not exist", name, fs::read_symlink(name, ignored).string()));
+  throw InputError(name + ": there is no such library");
 }
 
 }  // namespace dmrp::host

@@ -91,11 +91,13 @@ ChildProcess ChildProcess::execute(const Program& program) {
   return ChildProcess(program.output, [&] { execute_program(arguments.data(), program); });
 }
 
-ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function) {
-  return ChildProcess(STDERR_FILENO, [&] {
+ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function,
+                                const Notes& notes) {
+  return ChildProcess(notes.output, [&] {
     set_resource_limits(limits.memory_mb);
+    if (limits.file_mb > 0) limit_files(limits.file_mb);
     own_process::watch({});
-    box::enter(limits.processes);
+    box::enter(limits.processes, notes.refused);
     function();
   });
 }

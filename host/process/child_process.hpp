@@ -8,6 +8,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -53,10 +54,18 @@ class ChildProcess {
   // Starts dmrp-host again. Throws MachineError.
   static ChildProcess execute(const Program& program);
 
-  // Calls `function` in a copy of this process, within these limits and the box, with standard output redirected
-  // to standard error. The copy never returns to the caller and runs no destructors of static objects. Its exit status
+  // Where a copy writes what it prints, and a refused system call (box.hpp).
+  struct Notes {
+    int output = STDERR_FILENO;  // for its standard output and standard error
+    std::atomic<std::int32_t>* refused = nullptr;
+  };
+
+  // Calls `function` in a copy of this process, within these limits and the box. The copy never returns to the caller and runs no destructors of static objects. Its exit status
   // is 0, or out_of_memory_exit if the function throws std::bad_alloc. Throws MachineError.
-  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function);
+  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function, const Notes& notes);
+  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function) {
+    return fork(limits, function, Notes());
+  }
 
   ~ChildProcess();  // kills it
   ChildProcess(const ChildProcess&) = delete;

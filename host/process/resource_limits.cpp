@@ -20,4 +20,9 @@ void set_resource_limits(std::int64_t memory_mb) {
   setrlimit(RLIMIT_DATA, &memory);
 }
 
+void limit_files(std::int64_t file_mb) {
+  const rlimit files = {static_cast<rlim_t>(file_mb) << 20, static_cast<rlim_t>(file_mb) << 20};
+  setrlimit(RLIMIT_FSIZE, &files);
+}
+
 }  // namespace dmrp::host

@@ -98,33 +98,49 @@ void check_complete(const Collected& collected, const CallSite& site) {
 
 }  // namespace
 
+Measurement::Measurement(Instance& metric, const PluginInfo& info, std::uint32_t index, std::uint32_t robot_count,
+                         std::int64_t call_budget_ns)
+    : metric_(metric),
+      info_(info),
+      index_(index),
+      robot_count_(robot_count),
+      call_budget_ns_(call_budget_ns),
+      table_(metric.table<dmrp_metric>()) {}
+
+void Measurement::begin(const dmrp_metric_trial& trial) {
+  metric_.call("begin", 0, call_budget_ns_, Answers::no_other, [&] { return table_.begin(metric_.self(), &trial); });
+}
+
+void Measurement::observe(const dmrp_sample& sample) {
+  metric_.call("observe", step_++, call_budget_ns_, Answers::no_other,
+               [&] { return table_.observe(metric_.self(), &sample); });
+}
+
+MetricResult Measurement::finish(const dmrp_trial_end& end) {
+  Collected collected = {info_, robot_count_, {index_, {}, {}}, {}};
+  dmrp_metric_sink sink = sink_into(collected);
+  metric_.call("finish", step_, call_budget_ns_, Answers::no_other,
+               [&] { return table_.finish(metric_.self(), &end, &sink); });
+  check_complete(collected, metric_.site("finish", step_));
+  return std::move(collected.result);
+}
+
 MetricResult measure(core::TraceReader& trace, const std::shared_ptr<WalkingGrids>& walking_grids, Instance& metric,
                      const PluginInfo& info, std::uint32_t index, std::uint64_t seed, std::int64_t call_budget_ns) {
   if (!trace.end()) throw std::invalid_argument("the trace was cut short: it has no end");
-  const auto table = metric.table<dmrp_metric>();
   metric.offer([grids = std::weak_ptr(walking_grids)](std::string_view id) -> const void* {
     const auto here = grids.lock();
     return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
   });
   metric.start(trace.world(), toolkit::Stream(seed, "metric", info.id).next_u64(), call_budget_ns);
 
-  const dmrp_metric_trial trial = {sizeof(trial), 0, trace.first_plan()};
-  metric.call("begin", 0, call_budget_ns, Answers::no_other, [&] { return table.begin(metric.self(), &trial); });
-
+  Measurement measurement(metric, info, index, trace.world().robot_count, call_budget_ns);
+  measurement.begin({sizeof(dmrp_metric_trial), 0, trace.first_plan()});
   // without a plan nothing moved: the only sample records the planner's call
   const bool shown = trace.end()->ending != DMRP_ENDING_NO_PLAN || (info.channels & DMRP_CHANNEL_CALLS) != 0;
   trace.rewind();
-  std::int64_t step = 0;
-  while (const dmrp_sample* sample = shown ? trace.next_sample() : nullptr)
-    metric.call("observe", step++, call_budget_ns, Answers::no_other,
-                [&] { return table.observe(metric.self(), sample); });
-
-  Collected collected = {info, trace.world().robot_count, {index, {}, {}}, {}};
-  dmrp_metric_sink sink = sink_into(collected);
-  metric.call("finish", step, call_budget_ns, Answers::no_other,
-              [&] { return table.finish(metric.self(), trace.end(), &sink); });
-  check_complete(collected, metric.site("finish", step));
-  return std::move(collected.result);
+  while (const dmrp_sample* sample = shown ? trace.next_sample() : nullptr) measurement.observe(*sample);
+  return measurement.finish(*trace.end());
 }
 
 }  // namespace dmrp::host

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/scene/robot_task.hpp"
+#include "host/trial/observation.hpp"
 
 namespace dmrp::host {
 
@@ -161,34 +162,6 @@ void TrialPlugins::copy_world() {
   world_input_.add(std::span(grid.clearance, cells));
 }
 
-// Refers to `guidance`, and to the agents that the robot perceives at this tick.
-void TrialPlugins::observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const {
-  const core::RobotState& state = world_.robots()[robot];
-  const dmrp_world& view = variant_.view.world();
-  const dmrp_robot& body = *DMRP_AT(dmrp_robot, view.robots, view.robot_stride, robot);
-  RobotSensors& sensors = *controllers_[robot].sensors;
-  const std::vector<dmrp_agent>& agents = sensors.agents();
-
-  observation.struct_size = sizeof(observation);
-  observation.robot = robot;
-  observation.t_ns = world_.t_ns();
-  observation.dt_ns = variant_.simulation.control_period_ns;
-  observation.pose = sensors.odometry().pose();
-  observation.velocity = sensors.odometry().velocity();
-  observation.applied = state.command;
-  observation.goal = &guidance.goal;
-  observation.goal_index = state.goal_index;
-  observation.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
-  observation.progress_m = guidance.progress_m;
-  observation.progress_waypoint = guidance.progress_waypoint;
-  observation.released_waypoint = guidance.released_waypoint;
-  observation.limits = body.limits;
-  observation.footprint = body.footprint;
-  observation.agents = agents.data();
-  observation.agent_count = static_cast<std::uint32_t>(agents.size());
-  observation.agent_stride = sizeof(dmrp_agent);
-}
-
 dmrp_twist TrialPlugins::checked(std::uint32_t robot, const dmrp_command& command, const char* function,
                                  std::int64_t step) const {
   if (std::isfinite(command.v_x) && std::isfinite(command.v_y) && std::isfinite(command.omega))
@@ -201,8 +174,7 @@ dmrp_twist TrialPlugins::checked(std::uint32_t robot, const dmrp_command& comman
 
 std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
   Controller& controller = controllers_[robot];
-  dmrp_observation seen{};
-  observe(robot, guidance, seen);
+  const dmrp_observation seen = observation_of(robot, guidance, variant_, world_, *controller.sensors);
   copy_input({&seen, 1});
   command_.clear();
   const auto result = controller.instance->call(
@@ -217,10 +189,11 @@ std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guida
 
 std::span<const std::optional<dmrp_twist>> TrialPlugins::control_all(std::span<const GuidedRobot> robots,
                                                                      std::int64_t step) {
-  observations_.assign(robots.size(), {});
+  observations_.clear();
   commands_.resize(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    observe(robots[i].robot, robots[i].guidance, observations_[i]);
+    const std::uint32_t robot = robots[i].robot;
+    observations_.push_back(observation_of(robot, robots[i].guidance, variant_, world_, *controllers_[robot].sensors));
     commands_[i].struct_size = sizeof(dmrp_command);
   }
   const dmrp_fleet fleet = {sizeof(fleet),        static_cast<std::uint32_t>(robots.size()),

@@ -83,7 +83,6 @@ class TrialPlugins {
   // Offer an instance its extensions.
   void offer(Instance& instance, std::uint32_t kind);
   void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
-  void observe(std::uint32_t robot, const Guidance& guidance, dmrp_observation& observation) const;
   void copy_input(std::span<const dmrp_observation> observations);
   void copy_world();
   dmrp_twist checked(std::uint32_t robot, const dmrp_command& command, const char* function, std::int64_t step) const;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "host/check/check_library.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <regex>
+#include <stdexcept>
+#include <vector>
+
+#include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
+#include "host/plugins/library.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+constexpr std::size_t most_hangs = 2;  // of a plugin; then its other cases are skipped: each would take its whole time
+
+std::regex pattern_of(const std::string& only) {
+  try {
+    return std::regex(only);
+  } catch (const std::regex_error&) {
+    throw InputError(fmt::format("--only {}: is not a regular expression", only));
+  }
+}
+
+class Check {
+ public:
+  Check(const CheckChoice& choice, const std::function<void(const CheckedCase&)>& report)
+      : choice_(choice), report_(report), only_(pattern_of(choice.only)) {}
+
+  CheckCounts run() {
+    // the whole library in another process first: what cannot be loaded has no plugins to be checked
+    std::vector<PluginInfo> plugins;
+    std::string unusable;
+    try {
+      Probe probe = probe_library(choice_.file);
+      plugins = std::move(probe.plugins);
+      unusable = probe.init_error;
+    } catch (const MachineError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      unusable = error.what();
+    }
+    if (!unusable.empty()) {  // the one finding about a library that cannot be used
+      add({"", &check_cases().front(), {CheckResult::fail, unusable, false, ""}});
+      return counts_;
+    }
+    run_cases(nullptr);
+    for (const PluginInfo& plugin : plugins) run_cases(&plugin);
+    if (chosen_ == 0)
+      throw InputError(fmt::format("--only {}: no case of {} matches", choice_.only, choice_.file.string()));
+    return counts_;
+  }
+
+ private:
+  bool is_chosen(const CheckCase& check_case, const PluginInfo* plugin) const {
+    const bool applies = plugin ? (check_case.kinds & (1u << plugin->kind)) != 0 : check_case.kinds == for_library;
+    return applies && std::regex_search((plugin ? plugin->id : "library") + " " + check_case.name, only_);
+  }
+
+  void run_cases(const PluginInfo* plugin) {
+    std::size_t hangs = 0;
+    for (const CheckCase& check_case : check_cases()) {
+      if (!is_chosen(check_case, plugin)) continue;
+      ++chosen_;
+      CheckedCase checked = {plugin ? plugin->id : "", &check_case, {}};
+      if (plugin && plugin->has_flag(DMRP_FLAG_PROCESSES) && std::getenv("DMRP_NO_BOX") == nullptr)
+        checked.outcome = {CheckResult::skip, "the plugin starts processes: check it with --no-box", false, ""};
+      else if (hangs >= most_hangs)
+        checked.outcome = {CheckResult::skip, "other cases hung", false, ""};
+      else
+        checked.outcome = run_case(check_case, choice_.file, plugin, choice_.seed);
+      hangs += checked.outcome.hung;
+      add(checked);
+    }
+  }
+
+  void add(const CheckedCase& checked) {
+    ++counts_[static_cast<std::size_t>(checked.outcome.result)];
+    report_(checked);
+  }
+
+  const CheckChoice& choice_;
+  const std::function<void(const CheckedCase&)>& report_;
+  std::regex only_;
+  std::size_t chosen_ = 0;
+  CheckCounts counts_{};
+};
+
+}  // namespace
+
+const char* result_name(CheckResult result) {
+  static constexpr const char* names[] = {"pass", "skip", "warn", "fail", "crash"};
+  return names[static_cast<std::size_t>(result)];
+}
+
+CheckCounts check_library(const CheckChoice& choice, const std::function<void(const CheckedCase&)>& report) {
+  return Check(choice, report).run();
+}
+
+}  // namespace dmrp::host

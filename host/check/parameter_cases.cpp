@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <optional>
+
+#include "host/check/case_functions.hpp"
+#include "host/check/rehearsal.hpp"
+#include "host/plugins/parameter_text.hpp"
+
+namespace dmrp::host::parameter_cases {
+
+namespace {
+
+// A number of the type of `value`, in place of it.
+ParameterValue with_number(ParameterValue value, double number) {
+  if (value.type == DMRP_PARAM_INT)
+    value.integer = static_cast<std::int64_t>(std::llround(std::clamp(number, -9e15, 9e15)));
+  if (value.type == DMRP_PARAM_DOUBLE) value.number = number;
+  std::fill(value.numbers.begin(), value.numbers.end(), number);
+  return value;
+}
+
+bool has_range(const ParameterSpec& spec) {
+  return spec.fallback.type == DMRP_PARAM_INT || spec.fallback.type == DMRP_PARAM_DOUBLE ||
+         (spec.fallback.type == DMRP_PARAM_DOUBLE_ARRAY && !spec.fallback.numbers.empty());
+}
+
+// A bound may ask for more memory than a case has; and no range can say that two parameters are at odds: then the text
+// names both.
+bool is_excused(const PluginInfo& info, const std::string& key, const PluginFault& fault) {
+  const std::string text = fault.what();
+  if (fault.kind() == std::string_view(fault_kind::out_of_memory)) return true;
+  if (fault.kind() != std::string_view(fault_kind::error_status) || text.find(key) == std::string::npos) return false;
+  return std::any_of(info.parameters.begin(), info.parameters.end(), [&](const ParameterSpec& other) {
+    return other.fallback.key != key && text.find(other.fallback.key) != std::string::npos;
+  });
+}
+
+// Creates and starts an instance in which one parameter has another value, and lets it work for some calls.
+void try_value(Examination& it, std::size_t index, const ParameterValue& value, bool and_work) {
+  it.at(fmt::format("{} = {}", value.key, toml_text(value)));
+  std::vector<ParameterValue> parameters = it.defaults();
+  parameters[index] = value;
+  try {
+    const auto instance = it.create(parameters);
+    Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed());
+    for (int i = 0; and_work && i < 3 && rehearsal.advance(); ++i) {
+    }
+  } catch (const PluginFault& fault) {
+    if (fault.fatal() || !is_excused(it.plugin(), value.key, fault)) throw;
+  }
+}
+
+// Each parameter with the value that `choose` makes of its declaration.
+void try_all(Examination& it, bool and_work,
+             const std::function<std::optional<ParameterValue>(const ParameterSpec&)>& choose) {
+  const auto& specs = it.plugin().parameters;
+  if (specs.empty()) throw Skipped{"it has no parameters"};
+  std::size_t tried = 0;
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (const auto value = choose(specs[i])) {
+      try_value(it, i, *value, and_work);
+      ++tried;
+    }
+  if (tried == 0) throw Skipped{"no parameter has such a value"};
+}
+
+}  // namespace
+
+void defaults(Examination& it) {
+  const auto instance = it.create();
+  rehearse(*instance, it.plugin(), {}, it.seed());
+}
+
+void minimum(Examination& it) {
+  try_all(it, true, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+    if (!has_range(spec) || !std::isfinite(spec.minimum)) return std::nullopt;
+    return with_number(spec.fallback, spec.minimum);
+  });
+}
+
+// Started, but not put to work: that may take any time.
+void maximum(Examination& it) {
+  try_all(it, false, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+    if (!has_range(spec) || !std::isfinite(spec.maximum)) return std::nullopt;
+    return with_number(spec.fallback, spec.maximum);
+  });
+}
+
+// Numbers between half of the default and twice as much, each choice, each truth.
+void drawn(Examination& it) {
+  toolkit::Stream random(it.seed(), "check", 0);
+  try_all(it, true, [&](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+    ParameterValue value = spec.fallback;
+    if (value.type == DMRP_PARAM_BOOL) value.integer = 1 - value.integer;
+    if (value.type == DMRP_PARAM_CHOICE) value.text = spec.choices[random.next_u64() % spec.choices.size()];
+    if (value.type == DMRP_PARAM_STRING || value.type == DMRP_PARAM_PATH || value.type == DMRP_PARAM_STRING_ARRAY)
+      return std::nullopt;
+    if (!has_range(spec)) return value;
+    const double number = value.type == DMRP_PARAM_INT      ? static_cast<double>(value.integer)
+                          : value.type == DMRP_PARAM_DOUBLE ? value.number
+                                                            : value.numbers.front();
+    double chosen = std::clamp(number * random.uniform(0.5, 2.0), spec.minimum, spec.maximum);
+    if (value.type == DMRP_PARAM_INT)
+      chosen = std::clamp(std::round(chosen), std::ceil(spec.minimum), std::floor(spec.maximum));
+    return with_number(spec.fallback, chosen);
+  });
+}
+
+}  // namespace dmrp::host::parameter_cases

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "host/check/stage_extensions.hpp"
+
+#include <algorithm>
+
+namespace dmrp::host {
+
+namespace {
+
+std::vector<std::shared_ptr<RobotSensors>> sensors_of(Stage& stage, core::Lidar& lidar, std::uint32_t robots) {
+  std::vector<std::shared_ptr<RobotSensors>> sensors;
+  for (std::uint32_t i = 0; i < robots; ++i)
+    sensors.push_back(std::make_shared<RobotSensors>(stage.world, i, lidar, 1));
+  return sensors;
+}
+
+}  // namespace
+
+StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Stage& stage, std::uint32_t robots)
+    : info_(info),
+      stage_(stage),
+      trace_(stage.variant.view.world(), [](std::int64_t, std::span<const std::uint8_t>) {}),
+      annotations_(&trace_, info.kind, 0, robots),
+      lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
+      sensors_(sensors_of(stage, lidar_, robots)),
+      sensor_extensions_(sensors_) {
+  instance.offer([this](std::string_view id) { return find(id); });
+}
+
+const void* StageExtensions::find(std::string_view id) {
+  const bool is_required = std::find(info_.needs.begin(), info_.needs.end(), id) != info_.needs.end();
+  if (!is_required && !stage_.settings.offers_extensions) return nullptr;
+  if (id == DMRP_EXT_ANNOTATE) return info_.kind == DMRP_KIND_METRIC ? nullptr : annotations_.extension();
+  if (id == DMRP_EXT_WALKING_GRID)
+    return info_.kind == DMRP_KIND_PEDESTRIAN_MODEL || info_.kind == DMRP_KIND_METRIC
+               ? stage_.variant.walking_grids->extension()
+               : nullptr;
+  return info_.kind == DMRP_KIND_LOCAL_CONTROLLER ? sensor_extensions_.extension(id) : nullptr;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// elf_file.hpp: what a shared object says of itself before it is loaded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dmrp::host {
+
+// Why this host cannot load the file, in one line: it is no shared object, or one for another machine. "" if nothing
+// speaks against it.
+std::string why_not_loadable(const std::filesystem::path& file);
+
+// A defined dynamic symbol that other libraries see.
+struct ExportedSymbol {
+  std::string name;  // mangled
+  bool weak = false;
+};
+
+// Those of a shared object of this machine; empty if they cannot be read.
+std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file);
+
+}  // namespace dmrp::host

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/observation.hpp"
+
+#include <vector>
+
+namespace dmrp::host {
+
+dmrp_observation observation_of(std::uint32_t robot, const Guidance& guidance, const VariantWorld& variant,
+                                const core::World& world, RobotSensors& sensors) {
+  const core::RobotState& state = world.robots()[robot];
+  const dmrp_world& view = variant.view.world();
+  const dmrp_robot& body = *DMRP_AT(dmrp_robot, view.robots, view.robot_stride, robot);
+  const std::vector<dmrp_agent>& agents = sensors.agents();
+
+  dmrp_observation observation{};
+  observation.struct_size = sizeof(observation);
+  observation.robot = robot;
+  observation.t_ns = world.t_ns();
+  observation.dt_ns = variant.simulation.control_period_ns;
+  observation.pose = sensors.odometry().pose();
+  observation.velocity = sensors.odometry().velocity();
+  observation.applied = state.command;
+  observation.goal = &guidance.goal;
+  observation.goal_index = state.goal_index;
+  observation.goal_count = static_cast<std::uint32_t>(world.goals(robot).size());
+  observation.progress_m = guidance.progress_m;
+  observation.progress_waypoint = guidance.progress_waypoint;
+  observation.released_waypoint = guidance.released_waypoint;
+  observation.limits = body.limits;
+  observation.footprint = body.footprint;
+  observation.agents = agents.data();
+  observation.agent_count = static_cast<std::uint32_t>(agents.size());
+  observation.agent_stride = sizeof(dmrp_agent);
+  observation.steering_angle = state.steering_rad;
+  return observation;
+}
+
+}  // namespace dmrp::host

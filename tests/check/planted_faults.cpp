@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// libdmrp_planted_faults.so: a plugin of each kind that keeps its contract, but for the one fault that the environment
+// variable DMRP_TEST_FAULT names.
+#include <fenv.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <dmrp/plugin.hpp>
+#include <thread>
+
+extern "C" const dmrp_entry dmrp_entry_v1;
+
+namespace {
+
+using dmrp::Status;
+
+bool has(const char* fault) {
+  static const std::string planted = std::getenv("DMRP_TEST_FAULT") ? std::getenv("DMRP_TEST_FAULT") : "";
+  return planted == fault;
+}
+
+[[noreturn]] void crash() {
+  std::abort();
+}
+
+__attribute__((constructor)) void at_load() {
+  if (has("rounds upward")) fesetround(FE_UPWARD);
+  if (has("sets the environment")) setenv("DMRP_TEST_SET", "1", 1);
+  if (has("starts a thread")) std::thread([] { std::this_thread::sleep_for(std::chrono::seconds(60)); }).detach();
+  if (has("prints")) std::puts("hello");
+  if (has("loads slowly")) std::this_thread::sleep_for(std::chrono::milliseconds(2'200));
+  if (has("crashes at load")) crash();
+  if (has("exits at load")) std::exit(0);
+  if (has("forks at load")) fork();
+  if (has("hangs at load")) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+int inits = 0;
+int created = 0;
+std::atomic<int> running = 0;
+std::uint64_t calls_of_all = 0;
+thread_local std::uint64_t calls_of_thread = 0;
+
+// What all four do alike.
+template <class Kind>
+class Planted : public Kind {
+ public:
+  // Its value is in the outputs.
+  dmrp::Param<double> level = this->param("level", 1.0).range(0.0, 10.0).doc(has("no doc") ? "" : "how much");
+
+  Planted() {
+    if (has("leaks")) leaked_ = new char[4096];
+    if (has("crashes at the 50th") && ++created > 50) crash();
+  }
+  ~Planted() override {
+    if (has("uses the world in destroy") && started_) crash();
+  }
+
+  static void load(const dmrp::Host&) {
+    if (has("init fails")) throw std::runtime_error("no weights");
+    if (has("second init fails") && ++inits > 4) throw std::runtime_error("already loaded");
+  }
+
+  Status start(const dmrp::Start& start) override {
+    started_ = true;
+    if (has("refuses the minimum") && *level == 0.0) return this->set_error("level is zero"), Status::error;
+    if (has("refuses the maximum") && *level == 10.0) return this->set_error("level is ten"), Status::error;
+    if (has("refuses the default") && *level == 1.0) return this->set_error("level is one"), Status::error;
+    if (has("refuses other values") && *level != 0.0 && *level != 1.0 && *level != 10.0) return Status::error;
+    if (has("wants no agent") && start.world.robots().size() == 0) return Status::error;
+    if (has("compares struct_size") && start.world->struct_size != sizeof(dmrp_world))
+      return this->set_error("another world"), Status::error;
+    if (has("changes its descriptor"))
+      for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
+        const_cast<dmrp_descriptor*>(dmrp_entry_v1.descriptor(i))->name = "Other";
+    if (!has("keeps the last trial")) calls_ = 0;
+    far_ = start.world->lower.x > 1e5;
+    headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals->pose.theta);
+    if (has("asks for the undeclared")) this->template find_extension<dmrp_lidar>();
+    if (has("needs the optional") && !this->template find_extension<dmrp_annotate>()) crash();
+    return Status::ok;
+  }
+
+  const void* offered_extension(const char*) override { return has("offers anything") ? this : nullptr; }
+
+ protected:
+  // A number for the outputs, which depends on what it may not where that is the fault.
+  double number() {
+    ++calls_;
+    ++calls_of_all;
+    ++calls_of_thread;
+    if (has("exits in a call")) std::exit(0);
+    if (has("prints garbage"))
+      for (int i = 0; i < 1'000'000; ++i) std::fputs("{\"result\": 9}\xff\n", stdout);
+    if (has("changes the folder") && chdir("/") != 0) crash();
+    if (has("asks for ever"))
+      for (int i = 0; i < 50'000; ++i) this->should_stop();
+    if (has("is one at a time")) {
+      if (++running > 1) crash();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      --running;
+    }
+    if (has("keeps the last trial")) return 1e-3 * static_cast<double>(calls_);
+    if (has("shares a variable")) return 1e-6 * static_cast<double>(calls_of_all);
+    if (has("is bound to its thread")) return 1e-3 * static_cast<double>(calls_of_thread);
+    if (has("reads its address"))
+      return 1e-12 * static_cast<double>(reinterpret_cast<std::uintptr_t>(this) >> 4 & 0xffff);
+    if (has("fears distance") && far_) return std::nan("");
+    if (has("fears headings") && headed_) return std::nan("");
+    return 0.0;
+  }
+
+ private:
+  char* leaked_ = nullptr;
+  bool started_ = false;
+  bool far_ = false;
+  bool headed_ = false;
+  std::uint64_t calls_ = 0;
+};
+
+dmrp::Descriptor descriptor_of(const char* kind) {
+  dmrp::Descriptor descriptor(has("short id") ? kind : std::string("test.check.") + kind, "Planted",
+                              has("odd version") ? "one" : "1.0.0");
+  descriptor.license(has("odd licence") ? "GPL" : "MIT")
+      .summary(has("no summary") ? "" : "Keeps its contract, but for one fault");
+  if (has("needs the optional")) descriptor.uses(DMRP_EXT_ANNOTATE);
+  if (has("misspelt extension")) descriptor.uses("dmrp.anotate/1");
+  if (has("unknown flag")) descriptor.flags(1u << 20);
+  return descriptor;
+}
+
+class Planner final : public Planted<dmrp::GlobalPlanner> {
+ public:
+  static dmrp::Descriptor describe() {
+    return descriptor_of("planner").connectivity(DMRP_CONNECTIVITY_ANY).uncoordinated();
+  }
+
+  Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
+    const double shift = number();
+    if (has("odd status")) return static_cast<Status>(42);
+    for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
+      const dmrp::PlanningRobot& robot = problem.robots[i];
+      const dmrp::Pose goal = robot.goals->pose;
+      const double middle = 0.5 * (robot.start.x + goal.x);
+      // a walled hall: the wall is in the middle
+      const dmrp::Grid& grid = problem.grid;
+      const auto column = static_cast<std::uint32_t>((middle - grid.origin.x) / grid.resolution_m);
+      const auto row = static_cast<std::uint32_t>((robot.start.y - grid.origin.y) / grid.resolution_m);
+      if (!grid.free[row * grid.width + column]) return has("calls it an error") ? Status::error : Status::no_solution;
+      std::vector<dmrp::Waypoint> path = {
+          {robot.start.x, robot.start.y, std::nan(""), problem.effective_from_ns, 0, 0}};
+      const double length_m = std::hypot(goal.x - robot.start.x, goal.y - robot.start.y);
+      if (length_m > 0.0 || has("divides by the length")) {
+        const double duration_s = has("divides by the length") ? 20.0 / length_m * length_m : 20.0 + shift;
+        path.push_back(
+            {goal.x, goal.y, std::nan(""),
+             problem.effective_from_ns + static_cast<std::int64_t>(std::isnan(duration_s) ? -1.0 : duration_s * 1e9), 0,
+             0});
+      }
+      sink.path(i, path);
+    }
+    return Status::ok;
+  }
+};
+
+class Controller final : public Planted<dmrp::LocalController> {
+ public:
+  static dmrp::Descriptor describe() { return descriptor_of("controller"); }
+
+  void set_path(dmrp::Path path, std::uint64_t) override {
+    if (has("wants two waypoints") && path.size() < 2) throw std::runtime_error("a path has two waypoints");
+  }
+  Status step(const dmrp::Observation& now, dmrp::Command& command) override {
+    command.v_x = 0.1 * *level + number();
+    if (has("divides by the agents") && now.agents.size() == 0) command.v_x = std::nan("");
+    if (has("has room for 100") && now.agents.size() > 100) crash();
+    for (int i = 0; i < 10; ++i)
+      if (should_stop() && has("times out")) return Status::timeout;
+    if (has("writes to its input")) const_cast<dmrp::Limits&>(now.limits).v_max = 9.0;
+    return has("odd status") ? static_cast<Status>(42) : Status::ok;
+  }
+};
+
+class People final : public Planted<dmrp::PedestrianModel> {
+ public:
+  static dmrp::Descriptor describe() { return descriptor_of("people"); }
+
+  Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
+    if (has("has room for 100") && crowd.people.size() > 100) crash();
+    const double speed = std::min(0.1 * *level, 1.0) + number();
+    for (std::size_t i = 0; i < crowd.people.size(); ++i) motions[i].velocity = {speed, 0.0};
+    return Status::ok;
+  }
+};
+
+class Metric final : public Planted<dmrp::Metric> {
+ public:
+  static dmrp::Descriptor describe() {
+    return descriptor_of("metric").value("test_check", has("no unit") ? "" : "1", dmrp::Direction::none,
+                                         dmrp::Subjects::system, "a number");
+  }
+
+  void begin(const dmrp_plan* plan) override { has_plan_ = plan != nullptr; }
+  void observe(const dmrp::Sample& sample) override {
+    if (has("has room for 100") && sample.people.size() > 100) crash();
+  }
+  void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
+    if (has("wants a plan") && !has_plan_) return;
+    sink.system("test_check", *level + number());
+  }
+
+ private:
+  bool has_plan_ = false;
+};
+
+}  // namespace
+
+#ifdef DMRP_TEST_EXPORTS
+extern "C" DMRP_EXPORT int planted_export() {
+  return 1;
+}
+#endif
+
+DMRP_PLUGINS(Planner, Controller, People, Metric)
