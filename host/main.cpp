@@ -285,6 +285,13 @@ int run_main(int argc, char** argv) {
   PlanOptions plan;
   CLI::App* planning = add_plan(app, plan);
 
+  std::string listed_format;
+  CLI::App* listing = app.add_subcommand("keys", "list the keys of experiment or scenario files, with their defaults");
+  listing->add_option("format", listed_format, "experiment or scenario")
+      ->required()
+      ->check(CLI::IsMember({"experiment", "scenario"}))
+      ->type_name("FORMAT");
+
   NewOptions new_plugin;
   CLI::App* beginning = add_new(app, new_plugin);
 
@@ -313,6 +320,7 @@ int run_main(int argc, char** argv) {
   if (comparing->parsed()) return compare_command(compare);
   if (exporting->parsed()) return export_command(exported);
   if (report->parsed()) return report_command(reported, replayed);
+  if (listing->parsed()) return keys_command(listed_format);
   if (beginning->parsed()) return new_command(new_plugin);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);

@@ -102,6 +102,9 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+// Lists the tables and keys of experiment or of scenario files.
+int keys_command(const std::string& format);
+
 struct NewOptions {
   std::string kind;  // a folder of the templates
   std::string id;    // of the new plugin

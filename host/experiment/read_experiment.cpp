@@ -6,6 +6,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/experiment/experiment_keys.hpp"
 #include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_plugin_uses.hpp"
 #include "host/experiment/read_scenario_uses.hpp"
@@ -29,15 +30,6 @@ std::vector<std::pair<std::uint32_t, std::vector<PluginUse>*>> lists_by_kind(Exp
           {DMRP_KIND_LOCAL_CONTROLLER, &experiment.local_controllers},
           {DMRP_KIND_PEDESTRIAN_MODEL, &experiment.pedestrian_models},
           {DMRP_KIND_METRIC, &experiment.metrics}};
-}
-
-std::vector<TomlKeys> keys_of_tables(Experiment& experiment) {
-  std::vector<TomlKeys> tables = settings_keys();
-  tables.push_back({"[experiment]", header_keys});
-  tables.push_back({"[[scenario]]", scenario_use_keys});
-  for (const auto& [kind, uses] : lists_by_kind(experiment))
-    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
-  return tables;
 }
 
 // `trials` > 0 replaces the file's number.
@@ -122,6 +114,15 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 
 }  // namespace
 
+std::vector<TomlKeys> experiment_keys() {
+  std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys}};
+  Experiment unused;
+  for (const auto& [kind, uses] : lists_by_kind(unused))
+    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
+  for (TomlKeys& table : settings_keys()) tables.push_back(std::move(table));
+  return tables;
+}
+
 Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source) {
   if (std::error_code ignored; !fs::is_regular_file(file, ignored))
     throw InputError(file.string() + ": there is no such experiment file");
@@ -130,7 +131,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   experiment.text = read_file(file, file.string());
   TomlDocument document(file.string(), experiment.text);
   const TomlTable root = document.root();
-  document.know(keys_of_tables(experiment));
+  document.know(experiment_keys());
 
   read_header(document, trials, source, experiment);
   std::vector<ScenarioUse> scenario_uses;

@@ -84,7 +84,9 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, max_time_s);
 }
 
-std::vector<TomlKeys> keys_of_tables() {
+}  // namespace
+
+std::vector<TomlKeys> scenario_keys() {
   std::vector<TomlKeys> tables = {
       {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
       {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
@@ -94,8 +96,6 @@ std::vector<TomlKeys> keys_of_tables() {
   return tables;
 }
 
-}  // namespace
-
 void check_extent(const TomlValue& at, dmrp_vec2 extent) {
   if (extent.x > max_side_m || extent.y > max_side_m)
     at.fail(fmt::format("the world must be at most {0} m by {0} m", max_side_m));
@@ -104,7 +104,7 @@ void check_extent(const TomlValue& at, dmrp_vec2 extent) {
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
   ScenarioFile out;
   const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
-  document->know(keys_of_tables());
+  document->know(scenario_keys());
   out.document = document;
   const TomlTable root = out.document->root();
   root.allow_only(root_keys);

@@ -42,6 +42,9 @@ struct ScenarioFile {
   std::vector<RecordingPlace> recordings;
 };
 
+// All tables of the format, with their keys.
+std::vector<TomlKeys> scenario_keys();
+
 // Fails at `at` if a world of this size is too large.
 void check_extent(const TomlValue& at, dmrp_vec2 extent);
 

@@ -28,7 +28,9 @@ std::vector<TomlTable::KeyReader> readers_of(const Settings& settings) {
 }
 
 TomlKeys keys_of(const std::string& title, const Settings& settings) {
-  return {title, TomlTable::keys_of(readers_of(settings))};
+  TomlKeys keys = {title, TomlTable::keys_of(readers_of(settings))};
+  for (const Setting& setting : settings) keys.defaults.push_back(setting.write());
+  return keys;
 }
 
 std::string lines_of(const Settings& settings, std::size_t width) {

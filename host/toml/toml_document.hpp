@@ -33,6 +33,7 @@ class TomlTable;
 struct TomlKeys {
   std::string title;
   std::vector<std::string> keys;
+  std::vector<std::string> defaults = {};  // one a key, as TOML; empty where the readers know none
 };
 
 class TomlDocument {
