@@ -48,6 +48,7 @@ for kind in planner pedestrian-model metric; do
   (cd "$kind" && PKG_CONFIG_PATH=$prefix/share/pkgconfig expect_status 0 bash -e commands) || exit 1
   [[ ! -s $scratch/stderr ]] || fail "$kind: the command warns: $(cat "$scratch/stderr")"
   name=${kind//-/_}_1
+  expect_status 0 "$prefix/bin/dmrp-host" check "$kind/build/lib$name.so"
   expect_status 0 "$prefix/bin/dmrp-host" "$kind/$name.toml" --quiet --trials 1 --out "run_$kind"
   [[ $(query "run_$kind" "SELECT count(*), (SELECT count(*) FROM fault) FROM trial") == "2|0" ]] ||
     fail "$kind: $(query "run_$kind" "SELECT * FROM trial; SELECT * FROM fault")"

@@ -8,8 +8,9 @@ abi=$source_dir/tests/abi sources=$source_dir/examples/other_languages
 shared=$(dirname "$(dirname "$host")")/share/dmrp/abi
 cd "$scratch" || exit 1
 
-# plans NAME ID: by libNAME.so, of tours in a lane, and of 40 robots
+# plans NAME ID: by libNAME.so, which keeps the contract; of tours in a lane, and of 40 robots
 plans() {
+  expect_status 0 "$host" check "./lib$1.so"
   expect_status 0 "$host" plan --scenario tours --plugin "./lib$1.so" --planner "$2" --paths "$1.tours"
   expect_status 0 "$host" plan --scenario mall --agents 40 --plugin "./lib$1.so" --planner "$2" --paths "$1.mall"
 }

@@ -13,6 +13,8 @@ expect_status 0 "$cmake" --install "$build_dir" --prefix "$scratch/dmrp"
 expect_status 0 "$cmake" -S . -B build -DCMAKE_PREFIX_PATH="$scratch/dmrp" -DPython3_EXECUTABLE=/usr/bin/python3
 expect_status 0 "$cmake" --build build
 
+expect_status 0 "$host" check build/libpython_controller.so
+
 # without DWA
 awk '/^\[\[local_controller/ && ++count == 2 { skip = 1 } /^$/ { skip = 0 } !skip' python_controller.toml |
   sed 's/^trials .*/trials = 2/' >one.toml
