@@ -37,14 +37,13 @@ expect_status 0 "$host" "$scratch/all.toml" --quiet --trials 2 --jobs 2 --out "$
 arrived=$(query "$scratch/all" "SELECT sum(value) FROM value WHERE metric = 'success' AND subject_kind = 'robot'")
 ((${arrived%.*} >= 4)) || fail "of 8 robots only $arrived arrived"
 
-# controllers that cannot drive one of them: no car for DWA, nothing sideways for MPC
+# controllers that cannot drive one of them: no car for DWA, nothing sideways for E3MoP
 refuses() {
   sed "s/\"dmrp.controller.pure_pursuit\"/\"dmrp.controller.$1\"/" "$scratch/all.toml" >"$scratch/$1.toml"
   expect_status 2 "$host" validate "$scratch/$1.toml"
   grep -q "$2" "$scratch/stderr" || fail "$1: $(cat "$scratch/stderr")"
 }
 refuses dwa Ackermann
-refuses mpc holonomic
 refuses e3mop holonomic
 
 # planners that plan for robots of one kind refuse, at their place in the file

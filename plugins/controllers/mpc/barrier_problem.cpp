@@ -125,7 +125,8 @@ double BarrierProblem::optimality_error(const Point& point, const std::vector<St
       gradient[at_theta] += t.x_by_theta * y[at_x] + t.y_by_theta * y[at_y] + y[at_theta];
       gradient[at_dt] += t.x_by_dt * y[at_x] + t.y_by_dt * y[at_y] + t.theta_by_dt * y[at_theta] + y[at_dt];
       see(gradient[at_v] + t.x_by_v * y[at_x] + t.y_by_v * y[at_y] + y[at_v_before] + t.theta_by_v * y[at_theta]);
-      see(gradient[at_omega] + t.theta_by_omega * y[at_theta] + y[at_omega_before]);
+      see(gradient[at_omega] + t.x_by_omega * y[at_x] + t.y_by_omega * y[at_y] + t.theta_by_omega * y[at_theta] +
+          y[at_omega_before]);
       for (const double defect : t.defect) see(defect);
     } else {
       gradient[at_dt] += static_cast<double>(stages - 1);

@@ -22,6 +22,15 @@ double distance(const State& a, const State& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
+// Leads from `a` to `b` in `dt_s`, without the limits.
+double second_control(const Problem& problem, const State& a, const State& b, double dt_s) {
+  const double turned = b.theta - a.theta;
+  if (problem.keeps_heading) return ((b.y - a.y) * std::cos(a.theta) - (b.x - a.x) * std::sin(a.theta)) / dt_s;
+  if (!problem.is_car_like()) return turned / dt_s;
+  const double ahead_m = (b.x - a.x) * std::cos(a.theta) + (b.y - a.y) * std::sin(a.theta);
+  return std::atan(turned * problem.wheelbase_m / std::max(std::abs(ahead_m), 1e-3));
+}
+
 // The angle closest to `near_to` with the direction `angle`.
 double unwrapped(double angle, double near_to) {
   return near_to + toolkit::difference(near_to, angle);
@@ -53,11 +62,16 @@ void InitialGuess::along(const Problem& problem, const std::vector<Vec2>& points
     const bool is_goal = i == points.size();
     State next = is_goal ? problem.goal : State{points[i].x, points[i].y, 0.0};
     if (problem.is_car_like() && i == 1) drive_arc_to(next);
+    if (problem.keeps_heading) next.theta = problem.start.theta;
     const State last = nodes_.back().state;
     const double leg_m = distance(last, next);
     const double to_goal_m = distance(next, problem.goal);
     if (!is_goal && (leg_m < near_m || to_goal_m < near_m)) continue;
     if (leg_m < 1e-3) continue;
+    if (problem.keeps_heading) {
+      append(next, leg_m / problem.v_max);
+      continue;
+    }
     next.theta = unwrapped(std::atan2(next.y - last.y, next.x - last.x), last.theta);
     if (nodes_.size() == 1 && !problem.is_car_like() && std::abs(next.theta - last.theta) > sharp_rad)
       turn_to(next.theta);
@@ -128,12 +142,8 @@ void InitialGuess::sample(const Problem& problem, std::size_t states, Trajectory
     const State& a = out.states[k];
     const State& b = out.states[k + 1];
     const double ahead_m = (b.x - a.x) * std::cos(a.theta) + (b.y - a.y) * std::sin(a.theta);
-    const double turned = b.theta - a.theta;
-    const double second = problem.is_car_like()
-                              ? std::atan(turned * problem.wheelbase_m / std::max(std::abs(ahead_m), 1e-3))
-                              : turned / out.dt_s;
     out.controls[k] = {std::clamp(ahead_m / out.dt_s, problem.v_min, problem.v_max),
-                       std::clamp(second, -problem.omega_max, problem.omega_max)};
+                       std::clamp(second_control(problem, a, b, out.dt_s), -problem.omega_max, problem.omega_max)};
   }
 }
 

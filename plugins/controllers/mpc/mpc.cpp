@@ -32,6 +32,9 @@ constexpr double turned_rad = 0.2;
 constexpr double turn_check_s = 0.5;
 constexpr int turn_check_steps = 5;
 
+// A holonomic robot turns first where its speed along its way would be below this share of its greatest.
+constexpr double slow_share = 0.5;
+
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
@@ -53,7 +56,8 @@ Descriptor Mpc::describe() {
       .source(
           "Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with "
           "Non-Euclidean Rotation Groups, ECC 2021; as in ROS's mpc_local_planner")
-      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_ACKERMANN)
+      .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC |
+                  1u << DMRP_KINEMATICS_ACKERMANN)
       .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .needs(DMRP_EXT_OBSTACLE_CLUSTERS)
@@ -110,7 +114,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
   if (turns(now, footprint, command)) return Status::ok;
   const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
-  const bool is_standing = std::abs(now.velocity.v_x) < standing_m_s;
+  const bool is_standing = std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s;
   const std::optional<Target> target = choose_target(now, map, footprint);
   if (!target) {
     // an obstacle cuts off the way and the robot is as close to it as it can come: wait
@@ -118,6 +122,7 @@ Status Mpc::step(const Observation& now, Command& command) {
     if (is_standing && at_goal_.settles(tracker_.stop(), now)) command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
+  if (is_standing && begins_facing(now) && turns(now, footprint, command)) return Status::ok;
   pose_problem(now, *target);
   const Cycle cycle = {{now, obstacles, footprint}, map};
   const std::optional<int> solver_iterations = plan(cycle, *target);
@@ -139,6 +144,11 @@ Command Mpc::first_command(const Observation& now) const {
   const double period_s = seconds(now.dt_ns);
   const Limits& limits = now.limits;
   const mpc::Control& control = trajectory_.controls[0];
+  if (is_holonomic(limits)) {
+    const Vec2 v =
+        toward(Vec2{now.velocity.v_x, now.velocity.v_y}, Vec2{control.v, control.omega}, limits.a_max * period_s);
+    return {std::clamp(v.x, limits.v_min, limits.v_max), std::clamp(v.y, -limits.v_y_max, limits.v_y_max), 0.0};
+  }
   const double v_x =
       std::clamp(toward(now.velocity.v_x, control.v, limits.a_max * period_s), limits.v_min, limits.v_max);
   if (is_car_like(limits)) return steered(v_x, curvature_at(control.omega, limits), limits);
@@ -183,6 +193,10 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   target.goal = ahead_.goal();
   target.ends_at_rest = ahead_.ends_at_stop();
   target.fixes_heading = !ahead_.ends_at_stop() || ahead_.has_heading();
+  if (is_holonomic(now.limits)) {
+    target.goal.theta = now.pose.theta;
+    target.fixes_heading = false;
+  }
   route_ = points;
   const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
     return footprint.cost(directed(point, target.goal.theta)) != in_collision;
@@ -237,6 +251,12 @@ void Mpc::pose_problem(const Observation& now, const Target& target) {
     problem_.turning_max = limits.omega_max;
   }
   problem_.wheelbase_m = limits.wheelbase_m;
+  problem_.keeps_heading = is_holonomic(limits);
+  if (problem_.keeps_heading) {
+    problem_.before.omega = std::clamp(now.applied.v_y, -limits.v_y_max, limits.v_y_max);
+    problem_.omega_max = limits.v_y_max;
+    problem_.alpha_max = limits.a_max;
+  }
   problem_.dt_min_s = min_dt;
   problem_.dt_max_s = longest_step_s(now);
   problem_.min_obstacle_dist_m = min_obstacle_dist;
@@ -292,6 +312,21 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
   guide_.path_to(cycle.map, goal, route_);
   if (is_solved_along_route()) return solver_iterations;
   return {};
+}
+
+// A holonomic robot keeps its heading in a trajectory. One that would be slow in the direction of its way, because it is
+// slower backwards or sideways, turns toward it first.
+bool Mpc::begins_facing(const Observation& now) {
+  if (!is_holonomic(now.limits)) return false;
+  begin_turn(now);
+  if (!turn_to_) return false;
+  const Vec2 way = toolkit::from_angle(toolkit::difference(now.pose.theta, *turn_to_));
+  const double lengthwise_m_s = way.x > 0.0 ? now.limits.v_max : -now.limits.v_min;
+  constexpr double least = 1e-9;
+  const double speed_m_s = std::min(lengthwise_m_s / std::max(std::abs(way.x), least),
+                                    now.limits.v_y_max / std::max(std::abs(way.y), least));
+  if (speed_m_s >= slow_share * now.limits.v_max) turn_to_.reset();
+  return turn_to_.has_value();
 }
 
 // Beside an obstacle, a trajectory that still has to turn may come a little closer to it; once the robot faces its way,

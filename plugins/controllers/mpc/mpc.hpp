@@ -106,6 +106,7 @@ class Mpc final : public LocalController {
   double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
+  bool begins_facing(const Observation& now);
   void begin_turn(const Observation& now);
   bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);
   bool can_continue() const;

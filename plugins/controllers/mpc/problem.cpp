@@ -129,22 +129,30 @@ Transition Problem::transition(const StageVector& w, const State& next) const {
   const double s = std::sin(w[at_theta]);
   const double dt = w[at_dt];
   const double v = w[at_v];
+  const double left = keeps_heading ? w[at_omega] : 0.0;
   const double tangent = is_car_like() ? std::tan(w[at_omega]) : 0.0;
-  const double turning = is_car_like() ? v * tangent / wheelbase_m : w[at_omega];
+  const double turning = is_car_like() ? v * tangent / wheelbase_m : keeps_heading ? 0.0 : w[at_omega];
+  const double v_x = v * c - left * s;  // in the world's frame
+  const double v_y = v * s + left * c;
   Transition t;
-  t.defect = {w[at_x] + dt * v * c - next.x, w[at_y] + dt * v * s - next.y,
+  t.defect = {w[at_x] + dt * v_x - next.x, w[at_y] + dt * v_y - next.y,
               toolkit::wrap(w[at_theta] + dt * turning - next.theta)};
-  t.x_by_theta = -dt * v * s;
-  t.x_by_dt = v * c;
+  t.x_by_theta = -dt * v_y;
+  t.x_by_dt = v_x;
   t.x_by_v = dt * c;
-  t.y_by_theta = dt * v * c;
-  t.y_by_dt = v * s;
+  t.y_by_theta = dt * v_x;
+  t.y_by_dt = v_y;
   t.y_by_v = dt * s;
   t.theta_by_dt = turning;
-  t.theta_by_omega = dt;
-  if (!is_car_like()) return t;
-  t.theta_by_v = dt * tangent / wheelbase_m;
-  t.theta_by_omega = dt * v * (1.0 + tangent * tangent) / wheelbase_m;
+  if (is_car_like()) {
+    t.theta_by_v = dt * tangent / wheelbase_m;
+    t.theta_by_omega = dt * v * (1.0 + tangent * tangent) / wheelbase_m;
+  } else if (keeps_heading) {
+    t.x_by_omega = -dt * s;
+    t.y_by_omega = dt * c;
+  } else {
+    t.theta_by_omega = dt;
+  }
   return t;
 }
 
@@ -157,17 +165,22 @@ void Problem::add_transition_curvature(const StageVector& w, const double* multi
   hessian[at_theta][at_dt] += across * w[at_v];
   hessian[at_theta][at_v] += across * w[at_dt];
   hessian[at_dt][at_v] += along;
-  if (!is_car_like()) {
+  if (is_car_like()) {
+    const double turning = multipliers[2] / wheelbase_m;
+    const double tangent = std::tan(w[at_omega]);
+    const double slope = 1.0 + tangent * tangent;
+    hessian[at_dt][at_v] += turning * tangent;
+    hessian[at_dt][at_omega] += turning * w[at_v] * slope;
+    hessian[at_v][at_omega] += turning * w[at_dt] * slope;
+    hessian[at_omega][at_omega] += turning * w[at_dt] * w[at_v] * 2.0 * tangent * slope;
+  } else if (keeps_heading) {
+    hessian[at_theta][at_theta] -= across * w[at_dt] * w[at_omega];
+    hessian[at_theta][at_dt] -= along * w[at_omega];
+    hessian[at_theta][at_omega] -= along * w[at_dt];
+    hessian[at_dt][at_omega] += across;
+  } else {
     hessian[at_dt][at_omega] += multipliers[2];
-    return;
   }
-  const double turning = multipliers[2] / wheelbase_m;
-  const double tangent = std::tan(w[at_omega]);
-  const double slope = 1.0 + tangent * tangent;
-  hessian[at_dt][at_v] += turning * tangent;
-  hessian[at_dt][at_omega] += turning * w[at_v] * slope;
-  hessian[at_v][at_omega] += turning * w[at_dt] * slope;
-  hessian[at_omega][at_omega] += turning * w[at_dt] * w[at_v] * 2.0 * tangent * slope;
 }
 
 double Problem::cost(const Trajectory& at) const {

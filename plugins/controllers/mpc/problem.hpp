@@ -6,8 +6,8 @@
 //
 //   minimise (N - 1) dt   subject to   s(k + 1) = s(k) + dt f(s(k), u(k)),  s(0) and s(N - 1) given,
 //
-// for a unicycle, or for upstream's simple car with the steering angle as its second control;
-// bounds on speeds, accelerations and dt, and min_obstacle_dist - distance <= 0 at every state. Angle differences in
+// for a unicycle, for upstream's simple car with the steering angle as its second control, or for a holonomic robot that
+// keeps its heading, with the speed to the left as its second control; bounds on speeds, accelerations and dt, and min_obstacle_dist - distance <= 0 at every state. Angle differences in
 // the transitions and in the terminal condition are wrapped.
 //
 // Two kinds of constraints are elastic, so that a solution always exists: violating an obstacle constraint costs
@@ -50,8 +50,8 @@ struct Constraint {
 // by x, y and theta of stage k are 1 in their own component; by those of stage k + 1, -1.)
 struct Transition {
   std::array<double, 3> defect = {};
-  double x_by_theta = 0.0, x_by_dt = 0.0, x_by_v = 0.0;
-  double y_by_theta = 0.0, y_by_dt = 0.0, y_by_v = 0.0;
+  double x_by_theta = 0.0, x_by_dt = 0.0, x_by_v = 0.0, x_by_omega = 0.0;
+  double y_by_theta = 0.0, y_by_dt = 0.0, y_by_v = 0.0, y_by_omega = 0.0;
   double theta_by_dt = 0.0, theta_by_v = 0.0, theta_by_omega = 0.0;
 };
 
@@ -68,6 +68,9 @@ struct Problem {
   // largest rate, and turning_max bounds the turning rate.
   double wheelbase_m = 0.0;
   double turning_max = 0.0;  // rad/s
+  // A holonomic robot keeps its heading. Then omega is the speed to the left, omega_max its largest value (m/s) and
+  // alpha_max its largest change (m/s^2).
+  bool keeps_heading = false;
   double dt_min_s = 0.0, dt_max_s = 10.0;
   double min_obstacle_dist_m = 0.1;  // between the outlines
 

@@ -21,14 +21,17 @@ StageVector pull_back(const Transition& t, const Vector& next) {
   w[at_omega_before] = 0.0;
   w[at_dt] = t.x_by_dt * next[at_x] + t.y_by_dt * next[at_y] + t.theta_by_dt * next[at_theta] + next[at_dt];
   w[at_v] = t.x_by_v * next[at_x] + t.y_by_v * next[at_y] + next[at_v_before] + t.theta_by_v * next[at_theta];
-  w[at_omega] = t.theta_by_omega * next[at_theta] + next[at_omega_before];
+  w[at_omega] =
+      t.x_by_omega * next[at_x] + t.y_by_omega * next[at_y] + t.theta_by_omega * next[at_theta] + next[at_omega_before];
   return w;
 }
 
 StateVector push_forward(const Transition& t, const StageVector& w) {
   StateVector next;
-  next[at_x] = w[at_x] + t.x_by_theta * w[at_theta] + t.x_by_dt * w[at_dt] + t.x_by_v * w[at_v] + t.defect[0];
-  next[at_y] = w[at_y] + t.y_by_theta * w[at_theta] + t.y_by_dt * w[at_dt] + t.y_by_v * w[at_v] + t.defect[1];
+  next[at_x] = w[at_x] + t.x_by_theta * w[at_theta] + t.x_by_dt * w[at_dt] + t.x_by_v * w[at_v] +
+               t.x_by_omega * w[at_omega] + t.defect[0];
+  next[at_y] = w[at_y] + t.y_by_theta * w[at_theta] + t.y_by_dt * w[at_dt] + t.y_by_v * w[at_v] +
+               t.y_by_omega * w[at_omega] + t.defect[1];
   next[at_theta] =
       w[at_theta] + t.theta_by_dt * w[at_dt] + t.theta_by_omega * w[at_omega] + t.defect[2] + t.theta_by_v * w[at_v];
   next[at_v_before] = w[at_v];

@@ -17,7 +17,7 @@ inline State between(const State& a, const State& b, double share) {
 
 struct Control {
   double v = 0.0;      // m/s
-  double omega = 0.0;  // rad/s; of a car-like robot instead the steering angle, rad
+  double omega = 0.0;  // rad/s; of a car-like robot the steering angle, rad; of a holonomic one the speed to the left
 };
 
 // controls[k] leads from states[k] to states[k + 1] in dt_s.

@@ -38,8 +38,13 @@ double gap(const Person& person, const Agent& robot) {
 
 const Agent* nearest(const Person& person, const Span<Agent>& robots) {
   const Agent* found = nullptr;
-  for (const Agent& robot : robots)
-    if (found == nullptr || gap(person, robot) < gap(person, *found)) found = &robot;
+  double least_m = 0.0;
+  for (const Agent& robot : robots) {
+    const double gap_m = gap(person, robot);
+    if (found != nullptr && gap_m >= least_m) continue;
+    found = &robot;
+    least_m = gap_m;
+  }
   return found;
 }
 

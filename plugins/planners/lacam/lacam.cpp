@@ -48,11 +48,10 @@ Status Lacam::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   }
 
   std::vector<std::vector<Location>>& paths = search.paths();
-  double cost = 0;
-  for (const auto& path : paths) cost += cost_of(path);
+  const std::int64_t moves = sum_of_costs(paths);
+  const auto cost = static_cast<double>(moves);
   sink.statistic("cost", cost);
   sink.statistic("lower_bound", result == LacamSearch::Result::optimal ? cost : prepared->lower_bound());
-  const auto moves = static_cast<std::int64_t>(cost);
   straighten(prepared->problem, prepared->tables, paths, straightening_limit(paths.size(), moves), stop);
   write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;

@@ -177,8 +177,7 @@ void LacamSearch::keep_plan(const std::vector<NodeId>& nodes) {
   std::vector<const Configuration*> configurations;
   for (const NodeId id : nodes) configurations.push_back(&node(id).at);
   std::vector<std::vector<Location>> paths = paths_of(configurations, tables_);
-  std::int64_t cost = 0;
-  for (const auto& path : paths) cost += cost_of(path);
+  const std::int64_t cost = sum_of_costs(paths);
   if (best_cost_ >= 0 && cost >= best_cost_) return;
   best_cost_ = cost;
   paths_ = std::move(paths);

@@ -23,9 +23,7 @@ FleetAnswer plan_by_conflict_search(const PlanningProblem& problem, double subop
   switch (result) {
     case LargeAgentSearch::Result::solved: {
       const std::vector<PathView> paths = search.solution();
-      double cost = 0;
-      for (const PathView path : paths) cost += cost_of(path);
-      sink.statistic("cost", cost);
+      sink.statistic("cost", static_cast<double>(sum_of_costs(paths)));
       write_paths(problem, prepared->fleet, paths, sink);
       return {};
     }
@@ -54,9 +52,7 @@ FleetAnswer plan_by_priorities(const PlanningProblem& problem, std::int64_t rest
   if (result == PrioritizedFleet::Result::stopped) return {Status::timeout, "stopped by the host"};
   if (result == PrioritizedFleet::Result::restart_limit)
     return {Status::timeout, "no plan after restarts = " + std::to_string(restart_limit)};
-  double cost = 0;
-  for (const auto& path : search.paths()) cost += cost_of(path);
-  sink.statistic("cost", cost);
+  sink.statistic("cost", static_cast<double>(sum_of_costs(search.paths())));
   write_paths(problem, prepared->fleet, {search.paths().begin(), search.paths().end()}, sink);
   return {};
 }

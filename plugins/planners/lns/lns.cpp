@@ -15,12 +15,6 @@ namespace {
 // needs fewer, its plans are much cheaper than the first ones of LaCAM*.
 constexpr double most_expansions_a_step = 60;
 
-double sum_of_costs(const std::vector<std::vector<Location>>& paths) {
-  double sum = 0;
-  for (const auto& path : paths) sum += cost_of(path);
-  return sum;
-}
-
 struct FirstPlan {
   Status status = Status::ok;
   std::string error;
@@ -81,7 +75,7 @@ Status Lns::plan(const PlanningProblem& host_problem, PlanSink& sink) {
     set_error(first.error);
     return first.status;
   }
-  sink.statistic("first_cost", sum_of_costs(first.paths));
+  sink.statistic("first_cost", static_cast<double>(sum_of_costs(first.paths)));
   LargeNeighborhoodSearch search(prepared->problem, prepared->tables, std::move(first.paths), seed_, stop);
   search.run(*iterations > 0 ? *iterations : -1);
   sink.statistic("iterations", static_cast<double>(search.iterations()));

@@ -51,6 +51,14 @@ inline std::int32_t cost_of(PathView path) {
   return static_cast<std::int32_t>(path.size()) - 1;
 }
 
+// Of paths or views of them.
+template <typename Paths>
+std::int64_t sum_of_costs(const Paths& paths) {
+  std::int64_t sum = 0;
+  for (const auto& path : paths) sum += cost_of(path);
+  return sum;
+}
+
 // An active robot of the host's problem on a graph. Starts and goals that are not on a free cell become nowhere.
 template <Direction connectivity>
 Agent agent_on(const BasicGridGraph<connectivity>& graph, const PlanningRobot& robot, std::uint32_t number);

@@ -69,17 +69,15 @@ Status Pibt::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   std::vector<const Configuration*> sequence;
   for (const Configuration& configuration : configurations) sequence.push_back(&configuration);
   std::vector<std::vector<Location>> paths = paths_of(sequence, prepared->tables);
-  double cost = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    cost += cost_of(paths[i]);
     if (prepared->tables[i].distance(configurations.back().legs[i], configurations.back().locations[i]) == 0) continue;
     set_error(stop.raised() ? "stopped by the host"
                             : "robots are not at rest after " + std::to_string(configurations.size() - 1) +
                                   " steps (step_limit = " + std::to_string(*step_limit) + ")");
     return Status::timeout;
   }
-  sink.statistic("cost", cost);
-  const auto moves = static_cast<std::int64_t>(cost);
+  const std::int64_t moves = sum_of_costs(paths);
+  sink.statistic("cost", static_cast<double>(moves));
   straighten(prepared->problem, prepared->tables, paths, straightening_limit(paths.size(), moves), stop);
   write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;

@@ -71,9 +71,7 @@ Status Sipp::plan(const PlanningProblem& host_problem, PlanSink& sink) {
   std::vector<std::vector<Location>>& paths = search.paths();
   straighten(problem, *tables, search.occupied(), paths,
              straightening_limit(paths.size(), statistics.low_level_expanded), stop);
-  double cost = 0;
-  for (const auto& path : paths) cost += cost_of(path);
-  sink.statistic("cost", cost);
+  sink.statistic("cost", static_cast<double>(sum_of_costs(paths)));
   write_paths(host_problem, problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;
 }

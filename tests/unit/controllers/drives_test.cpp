@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Driven& driven) {
 std::vector<Driven> all_pairs() {
   std::vector<Driven> pairs;
   for (const char* body : {"holonomic disc", "holonomic rectangle"})
-    for (const char* controller : {"dwa", "teb", "pure_pursuit"}) pairs.push_back({controller, body});
+    for (const char* controller : {"dwa", "teb", "mpc", "pure_pursuit"}) pairs.push_back({controller, body});
   for (const char* body : {"car-like disc", "car-like rectangle"})
     for (const char* controller : {"teb", "mpc", "pure_pursuit"}) pairs.push_back({controller, body});
   return pairs;
@@ -117,7 +117,7 @@ TEST_CASE("A holonomic robot goes round an obstacle sideways, without turning fa
   course.goal_heading = 0.0;
   course.boxes = {{{1.3, -0.2}, {1.6, 0.3}}};
   course.body = body_of("holonomic disc");
-  const std::string id = "dmrp.controller." + GENERATE(as<std::string>(), "dwa", "teb");
+  const std::string id = "dmrp.controller." + GENERATE(as<std::string>(), "dwa", "teb", "mpc");
   CAPTURE(id);
   const Drive drive = run(id, course, tuned_parameters(id));
   check_arrives(drive, 20.0);

@@ -88,6 +88,18 @@ Problem of_car(Problem problem) {
   return problem;
 }
 
+// The same robot with wheels that roll sideways too.
+Problem of_holonomic(Problem problem) {
+  problem.keeps_heading = true;
+  problem.fixes_heading = false;
+  problem.omega_max = 0.4;
+  return problem;
+}
+
+Problem of_drive(int drive, const Problem& problem) {
+  return drive == 0 ? problem : drive == 1 ? of_car(problem) : of_holonomic(problem);
+}
+
 struct Solved {
   Trajectory trajectory;
   SolverReport report;
@@ -117,7 +129,7 @@ Solved solve(Problem& problem, const std::vector<Obstacle>& obstacles = {}, std:
 TEST_CASE("Gradients and curvatures of all constraints agree with finite differences") {
   const dmrp_footprint& footprint = GENERATE(0, 1) == 0 ? disc : box;
   const KindsOfObstacles around;
-  Problem problem = GENERATE(false, true) ? of_car(in_the_open({}, {})) : in_the_open({}, {});
+  Problem problem = of_drive(GENERATE(0, 1, 2), in_the_open({}, {}));
   problem.footprint = &footprint;
   problem.ends_at_rest = true;
   problem.obstacles.resize(4);
@@ -161,7 +173,7 @@ TEST_CASE("Gradients and curvatures of all constraints agree with finite differe
 }
 
 TEST_CASE("First and second derivatives of transitions agree with finite differences") {
-  const Problem problem = GENERATE(false, true) ? of_car(in_the_open({}, {})) : in_the_open({}, {});
+  const Problem problem = of_drive(GENERATE(0, 1, 2), in_the_open({}, {}));
   Stream random(2, "transitions");
   const double h = 1e-5;
   for (int round = 0; round < 100; ++round) {
@@ -177,7 +189,7 @@ TEST_CASE("First and second derivatives of transitions agree with finite differe
       s[at_theta] = multipliers[0] * x.x_by_theta + multipliers[1] * x.y_by_theta + multipliers[2];
       s[at_dt] = multipliers[0] * x.x_by_dt + multipliers[1] * x.y_by_dt + multipliers[2] * x.theta_by_dt;
       s[at_v] = multipliers[0] * x.x_by_v + multipliers[1] * x.y_by_v + multipliers[2] * x.theta_by_v;
-      s[at_omega] = multipliers[2] * x.theta_by_omega;
+      s[at_omega] = multipliers[0] * x.x_by_omega + multipliers[1] * x.y_by_omega + multipliers[2] * x.theta_by_omega;
       return s;
     };
     StageMatrix hessian = {};
@@ -193,7 +205,8 @@ TEST_CASE("First and second derivatives of transitions agree with finite differe
       for (std::size_t j = i; j < stage_size; ++j)
         CHECK(hessian[i][j] == Approx((turned[j] - gradient[j]) / h).margin(1e-4));
     }
-    CHECK(t.defect[0] == Approx(w[at_x] + w[at_dt] * w[at_v] * std::cos(w[at_theta]) - next.x));
+    const double aside = problem.keeps_heading ? w[at_omega] * std::sin(w[at_theta]) : 0.0;
+    CHECK(t.defect[0] == Approx(w[at_x] + w[at_dt] * (w[at_v] * std::cos(w[at_theta]) - aside) - next.x));
   }
 }
 
@@ -299,6 +312,20 @@ TEST_CASE("From rest to rest the speeds are a trapezoid within the acceleration 
   CHECK(solved.trajectory.duration_s() == Approx(3.3).margin(0.15));
   CHECK(solved.trajectory.controls.front().v <= solved.trajectory.dt_s + 1e-6);
   CHECK(solved.trajectory.controls.back().v <= solved.trajectory.dt_s + 1e-6);
+}
+
+TEST_CASE("A holonomic robot drives straight to its side at its speed there, and keeps its heading") {
+  Problem problem = of_holonomic(in_the_open({0.0, 0.0, 0.5}, {-2.0 * std::sin(0.5), 2.0 * std::cos(0.5), 0.5}));
+  const Solved solved = solve(problem);
+  CHECK(solved.report.converged);
+  CHECK(solved.report.terminal_error_m < 1e-3);
+  for (const State& state : solved.trajectory.states) {
+    CHECK(state.theta == 0.5);
+    CHECK(std::abs(std::cos(0.5) * state.x + std::sin(0.5) * state.y) < 1e-3);
+  }
+  // 2 m at 0.4 m/s, but for the first step, whose speed is what 1 m/s^2 allows
+  const double dt_s = solved.trajectory.dt_s;
+  CHECK(solved.trajectory.duration_s() == Approx(2.0 / 0.4 + dt_s * (1.0 - dt_s / 0.4)).epsilon(1e-3));
 }
 
 TEST_CASE("A car drives a half turn along its tightest arc, no faster than it may turn") {
