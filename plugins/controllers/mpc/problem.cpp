@@ -132,16 +132,16 @@ Transition Problem::transition(const StageVector& w, const State& next) const {
   const double left = keeps_heading ? w[at_omega] : 0.0;
   const double tangent = is_car_like() ? std::tan(w[at_omega]) : 0.0;
   const double turning = is_car_like() ? v * tangent / wheelbase_m : keeps_heading ? 0.0 : w[at_omega];
-  const double v_x = v * c - left * s;  // in the world's frame
-  const double v_y = v * s + left * c;
+  const double x_step_m = dt * v * c - dt * left * s;
+  const double y_step_m = dt * v * s + dt * left * c;
   Transition t;
-  t.defect = {w[at_x] + dt * v_x - next.x, w[at_y] + dt * v_y - next.y,
+  t.defect = {w[at_x] + x_step_m - next.x, w[at_y] + y_step_m - next.y,
               toolkit::wrap(w[at_theta] + dt * turning - next.theta)};
-  t.x_by_theta = -dt * v_y;
-  t.x_by_dt = v_x;
+  t.x_by_theta = -y_step_m;
+  t.x_by_dt = v * c - left * s;
   t.x_by_v = dt * c;
-  t.y_by_theta = dt * v_x;
-  t.y_by_dt = v_y;
+  t.y_by_theta = x_step_m;
+  t.y_by_dt = v * s + left * c;
   t.y_by_v = dt * s;
   t.theta_by_dt = turning;
   if (is_car_like()) {
