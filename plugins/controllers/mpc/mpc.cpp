@@ -171,14 +171,16 @@ const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const
 }
 
 // A car-like robot that has cut a corner could not reach a goal close beside it, so its goal is at the look-ahead
-// distance as the crow flies.
-void Mpc::look_ahead(const Observation& now, const CostmapView& map) {
+// distance as the crow flies. Nor could it turn aside right before an obstacle, so its goal is beyond one on its path.
+void Mpc::look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
   constexpr double step_m = 0.3;
   const double whole_m = max_global_plan_lookahead_dist;
   ahead_.look(tracker_, now, map, whole_m);
   if (!is_car_like(now.limits)) return;
   for (double along_m = whole_m + step_m; along_m <= 2.0 * whole_m && !ahead_.ends_at_stop(); along_m += step_m) {
-    if (toolkit::distance(toolkit::position(now.pose), toolkit::position(ahead_.goal())) >= whole_m) return;
+    if (toolkit::distance(toolkit::position(now.pose), toolkit::position(ahead_.goal())) >= whole_m &&
+        footprint.cost(directed(ahead_.goal())) != in_collision)
+      return;
     ahead_.look(tracker_, now, map, along_m);
   }
 }
@@ -187,7 +189,7 @@ void Mpc::look_ahead(const Observation& now, const CostmapView& map) {
 // stands there. Sets route_.
 std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const CostmapView& map,
                                               FootprintCheck& footprint) {
-  look_ahead(now, map);
+  look_ahead(now, map, footprint);
   const std::vector<Vec2>& points = ahead_.points();
   Target target;
   target.goal = ahead_.goal();
@@ -205,8 +207,12 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
 
   spread_guide(now, map, points.back());
   target.is_guided = true;
+  const auto can_stop_at = [&](Vec2 point) {
+    return guide_.reaches(map, point) &&
+           (!is_car_like(now.limits) || has_room(now, {point.x, point.y, target.goal.theta}));
+  };
   std::size_t last = points.size() - 1;
-  while (last > 0 && !guide_.reaches(map, points[last])) --last;
+  while (last > 0 && !can_stop_at(points[last])) --last;
   const bool is_cut = last + 1 < points.size();
   if (!guide_.reaches(map, points[last]) ||
       (is_cut && toolkit::distance(toolkit::position(now.pose), points[last]) < wait_within_m))
@@ -219,6 +225,14 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   }
   guide_.path_to(map, points[last], route_);
   return target;
+}
+
+// The guide knows of a disc only. A car-like robot, which cannot turn in place, stops only where its outline keeps the
+// distance that the problem demands: with less, the trajectory that brakes there may have no solution.
+bool Mpc::has_room(const Observation& now, const Pose& at) const {
+  return std::all_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
+    return separation(now.footprint, at, obstacle, 0.0).distance_m >= min_obstacle_dist;
+  });
 }
 
 // The guide keeps the clearance that the feasibility check demands beside a wall: one cell more than the footprint. If
@@ -293,7 +307,8 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
     const mpc::OptimizerReport report =
         optimizer_.optimise(settings, barrier_start, cycle.around.obstacles, problem_, trajectory_);
     solver_iterations += report.iterations;
-    return report.infeasibility < most_infeasible && is_collision_free(0, cycle.around);
+    const bool is_usable = report.infeasibility < most_infeasible || (is_car_like(now.limits) && rolls_out_nearer());
+    return is_usable && is_collision_free(0, cycle.around);
   };
   const auto is_solved_along_route = [&] {
     optimizer_.guess().along(problem_, route_, static_cast<std::size_t>(*grid_size_ref), trajectory_);
@@ -327,6 +342,20 @@ bool Mpc::begins_facing(const Observation& now) {
                                     now.limits.v_y_max / std::max(std::abs(way.y), least));
   if (speed_m_s >= slow_share * now.limits.v_max) turn_to_.reset();
   return turn_to_.has_value();
+}
+
+// Beside the corners of an obstacle, the solver may not converge for a long robot. A car-like one, which cannot turn in
+// place instead, then follows the controls that were found. Replaces the states by those that the controls lead to.
+// Returns whether they lead nearer to the goal.
+bool Mpc::rolls_out_nearer() {
+  for (std::size_t k = 0; k + 1 < trajectory_.size(); ++k) {
+    mpc::State& next = trajectory_.states[k + 1];
+    const std::array<double, 3> defect = problem_.transition(problem_.stage(trajectory_, k), next).defect;
+    next = {next.x + defect[0], next.y + defect[1], next.theta + defect[2]};
+  }
+  const Vec2 goal = toolkit::position(problem_.goal);
+  return toolkit::distance(toolkit::position(trajectory_.states.back()), goal) <
+         toolkit::distance(toolkit::position(problem_.start), goal);
 }
 
 // Beside an obstacle, a trajectory that still has to turn may come a little closer to it; once the robot faces its way,

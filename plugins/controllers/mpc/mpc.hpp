@@ -100,12 +100,14 @@ class Mpc final : public LocalController {
   Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  void look_ahead(const Observation& now, const CostmapView& map);
+  void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const Target& target);
   double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
+  bool rolls_out_nearer();
   bool begins_facing(const Observation& now);
   void begin_turn(const Observation& now);
   bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);

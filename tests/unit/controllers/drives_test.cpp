@@ -33,9 +33,7 @@ std::vector<Driven> all_pairs() {
 // Without those of which the README says that they wait before an obstacle.
 std::vector<Driven> evading_pairs() {
   std::vector<Driven> pairs = all_pairs();
-  const auto waits = [](const Driven& driven) {
-    return driven.controller == "pure_pursuit" || (driven.controller == "mpc" && driven.body == "car-like rectangle");
-  };
+  const auto waits = [](const Driven& driven) { return driven.controller == "pure_pursuit"; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), waits), pairs.end());
   return pairs;
 }
