@@ -28,8 +28,8 @@ Course eventful() {
 }
 
 const std::vector<std::string> drive_holonomic_robots = {
-    "dmrp.controller.dwa", "dmrp.controller.mppi",         "dmrp.controller.orca",
-    "dmrp.controller.teb", "dmrp.controller.pure_pursuit", "dmrp.controller.stop_and_wait"};
+    "dmrp.controller.dwa", "dmrp.controller.mppi",         "dmrp.controller.orca",         "dmrp.controller.teb",
+    "dmrp.controller.mpc", "dmrp.controller.pure_pursuit", "dmrp.controller.stop_and_wait"};
 const std::vector<std::string> drive_car_like_robots = {"dmrp.controller.teb", "dmrp.controller.mpc",
                                                         "dmrp.controller.pure_pursuit"};
 
