@@ -140,6 +140,11 @@ CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
   command->add_option("--agents", options.agents, "draw N random robots, as plan does, instead of the listed ones")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
+  command->add_option("--conflicts-min", options.conflicts_min, "tasks of --agents with so many conflicts at least")
+      ->type_name("N");
+  command->add_option("--conflicts-max", options.conflicts_max, "tasks of --agents with so many conflicts at most")
+      ->type_name("N");
+  command->add_flag("--in-corridors", options.in_corridors, "count conflicts on cells with one lane alone");
   command->add_option("--planner", options.planner, "draw the paths of this global planner")->type_name("ID");
   command->add_option("--plugin", options.plugins, "additional plugin library")->type_name("LIB.so");
   command->add_option("--set", options.settings, "parameter of the planner")->type_name("KEY=VALUE");
@@ -147,6 +152,17 @@ CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--svg", options.svg, "output file (default: standard output)")->type_name("FILE");
+  return command;
+}
+
+CLI::App* add_discriminate(CLI::App& app, DiscriminateOptions& options) {
+  CLI::App* command = app.add_subcommand("discriminate", "whether the tasks of a run tell its entries apart");
+  command->add_option("run", options.runs, "run directories of the same tasks")->required()->type_name("RUN_DIR");
+  command->add_option("--declared", options.declared, "the effect that was declared to count: success or time")
+      ->check(CLI::IsMember({"success", "time"}))
+      ->type_name("CRITERION")
+      ->capture_default_str();
+  command->add_option("--row", options.factor, "print a row of a Markdown table, for this factor")->type_name("FACTOR");
   return command;
 }
 
@@ -273,6 +289,9 @@ int run_main(int argc, char** argv) {
   EvaluateOptions evaluate;
   CLI::App* evaluating = add_evaluate(app, evaluate);
 
+  DiscriminateOptions discriminate;
+  CLI::App* discriminating = add_discriminate(app, discriminate);
+
   MergeOptions merge;
   CLI::App* merging = add_merge(app, merge);
 
@@ -324,6 +343,7 @@ int run_main(int argc, char** argv) {
   if (beginning->parsed()) return new_command(new_plugin);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
+  if (discriminating->parsed()) return discriminate_command(discriminate);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }

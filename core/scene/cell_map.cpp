@@ -119,7 +119,7 @@ void append_corners(const std::array<dmrp_vec2, 4>& corners, PlacedBoxes& out) {
     const dmrp_vec2 beyond = {side.y > 0.0 ? out.world.upper.x : out.world.lower.x,
                               side.x > 0.0 ? out.world.lower.y : out.world.upper.y};
     Shape shape;
-    shape.name = "outside of the map " + std::to_string(i + 1);
+    shape.name = std::string(beyond_map) + std::to_string(i + 1);
     shape.vertices = {to, from, beyond};
     out.shapes.push_back(std::move(shape));
   }

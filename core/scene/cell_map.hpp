@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <dmrp/toolkit/rectangle.hpp>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/planning_grid.hpp"
@@ -32,6 +33,9 @@ std::size_t count_boxes(const CellMap& map);
 
 // The blocked cells as a small number of boxes that do not overlap. `origin` is the lower left corner of the map.
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin);
+
+// The beginning of the names of shapes beyond the map's edge.
+inline constexpr std::string_view beyond_map = "outside of the map ";
 
 // A map whose lower left corner is at `origin` and whose rows run along origin.theta: its blocked cells as boxes, and
 // up to four triangles that fill the corners of the world, its bounding rectangle, outside the map.

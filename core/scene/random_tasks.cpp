@@ -15,22 +15,6 @@ namespace {
 
 constexpr int attempts = 16;  // with other random numbers, while there is not room for all
 
-// The largest connected set of cells, ascending; the first among equals.
-std::vector<std::uint32_t> largest_part(const PlanningGrid& grid) {
-  std::vector<bool> known(grid.free.size());
-  std::vector<std::uint32_t> largest;
-  for (std::uint32_t cell = 0; cell < grid.free.size(); ++cell) {
-    if (!grid.free[cell] || known[cell]) continue;
-    const std::vector<bool> seen = reachable_cells(grid, cell);
-    std::vector<std::uint32_t> part;
-    for (std::uint32_t other = cell; other < seen.size(); ++other)
-      if (seen[other]) part.push_back(other);
-    for (const std::uint32_t other : part) known[other] = true;
-    if (part.size() > largest.size()) largest = std::move(part);
-  }
-  return largest;
-}
-
 // The number of cells of an unbounded grid whose centres lie within a distance of one cell's centre, itself included.
 std::size_t cells_within(const PlanningGrid& grid, double distance_m) {
   const int reach = static_cast<int>(std::floor(distance_m / grid.resolution_m));
@@ -112,6 +96,34 @@ std::size_t grid_of(std::span<const TypeGrid> grids, const std::string& type) {
 
 }  // namespace
 
+std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<const dmrp_vec2> inside) {
+  const dmrp_grid c_grid = grid.view();
+  const toolkit::GridView view(c_grid);
+  std::vector<bool> holds_point(view.size());
+  for (const dmrp_vec2 point : inside)
+    if (const toolkit::Cell cell = view.cell_of(point); view.contains(cell)) holds_point[view.index(cell)] = true;
+
+  std::vector<bool> known(view.size());
+  std::vector<std::uint32_t> best;  // the first among equals
+  bool best_is_inside = false;
+  for (std::uint32_t cell = 0; cell < view.size(); ++cell) {
+    if (!view.free(cell) || known[cell]) continue;
+    const std::vector<bool> seen = reachable_cells(grid, cell);
+    std::vector<std::uint32_t> part;
+    bool is_inside = false;
+    for (std::uint32_t other = cell; other < seen.size(); ++other) {
+      if (!seen[other]) continue;
+      part.push_back(other);
+      known[other] = true;
+      is_inside = is_inside || holds_point[other];
+    }
+    if (is_inside < best_is_inside || (is_inside == best_is_inside && part.size() <= best.size())) continue;
+    best = std::move(part);
+    best_is_inside = is_inside;
+  }
+  return best;
+}
+
 std::vector<std::string> drawn_types(std::span<const TypeShare> shares, std::size_t count) {
   if (shares.empty()) return std::vector<std::string>(count);
   double sum = 0.0;
@@ -132,9 +144,9 @@ std::vector<std::string> drawn_types(std::span<const TypeShare> shares, std::siz
 }
 
 std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
-                                    std::uint64_t seed) {
+                                    std::uint64_t seed, std::span<const dmrp_vec2> inside) {
   std::vector<std::vector<std::uint32_t>> parts;
-  for (const TypeGrid& grid : grids) parts.push_back(largest_part(*grid.grid));
+  for (const TypeGrid& grid : grids) parts.push_back(part_for_tasks(*grid.grid, inside));
   std::vector<RobotTask> most;
   for (int attempt = 0; attempt < attempts && (most.size() < types.size() || attempt == 0); ++attempt) {
     TaskSampler sampler(grids, parts, seed, attempt);
@@ -145,14 +157,15 @@ std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<c
   return most;
 }
 
-std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed) {
+std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed,
+                                    std::span<const dmrp_vec2> inside) {
   const TypeGrid only = {"", 0.0, &grid};
-  return random_tasks({&only, 1}, std::vector<std::string>(count), seed);
+  return random_tasks({&only, 1}, std::vector<std::string>(count), seed, inside);
 }
 
-bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count) {
+bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count, std::span<const dmrp_vec2> inside) {
   // Each previous task takes at most that many cells, and a robot's start those too near for its own goal.
-  return largest_part(grid).size() >=
+  return part_for_tasks(grid, inside).size() >=
          count * cells_within(grid, task_separation_m) + cells_within(grid, min_task_length_m);
 }
 

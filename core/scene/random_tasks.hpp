@@ -18,13 +18,17 @@ inline constexpr double task_separation_m = 2.0;  // starts, and goals, are fart
 inline constexpr double task_gap_m = 0.2;         // so are the circles around their footprints, if they are large
 inline constexpr double min_task_length_m = 5.0;  // a goal is at least this far from its start, as the crow flies
 
-// Starts and goals of `count` robots on the centres of free cells of the largest connected part of the world; headings
-// are free. The task of robot i does not depend on `count` as long as there is room for all. Returns fewer than `count`
-// tasks if there is not.
+// The largest connected set of free cells, ascending. `inside`: only sets that hold the cell of one of these points
+// count, if there is such a set; around a building on a map there can be more free cells than in it.
+std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<const dmrp_vec2> inside);
+
+// Starts and goals of `count` robots on the centres of free cells of part_for_tasks(); headings are free. The task of
+// robot i does not depend on `count` as long as there is room for all. Returns fewer than `count` tasks if there is not.
 //
 // Each task is uniform among the cells that the previous tasks leave: a set of tasks is a sampled instance of the
 // world.
-std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed);
+std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed,
+                                    std::span<const dmrp_vec2> inside = {});
 
 // A share of the drawn robots that have a type. Shares need not sum up to 1.
 struct TypeShare {
@@ -45,10 +49,10 @@ struct TypeGrid {
 // Random tasks of robots with these types, each on the grid of its type. The tasks are those above if there is one type
 // and its robots are not large.
 std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
-                                    std::uint64_t seed);
+                                    std::uint64_t seed, std::span<const dmrp_vec2> inside = {});
 
 // Whether random_tasks() finds room for `count` robots with every seed. A sufficient condition: false does not mean
 // that some seed fails.
-bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count);
+bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count, std::span<const dmrp_vec2> inside = {});
 
 }  // namespace dmrp::core

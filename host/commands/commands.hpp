@@ -56,6 +56,9 @@ struct DrawOptions {
   std::string scenario;
   std::uint32_t agents = 0;  // random robots that replace the scenario's; 0: keep the scenario's
   std::uint64_t seed = 1;
+  std::optional<std::uint32_t> conflicts_min;  // of random robots (core/tasks/task_generator.hpp), as the next two
+  std::optional<std::uint32_t> conflicts_max;
+  bool in_corridors = false;
   std::string planner;                // id; empty: no plan
   std::vector<std::string> plugins;   // libraries, in addition to the plugin path
   std::vector<std::string> settings;  // key=value for the planner
@@ -111,6 +114,13 @@ struct NewOptions {
   std::filesystem::path folder;
 };
 int new_command(const NewOptions& options);
+
+struct DiscriminateOptions {
+  std::vector<std::filesystem::path> runs;  // of the same tasks
+  std::string declared = "success";         // the effect that counts, declared beforehand: or "time"
+  std::string factor;                       // not empty: prints a row of a Markdown table, with this name of the factor
+};
+int discriminate_command(const DiscriminateOptions& options);
 
 struct EvaluateOptions {
   EvaluationChoice choice;

@@ -7,7 +7,9 @@
 #include <dmrp/toolkit/svg.hpp>
 #include <memory>
 
+#include "core/scene/planning_grids.hpp"
 #include "core/scene/robot_task.hpp"
+#include "core/tasks/task_difficulty.hpp"
 #include "core/world/world.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
@@ -15,6 +17,7 @@
 #include "host/experiment/adhoc_use.hpp"
 #include "host/plugins/library.hpp"
 #include "host/scenario/read_scenario.hpp"
+#include "host/scenario/scenario_variant.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/variant_world.hpp"
@@ -70,6 +73,35 @@ void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const 
   }
 }
 
+core::TaskWishes wishes_of(const DrawOptions& options) {
+  core::TaskWishes wishes;
+  if (!options.conflicts_min && !options.conflicts_max && !options.in_corridors) return wishes;
+  if (options.agents == 0) throw InputError("--conflicts-min, --conflicts-max and --in-corridors need --agents");
+  wishes.drawn = 1;
+  wishes.conflicts_min = options.conflicts_min.value_or(0);
+  wishes.conflicts_max = options.conflicts_max.value_or(core::any_number);
+  if (options.in_corridors) wishes.crossing = core::Crossing::corridor;
+  return wishes;
+}
+
+// How difficult the tasks are, on standard error.
+void print_difficulty(const Experiment& experiment) {
+  const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  const core::SimulationSettings& simulation = experiment.simulation;
+  const core::StaticGeometry geometry(scenario);
+  const core::PlanningGrids grids(geometry, experiment.scenarios[0].types, simulation.grid_resolution_m,
+                                  simulation.planning_margin_m);
+  const core::TaskDifficulty difficulty =
+      core::difficulty_of(grids.common(types_in_use(experiment.scenarios[0])), scenario.robots);
+  fmt::print(stderr, "{} robot{}: {} pair{} of individual paths in conflict, {} in corridors", scenario.robots.size(),
+             scenario.robots.size() == 1 ? "" : "s", difficulty.conflicts, difficulty.conflicts == 1 ? "" : "s",
+             difficulty.corridor_conflicts);
+  if (difficulty.slack_steps)
+    fmt::print(stderr, ", least slack of the others {} steps ({:.1f} s)", *difficulty.slack_steps,
+               *difficulty.slack_steps * static_cast<double>(simulation.step_duration_ns) * 1e-9);
+  fmt::print(stderr, "{}\n", difficulty.well_formed ? "" : ", robots stand in each other's only way");
+}
+
 // Plans once, and prints the length, the time and the planner's statistics on standard error.
 Plan plan_once(const Experiment& experiment) {
   auto note = std::make_unique<CallNote>();
@@ -100,13 +132,16 @@ Plan plan_once(const Experiment& experiment) {
 }  // namespace
 
 int draw_command(const DrawOptions& options) {
-  Experiment experiment = adhoc_experiment(options.scenario, !options.planner.empty() || options.agents > 0);
+  const bool is_planned = !options.planner.empty() || options.agents > 0;
+  Experiment experiment = adhoc_experiment(options.scenario, is_planned);
   experiment.seed = options.seed;
-  if (options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
+  const core::TaskWishes wishes = wishes_of(options);
+  if (options.agents > 0) use_random_tasks(experiment, options.agents, options.seed, wishes);
   if (!options.planner.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots to plan for (--agents draws some)", options.scenario));
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);
   toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);
   draw_flows(picture, scenario);
   draw_shapes(picture, scenario);

@@ -91,8 +91,10 @@ ExperimentFacts facts_of(const Experiment& experiment, const Shard& shard, std::
     const double time_limit_s = experiment.time_limit_set
                                     ? static_cast<double>(experiment.simulation.time_limit_ns) / 1e9
                                     : scenario.time_limit_s;
+    const Grade& grade = variant.grade;
     facts.scenarios.push_back({scenario.name, scenario.title, scenario.description, robot_count(variant),
-                               core::person_count(scenario), time_limit_s});
+                               core::person_count(scenario), time_limit_s, grade.series, grade.quantity, grade.unit,
+                               grade.harder_when_higher, grade.level});
   }
   return facts;
 }
@@ -204,7 +206,8 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   if (options.json)
     print_results_as_json(results, layout, files.directory());
   else if (!options.quiet)
-    print_results(results, layout, files.directory(), reported, types_of_robots(experiment));
+    print_results(results, layout, files.directory(), reported, types_of_robots(experiment),
+                  facts_of(experiment, options.shard, count).scenarios);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());

@@ -21,6 +21,7 @@
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/answer_block.hpp"
 #include "host/terminal/closing_line.hpp"
+#include "host/terminal/graded_table.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/terminal/summary_table.hpp"
 
@@ -66,19 +67,25 @@ std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
 }  // namespace
 
 void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported,
-                   const TypesOfRobots& types) {
+                   const TypesOfRobots& types, std::span<const ScenarioFacts> scenarios) {
+  const std::vector<GradedSeries> graded = graded_series(layout, scenarios, results.trials);
+  const bool all_graded = !graded.empty() && std::all_of(scenarios.begin(), scenarios.end(),
+                                                         [](const auto& facts) { return !facts.series.empty(); });
   constexpr std::size_t text_width = 120;  // of sentences where no terminal limits them
   TableStyle style;
   style.width = terminal_width();
   style.ansi = style.width > 0 && !std::getenv("NO_COLOR");
   const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
-  fmt::print("\n{}", summary_table(layout, results.metrics, results.summaries, marks, style));
   const std::size_t width = style.width > 0 ? style.width : text_width;
-  fmt::print("{}\n", table_legend(layout, results.metrics, marks, {width, style.ansi}));
+  if (!all_graded) {
+    fmt::print("\n{}", summary_table(layout, results.metrics, results.summaries, marks, style));
+    fmt::print("{}\n", table_legend(layout, results.metrics, marks, {width, style.ansi}));
+  }
+  fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", caution);
   const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
-  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
     fmt::print("{}\n", answer_block(found.front(), failures, width));
   fmt::print("  {}\n", closing_line(layout, results.trials));
   if (const std::string by_type = arrivals_by_type(layout, types, results.trials); !by_type.empty())

@@ -105,16 +105,21 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   return experiment;
 }
 
-void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed) {
+void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed,
+                      const core::TaskWishes& wishes) {
   core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::StaticGeometry geometry(scenario);
   const core::SimulationSettings& simulation = experiment.simulation;
   const core::PlanningGrids grids(geometry, core::RobotTypes(experiment.robot), simulation.grid_resolution_m,
                                   simulation.planning_margin_m);
-  scenario.robots = grids.draw({}, robots, seed);
+  core::DrawnTasks drawn = core::draw_tasks(grids, {robots, {}, scenario.inside, wishes}, seed);
+  scenario.robots = std::move(drawn.tasks);
   if (scenario.robots.size() < robots)
     throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks", robots,
                                  scenario.name, scenario.robots.size()));
+  if (!drawn.as_wished)
+    throw InputError(fmt::format("--conflicts: none of {} draws of tasks for {} robots in '{}' has so many",
+                                 core::task_attempts, robots, scenario.name));
 }
 
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,

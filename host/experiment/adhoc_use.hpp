@@ -15,7 +15,8 @@ namespace dmrp::host {
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan = true);
 
 // Replaces the listed robots of its scenario by `robots` robots with random tasks for the seed. Throws InputError.
-void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed);
+void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_t seed,
+                      const core::TaskWishes& wishes = {});
 
 // Searches the planner `id` in `libraries`, then in the libraries of the plugin path. `settings`: key=value with TOML
 // values; bare words are strings. Throws InputError.

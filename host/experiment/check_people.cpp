@@ -95,7 +95,7 @@ class PeopleCheck {
     for (core::Flow& flow : with_spare.flows) flow.people += flow.people / 4;
     for (std::uint32_t repetition = 0; repetition < experiment_.trials; ++repetition) {
       const std::uint64_t seed = world_seed(experiment_, scenario_.name, repetition);
-      const std::vector<dmrp_vec2> starts = starts_kept_clear(seed);
+      const std::vector<dmrp_vec2> starts = starts_kept_clear(repetition);
       if (const auto none = missing_room(scenario_, routes, seed, starts))
         file_.document->fail(file_.flows[none->flow], none->what());
       if (drawn_.most == 0 && !missing_room(with_spare, routes, seed, starts)) return;
@@ -113,12 +113,13 @@ class PeopleCheck {
   }
 
   // The starts of which people keep clear: of all robots that take part with any number of robots.
-  std::vector<dmrp_vec2> starts_kept_clear(std::uint64_t seed) const {
+  std::vector<dmrp_vec2> starts_kept_clear(std::uint32_t repetition) const {
     std::vector<dmrp_vec2> starts = scenario_.other_starts;
     for (const core::RobotTask& task : scenario_.robots) starts.push_back({task.start.x, task.start.y});
-    if (drawn_.most > 0)
-      for (const core::RobotTask& task : planning_.draw(drawn_.types, drawn_.most, seed))
-        starts.push_back({task.start.x, task.start.y});
+    if (drawn_.most == 0) return starts;
+    const std::uint64_t seed = task_seed(experiment_, scenario_.name, drawn_.wishes, repetition);
+    for (const core::RobotTask& task : core::draw_tasks(planning_, request_of(drawn_, scenario_), seed).tasks)
+      starts.push_back({task.start.x, task.start.y});
     return starts;
   }
 

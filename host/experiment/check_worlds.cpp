@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/cell_map.hpp"
 #include "core/scene/footprint.hpp"
+#include "core/scene/footprint_grid.hpp"
 #include "core/scene/planning_grids.hpp"
 #include "core/scene/random_tasks.hpp"
 #include "core/scene/robot_task.hpp"
@@ -27,6 +29,7 @@ namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
 constexpr double max_cells = 1 << 24;
+constexpr double most_cells_tried = 1e6;  // of a grid that a message proposes
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;
@@ -60,6 +63,7 @@ class WorldCheck {
   }
 
   const core::PlanningGrids& planning_grids() const { return planning_; }
+  const core::StaticGeometry& geometry() const { return *geometry_; }
 
   void run() {
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
@@ -71,7 +75,10 @@ class WorldCheck {
 
  private:
   void warn(SourcePosition at, const std::string& text) {
-    experiment_.warnings.push_back(file_.document->place(at) + ": " + text);
+    std::vector<std::string>& warnings = experiment_.warnings;
+    const std::string warning = file_.document->place(at) + ": " + text;
+    // the levels of one test would repeat it
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
   [[noreturn]] void fail_robot(std::size_t robot, const std::string& text) const {
     file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot + 1, text));
@@ -97,6 +104,45 @@ class WorldCheck {
     return std::isnan(pose.theta) || std::all_of(type.parts.begin(), type.parts.end(), [&](const auto& part) {
              return geometry_->clearance(toolkit::to_world(pose, part), 1.0) > 0.0;
            });
+  }
+
+  // Whether the robot could do its task on a grid of these cells and this margin.
+  bool would_do(std::size_t robot, double cell_m, double margin_m) const {
+    const core::RobotTask& task = scenario_.robots[robot];
+    const core::RobotSettings& type = types_.of(task);
+    const core::PlanningGrid planning = core::build_planning_grid(*geometry_, cell_m, type, margin_m);
+    const dmrp_grid view = planning.view();
+    const toolkit::GridView grid(view);
+    std::vector<bool> seen;
+    const auto is_reached = [&](const dmrp_pose& pose) {
+      const dmrp_vec2 point = {pose.x, pose.y};
+      const toolkit::Cell cell = grid.cell_of(point);
+      if (!grid.contains(cell) || !grid.free(cell)) return false;
+      if (!geometry_->sweep_is_free(grid.center(cell), point, core::inscribed_radius(type))) return false;
+      if (seen.empty()) seen = core::reachable_cells(planning, grid.index(cell));
+      return static_cast<bool>(seen[grid.index(cell)]);
+    };
+    return is_reached(task.start) && std::all_of(task.goals.begin(), task.goals.end(), is_reached);
+  }
+
+  // "; grid_resolution_m = 0.5 or planning_margin_m = 0.05 would do".
+  std::string shown_remedy(std::size_t robot) const {
+    const core::SimulationSettings& now = experiment_.simulation;
+    const double world_m2 = (scenario_.upper.x - scenario_.lower.x) * (scenario_.upper.y - scenario_.lower.y);
+    std::vector<std::string> found;
+    for (const double cell_m : {0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1}) {
+      if (cell_m >= now.grid_resolution_m || world_m2 / (cell_m * cell_m) > most_cells_tried) continue;
+      if (!would_do(robot, cell_m, now.planning_margin_m)) continue;
+      found.push_back(fmt::format("grid_resolution_m = {}", cell_m));
+      break;
+    }
+    for (const double margin_m : {0.05, 0.02, 0.0}) {
+      if (margin_m >= now.planning_margin_m || !would_do(robot, now.grid_resolution_m, margin_m)) continue;
+      found.push_back(fmt::format("planning_margin_m = {}", margin_m));
+      break;
+    }
+    if (found.empty()) return "; neither smaller cells nor a smaller planning_margin_m would do";
+    return fmt::format("; {} would do", fmt::join(found, " or "));
   }
 
   // A pose must be reachable from the centre of its planning cell, which stands for it in plans.
@@ -125,11 +171,12 @@ class WorldCheck {
     if (!grid.contains(cell) || !grid.free(cell))
       fail_robot(robot,
                  fmt::format("has its {} ({}, {}) on a planning cell that is not free (centre ({}, {}), clearance "
-                             "{:.2f} m, needs {:.2f} m)",
-                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m));
+                             "{:.2f} m, needs {:.2f} m{})",
+                             noun, point.x, point.y, center.x, center.y, geometry_->clearance(center), needed_m,
+                             shown_remedy(robot)));
     if (!geometry_->sweep_is_free(center, point, radius_m))
-      fail_robot(robot,
-                 fmt::format("cannot get from its {} ({}, {}) to the centre of its cell", noun, point.x, point.y));
+      fail_robot(robot, fmt::format("cannot get from its {} ({}, {}) to the centre of its cell{}", noun, point.x,
+                                    point.y, shown_remedy(robot)));
   }
 
   void check_robot(std::size_t robot) {
@@ -144,8 +191,9 @@ class WorldCheck {
       const dmrp_vec2 point = {goal.x, goal.y};
       check_place(robot, "has its goal", "goal", goal);
       if (!seen[grid.index(grid.cell_of(point))])
-        fail_robot(robot, fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}",
-                                      goal.x, goal.y, start.x, start.y, shown_size(types_.of(task))));
+        fail_robot(robot,
+                   fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}{}",
+                               goal.x, goal.y, start.x, start.y, shown_size(types_.of(task)), shown_remedy(robot)));
     }
   }
 
@@ -199,7 +247,68 @@ class WorldCheck {
   std::map<std::string, dmrp_grid> grids_;  // by type of robot
 };
 
+// Around a building on a map there can be free cells, too.
+void check_inside(const ScenarioFile& file, const core::PlanningGrid& planning, const core::StaticGeometry& geometry,
+                  Experiment& experiment) {
+  const dmrp_grid view = planning.view();
+  const toolkit::GridView grid(view);
+  if (file.inside) {
+    const toolkit::Cell cell = grid.cell_of(file.scenario.inside.front());
+    if (!grid.contains(cell) || !grid.free(cell))
+      file.document->fail(*file.inside, "'inside_m' must lie on a free planning cell");
+  }
+  const double cell_m2 = grid.resolution_m() * grid.resolution_m();
+  const auto part = core::part_for_tasks(planning, file.scenario.inside);
+  if (const auto largest = core::part_for_tasks(planning, {}); largest.size() > part.size())
+    experiment.warnings.push_back(file.document->place(file.size) +
+                                  fmt::format(": robots are drawn in the {:.0f} m2 that {} reach{}; larger free space "
+                                              "beyond, {:.0f} m2, is left out",
+                                              cell_m2 * static_cast<double>(part.size()),
+                                              file.inside ? "'inside_m'" : "the listed starts", file.inside ? "es" : "",
+                                              cell_m2 * static_cast<double>(largest.size())));
+  const auto is_at_edge = [&](std::uint32_t cell) {
+    const std::uint32_t nearest = geometry.nearest(grid.center(cell)).shape;
+    return nearest == geometry.border() || geometry.shape_name(nearest).starts_with(core::beyond_map);
+  };
+  if (file.edge_is_open && file.scenario.inside.empty() && std::any_of(part.begin(), part.end(), is_at_edge))
+    experiment.warnings.push_back(file.document->place(file.size) +
+                                  ": drawn robots may begin outside the building: their free space reaches the edge of "
+                                  "the map ('inside_m' = [x, y] in [scenario] names a point inside)");
+}
+
+// That every repetition has room for its tasks, and tasks as wished.
+void check_drawn_tasks(const ScenarioFile& file, const core::PlanningGrids& grids, const Experiment& experiment,
+                       const RandomRobots& drawn) {
+  const core::Scenario& scenario = file.scenario;
+  const core::TaskWishes& wishes = drawn.wishes;
+  if (drawn.most == 0) return;
+  if (wishes.drawn == 0 && drawn.types.empty() &&
+      core::has_room_for_tasks(grids.standard(), drawn.most, scenario.inside))
+    return;
+  const std::uint32_t sets = wishes.drawn > 0 ? std::min(wishes.drawn, experiment.trials) : experiment.trials;
+  for (std::uint32_t repetition = 0; repetition < sets; ++repetition) {
+    const std::uint64_t seed = task_seed(experiment, scenario.name, wishes, repetition);
+    const core::DrawnTasks tasks = core::draw_tasks(grids, request_of(drawn, scenario), seed);
+    if (const std::size_t found = tasks.tasks.size(); found < drawn.most)
+      drawn.at->fail(
+          fmt::format("scenario '{}' has room for {} robots with random tasks (repetition {}: starts, and goals, more "
+                      "than {} m apart), not {}",
+                      scenario.name, found, repetition, core::task_separation_m, drawn.most));
+    if (!tasks.as_wished)
+      drawn.at->fail(
+          fmt::format("scenario '{}': none of {} draws of tasks for {} robots has as many conflicts as "
+                      "'tasks' wishes (repetition {}; the last one has {}, {} of them in corridors{})",
+                      scenario.name, core::task_attempts, drawn.most, repetition, tasks.difficulty.conflicts,
+                      tasks.difficulty.corridor_conflicts,
+                      tasks.difficulty.well_formed ? "" : ", and robots stand in each other's only way"));
+  }
+}
+
 }  // namespace
+
+core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& scenario) {
+  return {drawn.most, drawn.types, scenario.inside, drawn.wishes};
+}
 
 void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
                  const RandomRobots& drawn) {
@@ -207,17 +316,8 @@ void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experi
   check_size(file, core::walking_resolution_m, "the grid for people");
   WorldCheck check(file, types, experiment, drawn);
   check.run();
-  const core::PlanningGrids& grids = check.planning_grids();
-  if (drawn.most == 0 || (drawn.types.empty() && core::has_room_for_tasks(grids.standard(), drawn.most))) return;
-  for (std::uint32_t repetition = 0; repetition < experiment.trials; ++repetition) {
-    const std::uint64_t seed = world_seed(experiment, file.scenario.name, repetition);
-    const std::size_t found = grids.draw(drawn.types, drawn.most, seed).size();
-    if (found < drawn.most)
-      drawn.at->fail(
-          fmt::format("scenario '{}' has room for {} robots with random tasks (repetition {}: starts, and goals, more "
-                      "than {} m apart), not {}",
-                      file.scenario.name, found, repetition, core::task_separation_m, drawn.most));
-  }
+  if (drawn.most > 0) check_inside(file, check.planning_grids().standard(), check.geometry(), experiment);
+  check_drawn_tasks(file, check.planning_grids(), experiment, drawn);
 }
 
 }  // namespace dmrp::host

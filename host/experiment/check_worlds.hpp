@@ -16,7 +16,10 @@ struct RandomRobots {
   std::size_t most = 0;           // the largest number in the experiment
   std::optional<TomlValue> at{};  // its place in the experiment file, if most > 0
   std::vector<core::TypeShare> types{};
+  core::TaskWishes wishes{};
 };
+
+core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& scenario);
 
 // Checks starts, goals and flows against the walls and the robots of these types, and that every repetition has room for
 // the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment.

@@ -49,6 +49,11 @@ std::uint64_t world_seed(const Experiment& experiment, const std::string& scenar
   return toolkit::Stream(experiment.seed, "trial", scenario, repetition).next_u64() >> 1;
 }
 
+std::uint64_t task_seed(const Experiment& experiment, const std::string& scenario, const core::TaskWishes& wishes,
+                        std::uint32_t repetition) {
+  return world_seed(experiment, scenario, wishes.drawn > 0 ? repetition % wishes.drawn : repetition);
+}
+
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial) {
   const auto all = combinations(experiment);
   const TrialId id = trial_id(trial, all.size());

@@ -41,6 +41,13 @@ void write_shares(std::string& out, const ScenarioVariant& variant) {
   if (!shares.empty()) out += fmt::format("types  = {{ {} }}\n", shares);
 }
 
+std::string tasks_text(const core::TaskWishes& wishes) {
+  if (wishes.drawn == 0) return "\"drawn\"";
+  std::string out = fmt::format("{{ drawn = {}, conflicts_min = {}", wishes.drawn, wishes.conflicts_min);
+  if (wishes.conflicts_max != core::any_number) out += fmt::format(", conflicts_max = {}", wishes.conflicts_max);
+  return out + fmt::format(", crossing = \"{}\" }}", wishes.crossing == core::Crossing::any ? "any" : "corridor");
+}
+
 // The random tasks for one number of robots depend on the other numbers of the same [[scenario]].
 void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios) {
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -52,8 +59,12 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
       robots = "[" + robots + "]";
     }
     out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()), robots);
-    if (variant.all_drawn) out += "tasks  = \"drawn\"\n";
+    if (variant.most_drawn > 0) out += fmt::format("tasks  = {}\n", tasks_text(variant.wishes));
     write_shares(out, variant);
+    if (!variant.grade.series.empty()) out += fmt::format("levels = [{}]\n", toml_text(variant.grade.level));
+    if (const StartJitter& jitter = variant.jitter; jitter.position_m > 0.0 || jitter.heading_rad > 0.0)
+      out += fmt::format("start_jitter = {{ position_m = {}, heading_rad = {} }}\n", toml_text(jitter.position_m),
+                         toml_text(jitter.heading_rad));
   }
 }
 

@@ -73,6 +73,9 @@ TrialId trial_id(std::uint64_t number, std::size_t combination_count);
 // The seed of all random streams of a world. It is equal for all combinations of a scenario in a repetition, for any
 // number of robots, so that all meet the same crowd.
 std::uint64_t world_seed(const Experiment& experiment, const std::string& scenario, std::uint32_t repetition);
+// The seed of the drawn tasks of a scenario in a repetition: the world's, until the tasks begin again.
+std::uint64_t task_seed(const Experiment& experiment, const std::string& scenario, const core::TaskWishes& wishes,
+                        std::uint32_t repetition);
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);  // the world_seed() of a trial
 
 // Describes the plugins of a library: by a probe in a child process, or by loading the library.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
@@ -18,14 +19,49 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_robots = 10'000;
+constexpr std::int64_t max_tasks = 1'000'000;
 
 // A number of robots that a [[scenario]] asks for.
 struct RobotCount {
   std::size_t robots;
   bool drawn;       // their tasks are random
-  bool all_drawn;   // tasks = "drawn": so are those of all other numbers
   TomlValue value;  // its place in the file
 };
+
+// The key `tasks` of a [[scenario]].
+struct TasksKey {
+  std::optional<TomlValue> at;
+  bool listed = false;
+  bool drawn = false;
+  core::TaskWishes wishes{};
+};
+
+TasksKey read_tasks_key(const TomlTable& scenario) {
+  TasksKey out{scenario.find("tasks")};
+  if (!out.at) return out;
+  if (!out.at->is_table()) {
+    out.drawn = out.at->choice({"listed", "drawn"}) == "drawn";
+    out.listed = !out.drawn;
+    return out;
+  }
+  const TomlTable table = out.at->table();
+  table.allow_only({"drawn", "conflicts_min", "conflicts_max", "crossing"});
+  const auto number = [&table](const char* key, std::int64_t least, std::uint32_t fallback) {
+    const auto value = table.find(key);
+    return value ? static_cast<std::uint32_t>(value->integer(least, max_tasks)) : fallback;
+  };
+  out.drawn = true;
+  table.need("drawn");
+  out.wishes.drawn = number("drawn", 1, 1);
+  out.wishes.conflicts_min = number("conflicts_min", 0, 0);
+  out.wishes.conflicts_max = number("conflicts_max", 0, core::any_number);
+  if (out.wishes.conflicts_max < out.wishes.conflicts_min)
+    table.need("conflicts_max")
+        .fail(fmt::format("'conflicts_max' must be at least 'conflicts_min', {}", out.wishes.conflicts_min));
+  if (const auto crossing = table.find("crossing"); crossing && crossing->choice({"any", "corridor"}) == "corridor")
+    out.wishes.crossing = core::Crossing::corridor;
+  return out;
+}
 
 [[noreturn]] void fail_missing(const TomlValue& use) {
   const std::string name = use.text();
@@ -38,29 +74,46 @@ struct RobotCount {
                        did_you_mean(name, known_scenarios())));
 }
 
-std::vector<RobotCount> robot_counts(const TomlTable& table, const TomlValue& use, const core::Scenario& scenario) {
+// If one number goes beyond the listed robots, the tasks of all numbers are drawn: else a row of numbers would compare
+// other tasks.
+std::vector<RobotCount> robot_counts(const TomlTable& table, const TomlValue& use, const core::Scenario& scenario,
+                                     const TasksKey& tasks) {
   const std::size_t listed = scenario.robots.size();
   const bool people = core::person_count(scenario) > 0;
   const auto value = table.find("robots");
-  const auto tasks = table.find("tasks");
-  const std::string from = tasks ? tasks->choice({"listed", "drawn"}) : "";
-  if (from == "drawn" && !value) tasks->fail_at_key("'tasks' = 'drawn' needs 'robots', their number");
+  if (tasks.drawn && !value) tasks.at->fail_at_key("'tasks' that are drawn need 'robots', their number");
   if (!value && listed == 0 && !people)
     use.fail(fmt::format("scenario '{}' lists neither robots nor people", scenario.name));
-  if (!value) return {{listed, false, false, use}};
+  if (!value) return {{listed, false, use}};
   std::vector<RobotCount> counts;
+  bool drawn = tasks.drawn;
   for (const TomlValue& count : value->is_array() ? value->array() : std::vector<TomlValue>{*value}) {
     const auto robots = static_cast<std::size_t>(count.integer(0, max_robots));
     if (robots == 0 && !people)
       count.fail(fmt::format("'robots' must be at least 1: scenario '{}' has no people", scenario.name));
-    if (robots > listed && from == "listed")
+    if (robots > listed && tasks.listed)
       count.fail(fmt::format("scenario '{}' lists {} robot{}, not {} ('tasks' = 'drawn' draws them)", scenario.name,
                              listed, listed == 1 ? "" : "s", robots));
-    const bool drawn = robots > 0 && (robots > listed || from == "drawn");
-    counts.push_back({robots, drawn, from == "drawn", count});
+    drawn = drawn || robots > listed;
+    counts.push_back({robots, false, count});
   }
+  for (RobotCount& count : counts) count.drawn = drawn && count.robots > 0;
   if (counts.empty()) value->fail("'robots' must have at least one number");
   return counts;
+}
+
+// A list of numbers whose first ones could have been listed.
+void warn_of_drawn_list(const std::vector<RobotCount>& counts, const TasksKey& tasks, const core::Scenario& scenario,
+                        Experiment& experiment) {
+  if (tasks.drawn) return;
+  const auto could_be_listed = [&](const RobotCount& count) {
+    return count.drawn && count.robots <= scenario.robots.size();
+  };
+  if (std::any_of(counts.begin(), counts.end(), could_be_listed))
+    experiment.warnings.push_back(
+        counts.front().value.place() +
+        fmt::format(": 'robots' goes beyond the {} that scenario '{}' lists: the tasks of all numbers are drawn",
+                    scenario.robots.size(), scenario.name));
 }
 
 // Keeps the first `count` listed robots. The others take no part, but people keep clear of their starts.
@@ -83,7 +136,9 @@ void add_variant(const ScenarioUse& use, const fs::path& file, const RobotCount&
   variant.drawn_robots = static_cast<std::uint32_t>(count.drawn ? count.robots : 0);
   variant.most_drawn = static_cast<std::uint32_t>(use.random.most);
   variant.entry = static_cast<std::uint32_t>(entry);
-  variant.all_drawn = count.all_drawn;
+  variant.wishes = use.random.wishes;
+  variant.grade = use.file.grade;
+  variant.jitter = use.jitter;
   for (const ScenarioVariant& other : experiment.scenarios)
     if (other.scenario.name == variant.scenario.name && robot_count(other) == count.robots)
       count.value.fail(fmt::format("scenario '{}' occurs twice", variant.label));
@@ -102,6 +157,53 @@ std::vector<core::TypeShare> read_shares(const TomlValue& value, const core::Rob
   return shares;
 }
 
+// The levels that the [[scenario]] asks for, by default all of its file; one without a number for a scenario that has
+// none.
+std::vector<std::optional<double>> levels_to_run(const TomlTable& table, const fs::path& file) {
+  const std::vector<double> known = read_levels(file, shown(file));
+  const auto asked = table.find("levels");
+  if (known.empty() && asked) asked->fail_at_key("'levels' are those of a scenario with [grade]");
+  if (known.empty()) return {std::nullopt};
+  if (!asked) return {known.begin(), known.end()};
+  std::vector<std::optional<double>> levels;
+  for (const TomlValue& level : asked->array()) levels.emplace_back(level.number());
+  if (levels.empty()) asked->fail("'levels' must have at least one number");
+  return levels;
+}
+
+StartJitter read_jitter(const TomlTable& table) {
+  StartJitter jitter;
+  const auto value = table.find("start_jitter");
+  if (!value) return jitter;
+  const TomlTable given = value->table();
+  given.allow_only({"position_m", "heading_rad"});
+  if (const auto position = given.find("position_m")) jitter.position_m = position->number(0.0, 10.0);
+  if (const auto heading = given.find("heading_rad")) jitter.heading_rad = heading->number(0.0, std::numbers::pi);
+  return jitter;
+}
+
+// One [[scenario]] at one level.
+ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::path& file, std::optional<double> level,
+                     std::size_t entry, Experiment& experiment) {
+  ScenarioUse use = {name, read_scenario_file(file, shown(file), level), {}, table.find("types")};
+  const TasksKey tasks = read_tasks_key(table);
+  const std::vector<RobotCount> counts = robot_counts(table, name, use.file.scenario, tasks);
+  use.random.wishes = tasks.wishes;
+  use.jitter = read_jitter(table);
+  warn_of_drawn_list(counts, tasks, use.file.scenario, experiment);
+  std::size_t most_listed = 0;
+  for (const RobotCount& count : counts) {
+    if (count.drawn && count.robots > use.random.most) {
+      use.random.most = count.robots;
+      use.random.at = count.value;
+    }
+    if (!count.drawn) most_listed = std::max(most_listed, count.robots);
+  }
+  for (const RobotCount& count : counts) add_variant(use, file, count, entry, experiment);
+  keep_listed(use.file.scenario, most_listed);
+  return use;
+}
+
 }  // namespace
 
 std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& experiment) {
@@ -111,16 +213,8 @@ std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& e
     const TomlValue name = table.need("use");
     const fs::path file = find_scenario(name.text(), experiment.file.parent_path());
     if (file.empty()) fail_missing(name);
-    ScenarioUse use = {name, read_scenario_file(file, shown(file)), {}, table.find("types")};
-    const std::vector<RobotCount> counts = robot_counts(table, name, use.file.scenario);
-    std::size_t most_listed = 0;
-    for (const RobotCount& count : counts) {
-      if (count.drawn && count.robots > use.random.most) use.random = {count.robots, count.value};
-      if (!count.drawn) most_listed = std::max(most_listed, count.robots);
-    }
-    for (const RobotCount& count : counts) add_variant(use, file, count, uses.size(), experiment);
-    keep_listed(use.file.scenario, most_listed);
-    uses.push_back(std::move(use));
+    for (const std::optional<double> level : levels_to_run(table, file))
+      uses.push_back(read_use(table, name, file, level, uses.size(), experiment));
   }
   return uses;
 }

@@ -13,7 +13,8 @@
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> scenario_use_keys = {"use", "robots", "tasks", "types"};  // of [[scenario]]
+inline const std::vector<std::string> scenario_use_keys = {"use",   "robots", "tasks",
+                                                           "types", "levels", "start_jitter"};  // of [[scenario]]
 
 // A [[scenario]] with its scenario file.
 struct ScenarioUse {
@@ -21,7 +22,8 @@ struct ScenarioUse {
   ScenarioFile file;  // with the listed robots of its largest variant alone
   RandomRobots random;
   std::optional<TomlValue> types{};  // the value of its key `types`: shares of drawn robots
-  core::RobotTypes robot_types{};    // after resolve_robot_types()
+  StartJitter jitter{};
+  core::RobotTypes robot_types{};  // after resolve_robot_types()
 };
 
 // Reads all [[scenario]]; adds a variant to the experiment for each number of robots. Throws InputError.

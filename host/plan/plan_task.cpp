@@ -62,7 +62,7 @@ std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   auto task = std::make_unique<PlanTask>();
   task->variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0]);
   if (is_drawn(experiment.scenarios[0])) {
-    const std::uint64_t seed = world_seed(experiment, task->variant->scenario.name, 0);
+    const std::uint64_t seed = task_seed(experiment, task->variant->scenario.name, experiment.scenarios[0].wishes, 0);
     task->variant = std::make_unique<VariantWorld>(experiment, experiment.scenarios[0], *task->variant, seed);
   }
   const VariantWorld& variant = *task->variant;

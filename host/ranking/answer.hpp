@@ -10,17 +10,11 @@
 
 #include "core/statistics/bootstrap.hpp"
 #include "host/ranking/contest.hpp"
+#include "host/ranking/measures.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/system_values.hpp"
 
 namespace dmrp::host {
-
-// Something in which combinations are compared: a share of robots (higher is better), or the time of arrival over the
-// length of the robot's shortest way (lower is better), of robots that arrive with both.
-struct Criterion {
-  std::string name;   // for readers
-  bool share = true;  // false: the time, in s/m
-};
 
 // A combination against the first, in one criterion. Differences are the combination's minus the first's.
 struct AgainstFirst {

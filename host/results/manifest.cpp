@@ -43,6 +43,15 @@ Json to_json(const ExperimentFacts& experiment) {
                          {"robots", scenario.robots},
                          {"people", scenario.people},
                          {"time_limit_s", scenario.time_limit_s}});
+  for (std::size_t i = 0; i < experiment.scenarios.size(); ++i) {
+    const ScenarioFacts& scenario = experiment.scenarios[i];
+    if (scenario.series.empty()) continue;
+    scenarios[i]["grade"] = {{"series", scenario.series},
+                             {"quantity", scenario.quantity},
+                             {"unit", scenario.unit},
+                             {"harder_when_higher", scenario.harder_when_higher},
+                             {"level", scenario.level}};
+  }
   return {{"name", experiment.name},
           {"seed", experiment.seed},
           {"repetitions", experiment.repetitions},
@@ -61,9 +70,18 @@ ExperimentFacts parse_experiment(const Json& json) {
     experiment.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
   else
     experiment.shard.count = 0;
-  for (const Json& scenario : json.at("scenarios"))
-    experiment.scenarios.push_back({scenario.at("name"), scenario.at("title"), scenario.at("description"),
-                                    scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")});
+  for (const Json& scenario : json.at("scenarios")) {
+    ScenarioFacts& facts = experiment.scenarios.emplace_back();
+    facts = {scenario.at("name"),   scenario.at("title"),  scenario.at("description"),
+             scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")};
+    const auto grade = scenario.find("grade");
+    if (grade == scenario.end()) continue;
+    facts.series = grade->at("series");
+    facts.quantity = grade->at("quantity");
+    facts.unit = grade->at("unit");
+    facts.harder_when_higher = grade->at("harder_when_higher");
+    facts.level = grade->at("level");
+  }
   return experiment;
 }
 

@@ -37,6 +37,8 @@ std::filesystem::path find_scenario(const std::string& name_or_path, const std::
     for (const fs::path& folder : scenario_folders()) candidates.push_back(folder / name_or_path / "scenario.toml");
   else
     candidates = {base / name_or_path, base / name_or_path / "scenario.toml"};
+  if (!name_or_path.starts_with('.') && !name_or_path.ends_with(".toml"))  // "course/door": one of a folder
+    for (const fs::path& folder : scenario_folders()) candidates.push_back(folder / (name_or_path + ".toml"));
   for (const fs::path& candidate : candidates)
     if (std::error_code ignored; fs::is_regular_file(candidate, ignored)) return fs::canonical(candidate);
   return {};

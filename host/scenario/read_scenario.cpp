@@ -19,10 +19,37 @@ namespace {
 
 constexpr double max_time_s = 1e6;
 
-const std::vector<std::string> root_keys = {"scenario", "map",    "box",  "circle", "polygon",   "robot",     "robots",
-                                            "people",   "region", "flow", "tiles",  "recording", "robot_type"};
-const std::vector<std::string> header_keys = {"name", "title", "description", "size_m", "origin_m", "time_limit_s"};
+const std::vector<std::string> root_keys = {"scenario", "map",    "box",  "circle", "polygon",   "robot",      "robots",
+                                            "people",   "region", "flow", "tiles",  "recording", "robot_type", "grade"};
+const std::vector<std::string> header_keys = {"name",     "title",    "description", "size_m",
+                                              "origin_m", "inside_m", "time_limit_s"};
 const std::vector<std::string> robot_keys = {"name", "type", "start", "goal", "goals"};
+
+const std::vector<std::string> grade_keys = {"quantity", "unit", "harder", "levels", "robots"};
+
+std::vector<double> levels_of(const TomlTable& grade) {
+  std::vector<double> levels;
+  const TomlValue listed = grade.need("levels");
+  for (const TomlValue& level : listed.array()) levels.push_back(level.number());
+  if (levels.empty()) listed.fail("'levels' must have at least one number");
+  return levels;
+}
+
+// The scenario's name gets the level, so that results tell levels apart.
+void read_grade(const TomlTable& grade, double level, ScenarioFile& out) {
+  out.grade = {out.scenario.name, grade.need("quantity").line(), grade.need("unit").line(),
+               grade.need("harder").choice({"higher", "lower"}) == "higher", level};
+  out.scenario.name += fmt::format(" {}", level);
+}
+
+// The number of listed robots that take part at this level.
+void keep_graded(const TomlTable& grade, ScenarioFile& out) {
+  const auto robots = grade.find("robots");
+  if (!robots) return;
+  const auto count = robots->integer(1, static_cast<std::int64_t>(out.scenario.robots.size()));
+  out.scenario.robots.resize(static_cast<std::size_t>(count));
+  out.robots.resize(static_cast<std::size_t>(count));
+}
 
 std::vector<dmrp_pose> read_goals(const TomlTable& robot) {
   const auto goals = robot.find("goals");
@@ -68,6 +95,10 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   scenario.title = header->need("title").line();
   scenario.description = header->need("description").line();
   if (const auto origin = header->find("origin_m")) scenario.lower = point(*origin);
+  if (const auto inside = header->find("inside_m")) {
+    scenario.inside = {point(*inside)};
+    out.inside = inside->position();
+  }
   const bool tiled = root.find_table("tiles").has_value();
   if (tiled || root.find_table("map")) {
     if (const auto size_value = header->find("size_m"))
@@ -91,7 +122,8 @@ std::vector<TomlKeys> scenario_keys() {
       {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
       {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
       {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    {"[people]", people_keys()},
-      {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys}};
+      {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys},
+      {"[grade]", grade_keys}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }
@@ -101,14 +133,28 @@ void check_extent(const TomlValue& at, dmrp_vec2 extent) {
     at.fail(fmt::format("the world must be at most {0} m by {0} m", max_side_m));
 }
 
-ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path) {
+std::vector<double> read_levels(const std::filesystem::path& file, const std::string& shown_path) {
+  const TomlDocument document(shown_path, read_file(file, shown_path));
+  const auto grade = document.root().find_table("grade");
+  return grade ? levels_of(*grade) : std::vector<double>();
+}
+
+ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path,
+                                std::optional<double> level) {
   ScenarioFile out;
   const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
   document->know(scenario_keys());
   out.document = document;
   const TomlTable root = out.document->root();
   root.allow_only(root_keys);
+  const auto grade = root.find_table("grade");
+  if (grade) {
+    grade->allow_only(grade_keys);
+    if (!level) level = levels_of(*grade).front();
+    document->set_level(*level);
+  }
   read_header(root, file, out);
+  if (grade) read_grade(*grade, *level, out);
   const auto map = read_map(root, file, shown_path, out);
   read_tiles(root, file, out);
   read_shapes(root, out);
@@ -118,6 +164,9 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   } else {
     read_robots(root, out);
   }
+  if (grade) keep_graded(*grade, out);
+  if (!out.inside)
+    for (const core::RobotTask& task : out.scenario.robots) out.scenario.inside.push_back({task.start.x, task.start.y});
   read_crowd(root, out);
   read_recordings(root, file, shown_path, out);
   return out;

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/scene/scenario.hpp"
+#include "host/scenario/scenario_variant.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
@@ -32,13 +34,16 @@ struct RecordingPlace {
 
 struct ScenarioFile {
   core::Scenario scenario;
+  Grade grade;
   std::vector<std::filesystem::path> files;  // other files that it names, absolute: maps, tasks, recordings, tiles
   std::shared_ptr<const TomlDocument> document;
-  SourcePosition size;                  // of the world
-  std::vector<SourcePosition> robots;   // parallel to scenario.robots
-  std::vector<SourcePosition> regions;  // parallel to scenario.regions
-  std::vector<SourcePosition> flows;    // parallel to scenario.flows
-  std::vector<TrackPlace> tracks;       // parallel to scenario.tracks
+  SourcePosition size;                   // of the world
+  std::optional<SourcePosition> inside;  // the point that is given, not the listed starts
+  bool edge_is_open = false;             // a map of map_server: beyond its edge there may be more, but no wall
+  std::vector<SourcePosition> robots;    // parallel to scenario.robots
+  std::vector<SourcePosition> regions;   // parallel to scenario.regions
+  std::vector<SourcePosition> flows;     // parallel to scenario.flows
+  std::vector<TrackPlace> tracks;        // parallel to scenario.tracks
   std::vector<RecordingPlace> recordings;
 };
 
@@ -49,7 +54,11 @@ std::vector<TomlKeys> scenario_keys();
 void check_extent(const TomlValue& at, dmrp_vec2 extent);
 
 // Reads the file and checks everything that does not depend on a robot. `file`: its absolute path; `shown_path`: its
-// path in messages. Throws InputError.
-ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path);
+// path in messages; `level`: of a scenario with [grade], by default its first. Throws InputError.
+ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path,
+                                std::optional<double> level = std::nullopt);
+
+// The levels that [grade] lists; empty without it. Throws InputError.
+std::vector<double> read_levels(const std::filesystem::path& file, const std::string& shown_path);
 
 }  // namespace dmrp::host

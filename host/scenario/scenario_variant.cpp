@@ -5,6 +5,10 @@
 
 namespace dmrp::host {
 
+core::TaskRequest task_request(const ScenarioVariant& variant) {
+  return {variant.most_drawn, variant.drawn_types, variant.scenario.inside, variant.wishes};
+}
+
 std::vector<std::string> types_in_use(const ScenarioVariant& variant) {
   std::vector<std::string> types;
   for (const core::RobotTask& task : variant.scenario.robots) types.push_back(task.type);

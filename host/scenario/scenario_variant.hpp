@@ -10,8 +10,24 @@
 #include "core/scene/random_tasks.hpp"
 #include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
+#include "core/tasks/task_generator.hpp"
 
 namespace dmrp::host {
+
+// The level of a test that has several: [grade] of its file.
+struct Grade {
+  std::string series;    // the name in the file; empty: the scenario has no levels
+  std::string quantity;  // "width of the door"
+  std::string unit;
+  bool harder_when_higher = true;
+  double level = 0.0;
+};
+
+// The largest deviations of a listed robot's start, drawn for each trial.
+struct StartJitter {
+  double position_m = 0.0;
+  double heading_rad = 0.0;
+};
 
 // A scenario with a number of robots: either the first of the listed ones, or robots with random tasks for each trial.
 struct ScenarioVariant {
@@ -22,14 +38,24 @@ struct ScenarioVariant {
   std::uint32_t drawn_robots = 0;              // robots with random tasks; then no listed robot takes part
   std::uint32_t most_drawn = 0;  // the largest drawn_robots of this [[scenario]]: people keep clear of all their starts
   std::uint32_t entry = 0;       // index of the [[scenario]]
-  bool all_drawn = false;        // tasks = "drawn"
   core::RobotTypes types{};      // that its robots can have
   std::vector<core::TypeShare> drawn_types{};  // of the drawn robots; none: all of the default type
+  core::TaskWishes wishes{};                   // for the drawn tasks
+  Grade grade{};
+  StartJitter jitter{};
 };
+
+// Whether each trial has robots of its own.
+inline bool is_drawn(const ScenarioVariant& variant) {
+  return variant.most_drawn > 0 || variant.jitter.position_m > 0.0 || variant.jitter.heading_rad > 0.0;
+}
 
 inline std::uint32_t robot_count(const ScenarioVariant& variant) {
   return variant.drawn_robots + static_cast<std::uint32_t>(variant.scenario.robots.size());
 }
+
+// What to draw for a trial: tasks for the variant with the most robots of this [[scenario]].
+core::TaskRequest task_request(const ScenarioVariant& variant);
 
 // The names of the types of its robots, each once.
 std::vector<std::string> types_in_use(const ScenarioVariant& variant);

@@ -8,8 +8,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "host/errors/input_error.hpp"
+#include "host/toml/expression.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
@@ -82,6 +84,10 @@ SourcePosition TomlValue::position() const {
   return position_of(node_->source());
 }
 
+std::string TomlValue::place() const {
+  return document_->place(position());
+}
+
 void TomlValue::fail(const std::string& text) const {
   document_->fail(position(), text);
 }
@@ -115,23 +121,40 @@ bool TomlValue::is_integer() const {
 bool TomlValue::is_array() const {
   return node_->is_array();
 }
+bool TomlValue::is_table() const {
+  return node_->is_table();
+}
 
 bool TomlValue::boolean() const {
   if (!node_->is_boolean()) fail(fmt::format("'{}' must be true or false, not {}", key_, type_name()));
   return node_->as_boolean()->get();
 }
 
+std::optional<double> TomlValue::formula() const {
+  if (!document_->level() || !node_->is_string()) return std::nullopt;
+  try {
+    return evaluate_expression(node_->as_string()->get(), *document_->level());
+  } catch (const std::invalid_argument& error) {
+    fail(fmt::format("'{}' is no formula: {}", key_, error.what()));
+  }
+}
+
 std::int64_t TomlValue::integer(std::int64_t minimum, std::int64_t maximum) const {
-  if (!node_->is_integer()) fail(fmt::format("'{}' must be an integer, not {}", key_, type_name()));
-  const std::int64_t value = node_->as_integer()->get();
+  const std::optional<double> computed = formula();
+  constexpr double largest = 1e15;  // so is every integer below exactly a double
+  if (computed && (*computed != std::floor(*computed) || std::abs(*computed) > largest))
+    fail(fmt::format("'{}' must be an integer, not {}", key_, *computed));
+  if (!computed && !node_->is_integer()) fail(fmt::format("'{}' must be an integer, not {}", key_, type_name()));
+  const std::int64_t value = computed ? static_cast<std::int64_t>(*computed) : node_->as_integer()->get();
   if (value < minimum) fail(fmt::format("'{}' must be at least {}, not {}", key_, minimum, value));
   if (value > maximum) fail(fmt::format("'{}' must be at most {}, not {}", key_, maximum, value));
   return value;
 }
 
 double TomlValue::number(double minimum, double maximum) const {
-  if (!node_->is_number()) fail(fmt::format("'{}' must be a number, not {}", key_, type_name()));
-  const double value = *node_->value<double>();
+  const std::optional<double> computed = formula();
+  if (!computed && !node_->is_number()) fail(fmt::format("'{}' must be a number, not {}", key_, type_name()));
+  const double value = computed ? *computed : *node_->value<double>();
   if (!std::isfinite(value)) fail(fmt::format("'{}' must be finite", key_));
   if (value < minimum) fail(fmt::format("'{}' must be at least {}, not {}", key_, minimum, value));
   if (value > maximum) fail(fmt::format("'{}' must be at most {}, not {}", key_, maximum, value));

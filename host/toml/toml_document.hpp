@@ -48,6 +48,10 @@ class TomlDocument {
   void know(std::vector<TomlKeys> tables) { tables_ = std::move(tables); }
   std::vector<std::string> tables_with(const std::string& key) const;  // their titles
 
+  // With a level, numbers may be written as formulas of it (expression.hpp): "5 - level / 2".
+  void set_level(double level) { level_ = level; }
+  std::optional<double> level() const { return level_; }
+
   TomlTable root() const;
   [[noreturn]] void fail(SourcePosition at, const std::string& text) const;
   void refuse_long_key(std::string_view text) const;
@@ -57,6 +61,7 @@ class TomlDocument {
   std::string shown_path_;
   std::unique_ptr<const toml::v3::table> table_;
   std::vector<TomlKeys> tables_;
+  std::optional<double> level_;
 };
 
 // A value of the document. An accessor fails with the expected type if the value has another one.
@@ -68,6 +73,7 @@ class TomlValue {
   const std::string& key() const { return key_; }
   SourcePosition position() const;
   SourcePosition key_position() const { return key_position_; }
+  std::string place() const;  // "file:line:column"
   [[noreturn]] void fail(const std::string& text) const;
   [[noreturn]] void fail_at_key(const std::string& text) const;
 
@@ -85,7 +91,9 @@ class TomlValue {
 
   bool is_integer() const;
   bool is_array() const;
-  std::string type_name() const;  // "a string", "an integer", ...
+  bool is_table() const;
+  std::optional<double> formula() const;  // the value of a formula; none if it is none
+  std::string type_name() const;          // "a string", "an integer", ...
 
  private:
   const TomlDocument* document_;

@@ -19,7 +19,7 @@ struct VariantWorld {
   // Without random robots.
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant);
 
-  // With the robots drawn for the trial with this seed.
+  // With the robots that this task_seed() draws or displaces.
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                std::uint64_t seed);
 
@@ -33,11 +33,6 @@ struct VariantWorld {
   core::FlowRoutes routes;  // of the people
   core::WorldView view;
 };
-
-// Whether the variant draws robots: every trial has its own world.
-inline bool is_drawn(const ScenarioVariant& variant) {
-  return variant.most_drawn > 0;
-}
 
 // Seconds of the experiment file, in the contract's unit.
 inline std::int64_t nanoseconds(double seconds) {

@@ -110,12 +110,15 @@ class Worker {
   }
 
   void run(const Job& job) {
-    const Combination& combination = combinations_[trial_id(job.trial, combinations_.size()).combination];
+    const TrialId id = trial_id(job.trial, combinations_.size());
+    const Combination& combination = combinations_[id.combination];
     const std::uint64_t seed = trial_seed(experiment_, job.trial);
     const VariantWorld& shared = variant(combination.scenario);
     std::unique_ptr<const VariantWorld> own;
     if (const ScenarioVariant& scenario = experiment_.scenarios[combination.scenario]; is_drawn(scenario))
-      own = std::make_unique<VariantWorld>(experiment_, scenario, shared, seed);
+      own = std::make_unique<VariantWorld>(
+          experiment_, scenario, shared,
+          task_seed(experiment_, scenario.scenario.name, scenario.wishes, id.repetition));
     const VariantWorld& world = own ? *own : shared;
 
     umask(umask_);  // a plugin of an earlier trial can have changed it

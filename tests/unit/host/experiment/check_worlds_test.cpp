@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Worlds without robots, with robots that are drawn, of tiles, and with recorded people; settings of what is imperfect.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/tasks/task_difficulty.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/experiment/digest.hpp"
@@ -109,8 +111,13 @@ TEST_CASE("more robots than listed get random tasks, different in each repetitio
   const ExperimentFolder folder;
   const Experiment e = load(with_robots("robots = [0, 2, 3]"));
   REQUIRE(e.scenarios.size() == 3);
-  CHECK(e.scenarios[1].scenario.robots.size() == 2);
-  CHECK(e.scenarios[1].drawn_robots == 0);
+  CHECK(e.scenarios[1].scenario.robots.empty());  // other tasks than those of three robots would not compare
+  CHECK(e.scenarios[1].drawn_robots == 2);
+  CHECK(e.scenarios[1].label == "hall/2");
+  REQUIRE(e.warnings.size() >= 1);
+  CHECK(std::count(e.warnings.begin(), e.warnings.end(),
+                   "experiment.toml:9:11: 'robots' goes beyond the 2 that scenario 'hall' lists: the tasks of all "
+                   "numbers are drawn") == 1);
   CHECK(e.scenarios[2].scenario.robots.empty());
   CHECK(e.scenarios[2].drawn_robots == 3);
   CHECK(e.scenarios[2].label == "hall/3");
@@ -135,6 +142,135 @@ TEST_CASE("more robots than listed get random tasks, different in each repetitio
   check_round_trip(all);
 }
 
+TEST_CASE("a sweep over the number of robots has the same first tasks at every number") {
+  const ExperimentFolder folder;
+  const Experiment e = load(with_robots("robots = [1, 2, 3]"));
+  std::vector<core::RobotTask> first;
+  for (const ScenarioVariant& variant : e.scenarios) {
+    const VariantWorld shared(e, variant);
+    first.push_back(VariantWorld(e, variant, shared, world_seed(e, "hall", 0)).scenario.robots.at(0));
+  }
+  CHECK(first[0].start.x == first[2].start.x);
+  CHECK(first[1].goals[0].y == first[2].goals[0].y);
+  // as long as the list is long enough, its tasks are the list's
+  const Experiment listed = load(with_robots("robots = [1, 2]"));
+  CHECK(listed.scenarios[0].drawn_robots == 0);
+  CHECK(listed.scenarios[1].label == "hall");
+}
+
+TEST_CASE("a number of drawn tasks: repetition k has task k modulo it, and another crowd") {
+  const ExperimentFolder folder;
+  const Experiment e =
+      load(with_robots("robots = 2\ntasks = { drawn = 2, conflicts_min = 1, conflicts_max = 1, crossing = \"any\" }"));
+  const ScenarioVariant& variant = e.scenarios[0];
+  CHECK(variant.wishes.drawn == 2);
+  const auto seed = [&](std::uint32_t repetition) { return task_seed(e, "hall", variant.wishes, repetition); };
+  CHECK(seed(0) == seed(2));
+  CHECK(seed(0) != seed(1));
+  CHECK(world_seed(e, "hall", 0) != world_seed(e, "hall", 2));
+  const VariantWorld shared(e, variant);
+  const VariantWorld world(e, variant, shared, seed(1));
+  const core::TaskDifficulty difficulty = core::difficulty_of(world.planning_grid, world.scenario.robots);
+  CHECK(difficulty.conflicts == 1);
+  CHECK(difficulty.well_formed);
+  check_round_trip(e);
+
+  const auto at = [](const std::string& lines) { return message_of(with_robots("robots = 2\n" + lines)); };
+  CHECK(at("tasks = { conflicts_min = 1 }") == "experiment.toml:10:9: 'tasks' needs 'drawn'");
+  CHECK(at("tasks = { drawn = 1, conflict_min = 1 }") ==
+        "experiment.toml:10:22: unknown key 'conflict_min' in 'tasks' (did you mean 'conflicts_min'?)");
+  CHECK(at("tasks = { drawn = 1, conflicts_min = 3, conflicts_max = 2 }") ==
+        "experiment.toml:10:57: 'conflicts_max' must be at least 'conflicts_min', 3");
+  CHECK_THAT(at("tasks = { drawn = 1, conflicts_min = 2 }"),
+             Catch::StartsWith("experiment.toml:9:10: scenario 'hall': none of 1000 draws of tasks for 2 robots has as "
+                               "many conflicts as 'tasks' wishes (repetition 0; the last one has "));
+}
+
+TEST_CASE("robots are not drawn around a building") {
+  const ExperimentFolder folder;
+  // 30 m x 30 m around a house of 10 m x 10 m in which the listed robots begin
+  const std::string house = R"([scenario]
+name = "hall"
+title = "Hall"
+description = "a house on a meadow"
+size_m = [30.0, 30.0]
+
+[[box]]
+name = "south wall"
+center_m = [15.0, 10.0]
+size_m = [10.2, 0.2]
+
+[[box]]
+name = "north wall"
+center_m = [15.0, 20.0]
+size_m = [10.2, 0.2]
+
+[[box]]
+name = "west wall"
+center_m = [10.0, 15.0]
+size_m = [0.2, 10.2]
+
+[[box]]
+name = "east wall"
+center_m = [20.0, 15.0]
+size_m = [0.2, 10.2]
+
+)";
+  const std::string listed = "[[robot]]\nstart = [11.5, 11.5]\ngoal = [18.5, 18.5]\n";
+  const std::string alone = with(experiment_text, "[[pedestrian_model]]\nuse = \"test.model\"\n", "");
+  const std::string experiment = with(alone, "scenario.toml\"\n", "scenario.toml\"\nrobots = 3\n");
+  const auto drawn_inside = [&](const Experiment& e) {
+    const VariantWorld shared(e, e.scenarios[0]);
+    const VariantWorld world(e, e.scenarios[0], shared, world_seed(e, "hall", 0));
+    return std::all_of(world.scenario.robots.begin(), world.scenario.robots.end(), [](const core::RobotTask& task) {
+      return task.start.x > 10.0 && task.start.x < 20.0 && task.goals[0].y > 10.0 && task.goals[0].y < 20.0;
+    });
+  };
+  write_file("hall/scenario.toml", house + listed);
+  const Experiment by_list = load(experiment);
+  CHECK(drawn_inside(by_list));
+  REQUIRE(by_list.warnings.size() == 1);
+  CHECK_THAT(by_list.warnings[0],
+             Catch::EndsWith(": robots are drawn in the 100 m2 that the listed starts reach; larger "
+                             "free space beyond, 800 m2, is left out"));
+  write_file("hall/scenario.toml", with(house, "30.0]\n", "30.0]\ninside_m = [15.0, 15.0]\n"));
+  CHECK(drawn_inside(load(experiment)));
+  write_file("hall/scenario.toml", house);
+  CHECK_FALSE(drawn_inside(load(experiment)));
+  write_file("hall/scenario.toml", with(house, "30.0]\n", "30.0]\ninside_m = [31.0, 15.0]\n"));
+  CHECK_THAT(message_of(experiment),
+             Catch::EndsWith("scenario.toml:6:12: 'inside_m' must lie on a free planning cell"));
+}
+
+TEST_CASE("a start that cannot be reached says what would do") {
+  const ExperimentFolder folder;
+  // a door of 0.8 m whose middle lies between the centres of two cells
+  const std::string wall = R"([[box]]
+name = "wall"
+center_m = [5.0, 4.0]
+size_m = [0.2, 4.0]
+)";
+  const std::string door = R"([[box]]
+name = "wall"
+center_m = [5.0, 1.3]
+size_m = [0.2, 2.6]
+
+[[box]]
+name = "other wall"
+center_m = [5.0, 5.7]
+size_m = [0.2, 4.6]
+)";
+  CHECK_THAT(message_of_scenario(wall, door),
+             Catch::EndsWith("robot 1 cannot reach its goal (9.5, 0.5) from its start (0.5, 0.5) on the planning grid; "
+                             "grid_resolution_m = 0.4 would do"));
+  const auto with_cells = [](const std::string& cell_m) {
+    return message_of(experiment_text + ("[simulation]\ngrid_resolution_m = " + cell_m + "\n"));
+  };
+  CHECK_THAT(with_cells("0.4"), !Catch::Contains("robot"));  // robots can; people cannot
+  CHECK_THAT(with_cells("0.5"), Catch::Contains("grid_resolution_m = 0.4 would do"));
+  CHECK_THAT(with_cells("0.75"), Catch::Contains("grid_resolution_m = 0.4 would do"));
+}
+
 TEST_CASE("mistakes in the number of robots") {
   const ExperimentFolder folder;
   const auto at = [](const std::string& lines) { return message_of(with_robots(lines)); };
@@ -143,7 +279,7 @@ TEST_CASE("mistakes in the number of robots") {
   CHECK(at("robots = [1, 1]") == "experiment.toml:9:14: scenario 'hall/1' occurs twice");
   CHECK(at("robots = 3\ntasks = \"listed\"") ==
         "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
-  CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' = 'drawn' needs 'robots', their number");
+  CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' that are drawn need 'robots', their number");
   CHECK_THAT(at("tasks = \"random\"\nrobots = 1"), Catch::Contains("experiment.toml:9:9: 'tasks' must be"));
   CHECK_THAT(at("robots = 100"),
              Catch::StartsWith("experiment.toml:9:10: scenario 'hall' has room for ") &&

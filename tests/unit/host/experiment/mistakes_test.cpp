@@ -291,7 +291,8 @@ TEST_CASE("mistakes in a scenario file") {
        "goal = [0.5, 3.6]\n[[box]]\nname = \"bar\"\ncenter_m = [0.75, 2.5]\nsize_m = [1.5, 0.1]\n"
        "[[box]]\nname = \"lid\"\ncenter_m = [0.75, 4.5]\nsize_m = [1.5, 0.1]\n"
        "[[box]]\nname = \"side\"\ncenter_m = [1.5, 3.5]\nsize_m = [0.1, 2.1]",
-       "21:1: robot 1 cannot reach its goal (0.5, 3.6) from its start (0.5, 0.5) on the planning grid"},
+       "21:1: robot 1 cannot reach its goal (0.5, 3.6) from its start (0.5, 0.5) on the planning grid; "
+       "neither smaller cells nor a smaller planning_margin_m would do"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.8, 0.5]",
        "25:1: robot 2 overlaps robot 1 at its start (distance 0.30 m, needs 0.50 m)"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.7, 0.99]",

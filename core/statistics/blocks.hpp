@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// blocks.hpp: how much of what varies do the entries of a comparison explain, when all of them met the same tasks.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/statistics/bootstrap.hpp"
+
+namespace dmrp::core {
+
+// Analysis of variance of entries in tasks, one value each (a randomised block design). Partial eta squared is
+// SS_entries / (SS_entries + SS_rest), once the differences between tasks are taken out; its 95 % interval inverts the
+// noncentral F distribution (Steiger: Beyond the F test, Psychological Methods 9, 2004): eta2 = L / (L + df1 + df2 + 1).
+// NaN with fewer than two entries or tasks, or if nothing varies within tasks.
+struct BlockEffect {
+  double partial_eta_squared;
+  Interval interval;
+  double f;
+  double df_entries;
+  double df_rest;
+};
+BlockEffect block_effect(std::span<const std::vector<double>> by_entry);  // [entry][task]
+
+// The interval of the noncentrality for an observed F; its lower end is 0 where no noncentrality is so unlikely.
+Interval noncentrality_interval(double f, double df_entries, double df_rest);
+
+// Kendall's tau-b, with ties: 1 for the same order, -1 for the reverse. NaN if one of the lists is all ties.
+double kendall_tau(std::span<const double> x, std::span<const double> y);
+
+}  // namespace dmrp::core
