@@ -21,6 +21,8 @@
 #include "metrics/safety/clearance.hpp"
 #include "metrics/safety/collisions.hpp"
 #include "metrics/safety/time_to_collision.hpp"
+#include "metrics/schedule/schedule_error.hpp"
+#include "metrics/schedule/sto_physical.hpp"
 #include "metrics/social/group_intrusion.hpp"
 #include "metrics/social/pedestrian_progress.hpp"
 #include "metrics/social/people_nearby.hpp"
@@ -30,7 +32,8 @@
 // The order of lists and documents, and of measurement where an experiment names no metrics.
 DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::PlanningTime,
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Arrivals, dmrp::metrics::Spl,
-             dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd, dmrp::metrics::Collisions,
+             dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
+             dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::Collisions,
              dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime,
              dmrp::metrics::Deadlock, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics,
              dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress,

@@ -46,9 +46,9 @@ std::map<std::string, double> read_parameters(const std::string& file, const dmr
 
 TEST_CASE("the metrics declare the values that results are read by, each once") {
   // properties of the crowd and of the task are neither better nor worse
-  const std::set<std::string> neither_better_nor_worse = {"people_nearby",    "sto_cell_size",
-                                                          "shortest_length",  "neighbours",
-                                                          "proxemics_social", "pedestrian_desired_speed"};
+  const std::set<std::string> neither_better_nor_worse = {
+      "people_nearby",    "sto_cell_size",    "shortest_length",         "neighbours",
+      "schedule_error_s", "proxemics_social", "pedestrian_desired_speed"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance", "ibtr_by_speed_fraction",
@@ -137,6 +137,9 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"pedestrian_progress", "m"},
                                                        {"pedestrian_speed", "m/s"},
                                                        {"pedestrian_desired_speed", "m/s"},
+                                                       {"sto_physical", "1"},
+                                                       {"schedule_error_s", "s"},
+                                                       {"schedule_deviation_s", "s"},
                                                        {"heading_change", "rad"},
                                                        {"path_irregularity", "rad/m"},
                                                        {"acceleration", "m/s^2"},
@@ -179,7 +182,7 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
   for (int t = 0; t <= 3; ++t) trial.sample(t, {at(0, 0), at(5, 0)});
   trial.end(3.0, {never, never});
   const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan"};
-  const std::set<std::string> no_motion = {"ttc_min", "path_irregularity"};
+  const std::set<std::string> no_motion = {"ttc_min", "path_irregularity", "schedule_error_s", "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"plan_call_mean",    "plan_call_p99",    "plan_missed",
                                           "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> nobody = {"clearance_person_min",     "clearance_person_mean", "danger_time_person",

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// planned_overlap.hpp: how much of its planned time a robot is near another one's place of about the same time.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <vector>
+
+namespace dmrp::metrics {
+
+using Steps = std::vector<Vec2>;  // planned positions at step 0, 1, ... until the robot rests at its goal
+
+// The waypoint of the final arrival at the last goal; waypoints after it are padding.
+inline std::size_t final_arrival(const Path& path) {
+  std::size_t last = path.size() - 1;
+  while (last > 0 && toolkit::position(path[last - 1]) == toolkit::position(path[last])) --last;
+  return last;
+}
+
+// The path at start_ns, start_ns + step_ns, ...: exactly its waypoints if they are one step apart.
+inline Steps resample(const Path& path, std::int64_t start_ns, std::int64_t step_ns) {
+  const std::size_t last = final_arrival(path);
+  Steps steps;
+  std::size_t next = 0;  // first waypoint that is not before the instant
+  for (std::int64_t t_ns = start_ns;; t_ns += step_ns) {
+    while (next < last && path[next].t_ns < t_ns) ++next;
+    if (next == 0 || path[next].t_ns <= t_ns) {
+      steps.push_back(toolkit::position(path[next]));
+    } else {
+      const Waypoint& from = path[next - 1];
+      const double part = static_cast<double>(t_ns - from.t_ns) / static_cast<double>(path[next].t_ns - from.t_ns);
+      steps.push_back(toolkit::lerp(toolkit::position(from), toolkit::position(path[next]), part));
+    }
+    if (path[last].t_ns <= t_ns) return steps;
+  }
+}
+
+// Whether the plan has `other` near at a step from i - window to i + window. Robots rest at their goals.
+inline bool overlaps(const Steps& own, std::size_t i, const Steps& other, double distance_m, std::size_t window) {
+  const std::size_t from = i > window ? i - window : 0;
+  for (std::size_t j = from; j <= i + window; ++j) {
+    const Vec2 there = other[std::min(j, other.size() - 1)];
+    if (toolkit::squared_distance(own[i], there) <= distance_m * distance_m) return true;
+    if (j + 1 >= other.size()) return false;  // at rest: later steps are the same
+  }
+  return false;
+}
+
+// By robot: the share of its waypoints that another robot's path overlaps.
+inline std::vector<double> overlapping_shares(const std::vector<Steps>& all, double distance_m, std::size_t window) {
+  std::vector<double> shares;
+  for (std::size_t robot = 0; robot < all.size(); ++robot) {
+    std::size_t overlapping = 0;
+    for (std::size_t i = 0; i < all[robot].size(); ++i) {
+      bool near = false;
+      for (std::size_t other = 0; other < all.size() && !near; ++other)
+        near = other != robot && overlaps(all[robot], i, all[other], distance_m, window);
+      overlapping += near;
+    }
+    shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));
+  }
+  return shares;
+}
+
+// Of a plan with at least one path.
+inline std::vector<Steps> resample_all(const Plan& plan, std::int64_t step_ns) {
+  std::int64_t start_ns = plan.path(0)[0].t_ns;
+  for (std::size_t robot = 1; robot < plan.size(); ++robot) start_ns = std::min(start_ns, plan.path(robot)[0].t_ns);
+  std::vector<Steps> all;
+  for (std::size_t robot = 0; robot < plan.size(); ++robot)
+    all.push_back(resample(plan.path(robot), start_ns, step_ns));
+  return all;
+}
+
+}  // namespace dmrp::metrics

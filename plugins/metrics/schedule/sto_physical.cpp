@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "metrics/schedule/sto_physical.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/planned_overlap.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+constexpr std::int64_t period_ns = 250'000'000;
+
+}  // namespace
+
+Descriptor StoPhysical::describe() {
+  return describe_metric("dmrp.metric.sto_physical", "Spatio-temporal overlap in metres and seconds")
+      .summary("share of the planned time that a robot is to be near another one's place of about the same time")
+      .source("Hu et al., DMRP-Bench, ICRA 2026: STO, measured in time instead of waypoints")
+      .value(
+          "sto_physical", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "positions of the first plan every 0.25 s, at constant velocity between waypoints, until the robot rests at "
+          "its goal: the share of a robot's that are within distance_m of one of another robot's at most window_s "
+          "earlier or later; neither diagonal moves nor the size of cells change what counts; system: mean over "
+          "robots; undefined if planning failed");
+}
+
+void StoPhysical::finish(const TrialEnd&, MetricSink& sink) {
+  const bool planned = first_plan_ && first_plan_->path_count > 0;
+  const std::vector<Steps> all = planned ? resample_all(Plan(*first_plan_), period_ns) : std::vector<Steps>();
+  constexpr double rounding = 1e-9;  // 3.6 s is a whole number of tenths, not of binary fractions
+  const double window = std::floor(*window_s * 1e9 / static_cast<double>(period_ns) + rounding);
+  give_mean(sink, "sto_physical", overlapping_shares(all, distance_m, static_cast<std::size_t>(window)));
+}
+
+}  // namespace dmrp::metrics

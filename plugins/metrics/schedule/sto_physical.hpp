@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// sto_physical.hpp: spatio-temporal overlap of plans in metres and seconds, whatever their cells and steps.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+
+namespace dmrp::metrics {
+
+class StoPhysical final : public Metric {
+ public:
+  static Descriptor describe();
+  Param<double> distance_m =
+      param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("positions at most this far apart overlap");
+  Param<double> window_s = param("window_s", 3.6)
+                               .unit("s")
+                               .range(0.0, 1000.0)
+                               .doc("a position is compared with the others' at most this much earlier and later");
+
+  void begin(const dmrp_plan* plan) override { first_plan_ = plan; }
+  void observe(const Sample&) override {}
+  void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  const dmrp_plan* first_plan_ = nullptr;
+};
+
+}  // namespace dmrp::metrics

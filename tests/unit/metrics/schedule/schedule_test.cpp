@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Schedule error and overlap in seconds, against values worked out by hand.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/metrics/synthetic_trial.hpp"
+
+using namespace dmrp::test;
+
+namespace {
+
+dmrp_robot_sample at_arc(double x, double progress_m) {
+  dmrp_robot_sample robot = at(x, 0.0);
+  robot.progress_m = progress_m;
+  return robot;
+}
+
+dmrp_waypoint waypoint(double x, double y, double t_s) {
+  return {x, y, std::nan(""), nanoseconds(t_s), 0, 0};
+}
+
+}  // namespace
+
+TEST_CASE("schedule error: a waypoint is passed when the progress reaches it; waits count once") {
+  SyntheticTrial trial(2);
+  // due at 1 m after 1 s, at 2 m after 4 s (a wait of two seconds at 1 m), at 3 m after 5 s
+  trial.plan({{{0, 0}, {1, 0}, {1, 0}, {1, 0}, {2, 0}, {3, 0}}, {{9, 9}}});
+  trial.sample(0.0, {at_arc(0, 0), at(9, 9)});
+  trial.sample(1.5, {at_arc(0.9, 0.9), at(9, 9)});
+  trial.sample(2.0, {at_arc(1.1, 1.1), at(9, 9)});  // 1 s late
+  trial.sample(3.5, {at_arc(2.0, 2.0), at(9, 9)});  // 0.5 s early
+  trial.sample(6.0, {at_arc(2.9, 2.9), at(9, 9)});  // the last one is never passed
+  trial.end(6.0);
+  const Measurement m = measure("dmrp.metric.schedule_error", trial);
+  CHECK(m.robot("schedule_error_s", 0) == Approx(0.25));
+  CHECK(m.robot("schedule_deviation_s", 0) == Approx(0.75));
+  CHECK(std::isnan(m.robot("schedule_error_s", 1)));  // it has nowhere to go
+  CHECK(m.system("schedule_error_s") == Approx(0.25));
+  CHECK(m.system("schedule_deviation_s") == Approx(0.75));
+}
+
+TEST_CASE("schedule error: a new plan has a schedule of its own") {
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}, {1, 0}, {2, 0}}});
+  trial.sample(0.0, {at_arc(0, 0)});
+  trial.sample(1.5, {at_arc(1, 1)});  // 0.5 s late
+  trial.timed_plan({{waypoint(1, 0, 2.0), waypoint(3, 0, 4.0), waypoint(4, 0, 5.0)}});
+  trial.sample(2.0, {at_arc(1, 0)});
+  trial.sample(7.0, {at_arc(4, 3)});  // 3 s late at one, 2 s at the other
+  trial.end(7.0);
+  const Measurement m = measure("dmrp.metric.schedule_error", trial);
+  CHECK(m.system("schedule_error_s") == Approx(5.5 / 3.0));
+  SyntheticTrial without(1);
+  without.sample(0.0, {at(0, 0)}).end(0.0, {never});
+  CHECK(std::isnan(measure("dmrp.metric.schedule_error", without).system("schedule_error_s")));
+}
+
+TEST_CASE("overlap in seconds: two robots that cross") {
+  // one through the other's way at right angles, both at the origin after 2 s, 1 m/s
+  SyntheticTrial trial(2);
+  trial.plan({{{-2, 0}, {-1, 0}, {0, 0}, {1, 0}, {2, 0}}, {{0, -2}, {0, -1}, {0, 0}, {0, 1}, {0, 2}}}).end(0.0);
+  // positions every 0.25 s, 17 of each; at the same time they are sqrt(2) |t - 2| apart: within 0.5 m for |t - 2| <= 0.35
+  const Measurement at_once = measure("dmrp.metric.sto_physical", trial, {{"window_s", 0.0}});
+  CHECK(at_once.system("sto_physical") == Approx(3.0 / 17.0));
+  // with a second to either side, the other one is at the origin for 1 <= t <= 3, half a metre off it at most half a
+  // second longer: within 0.5 m for |t - 2| <= 0.5
+  const Measurement in_window = measure("dmrp.metric.sto_physical", trial, {{"window_s", 1.0}});
+  CHECK(in_window.system("sto_physical") == Approx(5.0 / 17.0));
+}
+
+TEST_CASE("overlap in seconds: the same motion in larger steps has the same value") {
+  const auto value = [](double step_s) {
+    SyntheticTrial trial(2);
+    std::vector<dmrp_waypoint> east, north;
+    for (double t_s = 0.0; t_s <= 8.0; t_s += step_s) {
+      east.push_back(waypoint(t_s, 4, t_s));
+      north.push_back(waypoint(4, t_s + 1.0, t_s));
+    }
+    trial.timed_plan({east, north}).end(0.0);
+    return measure("dmrp.metric.sto_physical", trial).system("sto_physical");
+  };
+  CHECK(value(1.0) == value(2.0));
+  CHECK(value(1.0) == value(4.0));
+  CHECK(value(1.0) > 0.0);
+}
+
+TEST_CASE("overlap in seconds: robots rest at their goals, and without a plan there is no value") {
+  SyntheticTrial trial(2);
+  // the second one reaches the first one's goal 3 s after it and stays 0.4 m off
+  trial.plan({{{0, 0}, {1, 0}}, {{1.4, 4}, {1.4, 3}, {1.4, 2}, {1.4, 1}, {1.4, 0}}}).end(0.0);
+  const Measurement m = measure("dmrp.metric.sto_physical", trial, {{"window_s", 0.0}});
+  CHECK(m.robot("sto_physical", 0) == Approx(0.0));
+  // from y = 0.3 on: of 17 positions, y = 0.25 and y = 0
+  CHECK(m.robot("sto_physical", 1) == Approx(2.0 / 17.0));
+  SyntheticTrial without(1);
+  without.sample(0.0, {at(0, 0)}).end(0.0, {never});
+  CHECK(std::isnan(measure("dmrp.metric.sto_physical", without).system("sto_physical")));
+}
