@@ -20,12 +20,14 @@ worlds=("$@")
 ((${#worlds[@]} > 0)) || worlds=(mall library office hospital warehouse)
 mkdir -p "$out"
 
-declare -A robots=([mall]=16 [library]=16 [office]=16 [hospital]=16 [warehouse]=30)
+declare -A robots=([mall]=16 [library]=16 [office]=16 [hospital]=16 [warehouse]=20)
 declare -A declared=([mall]=success [library]=success [office]=success [hospital]=success [warehouse]=time)
 
 # use KIND ID [LABEL]
 use() {
-  printf '[[%s]]\nuse = "dmrp.%s.%s"\n' "$1" "${1#*_}" "$2"
+  local family=${1#*_}
+  [[ $1 != pedestrian_model ]] || family=pedestrian
+  printf '[[%s]]\nuse = "dmrp.%s.%s"\n' "$1" "$family" "$2"
   [[ ! -e $(dirname "$host")/../share/dmrp/parameter_sets/controllers/tuned/$2.toml ]] ||
     printf 'params_file = "controllers/tuned/%s.toml"\n' "$2"
   [[ -z ${3:-} ]] || printf 'label = "%s"\n' "$3"
@@ -86,9 +88,9 @@ row() { # FACTOR DECLARED RUN...
 
 separated() { have "$@" && "$host" discriminate "${@/#/$out/}" --row x | awk -F' *[|] *' '{ print $9 }'; }
 
+for world in "${worlds[@]}"; do experiments "$world"; done
 if [[ -z ${NO_RUN:-} ]]; then
   for world in "${worlds[@]}"; do
-    experiments "$world"
     for name in base individual ordered controllers twin slow; do run "$world.$name"; done
   done
 fi
