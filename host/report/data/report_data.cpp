@@ -9,6 +9,7 @@
 #include <set>
 
 #include "host/files/read_file.hpp"
+#include "host/ranking/graded_series.hpp"
 #include "host/report/data/report_curves.hpp"
 #include "host/report/data/report_frame.hpp"
 #include "host/report/data/report_statistics.hpp"
@@ -51,6 +52,27 @@ Json scenarios_json(const ExperimentFacts& facts) {
                     {"description", scenario.description},
                     {"people", scenario.people},
                     {"time_limit_s", scenario.time_limit_s}});
+  return json;
+}
+
+Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
+  Json json = Json::array();
+  for (const GradedSeries& series : graded_series(layout, run.manifest.experiment.scenarios, run.trials)) {
+    Json results = Json::array();
+    for (const GradedResult& result : series.results)
+      results.push_back({{"global_planner", result.global_planner},
+                         {"local_controller", result.local_controller},
+                         {"pedestrian_model", result.pedestrian_model},
+                         {"threshold", threshold_words(series, result.estimate)},
+                         {"means", result.means}});
+    json.push_back({{"name", series.name},
+                    {"title", series.title},
+                    {"quantity", series.quantity},
+                    {"unit", series.unit},
+                    {"levels", series.levels},
+                    {"tells_apart", tells_apart(series)},
+                    {"results", std::move(results)}});
+  }
   return json;
 }
 
@@ -234,6 +256,7 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   add_planners(json, frame, counts_failures);
   json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
+  json["graded"] = graded_json(run, layouts.summary);
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)}, {"report", Json::parse(layouts.report.json)}};
   add_replays(json, replays);

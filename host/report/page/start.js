@@ -14,6 +14,7 @@ import * as faults from './run/faults.js';
 import * as overview from './run/overview.js';
 import * as provenance from './run/provenance.js';
 import * as comparisons from './tables/comparisons.js';
+import * as graded_tests from './tables/graded_tests.js';
 import * as heat_map from './tables/heat_map.js';
 import * as metrics_table from './tables/metrics_table.js';
 import * as pedestrian_delay from './tables/pedestrian_delay.js';
@@ -27,6 +28,7 @@ function parts() {
   return [
     ['answer', answer.mount],
     ['tables', result_tables.mount],
+    ['graded', graded_tests.mount],
     ['failures', failures.mount],
     ['heat-map', heat_map.mount],
     ['distributions', distributions.mount],
