@@ -30,15 +30,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TypesOfRobots types_of_robots(const Experiment& experiment) {
-  TypesOfRobots types;
-  for (const ScenarioVariant& variant : experiment.scenarios) {
-    std::vector<std::string> names = core::drawn_types(variant.drawn_types, variant.drawn_robots);
-    for (const core::RobotTask& task : variant.scenario.robots) names.push_back(task.type);
-    std::vector<std::string>& known = types[{variant.scenario.name, robot_count(variant)}];
-    // trials of variants that differ in their types alone cannot be told apart
-    known = known.empty() || known == names ? names : std::vector<std::string>();
-  }
+// The type of each robot; empty if all are of one type.
+std::vector<std::string> types_of_robots(const ScenarioVariant& variant) {
+  std::vector<std::string> types = core::drawn_types(variant.drawn_types, variant.drawn_robots);
+  for (const core::RobotTask& task : variant.scenario.robots) types.push_back(task.type);
+  for (std::string& type : types)
+    if (type.empty()) type = "default";
+  if (std::all_of(types.begin(), types.end(), [&](const std::string& type) { return type == types[0]; })) return {};
   return types;
 }
 
@@ -93,8 +91,8 @@ ExperimentFacts facts_of(const Experiment& experiment, const Shard& shard, std::
                                     : scenario.time_limit_s;
     const Grade& grade = variant.grade;
     facts.scenarios.push_back({scenario.name, scenario.title, scenario.description, robot_count(variant),
-                               core::person_count(scenario), time_limit_s, grade.series, grade.quantity, grade.unit,
-                               grade.harder_when_higher, grade.level});
+                               core::person_count(scenario), time_limit_s, types_of_robots(variant), grade.series,
+                               grade.quantity, grade.unit, grade.harder_when_higher, grade.level});
   }
   return facts;
 }
@@ -206,8 +204,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   if (options.json)
     print_results_as_json(results, layout, files.directory());
   else if (!options.quiet)
-    print_results(results, layout, files.directory(), reported, types_of_robots(experiment),
-                  facts_of(experiment, options.shard, count).scenarios);
+    print_results(results, layout, files.directory(), reported, facts_of(experiment, options.shard, count).scenarios);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());

@@ -67,7 +67,7 @@ std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
 }  // namespace
 
 void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported,
-                   const TypesOfRobots& types, std::span<const ScenarioFacts> scenarios) {
+                   std::span<const ScenarioFacts> scenarios) {
   const std::vector<GradedSeries> graded = graded_series(layout, scenarios, results.trials);
   const bool all_graded = !graded.empty() && std::all_of(scenarios.begin(), scenarios.end(),
                                                          [](const auto& facts) { return !facts.series.empty(); });
@@ -88,7 +88,7 @@ void print_results(const RunResults& results, const SummaryLayout& layout, const
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
     fmt::print("{}\n", answer_block(found.front(), failures, width));
   fmt::print("  {}\n", closing_line(layout, results.trials));
-  if (const std::string by_type = arrivals_by_type(layout, types, results.trials); !by_type.empty())
+  if (const std::string by_type = arrivals_line(layout.arrived, scenarios, results.trials); !by_type.empty())
     fmt::print("  {}\n", by_type);
   if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
   std::vector<std::string> files = {"results.sqlite"};

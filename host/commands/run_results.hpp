@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "host/results/arrivals_by_type.hpp"
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
-#include "host/terminal/arrivals_by_type.hpp"
 
 namespace dmrp::host {
 
@@ -32,7 +32,7 @@ bool try_to_report(const RunResults& results, const std::filesystem::path& direc
 // Prints the table, the closing line, the arrivals by type of robot if there are several types, and the files.
 // A run of tests with levels alone has a table of their thresholds instead.
 void print_results(const RunResults& results, const SummaryLayout& layout, const std::filesystem::path& directory,
-                   bool reported, const TypesOfRobots& types = {}, std::span<const ScenarioFacts> scenarios = {});
+                   bool reported, std::span<const ScenarioFacts> scenarios = {});
 
 // Prints the trials' outcomes, the answer and the means of all combinations as JSON.
 void print_results_as_json(const RunResults& results, const SummaryLayout& layout,

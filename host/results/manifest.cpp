@@ -36,21 +36,20 @@ std::string utc_text(std::chrono::system_clock::time_point time) {
 
 Json to_json(const ExperimentFacts& experiment) {
   Json scenarios = Json::array();
-  for (const ScenarioFacts& scenario : experiment.scenarios)
-    scenarios.push_back({{"name", scenario.name},
-                         {"title", scenario.title},
-                         {"description", scenario.description},
-                         {"robots", scenario.robots},
-                         {"people", scenario.people},
-                         {"time_limit_s", scenario.time_limit_s}});
-  for (std::size_t i = 0; i < experiment.scenarios.size(); ++i) {
-    const ScenarioFacts& scenario = experiment.scenarios[i];
+  for (const ScenarioFacts& scenario : experiment.scenarios) {
+    Json& json = scenarios.emplace_back(Json{{"name", scenario.name},
+                                             {"title", scenario.title},
+                                             {"description", scenario.description},
+                                             {"robots", scenario.robots},
+                                             {"people", scenario.people},
+                                             {"time_limit_s", scenario.time_limit_s}});
+    if (!scenario.robot_types.empty()) json["robot_types"] = scenario.robot_types;
     if (scenario.series.empty()) continue;
-    scenarios[i]["grade"] = {{"series", scenario.series},
-                             {"quantity", scenario.quantity},
-                             {"unit", scenario.unit},
-                             {"harder_when_higher", scenario.harder_when_higher},
-                             {"level", scenario.level}};
+    json["grade"] = {{"series", scenario.series},
+                     {"quantity", scenario.quantity},
+                     {"unit", scenario.unit},
+                     {"harder_when_higher", scenario.harder_when_higher},
+                     {"level", scenario.level}};
   }
   return {{"name", experiment.name},
           {"seed", experiment.seed},
@@ -74,6 +73,7 @@ ExperimentFacts parse_experiment(const Json& json) {
     ScenarioFacts& facts = experiment.scenarios.emplace_back();
     facts = {scenario.at("name"),   scenario.at("title"),  scenario.at("description"),
              scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")};
+    facts.robot_types = scenario.value("robot_types", facts.robot_types);
     const auto grade = scenario.find("grade");
     if (grade == scenario.end()) continue;
     facts.series = grade->at("series");

@@ -13,6 +13,7 @@
 #include "host/report/data/report_curves.hpp"
 #include "host/report/data/report_frame.hpp"
 #include "host/report/data/report_statistics.hpp"
+#include "host/results/arrivals_by_type.hpp"
 #include "host/results/summary.hpp"
 
 namespace dmrp::host {
@@ -76,6 +77,30 @@ Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
   return json;
 }
 
+Json labels_json(const CombinationLabels& labels) {
+  return {{"scenario", labels.scenario},
+          {"robots", labels.robots},
+          {"global_planner", labels.global_planner},
+          {"local_controller", labels.local_controller},
+          {"pedestrian_model", labels.pedestrian_model}};
+}
+
+// Of the combinations whose robots are of several types.
+Json arrivals_by_type_json(const ReportFrame& frame, const ExperimentFacts& facts, const std::string& arrived) {
+  std::vector<std::vector<TypeArrivals>> counts(frame.combinations.size());
+  for (std::size_t i = 0; i < frame.trials.size(); ++i)
+    count_arrivals(arrived, facts.scenarios, frame.trials[i], counts[frame.combination_of[i]]);
+  Json json = Json::array();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i].size() < 2) continue;
+    Json types = Json::array();
+    for (const TypeArrivals& one : counts[i])
+      types.push_back({{"type", one.type}, {"robots", one.robots}, {"arrived", one.arrived}});
+    json.push_back({{"combination", labels_json(frame.combinations[i])}, {"types", std::move(types)}});
+  }
+  return json;
+}
+
 Json metrics_json(std::span<const MetricColumn> metrics) {
   static constexpr std::array<const char*, 3> directions{"none", "lower", "higher"};  // by DMRP_DIRECTION_*
   Json json = Json::array();
@@ -86,14 +111,6 @@ Json metrics_json(std::span<const MetricColumn> metrics) {
                     {"wall_clock", metric.wall_clock},
                     {"description", metric.description}});
   return json;
-}
-
-Json labels_json(const CombinationLabels& labels) {
-  return {{"scenario", labels.scenario},
-          {"robots", labels.robots},
-          {"global_planner", labels.global_planner},
-          {"local_controller", labels.local_controller},
-          {"pedestrian_model", labels.pedestrian_model}};
 }
 
 Json combinations_json(const ReportFrame& frame) {
@@ -257,6 +274,7 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
   json["graded"] = graded_json(run, layouts.summary);
+  json["arrivals_by_type"] = arrivals_by_type_json(frame, run.manifest.experiment, layouts.summary.arrived);
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)}, {"report", Json::parse(layouts.report.json)}};
   add_replays(json, replays);

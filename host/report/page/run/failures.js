@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// failures.js: why robots failed: a table of combinations and causes, with the trials behind each count.
+// failures.js: why robots failed: a table of combinations and causes, with the trials behind each count; and how many
+// robots arrived of each type, where there are several.
 import {element, fill, group_row, head_row, titled_table} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
@@ -60,9 +61,45 @@ function row_element(data, row, columns, note) {
   );
 }
 
+// Robots that arrived, by combination and type; null if all robots are of one type.
+function arrivals_by_type(data) {
+  const types = [...new Set(data.arrivals_by_type.flatMap((row) => row.types.map((one) => one.type)))];
+  if (types.length === 0) return null;
+  const fields = [...(data.scenarios.length > 1 ? ['scenario'] : []), ...labels.naming_fields(data)];
+  const table = element(
+    'table',
+    {class: 'failures'},
+    head_row(
+      element('th', {scope: 'col'}, 'combination'),
+      types.map((type) => element('th', {scope: 'col', class: 'number'}, type))
+    ),
+    element(
+      'tbody',
+      {},
+      data.arrivals_by_type.map((row) =>
+        element(
+          'tr',
+          {},
+          element('th', {scope: 'row'}, fields.map((field) => labels.named(row.combination[field])).join(' + ')),
+          types.map((type) => {
+            const one = row.types.find((of_row) => of_row.type === type);
+            return element('td', {class: 'number'}, one ? `${one.arrived} of ${one.robots}` : '\u2013');
+          })
+        )
+      )
+    )
+  );
+  return titled_table('title-arrivals-by-type', 'Robots that arrived, by type', null, table);
+}
+
 export function mount(body, data) {
   const columns = causes(data);
-  if (columns.length === 0) return 'every robot arrived, without a contact at its fault';
+  const by_type = arrivals_by_type(data);
+  if (columns.length === 0) {
+    if (by_type === null) return 'every robot arrived, without a contact at its fault';
+    fill(body, element('p', {class: 'note'}, 'Every robot arrived, without a contact at its fault.'), by_type);
+    return null;
+  }
   const note = element('p', {class: 'note', role: 'status'});
   const bodies = labels.variants(data).map((variant) => {
     const rows = data.failures.filter(
@@ -95,7 +132,8 @@ export function mount(body, data) {
       'Numbers of robots; a number opens the replay of such a trial. Contact: robots that arrived, but touched somebody ' +
         'or something by their own fault. Combinations without either are left out.'
     ),
-    note
+    note,
+    by_type
   );
   return null;
 }

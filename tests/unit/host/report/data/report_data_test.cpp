@@ -52,8 +52,10 @@ json data_of(const ReportRun& run) {
   return json::parse(report_data_json(run, example_layouts(), {}));
 }
 
-json data_of(std::vector<TrialRecord> trials) {
-  return data_of(example_run(std::move(trials)));
+json data_of(std::vector<TrialRecord> trials, const std::vector<std::string>& robot_types = {}) {
+  ReportRun run = example_run(std::move(trials));
+  for (ScenarioFacts& scenario : run.manifest.experiment.scenarios) scenario.robot_types = robot_types;
+  return data_of(run);
 }
 
 // `planners` with as many repetitions as there are times for each; none: it failed. The robots arrive with the trial.
@@ -121,6 +123,16 @@ TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
   CHECK(data["values"]["speed"][1].is_null());
   CHECK(data["values"]["time"][0] == 40.0);
   CHECK(data["values"]["cpu"][0].is_null());
+}
+
+TEST_CASE("a report counts arrivals by type of robot where there are several", "[report]") {
+  CHECK(data_of(trials_of({{"A", {40.0, 43.0}}}))["arrivals_by_type"].empty());
+  const json rows = data_of(trials_of({{"A", {40.0, 43.0}}, {"B", {50.0}}}), {"default", "tug"})["arrivals_by_type"];
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0]["combination"]["global_planner"] == "A");
+  CHECK(rows[0]["types"] == json::parse(R"([{"type": "default", "robots": 2, "arrived": 2},
+                                            {"type": "tug", "robots": 2, "arrived": 2}])"));
+  CHECK(rows[1]["types"][1]["robots"] == 1);
 }
 
 TEST_CASE("a report describes the run", "[report]") {
