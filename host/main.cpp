@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <dmrp/abi.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,7 +21,9 @@
 #include "host/errors/machine_error.hpp"
 #include "host/plugins/library.hpp"
 #include "host/process/box.hpp"
+#include "host/program/commit.hpp"
 #include "host/program/version.hpp"
+#include "host/toml/nearest_name.hpp"
 #include "host/workers/worker.hpp"
 
 namespace {
@@ -65,7 +69,7 @@ std::string check_shard(const std::string& text) {
   return "needs I/N with 0 <= I < N";
 }
 
-void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
+void add_run(CLI::App& app, RunOptions& options, std::string& shard, std::optional<std::uint64_t>& debugged) {
   CLI::App* command = app.add_subcommand("run", "run an experiment (also: dmrp-host EXPERIMENT.toml)");
   command->add_option("experiment", options.experiment, "experiment file")->required()->type_name("EXPERIMENT.toml");
   command->add_option("--out", options.out, "run directory (default: runs/NAME, or runs/NAME-2, ... if taken)")
@@ -83,6 +87,9 @@ void add_run(CLI::App& app, RunOptions& options, std::string& shard) {
       ->type_name("K");
   CLI::Option* quiet = command->add_flag("--quiet", options.quiet, "print neither progress nor results");
   command->add_flag("--json", options.json, "print the results as JSON, and no progress")->excludes(quiet);
+  command->add_option("--debug", debugged, "run this trial alone, in this process, without limits: for debuggers")
+      ->excludes(resume)
+      ->type_name("TRIAL");
 }
 
 CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
@@ -248,9 +255,26 @@ CLI::App* add_new(CLI::App& app, NewOptions& options) {
   return command;
 }
 
+// Throws InputError if the first argument is neither an option nor a command.
+void check_command_name(CLI::App& app, const std::string& written) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (written.starts_with("-") || std::find(names.begin(), names.end(), written) != names.end()) return;
+  throw InputError("dmrp-host: there is no command '" + written + "'" + did_you_mean(written, names) +
+                   "; commands are " + join_names(names));
+}
+
+// "dmrp-host 0.1.0 (commit 597cdd0a1b2c, ABI v1.0, draft 2)"
+std::string version_text() {
+  std::string text = std::string("dmrp-host ") + version + " (commit " + commit + ", ABI v" +
+                     std::to_string(DMRP_ABI_MAJOR) + "." + std::to_string(DMRP_ABI_MINOR);
+  if (DMRP_ABI_DRAFT > 0) text += ", draft " + std::to_string(DMRP_ABI_DRAFT);
+  return text + ")";
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app("Benchmarks multi-robot motion planning among moving people.", "dmrp-host");
-  app.set_version_flag("--version", std::string("dmrp-host ") + version);
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.fallthrough();
   app.add_flag_callback("--no-box", &box::disable,
@@ -265,7 +289,8 @@ int run_main(int argc, char** argv) {
   RunOptions run;
   run.jobs = std::max(1u, std::thread::hardware_concurrency());
   std::string shard;
-  add_run(app, run, shard);
+  std::optional<std::uint64_t> debugged;
+  add_run(app, run, shard, debugged);
 
   std::filesystem::path validated;
   CLI::App* validate = app.add_subcommand("validate", "check an experiment without running it");
@@ -321,6 +346,11 @@ int run_main(int argc, char** argv) {
   report->add_option("--replay", replayed, "trial to replay, in addition to the chosen ones")->type_name("TRIAL");
 
   std::vector<std::string> arguments = arguments_with_command(argc, argv);
+  if (arguments.empty()) {
+    std::fputs(app.help().c_str(), stdout);
+    return exit_status::done;
+  }
+  check_command_name(app, arguments.front());
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(arguments);
@@ -344,6 +374,7 @@ int run_main(int argc, char** argv) {
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (discriminating->parsed()) return discriminate_command(discriminate);
+  if (debugged) return debug_command(run.experiment, run.trials, *debugged);
   if (!shard.empty()) std::sscanf(shard.c_str(), "%lu/%lu", &run.shard.index, &run.shard.count);
   return run_command(run, std::vector<std::string>(argv, argv + argc));
 }

@@ -78,8 +78,11 @@ Answer read_answer(const std::string& text) {
 }
 
 // How a child ended that gave no answer.
-std::string explain(const ProcessEnding& ending, bool hung, const NotedCall& call, const Answer& answer) {
-  std::string text = hung ? fmt::format("does not end within {} s", case_limit_s) : ending.explain(memory_mb);
+std::string explain(const ProcessEnding& ending, bool hung, bool too_large, const NotedCall& call,
+                    const Answer& answer) {
+  std::string text = too_large ? fmt::format("needs more than {} MB of memory", memory_mb)
+                     : hung    ? fmt::format("does not end within {} s", case_limit_s)
+                               : ending.explain(memory_mb);
   if (ending.signal == SIGSYS) text = "makes a system call that the box refuses: " + box::name_of(call.refused);
   if (call.inside) text = call_text(call.plugin, call.function, text);
   return answer.at.empty() ? text : answer.at + ": " + text;
@@ -94,18 +97,22 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   const MemoryFile output;
   const SharedCallNote note(make_call_note());
   const std::int64_t start_ns = monotonic_ns();
-  ChildProcess child = ChildProcess::fork({memory_mb, false, file_mb},
+  const bool counts_resident = plugin && plugin->has_flag(DMRP_FLAG_RESIDENT_MEMORY);
+  ChildProcess child = ChildProcess::fork({counts_resident ? 0 : memory_mb, false, file_mb},
                                           [&] { examine(check_case, file, plugin, seed, note.note(), answer_file); },
                                           {output.descriptor(), &note.note().refused});
   Watchdog watchdog;
-  const bool ended = watchdog.wait(child.ended().number(),
-                                   [&] { return watchdog.elapsed_ns(start_ns) > case_limit_s * 1'000'000'000; });
+  bool too_large = false;
+  const bool ended = watchdog.wait(child.ended().number(), [&] {
+    too_large = !is_sanitized && child.resident_mb() > static_cast<double>(memory_mb);
+    return too_large || watchdog.elapsed_ns(start_ns) > case_limit_s * 1'000'000'000;
+  });
   child.kill();
   const ProcessEnding& ending = child.wait();
   kill_orphans({});
 
   CaseOutcome outcome;
-  outcome.hung = !ended;
+  outcome.hung = !ended && !too_large;
   outcome.printed = escaped(output.read().substr(0, 400).c_str());
   const Answer answer = read_answer(answer_file.read());
   if (ended && ending.succeeded() && answer.result) {
@@ -113,7 +120,7 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
     outcome.detail = escaped(answer.text.c_str());
   } else {
     outcome.result = CheckResult::crash;
-    outcome.detail = escaped(explain(ending, !ended, note.read(), answer).c_str());
+    outcome.detail = escaped(explain(ending, outcome.hung, too_large, note.read(), answer).c_str());
   }
   return outcome;
 }

@@ -114,6 +114,7 @@ class ControllerCalls {
     instance_.call("step_all", tick_, stage_budget_ns, Answers::no_other,
                    [&] { return table_.step_all(instance_.self(), fleet); });
     inputs_.check(instance_.site("step_all", tick_));
+    commands_memory.check_output<dmrp_command>(active.size(), instance_.site("step_all", tick_));
     for (std::size_t i = 0; i < active.size(); ++i) {
       const dmrp_command& command = commands_memory.at(commands, i);
       drive(active[i], command, command.status, "step_all", outputs);

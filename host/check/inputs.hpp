@@ -50,11 +50,24 @@ class Inputs {
   }
   void clear() { blocks_.clear(); }
 
+  // Of the first array, if it is a plugin's output: that only the fields of `count` elements were written to.
+  template <class Element>
+  void check_output(std::size_t count, const CallSite& site) const {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(blocks_.front().data());
+    for (std::size_t i = 0; i < blocks_.front().size() * sizeof(std::uint64_t); ++i) {
+      const bool is_field = i / stride<Element>() < count && i % stride<Element>() < sizeof(Element);
+      if (!is_field && bytes[i] != static_cast<std::uint8_t>(unknown))
+        throw PluginFault(fault_kind::abi_breach, site, "wrote beyond the end of its output");
+    }
+  }
+
  private:
   static constexpr std::uint64_t unknown = 0xa5a5a5a5a5a5a5a5;  // in the fields that no plugin knows
 
+  static constexpr std::size_t margin_words = 32;
+
   std::uint8_t* add(std::size_t bytes) {
-    return reinterpret_cast<std::uint8_t*>(blocks_.emplace_back(bytes / 8 + 1, unknown).data());
+    return reinterpret_cast<std::uint8_t*>(blocks_.emplace_back(bytes / 8 + margin_words, unknown).data());
   }
 
   std::uint32_t grown_bytes_;

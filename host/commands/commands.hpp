@@ -38,6 +38,9 @@ struct RunOptions {
 };
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line);
 
+// Runs one trial in this process, without limits of time or a box, and prints its values: for debuggers.
+int debug_command(const std::filesystem::path& experiment, std::uint32_t trials, std::uint64_t trial);
+
 int validate_command(const std::filesystem::path& experiment);
 
 // Without names, all libraries of the plugin path.

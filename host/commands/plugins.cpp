@@ -6,6 +6,7 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/plugins_json.hpp"
 #include "host/commands/plugins_markdown.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/plugins/library.hpp"
@@ -42,7 +43,7 @@ int plugins_command(const std::vector<std::string>& named, PluginsFormat format)
   for (const std::string& name : named) files.push_back(library_to_open(name));
   if (named.empty()) files = libraries_of_plugin_path();
 
-  nlohmann::json all = nlohmann::json::array();
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const fs::path& file : files) {
     Probe probe;
     try {
@@ -53,7 +54,9 @@ int plugins_command(const std::vector<std::string>& named, PluginsFormat format)
     if (!probe.init_error.empty()) probe.warnings.push_back(probe.init_error);
     for (const std::string& warning : probe.warnings) warn(file.string() + ": " + warning);
     if (format == PluginsFormat::json) {
-      all.push_back({{"library", file.string()}, {"plugins", probe.plugins}});
+      nlohmann::ordered_json plugins = nlohmann::ordered_json::array();
+      for (const PluginInfo& info : probe.plugins) plugins.push_back(plugin_as_json(info));
+      all.push_back({{"library", file.string()}, {"plugins", std::move(plugins)}});
       continue;
     }
     if (format == PluginsFormat::markdown) {

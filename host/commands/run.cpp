@@ -15,6 +15,7 @@
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
 #include "host/plan/check_planners.hpp"
+#include "host/plugins/check_descriptor.hpp"
 #include "host/process/box.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
@@ -44,7 +45,8 @@ std::vector<MetricColumn> columns_of(const Experiment& experiment) {
   std::vector<MetricColumn> columns;
   for (const PluginUse& use : experiment.metrics)
     for (const MetricValueSpec& value : use.info.values)
-      columns.push_back({value.name, value.unit, value.direction, value.wall_clock, value.description});
+      columns.push_back({value.name, value.unit, value.direction, value.wall_clock, value.description,
+                         !is_reserved_id(use.info.id) && !value.curve});
   return columns;
 }
 

@@ -66,8 +66,9 @@ std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
 
 }  // namespace
 
-void print_results(const RunResults& results, const SummaryLayout& layout, const fs::path& directory, bool reported,
+void print_results(const RunResults& results, const SummaryLayout& own_layout, const fs::path& directory, bool reported,
                    std::span<const ScenarioFacts> scenarios) {
+  const SummaryLayout layout = with_added_columns(own_layout, results.metrics);
   const std::vector<GradedSeries> graded = graded_series(layout, scenarios, results.trials);
   const bool all_graded = !graded.empty() && std::all_of(scenarios.begin(), scenarios.end(),
                                                          [](const auto& facts) { return !facts.series.empty(); });

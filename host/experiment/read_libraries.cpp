@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail_missing(const TomlValue& value, const std::string& name, const fs::path& base) {
   if (name.empty()) value.fail("a library's name must not be empty");
+  std::error_code error;
+  if (fs::is_directory(base / name, error)) value.fail(fmt::format("'{}' is a folder, not a plugin library", name));
+  if (fs::is_symlink(base / name, error) && !fs::exists(base / name, error))
+    value.fail(
+        fmt::format("'{}' is a link to {}, which does not exist", name, fs::read_symlink(base / name, error).string()));
   if (name.find('/') != std::string::npos)
     value.fail(fmt::format("no library '{}' (there is no file {})", name, shown((base / name).lexically_normal())));
   if (std::error_code ignored; fs::is_regular_file(base / name, ignored))

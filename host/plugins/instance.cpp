@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/plugins/instance.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <vector>
 
 #include "host/plugins/output.hpp"
@@ -18,40 +21,51 @@ std::vector<std::string> declared_extensions(const PluginInfo& info) {
   return ids;
 }
 
-bool is_whole(const dmrp_global_planner& table, const PluginInfo&) {
-  return table.plan;
+// The first function that a kind's table lacks; "" if it is whole.
+std::string missing_function(const dmrp_global_planner& table, const PluginInfo&) {
+  return table.plan ? "" : "plan";
 }
-bool is_whole(const dmrp_local_controller& table, const PluginInfo& info) {
-  return table.set_path && (info.has_flag(DMRP_FLAG_CENTRAL) ? table.step_all != nullptr : table.step != nullptr);
+std::string missing_function(const dmrp_local_controller& table, const PluginInfo& info) {
+  if (!table.set_path) return "set_path";
+  if (info.has_flag(DMRP_FLAG_CENTRAL)) return table.step_all ? "" : "step_all (its descriptor has DMRP_FLAG_CENTRAL)";
+  return table.step ? "" : "step (its descriptor lacks DMRP_FLAG_CENTRAL)";
 }
-bool is_whole(const dmrp_pedestrian_model& table, const PluginInfo&) {
-  return table.step;
+std::string missing_function(const dmrp_pedestrian_model& table, const PluginInfo&) {
+  return table.step ? "" : "step";
 }
-bool is_whole(const dmrp_metric& table, const PluginInfo&) {
-  return table.begin && table.observe && table.finish;
+std::string missing_function(const dmrp_metric& table, const PluginInfo&) {
+  return !table.begin ? "begin" : !table.observe ? "observe" : !table.finish ? "finish" : "";
 }
 
-// Every function of v1.0 is there.
 template <class Table>
-bool table_is_whole(const void* table, const PluginInfo& info) {
+std::string missing_in(const void* table, const PluginInfo& info) {
   const auto& theirs = *static_cast<const Table*>(table);
-  return has_v1_0<Table>(theirs.struct_size) && is_whole(theirs, info);
+  if (!has_v1_0<Table>(theirs.struct_size))
+    return fmt::format("interface_->struct_size ({}, at least {})", theirs.struct_size, size_v1_0<Table>);
+  const std::string function = missing_function(theirs, info);
+  return function.empty() ? "" : "interface_->" + function;
 }
 
-bool interface_is_whole(const void* table, const PluginInfo& info) {
-  if (!table) return false;
+std::string missing_in_interface(const void* table, const PluginInfo& info) {
   switch (info.kind) {
     case DMRP_KIND_GLOBAL_PLANNER:
-      return table_is_whole<dmrp_global_planner>(table, info);
+      return missing_in<dmrp_global_planner>(table, info);
     case DMRP_KIND_LOCAL_CONTROLLER:
-      return table_is_whole<dmrp_local_controller>(table, info);
+      return missing_in<dmrp_local_controller>(table, info);
     case DMRP_KIND_PEDESTRIAN_MODEL:
-      return table_is_whole<dmrp_pedestrian_model>(table, info);
-    case DMRP_KIND_METRIC:
-      return table_is_whole<dmrp_metric>(table, info);
+      return missing_in<dmrp_pedestrian_model>(table, info);
     default:
-      return false;
+      return missing_in<dmrp_metric>(table, info);
   }
+}
+
+// The first part that create() left out; "" if it is whole.
+std::string missing_part(const dmrp_plugin& plugin, const PluginInfo& info) {
+  if (!plugin.self) return "self";
+  if (!plugin.start) return "start";
+  if (!plugin.destroy) return "destroy";
+  if (!plugin.interface_) return "interface_";
+  return missing_in_interface(plugin.interface_, info);
 }
 
 }  // namespace
@@ -67,8 +81,9 @@ Instance::Instance(const Library& library, const PluginUse& use, std::int32_t ro
        [&] { return library.entry().create(host_.c(), id_.c_str(), &parameters.get(), &made.value); });
   made.check(site("create", 0), "dmrp_plugin");
   const dmrp_plugin& plugin = made.value;
-  if (!plugin.self || !plugin.start || !plugin.destroy || !interface_is_whole(plugin.interface_, use.info))
-    throw PluginFault(fault_kind::abi_breach, site("create", 0), "returned OK but did not fill in all of dmrp_plugin");
+  if (const std::string missing = missing_part(plugin, use.info); !missing.empty())
+    throw PluginFault(fault_kind::abi_breach, site("create", 0),
+                      "returned OK but did not fill in dmrp_plugin." + missing);
   plugin_ = plugin;
 }
 

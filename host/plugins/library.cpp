@@ -10,6 +10,7 @@
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/check_descriptor.hpp"
+#include "host/plugins/elf_file.hpp"
 #include "host/plugins/fp_control.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/plugins/v1_sizes.hpp"
@@ -75,6 +76,7 @@ std::string missing_entry(const std::function<bool(const char*)>& has) {
 
 Library::Library(const std::filesystem::path& file, const std::function<void(const std::string&)>& stage)
     : handle_(std::make_unique<Handle>()), file_(std::filesystem::absolute(file)) {
+  if (const std::string why = why_not_loadable(file); !why.empty()) throw std::runtime_error(why);
   const std::uint32_t control_bits = fp_control();
   if (stage) stage("dlopen");
   try {

@@ -53,4 +53,15 @@ class PluginFault : public std::runtime_error {
   bool fatal_;
 };
 
+// Calls `function`; a fault gets `reason`, which is known by then, at the end of its text.
+template <class Function>
+auto with_reason(Function&& function, const std::string& reason) {
+  try {
+    return function();
+  } catch (const PluginFault& fault) {
+    throw PluginFault(fault.kind(), {fault.plugin(), fault.function().c_str(), fault.step(), fault.robot()},
+                      fault.what() + reason, fault.fatal());
+  }
+}
+
 }  // namespace dmrp::host

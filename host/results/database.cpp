@@ -40,6 +40,8 @@ CREATE TABLE metric(
   wall_clock INTEGER NOT NULL CHECK (wall_clock IN (0, 1)),
   description TEXT NOT NULL
 );
+-- of plugins that are not built in: tables show them although no layout names them
+CREATE TABLE added_metric(name TEXT PRIMARY KEY REFERENCES metric(name)) WITHOUT ROWID;
 CREATE TABLE value(
   trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
   metric TEXT NOT NULL REFERENCES metric(name),
@@ -272,6 +274,9 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
     insert.bind(metric.name).bind(metric.unit).bind(std::string_view(direction_names.at(metric.direction)));
     insert.bind(std::int64_t{metric.wall_clock}).bind(metric.description).run();
   }
+  SqliteStatement insert_added(connection, "INSERT INTO added_metric VALUES (?)");
+  for (const MetricColumn& metric : metrics)
+    if (metric.added) insert_added.bind(metric.name).run();
   transaction.commit();
   return database;
 }
@@ -338,6 +343,13 @@ std::vector<MetricColumn> ResultsDatabase::metrics() const {
     metric.wall_clock = select.column_integer(3) != 0;
     metric.description = select.column_text(4);
   }
+  // results of earlier hosts have no such table
+  SqliteStatement table(connection_, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'added_metric'");
+  if (!table.step()) return metrics;
+  SqliteStatement added(connection_, "SELECT name FROM added_metric");
+  while (added.step())
+    for (MetricColumn& metric : metrics)
+      if (metric.name == added.column_text(0)) metric.added = true;
   return metrics;
 }
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "host/results/summary_layout.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace dmrp::host {
 namespace {
 
 constexpr std::uint32_t most_decimals = 9;
+constexpr std::uint32_t decimals_of_added = 3;
 
 SummaryTableColumn parse_column(const nlohmann::json& json) {
   SummaryTableColumn column;
@@ -74,6 +77,23 @@ SummaryLayout parse(std::string_view text) {
 }
 
 }  // namespace
+
+SummaryLayout with_added_columns(SummaryLayout layout, std::span<const MetricColumn> metrics) {
+  const std::vector<SummaryTableColumn> own = layout.columns;
+  for (const MetricColumn& metric : metrics) {
+    const bool has = std::any_of(own.begin(), own.end(),
+                                 [&](const SummaryTableColumn& column) { return column.metric == metric.name; });
+    if (!metric.added || has) continue;
+    SummaryTableColumn column;
+    column.metric = column.header = metric.name;
+    column.decimals = decimals_of_added;
+    column.legend = metric.description;
+    if (metric.direction == DMRP_DIRECTION_LOWER) column.legend += ", lower is better";
+    if (metric.direction == DMRP_DIRECTION_HIGHER) column.legend += ", higher is better";
+    layout.columns.push_back(std::move(column));
+  }
+  return layout;
+}
 
 SummaryLayout parse_summary_layout(std::string_view json, const std::string& name) {
   try {

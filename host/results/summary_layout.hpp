@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
 
@@ -40,6 +43,9 @@ struct SummaryLayout {
 
   AnswerMetrics answer;
 };
+
+// The layout with a column for each added metric (MetricColumn::added) that it does not have.
+SummaryLayout with_added_columns(SummaryLayout layout, std::span<const MetricColumn> metrics);
 
 // `name`: the file's name for error messages. Throws std::runtime_error.
 SummaryLayout parse_summary_layout(std::string_view json, const std::string& name);

@@ -20,6 +20,7 @@ struct MetricColumn {
   std::uint32_t direction = 0;  // DMRP_DIRECTION_*
   bool wall_clock = false;      // differs from run to run
   std::string description;
+  bool added = false;  // of a plugin that is not built in: tables show it although no layout names it
 };
 
 inline constexpr std::array<const char*, 3> subject_kind_names{"system", "robot", "pedestrian"};  // by DMRP_SUBJECT_*

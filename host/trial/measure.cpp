@@ -28,7 +28,13 @@ struct Collected {
   std::uint32_t robot_count;
   MetricResult result;
   std::set<Key> given;
+  std::string refused{};  // why the last value or event was
 };
+
+std::int32_t refuse(Collected& collected, const char* what, const char* name, const std::string& why) {
+  collected.refused = fmt::format(" (the host refused the {} '{}': {})", what, escaped(name), why);
+  return DMRP_ERROR;
+}
 
 std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
@@ -38,31 +44,48 @@ Collected& collected_by(dmrp_metric_sink* sink) {
   return *static_cast<Collected*>(sink->context);
 }
 
+// Why a value cannot be taken; "" if it can.
+std::string mistake_in(const dmrp_metric_result& c, const MetricValueSpec& spec, std::uint32_t robot_count) {
+  if (c.subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec.subjects & (1u << c.subject_kind)))
+    return fmt::format("its descriptor declares no subject {}", c.subject_kind);
+  if (c.subject_kind == DMRP_SUBJECT_ROBOT && c.subject >= robot_count)
+    return fmt::format("robot {}, but there are {}", c.subject, robot_count);
+  if (std::isinf(c.value) || std::isinf(c.coordinate)) return "it is infinite (NaN is undefined)";
+  if (!spec.curve && !std::isnan(c.coordinate)) return "it has a coordinate, but is no curve";
+  return "";
+}
+
 std::int32_t collect_value(Collected& collected, const dmrp_metric_result& theirs) {
-  if (!has_v1_0<dmrp_metric_result>(theirs.struct_size)) return DMRP_ERROR;
+  if (!has_v1_0<dmrp_metric_result>(theirs.struct_size))
+    return refuse(collected, "value", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_metric_result c = copy_struct(theirs);
   const auto& specs = collected.info.values;
   const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return c.name && s.name == c.name; });
-  if (spec == specs.end() || c.subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec->subjects & (1u << c.subject_kind)))
-    return DMRP_ERROR;
-  if (c.subject_kind == DMRP_SUBJECT_ROBOT && c.subject >= collected.robot_count) return DMRP_ERROR;
-  if (std::isinf(c.value) || std::isinf(c.coordinate) || (!spec->curve && !std::isnan(c.coordinate))) return DMRP_ERROR;
+  if (spec == specs.end()) return refuse(collected, "value", c.name, "its descriptor does not declare it");
+  if (const std::string mistake = mistake_in(c, *spec, collected.robot_count); !mistake.empty())
+    return refuse(collected, "value", c.name, mistake);
   const auto subject = c.subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional(c.subject);
   const auto index = static_cast<std::size_t>(spec - specs.begin());
-  if (!collected.given.emplace(index, c.subject_kind, subject, or_none(c.coordinate)).second) return DMRP_ERROR;
+  if (!collected.given.emplace(index, c.subject_kind, subject, or_none(c.coordinate)).second)
+    return refuse(collected, "value", c.name, "it was given before");
   collected.result.values.push_back({spec->name, c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)});
   return DMRP_OK;
 }
 
 std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
-  if (!has_v1_0<dmrp_event>(theirs.struct_size)) return DMRP_ERROR;
+  if (!has_v1_0<dmrp_event>(theirs.struct_size))
+    return refuse(collected, "event", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_event c = copy_struct(theirs);
-  if (!c.name || c.to_ns < c.from_ns) return DMRP_ERROR;
-  if (c.subject_count > 0 && (!c.subjects || !has_v1_0<dmrp_subject>(c.subject_stride))) return DMRP_ERROR;
+  if (!c.name) return refuse(collected, "event", "", "it has no name");
+  if (c.to_ns < c.from_ns) return refuse(collected, "event", c.name, "it ends before it begins");
+  if (c.subject_count > 0 && (!c.subjects || !has_v1_0<dmrp_subject>(c.subject_stride)))
+    return refuse(collected, "event", c.name, "its subjects cannot be read");
   MetricEvent event = {escaped(c.name), c.from_ns, c.to_ns, {}, {}, escaped(c.text), c.severity, std::nullopt};
   for (std::uint32_t i = 0; i < c.subject_count; ++i) {
     const dmrp_subject subject = copy_element(c.subjects, c.subject_stride, i);
-    if (subject.kind == DMRP_SUBJECT_ROBOT && subject.id >= collected.robot_count) return DMRP_ERROR;
+    if (subject.kind == DMRP_SUBJECT_ROBOT && subject.id >= collected.robot_count)
+      return refuse(collected, "event", c.name,
+                    fmt::format("robot {}, but there are {}", subject.id, collected.robot_count));
     if (subject.kind == DMRP_SUBJECT_ROBOT) event.robots.push_back(static_cast<std::uint32_t>(subject.id));
     if (subject.kind == DMRP_SUBJECT_PEDESTRIAN) event.people.push_back(subject.id);
   }
@@ -92,7 +115,9 @@ void check_complete(const Collected& collected, const CallSite& site) {
     const bool given = std::any_of(values.begin(), values.end(), [&](const MetricValue& v) {
       return v.metric == spec.name && v.subject_kind == DMRP_SUBJECT_SYSTEM;
     });
-    if (!given) throw PluginFault(fault_kind::bad_output, site, fmt::format("gave no system value of {}", spec.name));
+    if (!given)
+      throw PluginFault(fault_kind::bad_output, site,
+                        fmt::format("gave no system value of {}{}", spec.name, collected.refused));
   }
 }
 
@@ -119,8 +144,11 @@ void Measurement::observe(const dmrp_sample& sample) {
 MetricResult Measurement::finish(const dmrp_trial_end& end) {
   Collected collected = {info_, robot_count_, {index_, {}, {}}, {}};
   dmrp_metric_sink sink = sink_into(collected);
-  metric_.call("finish", step_, call_budget_ns_, Answers::no_other,
-               [&] { return table_.finish(metric_.self(), &end, &sink); });
+  const auto call = [&] {
+    return metric_.call("finish", step_, call_budget_ns_, Answers::no_other,
+                        [&] { return table_.finish(metric_.self(), &end, &sink); });
+  };
+  with_reason(call, collected.refused);
   check_complete(collected, metric_.site("finish", step_));
   return std::move(collected.result);
 }

@@ -23,17 +23,30 @@ struct Collected {
   PlannedPaths paths;
   std::vector<bool> given;
   std::vector<PlanStatistic> statistics;
+  std::string refused;  // why the last path was
 };
+
+std::int32_t refuse(Collected& collected, std::uint32_t robot, const std::string& why) {
+  collected.refused = fmt::format(" (the host refused a path for robot {}: {})", robot, why);
+  return DMRP_ERROR;
+}
 
 Collected& collected_by(dmrp_plan_sink* sink) {
   return *static_cast<Collected*>(sink->context);
 }
 
 std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_path& theirs) {
-  if (robot >= collected.paths.size() || collected.given[robot] || !has_v1_0<dmrp_path>(theirs.struct_size))
-    return DMRP_ERROR;
+  if (robot >= collected.paths.size())
+    return refuse(collected, robot, fmt::format("there are {} robots", collected.paths.size()));
+  if (collected.given[robot]) return refuse(collected, robot, "it has a path already");
+  if (!has_v1_0<dmrp_path>(theirs.struct_size))
+    return refuse(collected, robot,
+                  fmt::format("its struct_size is {}, at least {}", theirs.struct_size, size_v1_0<dmrp_path>));
   const dmrp_path path = copy_struct(theirs);
-  if (path.count > 0 && (!path.waypoints || !has_v1_0<dmrp_waypoint>(path.stride))) return DMRP_ERROR;
+  if (path.count > 0 && !path.waypoints) return refuse(collected, robot, "its waypoints are NULL");
+  if (path.count > 0 && !has_v1_0<dmrp_waypoint>(path.stride))
+    return refuse(collected, robot,
+                  fmt::format("its stride is {}, at least {}", path.stride, size_v1_0<dmrp_waypoint>));
   std::vector<dmrp_waypoint> waypoints;
   waypoints.reserve(path.count);
   for (std::uint32_t i = 0; i < path.count; ++i) waypoints.push_back(copy_element(path.waypoints, path.stride, i));
@@ -145,14 +158,18 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
   collected.given.resize(problem.robot_count);
   dmrp_plan_sink sink = sink_into(collected);
   const auto table = planner.table<dmrp_global_planner>();
-  const auto result = planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout,
-                                   [&] { return table.plan(planner.self(), &problem, &sink); });
+  const auto call = [&] {
+    return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout,
+                        [&] { return table.plan(planner.self(), &problem, &sink); });
+  };
+  const auto result = with_reason(call, collected.refused);
   PlannerAnswer answer{result.status, result.duration_ns, planner.guard().error(), {}, std::move(collected.statistics)};
   if (result.status == DMRP_NO_SOLUTION) return answer;
   if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
     answer.paths = std::move(collected.paths);
   else if (result.status != DMRP_TIMEOUT)
-    throw PluginFault(fault_kind::bad_output, planner.site("plan", step), "returned OK without a path for every robot");
+    throw PluginFault(fault_kind::bad_output, planner.site("plan", step),
+                      "returned OK without a path for every robot" + collected.refused);
   return answer;
 }
 

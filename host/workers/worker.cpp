@@ -24,6 +24,7 @@
 #include "host/process/orphans.hpp"
 #include "host/process/own_process.hpp"
 #include "host/trial/kept_trace.hpp"
+#include "host/trial/log_line.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 #include "host/workers/messages.hpp"
@@ -31,11 +32,6 @@
 namespace dmrp::host {
 
 namespace {
-
-void log_line(std::int32_t level, const std::string& plugin, const std::string& text) {
-  static constexpr const char* const names[] = {"debug", "info", "warning", "error"};
-  std::fprintf(stderr, "[%s] %s: %s\n", level >= 0 && level <= 3 ? names[level] : "?", plugin.c_str(), text.c_str());
-}
 
 FaultRecord record_of(const PluginFault& fault) {
   FaultRecord record;
@@ -90,7 +86,10 @@ class Worker {
         channel_(channel),
         sender_(sender),
         guard_(note),
-        pool_(experiment.libraries, guard_, &log_line) {}
+        pool_(experiment.libraries, guard_,
+              [&](std::int32_t level, const std::string& plugin, const std::string& text) {
+                std::fputs(log_line(level, plugin, text, logged_, note).c_str(), stderr);
+              }) {}
 
   void serve() {
     if (experiment_.limits.processes) guard_.allow_processes();
@@ -128,6 +127,7 @@ class Worker {
         kept.foxglove());
 
     guard_.reset_stopped();
+    logged_ = {job.trial, world.simulation.step_ns};
     TrialDone done;
     try {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
@@ -194,6 +194,7 @@ class Worker {
   Sender& sender_;
   const mode_t umask_ = current_umask();
   CallGuard guard_;
+  std::optional<LoggedTrial> logged_;
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
   InstancePool pool_;
 };

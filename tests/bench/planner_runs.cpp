@@ -124,9 +124,12 @@ std::vector<KnownPlanner> known_planners(const Bench& bench) {
   std::vector<KnownPlanner> planners;
   for (const auto& library : libraries)
     for (const auto& plugin : library.at("plugins"))
-      if (const int connectivity = plugin.at("connectivity").get<int>(); plugin.at("kind").get<int>() == 1)
-        planners.push_back(
-            {plugin.at("id").get<std::string>(), connectivity, (plugin.at("flags").get<unsigned>() & 1u) != 0});
+      if (plugin.at("kind") == "global_planner") {
+        const auto connectivity = plugin.at("connectivity").get<std::string>();
+        const auto flags = plugin.at("flags").get<std::vector<nlohmann::json>>();
+        planners.push_back({plugin.at("id").get<std::string>(), connectivity == "any" ? 255 : std::stoi(connectivity),
+                            std::find(flags.begin(), flags.end(), "uncoordinated") != flags.end()});
+      }
   return planners;
 }
 

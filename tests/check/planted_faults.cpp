@@ -97,6 +97,7 @@ class Planted : public Kind {
     if (has("prints garbage"))
       for (int i = 0; i < 1'000'000; ++i) std::fputs("{\"result\": 9}\xff\n", stdout);
     if (has("changes the folder") && chdir("/") != 0) crash();
+    if (has("logs")) this->log(dmrp::LogLevel::info, "hello");
     if (has("asks for ever"))
       for (int i = 0; i < 50'000; ++i) this->should_stop();
     if (has("is one at a time")) {
@@ -123,6 +124,7 @@ class Planted : public Kind {
 };
 
 dmrp::Descriptor descriptor_of(const char* kind) {
+  if (has("crashes in its descriptor")) crash();
   dmrp::Descriptor descriptor(has("short id") ? kind : std::string("test.check.") + kind, "Planted",
                               has("odd version") ? "one" : "1.0.0");
   descriptor.license(has("odd licence") ? "GPL" : "MIT")
@@ -163,6 +165,8 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
       }
       sink.path(i, path);
     }
+    if (has("gives a path twice")) sink.path(0, std::vector<dmrp::Waypoint>());
+    if (has("gives a path to nobody")) sink.path(99, std::vector<dmrp::Waypoint>());
     return Status::ok;
   }
 };
@@ -191,6 +195,7 @@ class People final : public Planted<dmrp::PedestrianModel> {
 
   Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
     if (has("has room for 100") && crowd.people.size() > 100) crash();
+    if (has("writes too far")) motions[crowd.people.size()].velocity = {1.0, 0.0};
     const double speed = std::min(0.1 * *level, 1.0) + number();
     for (std::size_t i = 0; i < crowd.people.size(); ++i) motions[i].velocity = {speed, 0.0};
     return Status::ok;
@@ -210,6 +215,8 @@ class Metric final : public Planted<dmrp::Metric> {
   }
   void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
     if (has("wants a plan") && !has_plan_) return;
+    if (has("gives the undeclared")) sink.system("test_other", 0.0);
+    if (has("gives infinity")) sink.system("test_check", 1.0 / number());
     sink.system("test_check", *level + number());
   }
 

@@ -42,6 +42,7 @@ faults=(
   'people|lifecycle/process_state|changes the folder|fail|working directory'
   'planner|status/ordinary_trial|odd status|fail|unknown status 42'
   'controller|status/ordinary_trial|writes to its input|fail|wrote to its input'
+  'people|status/ordinary_trial|writes too far|fail|beyond the end'
   'planner|status/no_way|calls it an error|fail|DMRP_ERROR'
   'metric|status/no_plan|wants a plan|fail|no system value'
   'people|status/no_robots|wants no agent|fail|DMRP_ERROR'

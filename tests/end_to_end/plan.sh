@@ -30,7 +30,7 @@ plan() {
 
 "$host" plugins --json "$planners" >"$scratch/plugins.json" || fail "plugins --json"
 sqlite3 -batch -separator ' ' :memory: "SELECT json_extract(plugin.value, '\$.id'),
-  json_extract(plugin.value, '\$.connectivity'), json_extract(plugin.value, '\$.flags') & 1
+  json_extract(plugin.value, '\$.connectivity'), json_extract(plugin.value, '\$.flags') LIKE '%uncoordinated%'
   FROM json_each(CAST(readfile('$scratch/plugins.json') AS TEXT)) AS library,
   json_each(library.value, '\$.plugins') AS plugin" >"$scratch/planners"
 [[ $(wc -l <"$scratch/planners") -ge 2 ]] || fail "the library should have planners"

@@ -251,6 +251,28 @@ std::set<std::size_t> curve_metrics(const ReportFrame& frame) {
 
 }  // namespace
 
+namespace {
+
+// The report's layout with a table of the metrics that plugins beside the built-in ones added and that no table has.
+Json with_added_table(Json layout, const std::vector<MetricColumn>& metrics) {
+  std::set<std::string> shown;
+  for (const Json& table : layout["tables"])
+    for (const Json& column : table["columns"]) shown.insert(column["metric"].get<std::string>());
+  Json columns = Json::array();
+  for (const MetricColumn& metric : metrics)
+    if (metric.added && shown.count(metric.name) == 0)
+      columns.push_back({{"metric", metric.name}, {"header", metric.name}, {"decimals", 3}});
+  if (!columns.empty())
+    layout["tables"].push_back({{"id", "added"},
+                                {"title", "Added metrics"},
+                                {"note", "Of plugins that are not built in."},
+                                {"rows", {"global_planner", "local_controller", "pedestrian_model"}},
+                                {"columns", std::move(columns)}});
+  return layout;
+}
+
+}  // namespace
+
 ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
   const std::filesystem::path summary = folder / "summary.json";
   return {read_summary_layout(summary), read_file(summary, summary.string()),
@@ -276,7 +298,8 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["graded"] = graded_json(run, layouts.summary);
   json["arrivals_by_type"] = arrivals_by_type_json(frame, run.manifest.experiment, layouts.summary.arrived);
   json["faults"] = faults_json(run.trials);
-  json["layouts"] = {{"summary", Json::parse(layouts.summary_json)}, {"report", Json::parse(layouts.report.json)}};
+  json["layouts"] = {{"summary", Json::parse(layouts.summary_json)},
+                     {"report", with_added_table(Json::parse(layouts.report.json), run.metrics)}};
   add_replays(json, replays);
   // labels and details need not be UTF-8
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

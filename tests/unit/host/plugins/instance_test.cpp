@@ -95,7 +95,8 @@ TEST_CASE("function tables of newer plugins are read as far as they are known, s
     } catch (const PluginFault& fault) {
       CHECK(fault.kind() == std::string(fault_kind::abi_breach));
       CHECK(fault.function() == std::string("create"));
-      CHECK(fault.what() == std::string("returned OK but did not fill in all of dmrp_plugin"));
+      CHECK_THAT(fault.what(),
+                 Catch::StartsWith("returned OK but did not fill in dmrp_plugin.interface_->struct_size ("));
     }
   }
 }
