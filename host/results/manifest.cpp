@@ -71,8 +71,12 @@ ExperimentFacts parse_experiment(const Json& json) {
     experiment.shard.count = 0;
   for (const Json& scenario : json.at("scenarios")) {
     ScenarioFacts& facts = experiment.scenarios.emplace_back();
-    facts = {scenario.at("name"),   scenario.at("title"),  scenario.at("description"),
-             scenario.at("robots"), scenario.at("people"), scenario.at("time_limit_s")};
+    scenario.at("name").get_to(facts.name);
+    scenario.at("title").get_to(facts.title);
+    scenario.at("description").get_to(facts.description);
+    scenario.at("robots").get_to(facts.robots);
+    scenario.at("people").get_to(facts.people);
+    scenario.at("time_limit_s").get_to(facts.time_limit_s);
     facts.robot_types = scenario.value("robot_types", facts.robot_types);
     const auto grade = scenario.find("grade");
     if (grade == scenario.end()) continue;

@@ -21,7 +21,10 @@ ReportLayouts layouts() {
 
 ReportRun run_of(std::vector<TrialRecord> trials) {
   ReportRun run;
-  run.manifest.experiment.scenarios = {{"mall", "", "", 2, 0, 100.0}};
+  ScenarioFacts& mall = run.manifest.experiment.scenarios.emplace_back();
+  mall.name = "mall";
+  mall.robots = 2;
+  mall.time_limit_s = 100.0;
   run.metrics = ranking_metrics();
   run.trials = std::move(trials);
   return run;
