@@ -54,11 +54,13 @@ Collected& collected_for(std::vector<Collected>& all, const TrialRecord& trial, 
   return added;
 }
 
+// A repetition passes if all of its robots do: with a helper in the test, half of the robots is nobody's success.
 void take(const TrialRecord& trial, std::size_t level, const std::string& share, Collected& into) {
+  constexpr double rounding = 1e-9;
   std::vector<double>& values = into.levels[level].by_repetition;
   if (values.size() <= trial.repetition) values.resize(trial.repetition + 1, undefined);
   const auto value = system_value(trial, share);
-  if (value) values[trial.repetition] = *value;
+  if (value) values[trial.repetition] = *value >= 1.0 - rounding ? 1.0 : 0.0;
   if (!value && trial.outcome == trial_outcome::fault) values[trial.repetition] = 0.0;
 }
 

@@ -13,12 +13,12 @@
 
 namespace dmrp::host {
 
-// One combination in one series. Success is the first share of the answer's, of a trial's robots.
+// One combination in one series. A repetition is passed if all of its robots succeed, by the first share of the answer's.
 struct GradedResult {
   std::string global_planner;
   std::string local_controller;
   std::string pedestrian_model;
-  std::vector<double> means;  // by level; NaN: no trials
+  std::vector<double> means;  // the share of repetitions passed, by level; NaN: no trials
   core::ThresholdEstimate estimate;
 };
 
@@ -40,7 +40,7 @@ std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<c
 // "0.72 [0.71, 0.74] m"; "≤ 0.55 m" if even the hardest level, 0.55 m, is passed; "> 1 m" if not even the easiest is.
 std::string threshold_words(const GradedSeries& series, const core::ThresholdEstimate& estimate);
 
-// Whether some combination separates the levels: a level whose mean over the combinations lies in [0.2, 0.8].
+// Whether there is a level whose mean over the combinations lies in [0.2, 0.8].
 bool tells_apart(const GradedSeries& series);
 
 }  // namespace dmrp::host

@@ -41,8 +41,8 @@ std::string graded_table(std::span<const GradedSeries> all) {
   std::string out;
   for (const GradedSeries& series : all) {
     out += fmt::format("  {} · {}{}{}\n", series.title, series.quantity, series.unit == "1" ? "" : ", " + series.unit,
-                       tells_apart(series) ? "" : " · sanity only: no level has a mean success in [0.2, 0.8]");
-    out += fmt::format("    {}  {}", pad_right("", name_width), pad_right("50 % success", words_width));
+                       tells_apart(series) ? "" : " · sanity only: no level has a mean in [0.2, 0.8]");
+    out += fmt::format("    {}  {}", pad_right("", name_width), pad_right("passes half", words_width));
     for (const double level : series.levels) out += fmt::format("  {:>5}", fmt::format("{:.3g}", level));
     out += "\n";
     for (const GradedResult& result : series.results) {

@@ -23,12 +23,12 @@ function table_of(series, index) {
   );
   const head = head_row(
     element('th', {scope: 'col'}, ''),
-    element('th', {scope: 'col'}, '50 % success'),
+    element('th', {scope: 'col'}, 'passes half'),
     series.levels.map((level) => element('th', {scope: 'col', class: 'number'}, String(level)))
   );
   const note = series.tells_apart
     ? `${series.quantity}${unit_of(series)}, from hard to easy`
-    : `${series.quantity}${unit_of(series)}, from hard to easy. Sanity only: no level has a mean success in [0.2, 0.8]`;
+    : `${series.quantity}${unit_of(series)}, from hard to easy. Sanity only: no level has a mean in [0.2, 0.8]`;
   return titled_table(`graded-${index}`, series.title, note, element('table', {}, head, element('tbody', {}, rows)));
 }
 

@@ -62,6 +62,18 @@ TEST_CASE("levels are put from hard to easy, and a combination gets its threshol
   CHECK_FALSE(tells_apart(series[1]));
 }
 
+TEST_CASE("a repetition is passed if all of its robots are", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "C", 20, [](std::uint32_t) {
+    return std::vector<RobotResult>{{20.0, true, 10.0}, {std::nullopt, true, 10.0}};
+  });
+  for (TrialRecord& trial : trials) trial.scenario = "aisle 1";
+  const auto series = graded_series(ranking_layout(), std::vector{level_of("aisle", 1.0, "aisle 1", false)}, trials);
+  REQUIRE(series.size() == 1);
+  CHECK(series[0].results[0].means == std::vector{0.0});
+  CHECK(threshold_words(series[0], series[0].results[0].estimate) == "> 1 m");
+}
+
 TEST_CASE("runs without levels have no series", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_level(trials, "mall", 3);
