@@ -118,8 +118,9 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
     throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks", robots,
                                  scenario.name, scenario.robots.size()));
   if (!drawn.as_wished)
-    throw InputError(fmt::format("--conflicts: none of {} draws of tasks for {} robots in '{}' has so many",
-                                 core::task_attempts, robots, scenario.name));
+    throw InputError(
+        fmt::format("--conflicts-min, --conflicts-max: none of {} draws of tasks for {} robots in '{}' has as many",
+                    core::task_attempts, robots, scenario.name));
 }
 
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,

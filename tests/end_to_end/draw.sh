@@ -32,3 +32,15 @@ expect_status 2 "$host" draw mall --planner dmrp.planner.cbz --svg "$scratch/non
 expect_status 2 "$host" draw mall --planner dmrp.planner.cbs --set node_limits=5 --svg "$scratch/none.svg"
 [[ $(cat "$scratch/stderr") == *"did you mean 'node_limit'?"* ]] || fail "$(cat "$scratch/stderr")"
 [[ ! -e $scratch/none.svg ]] || fail "a mistake should leave nothing behind"
+
+# tasks as difficult as wished
+expect_status 0 "$host" draw library --agents 8 --seed 2 --conflicts-min 4 --conflicts-max 5 --in-corridors --svg "$scratch/eight.svg"
+grep -Eq '^8 robots: [0-9]+ pairs of individual paths in conflict, [45] in corridors' "$scratch/stderr" ||
+  fail "$(cat "$scratch/stderr")"
+expect_status 2 "$host" draw mall --agents 2 --conflicts-min 2 --svg "$scratch/none.svg"
+[[ $(cat "$scratch/stderr") == "--conflicts-min, --conflicts-max: none of 1000 draws of tasks for 2 robots in 'mall' has as many" ]] ||
+  fail "$(cat "$scratch/stderr")"
+expect_status 2 "$host" draw mall --conflicts-min 2 --svg "$scratch/none.svg"
+
+# a test with levels, at its first one
+expect_status 0 "$host" draw course/door --svg "$scratch/door.svg"
