@@ -99,7 +99,7 @@ fi
 # The page: its text is written by hand down to the mark.
 {
   sed '/^<!-- tests\/bench\/discrimination.sh -->$/q' "$page"
-  printf '\n%s tasks a world. Written by dmrp %s.\n\n' "$tasks" "$("$host" --version | awk '{ print $NF }')"
+  printf '\n%s tasks a world. Written by dmrp %s.\n\n' "$tasks" "$("$host" --version | awk 'NR == 1 { print $2 }')"
   echo '| world | robots | factor | declared | tasks | mean safe success | at ceiling | D | eta² of safe success | eta² of time | halves | tasks for 5 points | |'
   echo '| --- | ---: | --- | --- | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: | --- |'
   for world in mall library office hospital warehouse; do
