@@ -270,10 +270,13 @@ void check_inside(const ScenarioFile& file, const core::PlanningGrid& planning, 
     const std::uint32_t nearest = geometry.nearest(grid.center(cell)).shape;
     return nearest == geometry.border() || geometry.shape_name(nearest).starts_with(core::beyond_map);
   };
-  if (file.edge_is_open && file.scenario.inside.empty() && std::any_of(part.begin(), part.end(), is_at_edge))
-    experiment.warnings.push_back(file.document->place(file.size) +
-                                  ": drawn robots may begin outside the building: their free space reaches the edge of "
-                                  "the map ('inside_m' = [x, y] in [scenario] names a point inside)");
+  if (file.edge_is_open && std::any_of(part.begin(), part.end(), is_at_edge))
+    experiment.warnings.push_back(
+        file.document->place(file.size) +
+        fmt::format(": drawn robots may begin outside the building: {} the edge of the map{}",
+                    file.scenario.inside.empty() ? "their free space reaches" : "the way is open from its inside to",
+                    file.scenario.inside.empty() ? " ('inside_m' = [x, y] in [scenario] names a point inside)"
+                                                 : " (a [[box]] can close the gap)"));
 }
 
 // That every repetition has room for its tasks, and tasks as wished.

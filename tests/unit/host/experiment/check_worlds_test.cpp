@@ -242,6 +242,39 @@ size_m = [0.2, 10.2]
              Catch::EndsWith("scenario.toml:6:12: 'inside_m' must lie on a free planning cell"));
 }
 
+TEST_CASE("a map whose building is open to the map's edge gives a warning") {
+  const ExperimentFolder folder;
+  // 30 m x 30 m, 1 m a cell: a house from 8 to 22 m, with a gap in its southern wall or without
+  const auto write_map = [](bool gap) {
+    std::string image = "P2\n30 30\n255\n";
+    for (int row = 0; row < 30; ++row)
+      for (int column = 0; column < 30; ++column) {
+        const bool in_house = row >= 8 && row <= 21 && column >= 8 && column <= 21;
+        const bool wall = in_house && (row == 8 || row == 21 || column == 8 || column == 21);
+        image += wall && !(gap && row == 21 && column == 14) ? "0\n" : "254\n";
+      }
+    write_file("hall/map.pgm", image);
+  };
+  write_file("hall/map.yaml",
+             "image: map.pgm\nresolution: 1.0\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: "
+             "0.196\n");
+  write_file("hall/scenario.toml",
+             "[scenario]\nname = \"hall\"\ntitle = \"Hall\"\ndescription = \"a house\"\n[map]\nfile = "
+             "\"map.yaml\"\n[[robot]]\nstart = [10.5, 10.5]\ngoal = [18.5, 18.5]\n");
+  const std::string alone = with(experiment_text, "[[pedestrian_model]]\nuse = \"test.model\"\n", "");
+  const std::string experiment = with(alone, "scenario.toml\"\n", "scenario.toml\"\nrobots = 3\n");
+  write_map(true);
+  const Experiment open = load(experiment);
+  REQUIRE(open.warnings.size() == 1);
+  CHECK_THAT(open.warnings[0],
+             Catch::EndsWith(": drawn robots may begin outside the building: the way is open from its "
+                             "inside to the edge of the map (a [[box]] can close the gap)"));
+  write_map(false);
+  const Experiment closed = load(experiment);
+  REQUIRE(closed.warnings.size() == 1);
+  CHECK_THAT(closed.warnings[0], Catch::EndsWith("is left out"));
+}
+
 TEST_CASE("a start that cannot be reached says what would do") {
   const ExperimentFolder folder;
   // a door of 0.8 m whose middle lies between the centres of two cells
