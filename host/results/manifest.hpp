@@ -27,11 +27,11 @@ struct ScenarioFacts {
   std::uint32_t robots = 0;
   std::uint32_t people = 0;
   double time_limit_s = 0.0;
-  std::vector<std::string> robot_types;  // of each robot; empty if all are of one type, and in older manifests
+  std::vector<std::string> robot_types{};  // of each robot; empty if all are of one type, and in older manifests
   // of a test with levels, as scenario_variant.hpp has it; an empty series: none
-  std::string series;
-  std::string quantity;
-  std::string unit;
+  std::string series{};
+  std::string quantity{};
+  std::string unit{};
   bool harder_when_higher = true;
   double level = 0.0;
 };
