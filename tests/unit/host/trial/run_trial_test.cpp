@@ -234,7 +234,10 @@ TEST_CASE("a metric that is silent about a declared value is at fault") {
   CheckedStage stage;
   stage.experiment.metrics[0].parameters[0].integer = 1;
   stage.run();
-  CHECK_THROWS_WITH(stage.measured(), "gave no system value of undefined");
+  // with the first thing that the host did not take
+  CHECK_THROWS_WITH(
+      stage.measured(),
+      "gave no system value of undefined (the host refused the event 'samples': robot 2, but there are 2)");
 }
 
 TEST_CASE("a trace that was cut short is not measured") {
