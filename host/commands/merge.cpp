@@ -151,7 +151,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   }
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
-  const RunResults results = read_results(database, layout);
+  const RunResults results = read_results(std::move(database), layout);
   write_tables(results, out);
   print_results(results, layout, out, try_to_report(results, out));
   if (trials.size() < manifest.experiment.trials_planned)

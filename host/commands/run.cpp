@@ -14,6 +14,7 @@
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/sync_directory.hpp"
 #include "host/plan/check_planners.hpp"
 #include "host/plugins/check_descriptor.hpp"
 #include "host/process/box.hpp"
@@ -149,6 +150,7 @@ class RunFiles {
     for (const char* rest : {"", "-wal", "-shm", "-journal"}) fs::remove(unfinished.string() + rest);
     ResultsDatabase::create(unfinished, columns_of(experiment));
     fs::rename(unfinished, database());
+    sync_directory(directory());
   }
 
   // A run can only be continued if that gives the same bits.
@@ -197,10 +199,11 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                                    database.add_fault(trial, fault);
                                    progress.note(fault_note(trial, fault));
                                  },
+                                 [&](const std::string& text) { progress.note("warning: " + text); },
                                  [&] { progress.refresh(); }};
   const RunEnding ending = supervise(experiment, trials, settings, sinks);
   progress.finish();
-  const RunResults results = read_results(database, layout);
+  const RunResults results = read_results(std::move(database), layout);
   write_tables(results, files.directory());
   const bool reported = try_to_report(results, files.directory());
   if (options.json)

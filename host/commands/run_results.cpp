@@ -29,7 +29,7 @@ namespace dmrp::host {
 
 namespace fs = std::filesystem;
 
-RunResults read_results(const ResultsDatabase& database, const SummaryLayout& layout) {
+RunResults read_results(ResultsDatabase database, const SummaryLayout& layout) {
   RunResults results{database.metrics(), database.trials(), {}};
   results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
   return results;

@@ -20,7 +20,7 @@ struct RunResults {
   std::vector<TrialRecord> trials;
   std::vector<CombinationSummary> summaries;
 };
-RunResults read_results(const ResultsDatabase& database, const SummaryLayout& layout);
+RunResults read_results(ResultsDatabase database, const SummaryLayout& layout);
 
 // trials.csv and summary.csv.
 void write_tables(const RunResults& results, const std::filesystem::path& directory);

@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "host/files/sync_directory.hpp"
+
 namespace dmrp::host {
 namespace {
 
@@ -35,6 +37,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     if (::fchmod(descriptor, 0666 & ~mask) != 0 || ::fsync(descriptor) != 0)
       throw std::system_error(errno, std::generic_category());
     std::filesystem::rename(beside, path);
+    sync_directory(path.parent_path());
   } catch (const std::system_error& error) {
     ::unlink(beside.c_str());
     ::close(descriptor);

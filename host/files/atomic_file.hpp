@@ -7,7 +7,7 @@
 
 namespace dmrp::host {
 
-// Writes a temporary file beside `path`, syncs and renames it. Throws std::system_error with the path and then leaves
+// Writes a temporary file beside `path`, syncs it, renames it and syncs the folder. Throws std::system_error with the path and then leaves
 // no temporary file.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 

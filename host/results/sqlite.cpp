@@ -18,6 +18,8 @@ namespace {
     case SQLITE_IOERR:
     case SQLITE_NOMEM:
       throw MachineError(line);
+    case SQLITE_BUSY:
+      throw SqliteError(line + " (a dmrp-host that runs writes to it)");
     default:
       throw SqliteError(line);
   }
@@ -52,6 +54,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   sqlite3_db_config(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   execute("PRAGMA cell_size_check = ON");
   execute("PRAGMA mmap_size = 0");
+  if (mode != SqliteMode::read_only) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
 bool SqliteConnection::has_moved() const {

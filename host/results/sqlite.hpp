@@ -19,7 +19,9 @@ class SqliteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class SqliteMode { create, read_write, read_only };  // create: the file must not exist
+// create: the file must not exist. create and read_write: no other process can open the file until this connection closes,
+// and its index of the log is in memory of this process.
+enum class SqliteMode { create, read_write, read_only };
 
 class SqliteConnection {
  public:

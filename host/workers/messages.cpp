@@ -30,7 +30,7 @@ void from_json(const nlohmann::json& json, MetricEvent& e) {
   e.place = place.is_null() ? std::nullopt : std::optional(dmrp_vec2{place.at(0), place.at(1)});
 }
 
-DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, keep_trace_of_success, skip_metrics, known_events)
+DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics, known_events)
 DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
 DMRP_FIELDS(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
 

@@ -30,10 +30,9 @@ namespace dmrp::host {
 
 struct Job {
   std::uint64_t trial = 0;
-  std::uint64_t stamp = 0;   // another one for each attempt, not 0
-  std::string trace_file;    // "" for none
-  std::string scratch_file;  // where a large trace goes until it has been measured
-  bool keep_trace_of_success = true;
+  std::uint64_t stamp = 0;                  // another one for each attempt, not 0
+  std::string trace_file;                   // in the worker's scratch folder; "" for none
+  std::string scratch_file;                 // where a large trace goes until it has been measured
   std::vector<std::uint32_t> skip_metrics;  // measured in an earlier attempt, or killed the worker in one
   std::vector<MetricEvent> known_events;    // of the measured ones, for the trace
 };

@@ -25,6 +25,8 @@
 #include "host/results/trace_path.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/open_trial.hpp"
+#include "host/workers/scratch_folder.hpp"
+#include "host/workers/stored_trace.hpp"
 #include "host/workers/worker_fault.hpp"
 #include "host/workers/worker_process.hpp"
 
@@ -48,6 +50,7 @@ std::string quoted_for_shell(const std::string& word) {
 }
 
 struct Slot {
+  std::unique_ptr<ScratchFolder> scratch;  // outlives the worker
   std::unique_ptr<WorkerProcess> worker;
   std::int64_t worker_started_ns = 0;
   bool ready = false;
@@ -73,6 +76,7 @@ class Supervisor {
     log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());
     for (const std::uint64_t trial : trials) waiting_.emplace_back(experiment, blank_record(experiment, trial));
+    delete_scratch_folders(settings.run_directory);  // of a supervisor that was killed
     adopt_orphans();
     open_trials_ = trials.size();
     slots_.resize(std::min<std::size_t>(settings.jobs, trials.size()));
@@ -81,6 +85,7 @@ class Supervisor {
   ~Supervisor() {
     slots_.clear();
     kill_orphans({});
+    delete_scratch_folders(settings_.run_directory);
   }
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
@@ -106,7 +111,8 @@ class Supervisor {
     if (slot.trial || waiting_.empty()) return;
     if (!slot.worker) {
       slot = Slot();
-      slot.worker = std::make_unique<WorkerProcess>(experiment_);
+      slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
+      slot.worker = std::make_unique<WorkerProcess>(experiment_, slot.scratch->path());
       slot.worker_started_ns = monotonic_ns();
     }
     if (!slot.ready) return;
@@ -114,16 +120,16 @@ class Supervisor {
     waiting_.pop_front();
     slot.trial->started_ns = monotonic_ns();
     // a worker that has died is noticed by its end
-    slot.worker->channel().send(job_of(*slot.trial));
+    slot.scratch->restore();
+    Job job = slot.trial->begin(new_stamp());
+    if (experiment_.traces != RecordTraces::none) job.trace_file = scratch_trace(slot, job.trial).string();
+    job.scratch_file = (slot.scratch->path() / "samples").string();
+    slot.worker->channel().send(job);
   }
 
-  nlohmann::json job_of(OpenTrial& trial) const {
-    Job job = trial.begin(new_stamp());
-    job.keep_trace_of_success = experiment_.traces == RecordTraces::all;
-    const fs::path directory = fs::absolute(settings_.run_directory);
-    if (experiment_.traces != RecordTraces::none) job.trace_file = trace_path(directory, job.trial).string();
-    job.scratch_file = (directory / fmt::format("trial_{:06}.scratch", job.trial)).string();
-    return job;
+  fs::path stored_trace(std::uint64_t trial) const { return trace_path(settings_.run_directory, trial); }
+  fs::path scratch_trace(const Slot& slot, std::uint64_t trial) const {
+    return slot.scratch->path() / stored_trace(trial).filename();
   }
 
   // True when a signal asks to stop.
@@ -235,11 +241,16 @@ class Supervisor {
   bool machine_fails(int error_number) const {
     if (error_number == ENOSPC || error_number == EDQUOT || error_number == EIO) return true;
     if (error_number == EFBIG && files_are_limited()) return true;
-    return !can_write_in(settings_.run_directory) ||
-           (experiment_.traces != RecordTraces::none && !can_write_in(settings_.run_directory / "traces"));
+    return !can_write_in(settings_.run_directory);
   }
 
   void finish(Slot& slot) {
+    if (!store_trace_of(slot)) {
+      FaultRecord fault = fault_at(slot.worker->last_call());
+      fault.kind = fault_kind::worker_error;
+      fault.detail += "the trace was deleted or replaced in the scratch folder of the worker";
+      return end_worker(slot, std::move(fault), slot.trials_begun > 1);
+    }
     TrialRecord record = slot.trial->take_record();
     record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
     for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(record.id);
@@ -247,6 +258,24 @@ class Supervisor {
     slot.last_trial = record.id;
     --open_trials_;
     sinks_.on_trial(std::move(record));
+  }
+
+  // Before the row: no row lacks its trace, whenever the power fails. False if the trial has not left the trace that it
+  // should have; one that ended in a fault need not have any.
+  bool store_trace_of(const Slot& slot) {
+    if (experiment_.traces == RecordTraces::none) return true;
+    const TrialRecord& record = slot.trial->record();
+    const fs::path stored = stored_trace(record.id);
+    if (fs::create_directory(stored.parent_path())) {
+      const std::string text = stored.parent_path().string() + ": was deleted, with the traces of earlier trials";
+      sinks_.on_warning(text);
+      note(text);
+    }
+    if (experiment_.traces == RecordTraces::failed && record.outcome == trial_outcome::succeeded) {
+      fs::remove(stored);  // of an earlier attempt
+      return true;
+    }
+    return store_trace(scratch_trace(slot, record.id), stored) || record.outcome == trial_outcome::fault;
   }
 
   void run_again(Slot& slot) {

@@ -2,7 +2,8 @@
 // supervisor.hpp: runs trials in worker processes. One poll loop, no threads; loads no plugin.
 //
 // Each job has one worker, which runs many trials under resource limits. If a worker dies, hangs or sends a message that
-// its state does not allow, another worker takes its place. A trial that was killed from outside, or whose worker had run
+// its state does not allow, another worker takes its place. Workers write in scratch folders; this process alone puts
+// traces into the run directory, each before its trial is reported. A trial that was killed from outside, or whose worker had run
 // other trials before, is run again by a fresh worker; otherwise it ends as a fault.
 #pragma once
 
@@ -27,6 +28,7 @@ struct SupervisorSinks {
   std::function<void(TrialRecord&&)> on_trial;  // as each ends, in no fixed order
   // Of a trial that has ended already: destroy() and deinit() are called later.
   std::function<void(std::uint64_t trial, const FaultRecord&)> on_late_fault;
+  std::function<void(const std::string&)> on_warning;
   std::function<void()> on_idle;  // every 100 ms or more often
 };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -146,8 +147,6 @@ class Worker {
       finish(kept, std::move(events));
     }
     done.repeatable = !guard_.stopped();
-    if (done.outcome == trial_outcome::succeeded && !job.keep_trace_of_success && kept.is_recorded())
-      std::filesystem::remove(job.trace_file);
     sender_.send(typed("done", done));
     if (own) pool_.clear();  // instances may keep pointers into their world
   }
@@ -220,6 +219,7 @@ int run_worker(const WorkerTask& task) {
   for (const int descriptor : {task.read_end, task.write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   LineChannel channel{Descriptor(task.read_end), Descriptor(task.write_end)};
   Sender sender(channel);
+  setenv("TMPDIR", task.scratch.c_str(), 1);  // temporary files of plugins go there, too
   try {
     own_process::watch({task.read_end, task.write_end});
     adopt_orphans();

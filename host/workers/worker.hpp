@@ -13,7 +13,8 @@ struct WorkerTask {
   std::filesystem::path experiment;
   std::uint32_t trials = 0;  // repetitions, as in load_experiment()
   ProcessLimits limits;
-  int read_end = -1;  // of the channel
+  std::filesystem::path scratch;  // where it writes its files
+  int read_end = -1;              // of the channel
   int write_end = -1;
   int note = -1;  // the shared call note
 };

@@ -8,11 +8,15 @@ namespace dmrp::host {
 
 namespace {
 
-ChildProcess start(const Experiment& experiment, int log, std::initializer_list<int> inherited) {
+ChildProcess start(const Experiment& experiment, const std::filesystem::path& scratch, int log,
+                   std::initializer_list<int> inherited) {
   ChildProcess::Program program;
-  program.arguments = {"worker", experiment.file.string(), std::to_string(experiment.trials),
+  program.arguments = {"worker",
+                       experiment.file.string(),
+                       std::to_string(experiment.trials),
                        std::to_string(counts_resident_memory(experiment) ? 0 : experiment.limits.memory_mb),
-                       experiment.limits.processes ? "processes" : "no_processes"};
+                       experiment.limits.processes ? "processes" : "no_processes",
+                       scratch.string()};
   program.inherited = inherited;
   for (const int descriptor : program.inherited) program.arguments.push_back(std::to_string(descriptor));
   program.output = log;
@@ -22,12 +26,12 @@ ChildProcess start(const Experiment& experiment, int log, std::initializer_list<
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const Experiment& experiment)
-    : WorkerProcess(experiment, make_call_note(), make_pipe(), make_pipe(), make_pipe()) {}
+WorkerProcess::WorkerProcess(const Experiment& experiment, const std::filesystem::path& scratch)
+    : WorkerProcess(experiment, scratch, make_call_note(), make_pipe(), make_pipe(), make_pipe()) {}
 
-WorkerProcess::WorkerProcess(const Experiment& experiment, Descriptor note, Pipe to_worker, Pipe from_worker,
-                             Pipe output)
-    : process_(start(experiment, output.write_end.number(),
+WorkerProcess::WorkerProcess(const Experiment& experiment, const std::filesystem::path& scratch, Descriptor note,
+                             Pipe to_worker, Pipe from_worker, Pipe output)
+    : process_(start(experiment, scratch, output.write_end.number(),
                      {to_worker.read_end.number(), from_worker.write_end.number(), note.number()})),
       note_(std::move(note)),
       channel_(std::move(from_worker.read_end), std::move(to_worker.write_end)),

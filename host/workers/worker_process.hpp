@@ -2,6 +2,8 @@
 // worker_process.hpp: a worker as its supervisor sees it: the process, the channel, the shared call note.
 #pragma once
 
+#include <filesystem>
+
 #include "host/experiment/experiment.hpp"
 #include "host/process/call_note.hpp"
 #include "host/process/child_process.hpp"
@@ -12,8 +14,9 @@ namespace dmrp::host {
 
 class WorkerProcess {
  public:
-  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`. The destructor kills it. Throws MachineError.
-  explicit WorkerProcess(const Experiment& experiment);
+  // Starts `dmrp-host worker EXPERIMENT TRIALS ...`, which writes in this folder alone. The destructor kills it. Throws
+  // MachineError.
+  WorkerProcess(const Experiment& experiment, const std::filesystem::path& scratch);
 
   ChildProcess& process() { return process_; }
   LineChannel& channel() { return channel_; }
@@ -21,7 +24,8 @@ class WorkerProcess {
   NotedCall last_call() const { return note_.read(); }
 
  private:
-  WorkerProcess(const Experiment& experiment, Descriptor note, Pipe to_worker, Pipe from_worker, Pipe output);
+  WorkerProcess(const Experiment& experiment, const std::filesystem::path& scratch, Descriptor note, Pipe to_worker,
+                Pipe from_worker, Pipe output);
 
   ChildProcess process_;
   SharedCallNote note_;

@@ -41,6 +41,8 @@ attacks=(
   'no message|abi_breach|.*|a plugin of this trial wrote to the channel|late'
   'closed channel|abi_breach|step|channel .* was closed'
   'closed trace|worker_error|.*|Bad file descriptor|late'
+  'deletes its files|worker_error|.*|trace was deleted or replaced|late'
+  'replaces its trace|worker_error|.*|trace was deleted or replaced|late'
   'all closed|abi_breach|step|channel .* was closed'
   'files limited|worker_error|.*|File too large|late'
   'kills itself|crash|step|SIGKILL'
@@ -106,6 +108,14 @@ expect_status 1 "$host" "$scratch/attacks.toml" --no-box --quiet --resume --retr
 [[ -n $before && $(prompt_faults) == "$before" ]] || fail "--retry-faults should find them again"
 expect_same attacks
 
+# stored traces that a plugin deletes are gone, no values are
+begin vanish
+hostile vanish "deletes traces"
+run_with_faults vanish 0
+grep -q "vanish/traces: was deleted, with the traces of earlier trials" "$scratch/vanish/log.txt" ||
+  fail "log.txt should say that traces are gone"
+expect_same vanish
+
 # destroy() is called when the trials are over
 begin destroy
 hostile destroy "crash in destroy"
@@ -163,4 +173,6 @@ status=0
 expect_same harmless
 
 ! pgrep -f "worker $scratch/" >/dev/null || fail "processes are left: $(pgrep -af "worker $scratch/")"
-! compgen -G "$scratch/*/*scratch*" >/dev/null || fail "scratch files are left"
+! compgen -G "$scratch/*/scratch*" >/dev/null || fail "scratch files are left"
+# what a plugin does to the mask of new files changes none of the run's
+[[ -z $(find "$scratch/harmless/traces" ! -perm -0444) ]] || fail "traces should be readable"

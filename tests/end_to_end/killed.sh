@@ -33,6 +33,9 @@ for ((moment = 0; moment < moments; ++moment)); do
     2) # the supervisor; its workers end with it
       kill -KILL "$host_process" 2>/dev/null || break
       wait "$host_process" 2>/dev/null
+      while read -r id; do # a row of the table says that the trace is there
+        [[ -s $(printf '%s/traces/trial_%06d.mcap' "$run" "$id") ]] || fail "trial $id lacks its trace"
+      done < <(query "$run" "SELECT id FROM trial")
       start --resume
       ;;
   esac
@@ -43,6 +46,8 @@ wait "$host_process" || status=$?
 ((moment > moments / 2)) || fail "the run was over after $moment of $moments moments"
 [[ $(query "$run" "SELECT count(*) FROM fault") == 0 ]] || fail "to be killed is no fault: $(query "$run" "SELECT * FROM fault")"
 cmp -s <(values_of "$run") <(values_of "$scratch/whole") || fail "values differ from an undisturbed run"
+# each trial has its trace, whole
+expect_status 0 "$host" evaluate "$run" --metric dmrp.metric.path_length --csv "$scratch/measured.csv"
 ! compgen -G "$run/*scratch*" >/dev/null || fail "scratch files are left: $(ls "$run")"
 
 # a run that is killed before it has a database is begun again

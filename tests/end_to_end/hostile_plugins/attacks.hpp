@@ -65,6 +65,20 @@ inline void kill_siblings() {
   }
 }
 
+// The worker's scratch folder is that of temporary files; the run directory is two levels above.
+inline void delete_files(const std::string& of) {
+  const std::filesystem::path scratch = std::filesystem::temp_directory_path();
+  std::filesystem::remove_all(of == "run" ? scratch.parent_path().parent_path() / "traces" : scratch);
+}
+
+inline void replace_trace() {
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
+    const std::filesystem::path trace = entry.path();
+    std::filesystem::remove(trace);
+    mkfifo(trace.c_str(), 0600);
+  }
+}
+
 inline void limit(int resource, rlim_t most) {
   const rlimit both = {most, most};
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
@@ -110,6 +124,9 @@ inline void attack(const std::string& what) {
   if (what == "no message") write_to_pipes("hello\n");
   if (what == "closed channel") close_those("pipe:");
   if (what == "closed trace") close_those(".mcap");
+  if (what == "deletes its files") delete_files("worker");
+  if (what == "deletes traces") delete_files("run");
+  if (what == "replaces its trace") replace_trace();
   if (what == "all closed") close_range(3, ~0u, 0);
   if (what == "all descriptors taken")
     while (dup(2) >= 0) {

@@ -346,6 +346,24 @@ TEST_CASE("a file that was deleted or replaced is noticed") {
   CHECK_THROWS_AS(database.write(full_trial(2)), MachineError);
 }
 
+TEST_CASE("one process reaches a database that is written to, without a shared file in memory") {
+  const ScratchFolder folder;
+  ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+  const auto read = [&] {
+    SqliteConnection other(folder / "results.sqlite", SqliteMode::read_only);
+    other.execute("PRAGMA busy_timeout = 0");
+    other.execute("SELECT count(*) FROM trial");
+  };
+  {
+    ResultsDatabase database = ResultsDatabase::open(folder / "results.sqlite");
+    database.write(full_trial(1));
+    CHECK_THROWS_WITH(read(), Catch::Contains("locked"));
+    CHECK(std::filesystem::exists(folder / "results.sqlite-wal"));
+    CHECK_FALSE(std::filesystem::exists(folder / "results.sqlite-shm"));
+  }
+  CHECK_NOTHROW(read());
+}
+
 TEST_CASE("a damaged file is refused") {
   const ScratchFolder folder;
   {

@@ -24,14 +24,12 @@ TEST_CASE("messages keep all their fields") {
                                    0xFFFF'FFFF'FFFF'FFFFu,
                                    "traces/trial_000007.mcap",
                                    "trial_000007.scratch",
-                                   false,
                                    {2, 5},
                                    {{"sto", 1, 2, {3}, {}, "near", 0, {}}}});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.stamp == 0xFFFF'FFFF'FFFF'FFFFu);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
   CHECK(job.scratch_file == "trial_000007.scratch");
-  CHECK_FALSE(job.keep_trace_of_success);
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
   REQUIRE(job.known_events.size() == 1);
   CHECK(job.known_events[0].robots == std::vector<std::uint32_t>{3});

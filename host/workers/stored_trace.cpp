@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "host/workers/stored_trace.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include "host/files/sync_directory.hpp"
+#include "host/process/descriptor.hpp"
+
+namespace dmrp::host {
+
+bool store_trace(const std::filesystem::path& written, const std::filesystem::path& stored) {
+  // neither follows a link, nor waits for a pipe's other end
+  const Descriptor file(open(written.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat found {};
+  if (!file.is_open() || fstat(file.number(), &found) != 0 || !S_ISREG(found.st_mode)) return false;
+  if (fsync(file.number()) != 0) throw std::system_error(errno, std::generic_category(), written.string());
+  if (rename(written.c_str(), stored.c_str()) != 0)
+    throw std::system_error(errno, std::generic_category(), stored.string());
+  sync_directory(stored.parent_path());
+  return true;
+}
+
+}  // namespace dmrp::host
