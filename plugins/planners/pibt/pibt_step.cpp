@@ -142,67 +142,64 @@ bool PibtStep::can_move(Location from, Location to) const {
 
 // The robot with which this one has to exchange its place, and can; or nobody.
 std::int32_t PibtStep::find_swap(std::int32_t agent, Location first_choice) const {
-  const Location here = where(agent);
-  if (first_choice == here) return nobody;
-  const std::int32_t ahead = robot_at(first_choice);
-  if (ahead != nobody && next_of(ahead) == nowhere && is_swap_needed(agent, ahead, here, first_choice) &&
-      is_swap_possible(first_choice, here))
-    return ahead;
-  // a robot behind needs the way on which this one would go: let it pass first
+  const Line line{where(agent), first_choice};
+  if (line.front == line.rear) return nobody;
+  const std::int32_t opponent = find_opponent(agent, line);
+  return opponent != nobody && reaches_branch({line.front, line.rear}) ? opponent : nobody;
+}
+
+// The robot stands at the rear of the line and wants to the front. Its opponent comes from there, or is another
+// neighbor that wants to follow it: that one passes first, and then the robot need not come back to let it out.
+std::int32_t PibtStep::find_opponent(std::int32_t agent, Line line) const {
+  const std::int32_t ahead = robot_at(line.front);
+  if (ahead != nobody && next_of(ahead) == nowhere && block_each_other(agent, ahead, line)) return ahead;
   for (Direction d = 0; d < GridGraph::direction_count; ++d) {
-    const Location beside = problem_.graph.neighbor(here, d);
-    if (beside == nowhere || beside == first_choice) continue;
-    const std::int32_t behind = robot_at(beside);
-    if (behind == nobody) continue;
-    if (is_swap_needed(behind, agent, here, first_choice) && is_swap_possible(first_choice, here)) return behind;
+    const Location beside = problem_.graph.neighbor(line.rear, d);
+    const std::int32_t follower = beside == nowhere || beside == line.front ? nobody : robot_at(beside);
+    if (follower != nobody && block_each_other(follower, agent, line)) return follower;
   }
   return nobody;
 }
 
-// The ways on from `at` for a robot that comes from `from`: its neighbors without `from` and without dead ends in which
-// a robot has its goal. Sets `way` to one of them.
-std::int32_t PibtStep::ways_on(Location from, Location at, Location& way) const {
-  std::int32_t count = 0;
+// Moves a line of two robots by one cell, where its front has one way on. A dead end in which a robot has its goal is
+// no way.
+PibtStep::WayOn PibtStep::advance(Line& line) const {
+  Location way = nowhere;
   for (Direction d = 0; d < GridGraph::direction_count; ++d) {
-    const Location to = problem_.graph.neighbor(at, d);
-    if (to == nowhere || to == from) continue;
-    const std::int32_t robot = robot_at(to);
-    const bool is_closed = degrees_[static_cast<std::size_t>(to)] == 1 && robot != nobody && steps_left(robot, to) == 0;
-    if (is_closed) continue;
-    ++count;
+    const Location to = problem_.graph.neighbor(line.front, d);
+    if (to == nowhere || to == line.rear || is_parking_place(to)) continue;
+    if (way != nowhere) return WayOn::branch;
     way = to;
   }
-  return count;
+  if (way == nowhere) return WayOn::dead_end;
+  line = {line.front, way};
+  return WayOn::corridor;
 }
 
-// Lets the pusher follow its way behind the puller, which moves along the corridor, to the corridor's end or to where
-// the pusher need not go on. Whether they stand in each other's way there.
-bool PibtStep::is_swap_needed(std::int32_t pusher, std::int32_t puller, Location pusher_at, Location puller_at) const {
-  while (steps_left(pusher, puller_at) < steps_left(pusher, pusher_at)) {
-    Location way = nowhere;
-    const std::int32_t count = ways_on(pusher_at, puller_at, way);
-    if (count > 1) return false;  // the puller can step aside
-    if (count == 0) break;
-    pusher_at = puller_at;
-    puller_at = way;
-  }
-  const bool puller_wants_through = steps_left(puller, pusher_at) < steps_left(puller, puller_at);
-  const bool pusher_wants_through = steps_left(pusher, puller_at) < steps_left(pusher, pusher_at);
-  return puller_wants_through && (pusher_wants_through || steps_left(pusher, pusher_at) == 0);
+bool PibtStep::is_parking_place(Location location) const {
+  const std::int32_t robot = robot_at(location);
+  return robot != nobody && degrees_[static_cast<std::size_t>(location)] == 1 && steps_left(robot, location) == 0;
 }
 
-// Whether the puller, followed by the pusher, reaches a branch at which they can exchange their places.
-bool PibtStep::is_swap_possible(Location pusher_at, Location puller_at) const {
-  const Location begin = pusher_at;
-  for (Location steps = 0; puller_at != begin && steps < problem_.graph.location_count(); ++steps) {
-    Location way = nowhere;
-    const std::int32_t count = ways_on(pusher_at, puller_at, way);
-    if (count > 1) return true;
-    if (count == 0) return false;
-    pusher_at = puller_at;
-    puller_at = way;
+// Pushes the line on as long as the robot at its rear comes nearer to its goal. Whether that ends, before any branch,
+// with each robot where the other one has to go; the one at the rear may also have arrived.
+bool PibtStep::block_each_other(std::int32_t rear, std::int32_t front, Line line) const {
+  const auto wants_on = [&] { return steps_left(rear, line.front) < steps_left(rear, line.rear); };
+  for (WayOn way = WayOn::corridor; way == WayOn::corridor && wants_on();) {
+    way = advance(line);
+    if (way == WayOn::branch) return false;
   }
-  return false;
+  const bool wants_back = steps_left(front, line.rear) < steps_left(front, line.front);
+  return wants_back && (wants_on() || steps_left(rear, line.rear) == 0);
+}
+
+// Whether a corridor leads the line to a branch, at which its robots can change their order.
+bool PibtStep::reaches_branch(Line line) const {
+  const Location begin = line.rear;
+  WayOn way = WayOn::corridor;
+  for (Location steps = problem_.graph.location_count(); steps > 0 && way == WayOn::corridor; --steps)
+    way = line.front == begin ? WayOn::dead_end : advance(line);
+  return way == WayOn::branch;
 }
 
 Priorities::Priorities(const Problem& problem, const std::vector<TourTable>& tables)

@@ -61,15 +61,24 @@ class PibtStep {
     std::uint8_t next;
   };
 
+  // The neighboring places of two robots that move in a row.
+  struct Line {
+    Location rear;
+    Location front;
+  };
+  enum class WayOn : std::uint8_t { corridor, branch, dead_end };
+
   bool set_fixed(std::span<const Fixed> fixed);
   bool choose(std::int32_t agent, toolkit::Stream& random);
   Choice begin_choice(std::int32_t agent, toolkit::Stream& random);
   void reserve(std::int32_t agent, Location to);
   void pull(const Choice& choice);
   std::int32_t find_swap(std::int32_t agent, Location first_choice) const;
-  bool is_swap_needed(std::int32_t pusher, std::int32_t puller, Location pusher_at, Location puller_at) const;
-  bool is_swap_possible(Location pusher_at, Location puller_at) const;
-  std::int32_t ways_on(Location from, Location at, Location& way) const;
+  std::int32_t find_opponent(std::int32_t agent, Line line) const;
+  bool block_each_other(std::int32_t rear, std::int32_t front, Line line) const;
+  bool reaches_branch(Line line) const;
+  WayOn advance(Line& line) const;
+  bool is_parking_place(Location location) const;
   void clear(const Configuration& from);
 
   bool can_move(Location from, Location to) const;
