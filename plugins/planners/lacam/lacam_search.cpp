@@ -134,7 +134,7 @@ void LacamSearch::connect(NodeId from, NodeId to) {
 }
 
 // Lowers the cost of a node to which another one leads at less cost, and of those after it (Dijkstra), and opens them
-// again.
+// again. When the search is stopped, so is this: the ways known by then are right, if not the shortest.
 void LacamSearch::shorten_ways(NodeId from, NodeId to, std::int64_t g) {
   struct Entry {
     std::int64_t g;
@@ -143,7 +143,7 @@ void LacamSearch::shorten_ways(NodeId from, NodeId to, std::int64_t g) {
     bool operator>(const Entry& other) const { return std::tie(g, from, to) > std::tie(other.g, other.from, other.to); }
   };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (queue.push({g, from, to}); !queue.empty();) {
+  for (queue.push({g, from, to}); !queue.empty() && !stop_.poll();) {
     const Entry entry = queue.top();
     queue.pop();
     Node& shortened = node(entry.to);
