@@ -70,7 +70,7 @@ Status ConflictSearchPlanner::plan(const PlanningProblem& host_problem, PlanSink
     case HighLevel::Result::stopped:
       set_error("stopped by the host");
       return Status::timeout;
-    case HighLevel::Result::node_limit:
+    case HighLevel::Result::limit:
       set_error("no plan within node_limit = " + std::to_string(chosen.node_limit) + " nodes");
       return Status::timeout;
   }

@@ -47,12 +47,12 @@ class Eecbs final : public ConflictSearchPlanner {
           .range(0, 1000)
           .doc("in every second restart: steps that a path may be longer to avoid a conflict; 0: any within the bound");
   Param<std::int64_t> restart_after =
-      param("restart_after", 1200)
+      param("restart_after", 600)
           .unit("1")
           .range(0, 1'000'000'000)
           .doc(
-              "nodes after which the search restarts with the robots in another order; half as many more each time; a "
-              "quarter the first time; 0: never");
+              "expansions after which the search restarts with the robots in another order; a quarter the first time, "
+              "half as many more each time; 0: never");
   Param<bool> safe_intervals =
       param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
   Param<std::int64_t> node_limit = param("node_limit", 10'000'000)

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/unit/planners/joint_optimum.hpp"
+#include "tests/unit/planners/large_case.hpp"
 #include "tests/unit/planners/planner_variants.hpp"
 #include "tests/unit/planners/random_case.hpp"
 
@@ -188,6 +189,22 @@ TEST_CASE("EECBS restarts in another order by another seed, and keeps its promis
     }
   }
   CHECK(different > 10);
+}
+
+TEST_CASE("EECBS restarts after so many expansions, however many paths it replans in place") {
+  int solved = 0;
+  for (uint64_t seed = 0; seed < 12; ++seed) {
+    CAPTURE(seed);
+    const PlanningCase c = large_case(seed, 50);
+    const Plan plan = run_planner(eecbs, c, {{"suboptimality", 1.02}, {"node_limit", 400}, {"restart_after", 0}});
+    if (plan.status != DMRP_OK) continue;
+    ++solved;
+    // the first search gets a quarter, and that is enough
+    const auto expanded = static_cast<int64_t>(plan.statistics.at("high_level_expanded"));
+    const ParamOverrides restarting = {{"suboptimality", 1.02}, {"node_limit", 400}, {"restart_after", 4 * expanded}};
+    CHECK(same_bits(plan, run_planner(eecbs, c, restarting)));
+  }
+  CHECK(solved > 3);
 }
 
 TEST_CASE("the same problem and seed give the same bits, whatever was planned before") {

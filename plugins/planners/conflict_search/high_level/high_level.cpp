@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <dmrp/toolkit/random.hpp>
+#include <limits>
 #include <span>
 #include <tuple>
 
@@ -13,7 +14,7 @@ namespace dmrp::planners {
 namespace {
 
 // The first search prefers few conflicts to few steps, which solves easy problems soonest. It gets 1 / first_share of
-// the nodes of a restart.
+// the expansions of a restart.
 constexpr std::int64_t first_share = 4;
 
 // After so many expansions without a solution the search tries to prove that there is none ...
@@ -43,24 +44,23 @@ ConflictSearchStatistics HighLevel::statistics() const {
 HighLevel::Result HighLevel::run(const std::vector<std::int32_t>& members, const std::vector<Constraint>& constraints) {
   members_ = members;
   std::vector<std::int32_t> order = members;
-  std::int64_t nodes_left = options_.node_limit;
-  std::int64_t nodes_of_restart = options_.restart_after;
+  Limits limits{options_.node_limit, std::numeric_limits<std::int64_t>::max()};
+  std::int64_t expansions_of_restart = options_.restart_after;
   proved_bound_ = 0;
   expansions_of_run_ = 0;
   obstruction_.clear();
   for (std::int32_t restart = 0;; ++restart) {
-    std::int64_t nodes = nodes_left;
     if (options_.restart_after > 0) {
-      nodes = std::min(nodes, restart == 0 ? nodes_of_restart / first_share + 1 : nodes_of_restart);
-      if (restart > 0) nodes_of_restart += nodes_of_restart / 2 + 1;
+      limits.expansions = restart == 0 ? expansions_of_restart / first_share + 1 : expansions_of_restart;
+      if (restart > 0) expansions_of_restart += expansions_of_restart / 2 + 1;
     }
     // neither way is better on all maps, so restarts alternate
     const bool weighs_steps = restart > 0 && restart % 2 == 0;
     replanner_.set_conflict_steps(weighs_steps ? options_.conflict_steps : 0);
-    const Result result = search(order, constraints, nodes);
+    const Result result = search(order, constraints, limits);
     proved_bound_ = lower_bound();
-    nodes_left -= nodes;
-    if (result != Result::node_limit || nodes_left <= 0) return result;
+    limits.nodes -= tree_.node_count();
+    if (result != Result::limit || limits.nodes <= 0) return result;
     toolkit::Stream stream(options_.seed, "restart", restart);
     stream.shuffle(order);
   }
@@ -68,8 +68,9 @@ HighLevel::Result HighLevel::run(const std::vector<std::int32_t>& members, const
 
 // One search, the agents' first paths planned in this order.
 HighLevel::Result HighLevel::search(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints,
-                                    std::int64_t node_limit) {
+                                    const Limits& limits) {
   StopSignal& stop = context_.stop;
+  const std::int64_t expanded_before = statistics_.high_level_expanded;
   if (!insert_root(order, constraints)) return stop.raised() ? Result::stopped : Result::unsolvable;
   while (const NodeQueue::Choice choice = queue_.select()) {
     node_.enter(choice.node);
@@ -103,9 +104,9 @@ HighLevel::Result HighLevel::search(const std::vector<std::int32_t>& order, cons
       if (stop.raised()) return Result::stopped;
       if (obstruction) return obstruction_ = *obstruction, Result::unsolvable;
     }
-    if (tree_.node_count() >= node_limit) {
+    if (tree_.node_count() >= limits.nodes || statistics_.high_level_expanded - expanded_before >= limits.expansions) {
       queue_.raise_bound();
-      return Result::node_limit;
+      return Result::limit;
     }
   }
   obstruction_ = "every way to resolve the robots' conflicts was tried";

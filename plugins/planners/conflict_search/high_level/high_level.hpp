@@ -20,7 +20,7 @@ namespace dmrp::planners {
 
 class HighLevel {
  public:
-  enum class Result { solved, unsolvable, stopped, node_limit };
+  enum class Result { solved, unsolvable, stopped, limit };
 
   // `weights` raise the bounds of nodes; null for none. It must outlive the search.
   HighLevel(const SearchContext& context, const ConflictSearchOptions& options, PairWeights* weights = nullptr);
@@ -37,8 +37,14 @@ class HighLevel {
   ConflictSearchStatistics statistics() const;
 
  private:
+  // Of one search.
+  struct Limits {
+    std::int64_t nodes;
+    std::int64_t expansions;
+  };
+
   Result search(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints,
-                std::int64_t node_limit);
+                const Limits& limits);
   bool insert_root(const std::vector<std::int32_t>& order, const std::vector<Constraint>& constraints);
   bool raise_bound();
   void replan_in_place();

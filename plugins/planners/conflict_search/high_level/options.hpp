@@ -26,7 +26,7 @@ struct ConflictSearchOptions {
   bool disjoint_splitting = false;    // Li et al. 2019
   bool replan_in_place = false;       // before a split: replan agents without new constraints
   std::int32_t conflict_steps = 0;    // steps that a path may be longer to avoid one conflict; 0: any, within the bound
-  std::int64_t restart_after = 0;     // nodes before a restart in another order of agents (Cohen et al. 2018); 0: never
+  std::int64_t restart_after = 0;     // expansions before the next order of agents (Cohen et al. 2018); 0: never
   std::int64_t node_limit = 0;        // over all restarts
   std::uint64_t seed = 0;             // of the orders
 };

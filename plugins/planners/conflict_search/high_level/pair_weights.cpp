@@ -78,7 +78,7 @@ std::int32_t PairWeights::weight(EnteredNode& node, const AgentPair& pair) {
     case HighLevel::Result::unsolvable:
       return known->second = unsolvable;
     case HighLevel::Result::solved:
-    case HighLevel::Result::node_limit:
+    case HighLevel::Result::limit:
       break;
   }
   return known->second = std::max(0, pair_search_->lower_bound() - alone);
