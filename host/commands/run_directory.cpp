@@ -14,12 +14,23 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
+#include "host/files/network_file_system.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+// Locks and syncs of network file systems do not keep what SQLite promises.
+void refuse_network_file_system(const fs::path& path) {
+  const std::string type = network_file_system(path);
+  if (type.empty()) return;
+  throw InputError(fmt::format(
+      "{}: is on a network file system ({}), where results.sqlite is not safe: choose a folder on a disk of this "
+      "machine, and copy it when the run is over, or join copies of shards by merge",
+      path.string(), type));
+}
 
 // Another process may have created it.
 void make_directory(const fs::path& path) {
@@ -54,6 +65,7 @@ RunDirectory::RunDirectory(fs::path path) : path_(std::move(path)) {
 RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
   for (int i = 1;; ++i) {
     const fs::path path = !out.empty() ? out : fs::path("runs") / (i == 1 ? name : fmt::format("{}-{}", name, i));
+    refuse_network_file_system(path);
     std::error_code ignored;
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) {
       make_directory(path);
@@ -71,6 +83,7 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
 
 RunDirectory RunDirectory::reopen(const fs::path& out) {
   if (out.empty()) throw InputError("--resume needs --out DIR: the run directory to continue");
+  refuse_network_file_system(out);
   if (was_never_begun(out)) {
     RunDirectory directory(out);
     if (directory.locked()) return directory;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/errors/machine_error.hpp"
+#include "host/files/network_file_system.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -31,6 +32,23 @@ namespace {
   fail(sqlite3_errcode(connection), std::string(file ? file : "") + ": " + what + ": " + sqlite3_errmsg(connection));
 }
 
+// A finished database is read from a network file system without locks and shared memory, which may not work there. What
+// a killed run left in its log would be overlooked.
+std::string immutable_uri(const std::filesystem::path& path) {
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(path.string() + "-wal", error); !error && size > 0)
+    throw SqliteError(path.string() + ": was not closed, and cannot be recovered on a network file system (" +
+                      network_file_system(path) + "): copy its folder to a disk of this machine");
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (c == '%' || c == '?' || c == '#')
+      uri += c == '%' ? "%25" : c == '?' ? "%3f" : "%23";
+    else
+      uri += c;
+  }
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
 void SqliteConnection::Close::operator()(sqlite3* handle) const {
@@ -43,8 +61,10 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   const int flags = mode == SqliteMode::create       ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
                     : mode == SqliteMode::read_write ? SQLITE_OPEN_READWRITE
                                                      : SQLITE_OPEN_READONLY;
+  const bool immutable = mode == SqliteMode::read_only && !network_file_system(path).empty();
+  const std::string name = immutable ? immutable_uri(path) : path.string();
   sqlite3* connection = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &connection, flags, nullptr);
+  const int code = sqlite3_open_v2(name.c_str(), &connection, flags | (immutable ? SQLITE_OPEN_URI : 0), nullptr);
   handle_.reset(connection);
   if (code != SQLITE_OK) fail(code, path.string() + ": " + sqlite3_errstr(code));
   sqlite3_extended_result_codes(connection, 1);
