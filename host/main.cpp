@@ -82,7 +82,7 @@ void add_run(CLI::App& app, RunOptions& options, std::string& shard, std::option
       command->add_flag("--resume", options.resume, "continue the run in --out: run only the trials that it lacks");
   command->add_flag("--retry-faults", options.retry_faults, "with --resume: run trials with faults again, too")
       ->needs(resume);
-  command->add_option("--shard", shard, "run only the trials k with k mod N = I")->check(check_shard)->type_name("I/N");
+  command->add_option("--shard", shard, "run only the trials k with k mod N = I; merge joins the parts (docs/cluster.md)")->check(check_shard)->type_name("I/N");
   command->add_option("--trials", options.trials, "repetitions of each combination; overrides the file")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("K");
