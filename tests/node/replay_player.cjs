@@ -3,7 +3,15 @@
 'use strict';
 const assert = require('node:assert');
 const path = require('node:path');
-const {run_experiment, scratch_folder, open_report, run_tests} = require('./report_browser.cjs');
+const {
+  LAPTOP,
+  PHONE,
+  run_experiment,
+  scratch_folder,
+  open_report,
+  with_replay,
+  run_tests,
+} = require('./report_browser.cjs');
 
 const {page_modules} = require('./page_modules.cjs');
 
@@ -12,7 +20,7 @@ const {recording} = page_modules(path.join(project, 'host/report/page'), {record
 const report = run_experiment(path.join(project, 'examples/quickstart.toml'), path.join(scratch_folder(), 'run'));
 
 async function open_replay(browser, options = {}) {
-  const opened = await open_report(browser, report, options);
+  const opened = await open_report(browser, options.report || report, options);
   await opened.page.evaluate(() => dmrp.open_replay(dmrp.data.replays[0].trial));
   await opened.page.locator('#replay[data-trial]').waitFor();
   return opened;
@@ -51,6 +59,95 @@ tests['keys move the time and pick robots'] = async (browser) => {
   const stopped = await seconds(page);
   await page.waitForTimeout(200);
   assert.strictEqual(await seconds(page), stopped);
+  await close(opened);
+};
+
+tests['map, time line and controls are in the window together'] = async (browser) => {
+  for (const viewport of [LAPTOP, PHONE]) {
+    const opened = await open_replay(browser, {viewport});
+    const {page} = opened;
+    await page.waitForTimeout(300);
+    const below = (await page.locator('#contents').boundingBox()).height;
+    for (const part of ['.replay-stage', '.replay-time-line', '.replay-controls']) {
+      const box = await page.locator(part).boundingBox();
+      assert.ok(box.y >= below, `${part} begins at ${box.y} px, below ${below}`);
+      assert.ok(box.y + box.height <= viewport.height, `${part} ends at ${box.y + box.height} of ${viewport.height} px`);
+    }
+    await close(opened);
+  }
+};
+
+tests['the whole world is shown at first'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  // the share of pixels that differ from the first picture
+  const differs = () =>
+    page.getByTestId('replay-map').evaluate((canvas) => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', {willReadFrequently: true});
+      copy.drawImage(canvas, 0, 0);
+      const seen = new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+      window.first_seen = window.first_seen || seen;
+      return seen.filter((pixel, i) => pixel !== window.first_seen[i]).length / seen.length;
+    });
+  await differs();
+  await page.getByTestId('replay-robots').click();
+  assert.ok((await differs()) > 0.05);
+  await page.getByTestId('replay-fit').click();
+  assert.ok((await differs()) < 0.001);
+  await close(opened);
+};
+
+tests['the player fills the screen and leaves it'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  const height = async () => (await page.getByTestId('replay-stage').boundingBox()).height;
+  const before = await height();
+  await page.getByTestId('replay-fill').click();
+  await page.waitForFunction(
+    (least) => document.querySelector('.replay-stage').clientHeight > least,
+    before + 50
+  );
+  assert.ok((await page.locator('.replay-controls').boundingBox()).y < LAPTOP.height);
+  await page.getByTestId('replay-fill').click();
+  await page.waitForFunction((was) => document.querySelector('.replay-stage').clientHeight === was, before);
+  await close(opened);
+};
+
+// The quickstart's replay with each robot six times.
+function of_24_robots() {
+  return with_replay(report, 'dmrp-replay-0', (replay) => {
+    const robots = replay.robots;
+    replay.robots = Array.from({length: 24}, (_, i) => ({...robots[i % 4], name: `robot ${i}`}));
+    for (const plan of replay.plans) plan.paths = Array.from({length: 24}, (_, i) => plan.paths[i % 4]);
+  });
+}
+
+tests['24 robots have their own colours and numbers, and are marked by the pointer'] = async (browser) => {
+  const opened = await open_replay(browser, {report: of_24_robots()});
+  const {page} = opened;
+  const badges = page.locator('.replay-number');
+  const colours = await badges.evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopColor));
+  assert.strictEqual(new Set(colours).size, 24);
+  const names = await page.locator('.replay-robot').evaluateAll((all) =>
+    all.map((one) => [one.querySelector('.replay-number').textContent, one.querySelector('.replay-robot-name').textContent])
+  );
+  for (const [number, name] of names) assert.strictEqual(name, `robot ${number}`);
+  await page.getByTestId('replay-robot-17').hover();
+  assert.deepStrictEqual(
+    await page.locator('.replay-lines path.marked').evaluateAll((all) => all.map((one) => one.dataset.robot)),
+    ['17', '17']
+  );
+  assert.match(await page.locator('.replay-curves').textContent(), /robot 17: \d/);
+  await page.locator('.replay-summary').hover();
+  assert.strictEqual(await page.locator('.replay-lines path.marked').count(), 0);
+  // on a curve
+  const at = await page.locator('.replay-lines path[data-robot="2"]').first().evaluate((line) => {
+    const point = line.getPointAtLength(line.getTotalLength() / 2);
+    const box = line.ownerSVGElement.getBoundingClientRect();
+    return [box.left + point.x, box.top + point.y];
+  });
+  await page.mouse.move(...at);
+  assert.strictEqual(await page.locator('.replay-lines path.marked').count(), 2);
   await close(opened);
 };
 

@@ -15,9 +15,11 @@ function tool(text, label, id, pressed) {
   );
 }
 
+const LEAST_HEIGHT_PX = 220;
 const NO_WEBGL = 'This browser offers no WebGL, which the 3-D view needs. The flat map shows the same.';
 
-// handlers: pick(robot index or null), redraw(). make_3d_view: replay_3d/view.js's make_view.
+// handlers: pick(robot index or null), point(robot index or null), redraw(), room(): the most height of the picture in
+// pixels, fills(): whether it is to have all of it. make_3d_view: replay_3d/view.js's make_view.
 export function make_stage(handlers, make_3d_view) {
   const flat_canvas = element('canvas', {class: 'replay-canvas', 'data-testid': 'replay-map'});
   const message = element('p', {class: 'replay-message', role: 'status', hidden: true});
@@ -39,7 +41,8 @@ export function make_stage(handlers, make_3d_view) {
       {class: 'segmented'},
       tool('−', 'zoom out', 'replay-zoom-out', () => zoom(1 / 1.4)),
       tool('+', 'zoom in', 'replay-zoom-in', () => zoom(1.4)),
-      tool('⤢', 'show the whole world', 'replay-fit', fit)
+      tool('⤢', 'show the whole world', 'replay-fit', fit),
+      tool('◎', 'show where robots drive', 'replay-robots', fit_robots)
     ),
     element('div', {class: 'segmented'}, flat_button, solid_button)
   );
@@ -87,7 +90,7 @@ export function make_stage(handlers, make_3d_view) {
         handlers.redraw();
       },
       pinch: (factor) => zoom(factor),
-      hover: () => {},
+      hover: (x, y) => handlers.point(x === null || !scene ? null : solid.robot_at(scene, x, y)),
     });
   }
 
@@ -124,7 +127,16 @@ export function make_stage(handlers, make_3d_view) {
     handlers.redraw();
   }
 
+  // Shows the part of the world in which robots drive.
+  function fit_robots() {
+    const box = recording.active_box(scene.replay);
+    mode === 'solid' ? solid.show_box(box) : map.view.show_box(box);
+    show_zoom();
+    handlers.redraw();
+  }
+
   function hover(x, y) {
+    handlers.point(x === null || !scene ? null : map.robot_at(scene, x, y));
     const words = x === null || !scene ? '' : map.words_at(scene, x, y);
     tip.hidden = words === '';
     if (words === '') return;
@@ -143,12 +155,12 @@ export function make_stage(handlers, make_3d_view) {
     hover,
   });
 
-  // The height follows the aspect of the world, limited so that the buttons below stay in the window.
+  // The height follows the aspect of the world, limited so that time line and buttons are in sight together with it.
   function resize() {
     if (!scene) return;
     const [width, height] = [0, 1].map((axis) => scene.replay.upper[axis] - scene.replay.lower[axis]);
-    const most = Math.max(260, window.innerHeight - 290);
-    node.style.height = `${Math.round(Math.min(most, Math.max(220, (node.clientWidth * height) / width)))}px`;
+    const wished = handlers.fills() ? Infinity : (node.clientWidth * height) / width;
+    node.style.height = `${Math.floor(Math.max(LEAST_HEIGHT_PX, Math.min(wished, handlers.room())))}px`;
     current().resize();
   }
 
@@ -163,7 +175,6 @@ export function make_stage(handlers, make_3d_view) {
       )}; space plays, arrow keys step, digits select a robot`
     );
     resize();
-    map.view.show_box(recording.active_box(scene.replay));
     show_zoom();
   }
 

@@ -7,6 +7,7 @@ import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
+import {scroll_box} from '../scroll_box.js';
 
 const STRONGEST = 0.7; // opacity; above this the numbers are hard to read
 
@@ -41,18 +42,18 @@ export function grids(data, metric) {
 }
 
 function cell_element(cell, good, best, decimals, unit) {
-  if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', title: 'not run'}, '\u00a0'));
+  if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', 'data-about': 'not run'}, '\u00a0'));
   if (!ranking.is_defined(cell.mean)) {
     return element(
       'td',
       {},
-      element('span', {class: 'cell nothing', title: 'undefined in every trial'}, numbers.UNDEFINED)
+      element('span', {class: 'cell nothing', 'data-about': 'undefined in every trial'}, numbers.UNDEFINED)
     );
   }
   const about = numbers.with_unit(numbers.interval(cell.low, cell.high, decimals), unit);
   const made = element(
     'span',
-    {class: best ? 'cell best-cell' : 'cell', title: `${about} from ${numbers.counted(cell.defined, 'trial')}`},
+    {class: best ? 'cell best-cell' : 'cell', 'data-about': `${about} from ${numbers.counted(cell.defined, 'trial')}`},
     element('span', {}, best && hidden('best: '), numbers.fixed(cell.mean, decimals))
   );
   made.style.setProperty('--strength', scaleLinear().range([0.03, STRONGEST])(good).toFixed(3));
@@ -86,9 +87,8 @@ function grid_table(data, grid, metric, decimals) {
   return element(
     'div',
     {class: 'facet'},
-    element(
-      'div',
-      {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
+    scroll_box(
+      {'aria-label': grid.title},
       element(
         'table',
         {class: 'heat'},
@@ -143,13 +143,18 @@ export function default_metric(data, measured) {
   return names.find((name) => differs(data, name)) || names[0] || measured[0].name;
 }
 
-export function mount(body, data) {
-  const measured = labels.measured_metrics(data);
+// The reason why there is nothing to show, or null.
+export function absent(data) {
   const pairs = Math.max(
     labels.values_of(data, 'global_planner').length,
     labels.values_of(data, 'local_controller').length
   );
-  if (pairs < 2 || measured.length === 0) return 'there is one planner and one controller';
+  const is_measured = labels.measured_metrics(data).length > 0;
+  return pairs < 2 || !is_measured ? 'there is one planner and one controller' : null;
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
   const holder = element('div', {class: 'facets heat-grids'});
   const note = element('p', {class: 'note'});
   const show = (name) => {
@@ -169,5 +174,4 @@ export function mount(body, data) {
   const first = default_metric(data, measured);
   show(first);
   fill(body, controls.row(controls.metric_select(data, 'Metric', measured, first, show)), holder, note);
-  return null;
 }
