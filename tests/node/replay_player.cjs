@@ -128,10 +128,9 @@ tests['24 robots have their own colours and numbers, and are marked by the point
   const badges = page.locator('.replay-number');
   const colours = await badges.evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopColor));
   assert.strictEqual(new Set(colours).size, 24);
-  const names = await page.locator('.replay-robot').evaluateAll((all) =>
-    all.map((one) => [one.querySelector('.replay-number').textContent, one.querySelector('.replay-robot-name').textContent])
-  );
-  for (const [number, name] of names) assert.strictEqual(name, `robot ${number}`);
+  const numbers = await badges.allTextContents();
+  const names = await page.locator('.replay-robot-name').allTextContents();
+  assert.deepStrictEqual(names, numbers.map((number) => `robot ${number}`));
   await page.getByTestId('replay-robot-17').hover();
   assert.deepStrictEqual(
     await page.locator('.replay-lines path.marked').evaluateAll((all) => all.map((one) => one.dataset.robot)),
@@ -141,7 +140,8 @@ tests['24 robots have their own colours and numbers, and are marked by the point
   await page.locator('.replay-summary').hover();
   assert.strictEqual(await page.locator('.replay-lines path.marked').count(), 0);
   // on a curve
-  const at = await page.locator('.replay-lines path[data-robot="2"]').first().evaluate((line) => {
+  const line = page.locator('.replay-lines path[data-robot="2"]').first();
+  const at = await line.evaluate((line) => {
     const point = line.getPointAtLength(line.getTotalLength() / 2);
     const box = line.ownerSVGElement.getBoundingClientRect();
     return [box.left + point.x, box.top + point.y];
@@ -149,6 +149,42 @@ tests['24 robots have their own colours and numbers, and are marked by the point
   await page.mouse.move(...at);
   assert.strictEqual(await page.locator('.replay-lines path.marked').count(), 2);
   await close(opened);
+};
+
+// The quickstart's replay with a transporter and a car in place of two discs.
+function of_three_kinds() {
+  return with_replay(report, 'dmrp-replay-0', (replay) => {
+    const outline = [-400, -250, 400, -250, 400, 250, -400, 250];
+    Object.assign(replay.robots[0], {parts: [outline], drive: 'ackermann', wheelbase: 500});
+    Object.assign(replay.robots[1], {parts: [outline], drive: 'holonomic'});
+  });
+}
+
+tests['the 3-D view shows kinds of robots and walking people, from three cameras'] = async (browser) => {
+  const pictures = {};
+  for (const [name, shown] of Object.entries({discs: report, kinds: of_three_kinds()})) {
+    const opened = await open_replay(browser, {report: shown});
+    const {page} = opened;
+    // 3-D pictures are kept to the end of the task that drew them
+    const picture = (click) =>
+      page.evaluate((id) => {
+        document.querySelector(`[data-testid=${id}]`).click();
+        return document.querySelector('canvas.solid').toDataURL();
+      }, click);
+    await page.getByTestId('replay-3d').click();
+    await page.locator('[data-testid=replay-stage][data-mode="3d"]').waitFor();
+    for (const camera of ['overview', 'low', 'follow'])
+      pictures[`${name}, ${camera}`] = await picture(`replay-camera-${camera}`);
+    assert.ok(await page.getByTestId('replay-follow').isChecked());
+    assert.strictEqual(await pressed(page, 0), 'true');
+    const people = page.getByTestId('replay-people');
+    const with_people = await picture('replay-camera-low');
+    await people.uncheck();
+    assert.notStrictEqual(await picture('replay-camera-low'), with_people);
+    assert.ok(!(await page.getByTestId('replay-follow').isChecked()));
+    await close(opened);
+  }
+  assert.strictEqual(new Set(Object.values(pictures)).size, 6);
 };
 
 tests['a robot is picked on the map, an event is jumped to'] = async (browser) => {

@@ -96,7 +96,8 @@ async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'l
 // Checks that no plot or section is empty, the page fits the screen, a wide screen cuts no table and a small one says
 // what it hides, and no text is NaN, null or an object.
 async function check_layout(page, where) {
-  const found = await page.evaluate(() => {
+  const found = await page.evaluate(async () => {
+    for (let frames = 0; frames < 2; ++frames) await new Promise(requestAnimationFrame); // sizes are observed in each
     const problems = [];
     const wide = document.scrollingElement.scrollWidth;
     if (wide > window.innerWidth) problems.push(`the page is ${wide} px wide on a screen of ${window.innerWidth}`);
@@ -106,15 +107,18 @@ async function check_layout(page, where) {
     for (const body of document.querySelectorAll('.section .section-body'))
       if (!body.children.length) problems.push(`an empty section: ${body.closest('section').id}`);
     for (const box of document.querySelectorAll('.section .table-scroll')) {
-      if (box.clientWidth === 0 || box.scrollWidth <= box.clientWidth + 2) continue;
+      if (box.closest('details:not([open])') || box.scrollWidth <= box.clientWidth + 2) continue;
       const table = `the table ${box.querySelector('table').id || box.querySelector('table').className}`;
       const frame = box.parentElement;
       const last = [...box.querySelectorAll('thead th')].pop();
+      const name = (last.querySelector('.header') || last).textContent;
+      const first = [...box.querySelectorAll('tbody tr > :first-child:not([colspan])')];
       if (window.innerWidth > 1200) problems.push(`${table} is cut: ${box.scrollWidth} px in ${box.clientWidth}`);
-      if (!frame.classList.contains('more-right')) problems.push(`${table} goes on behind an edge that does not say so`);
-      else if (!frame.querySelector('.more-columns').textContent.includes((last.querySelector('.header') || last).textContent))
+      if (!frame.classList.contains('more-right'))
+        problems.push(`${table} goes on behind an edge that does not say so`);
+      else if (!frame.querySelector('.more-columns').textContent.includes(name))
         problems.push(`${table} has no line that names its hidden columns`);
-      if (getComputedStyle(box.querySelector('tbody tr:not(.group) > :first-child')).position !== 'sticky')
+      if (first.some((cell) => getComputedStyle(cell).position !== 'sticky'))
         problems.push(`${table} loses its first column when it scrolls`);
     }
     for (const attribute of document.querySelectorAll('svg [d], svg [transform], svg [x], svg [x1], svg [cx]'))
@@ -137,7 +141,8 @@ function with_replay(report, element, change) {
   const replay = JSON.parse(zlib.gunzipSync(Buffer.from(text.slice(from, to), 'base64')));
   change(replay);
   const file = path.join(path.dirname(report), 'changed_replay.html');
-  fs.writeFileSync(file, text.slice(0, from) + zlib.gzipSync(JSON.stringify(replay)).toString('base64') + text.slice(to));
+  const packed = zlib.gzipSync(JSON.stringify(replay)).toString('base64');
+  fs.writeFileSync(file, text.slice(0, from) + packed + text.slice(to));
   return file;
 }
 

@@ -30,7 +30,7 @@ export function watch_edges(frame, box, changed = () => {}) {
     changed(right);
   };
   box.addEventListener('scroll', () => requestAnimationFrame(show), {passive: true});
-  const observer = new ResizeObserver(() => requestAnimationFrame(show));
+  const observer = new ResizeObserver(show);
   for (const watched of [box, ...box.children]) observer.observe(watched);
 }
 

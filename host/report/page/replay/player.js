@@ -44,7 +44,7 @@ function make_player(section, data, make_3d_view) {
   };
   let latest = 0; // number of the last request; results of older ones are dropped
 
-  const stage = make_stage({pick, point, redraw, room, fills}, make_3d_view);
+  const stage = make_stage({pick, point, follow, redraw, room, fills}, make_3d_view);
   const time_line = make_time_line(data, {jump, go: seek});
   const curves = make_curves({pick, point, go: seek});
   const robots = make_robot_list({pick, point});
@@ -69,8 +69,8 @@ function make_player(section, data, make_3d_view) {
     type: 'checkbox',
     'data-testid': 'replay-follow',
     onchange: () => {
-      scene.follow = follow_box.checked;
-      if (scene.follow) prepare_following();
+      follow(follow_box.checked);
+      if (scene.follow && stage.node.dataset.mode === '2d') stage.zoom(2.5);
       redraw();
     },
   });
@@ -137,9 +137,11 @@ function make_player(section, data, make_3d_view) {
     return window.innerHeight - below - navigation - ROOM_PX - (stage.node.getBoundingClientRect().top - title);
   }
 
-  function prepare_following() {
-    if (scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
-    if (stage.node.dataset.mode === '2d') stage.zoom(2.5);
+  // Keeps the picked robot in the middle of the picture; the first one if none is picked.
+  function follow(follows) {
+    scene.follow = follows;
+    follow_box.checked = follows;
+    if (follows && scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
   }
 
   function seek(t) {

@@ -15,21 +15,34 @@ function tool(text, label, id, pressed) {
   );
 }
 
+const CAMERAS = {
+  overview: 'camera: all robots from above',
+  follow: 'camera: behind the picked robot',
+  low: 'camera: at the height of people',
+};
 const LEAST_HEIGHT_PX = 220;
 const NO_WEBGL = 'This browser offers no WebGL, which the 3-D view needs. The flat map shows the same.';
 
-// handlers: pick(robot index or null), point(robot index or null), redraw(), room(): the most height of the picture in
-// pixels, fills(): whether it is to have all of it. make_3d_view: replay_3d/view.js's make_view.
+// handlers: pick(robot index or null), point(robot index or null), follow(whether), redraw(), room(): the most height
+// of the picture in pixels, fills(): whether it is to have all of it. make_3d_view: replay_3d/view.js's make_view.
 export function make_stage(handlers, make_3d_view) {
   const flat_canvas = element('canvas', {class: 'replay-canvas', 'data-testid': 'replay-map'});
   const message = element('p', {class: 'replay-message', role: 'status', hidden: true});
   const flat_button = tool('2-D', 'flat map', 'replay-2d', () => choose('flat'));
   const solid_button = tool('3-D', '3-D view', 'replay-3d', () => choose('solid'));
   const tip = element('div', {class: 'replay-tip', hidden: true});
+  const cameras = element(
+    'div',
+    {class: 'segmented replay-cameras', hidden: true},
+    Object.entries(CAMERAS).map(([preset, label]) =>
+      tool(preset, label, `replay-camera-${preset}`, () => look_from(preset))
+    )
+  );
   const node = element(
     'div',
     {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'},
     flat_canvas,
+    cameras,
     tip,
     message
   );
@@ -66,6 +79,7 @@ export function make_stage(handlers, make_3d_view) {
     flat_canvas.hidden = mode !== 'flat';
     if (solid) solid.canvas.hidden = mode !== 'solid';
     node.dataset.mode = mode === 'solid' ? '3d' : '2d';
+    cameras.hidden = mode !== 'solid';
   }
 
   // Null, after a message, if there can be no 3-D view.
@@ -124,6 +138,12 @@ export function make_stage(handlers, make_3d_view) {
   function fit() {
     current().fit ? current().fit() : map.view.fit();
     show_zoom();
+    handlers.redraw();
+  }
+
+  function look_from(preset) {
+    handlers.follow(preset === 'follow');
+    solid.look_from(preset, scene);
     handlers.redraw();
   }
 
