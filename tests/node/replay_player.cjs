@@ -2,6 +2,7 @@
 // The replay in a browser: replay_player.cjs PROJECT.
 'use strict';
 const assert = require('node:assert');
+const fs = require('node:fs');
 const path = require('node:path');
 const {
   LAPTOP,
@@ -71,7 +72,8 @@ tests['map, time line and controls are in the window together'] = async (browser
     for (const part of ['.replay-stage', '.replay-time-line', '.replay-controls']) {
       const box = await page.locator(part).boundingBox();
       assert.ok(box.y >= below, `${part} begins at ${box.y} px, below ${below}`);
-      assert.ok(box.y + box.height <= viewport.height, `${part} ends at ${box.y + box.height} of ${viewport.height} px`);
+      const end = box.y + box.height;
+      assert.ok(end <= viewport.height, `${part} ends at ${end} of ${viewport.height} px`);
     }
     await close(opened);
   }
@@ -185,6 +187,31 @@ tests['the 3-D view shows kinds of robots and walking people, from three cameras
     await close(opened);
   }
   assert.strictEqual(new Set(Object.values(pictures)).size, 6);
+};
+
+tests['picture, curves and video are saved, flat and in 3-D'] = async (browser) => {
+  const opened = await open_replay(browser);
+  const {page} = opened;
+  const bytes = async (saved) => fs.readFileSync(await saved.path());
+  const download = async (click) => (await Promise.all([page.waitForEvent('download'), click()]))[0];
+  const press = (what) => page.getByTestId(`replay-save-${what}`).click();
+  await page.getByTestId('replay-scrub').fill('5');
+  for (const mode of ['2d', '3d']) {
+    await page.getByTestId(`replay-${mode}`).click();
+    await page.locator(`[data-testid=replay-stage][data-mode="${mode}"]`).waitFor();
+    const picture = await bytes(await download(() => press('picture')));
+    assert.strictEqual(picture.subarray(1, 4).toString(), 'PNG');
+    assert.ok(picture.length > 5000, `a picture of ${picture.length} bytes`);
+    await press('video');
+    await page.waitForFunction(() => parseFloat(document.querySelector('[data-testid=replay-time]').textContent) > 0.3);
+    const video = await download(() => press('video'));
+    assert.match(video.suggestedFilename(), /^trial_\d+\.webm$/);
+    assert.strictEqual((await bytes(video)).subarray(0, 4).toString('hex'), '1a45dfa3');
+    assert.strictEqual(await page.getByTestId('replay-save-video').textContent(), 'video');
+  }
+  const curves = await download(() => press('curves'));
+  assert.match((await bytes(curves)).toString(), /Speed \(m\/s\)/);
+  await close(opened);
 };
 
 tests['a robot is picked on the map, an event is jumped to'] = async (browser) => {

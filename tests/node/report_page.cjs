@@ -291,6 +291,31 @@ tests['the contents stay, and a jump arrives, while sections are filled'] = asyn
   await context.close();
 };
 
+tests['every figure is saved as SVG, in light colours and without a style sheet'] = async (browser) => {
+  const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
+  const {page} = opened;
+  for (const section of ['heat-map', 'distributions', 'diagnosis', 'comparisons', 'curves', 'completion']) {
+    const button = page.locator(`#${section} .figure-tools button`).first();
+    const [saved] = await Promise.all([page.waitForEvent('download'), button.click()]);
+    assert.match(saved.suggestedFilename(), new RegExp(`^${section}.*\\.svg$`));
+    const text = fs.readFileSync(await saved.path(), 'utf8');
+    const found = await page.evaluate((svg) => {
+      const root = new DOMParser().parseFromString(svg, 'image/svg+xml').documentElement;
+      return {
+        name: root.nodeName,
+        texts: [...root.querySelectorAll('text')].map((one) => one.textContent).join(' '),
+        marks: root.querySelectorAll('path, line, circle, rect').length,
+      };
+    }, text);
+    assert.strictEqual(found.name, 'svg');
+    assert.ok(found.marks > 3, `${section}: ${found.marks} marks`);
+    assert.match(found.texts, /[a-z0-9]{2}/, section);
+    assert.doesNotMatch(text, /class=|var\(/, section);
+  }
+  assert.strictEqual(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+  await close(opened);
+};
+
 tests['the printed report is complete'] = async (browser) => {
   const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
   const pdf = await opened.page.pdf({format: 'A4'});

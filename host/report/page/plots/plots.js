@@ -18,6 +18,7 @@ import {
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {with_svg_button} from '../svg_files.js';
 
 // Draws now and after every change of width. draw(holder, width) fills the holder.
 export function responsive(holder, draw) {
@@ -185,8 +186,9 @@ export function panels(holder, titles, {least, most, most_columns}) {
   const share = `calc((100% - ${columns - 1} * 1.75rem) / ${columns})`;
   grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), ${share}), 1fr))`;
   const made = titles.map((title) => {
-    const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), element('div', {class: 'plot'}));
-    grid.append(panel);
+    const plot = element('div', {class: 'plot'});
+    const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), plot);
+    grid.append(with_svg_button(panel, title));
     return panel;
   });
   holder.append(grid);

@@ -2,7 +2,8 @@
 // player.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
 //
 // For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, fit,
-// robots, fill, play, back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The
+// robots, fill, save-picture, save-video, save-curves,
+// play, back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The
 // section carries the id of the shown trial as data-trial once it can be played.
 import {element} from '../elements.js';
 import {choice_words, left_out_words, make_chooser, trial_summary} from './chooser.js';
@@ -13,6 +14,7 @@ import {make_full_screen} from './full_screen.js';
 import {make_event_list, make_robot_list} from './lists.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
+import {make_saving} from './saving.js';
 import {make_stage} from './stage.js';
 import {make_time_line} from './time_line.js';
 import {follow_keys, make_transport} from './transport.js';
@@ -84,6 +86,17 @@ function make_player(section, data, make_3d_view) {
     scan_box,
     element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow'))
   );
+
+  const saving = make_saving(clock, {
+    picture: () => {
+      redraw();
+      return stage.canvas();
+    },
+    curves: () => curves.node,
+    trial: () => scene.replay.trial,
+    say: stage.say,
+  });
+  boxes.append(saving.node);
 
   const key = element('p', {class: 'note replay-key'});
   const controls = element('div', {class: 'replay-controls'}, make_transport(clock), stage.tools, boxes);
@@ -179,6 +192,7 @@ function make_player(section, data, make_3d_view) {
     if (!entry) return false;
     const request = ++latest;
     clock.pause();
+    saving.stop();
     chooser.show(trial);
     delete section.dataset.trial;
     try {

@@ -204,5 +204,15 @@ export function make_stage(handlers, make_3d_view) {
   }
 
   show_mode();
-  return {node, tools, show, draw, resize, zoom, say, forget: () => map.forget()};
+  return {
+    node,
+    tools,
+    show,
+    draw,
+    resize,
+    zoom,
+    say,
+    canvas: () => (mode === 'solid' ? solid.canvas : flat_canvas),
+    forget: () => map.forget(),
+  };
 }

@@ -5,6 +5,7 @@ import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
 const SIGNIFICANT = 0.05;
@@ -117,7 +118,7 @@ function table(data, rows, chosen) {
       )
     );
   }
-  return scroll_box({'aria-label': 'Paired differences'}, made);
+  return with_svg_button(scroll_box({'aria-label': 'Paired differences'}, made), chosen.metric);
 }
 
 function note_words(data, rows, chosen) {

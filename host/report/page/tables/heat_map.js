@@ -8,7 +8,10 @@ import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
 import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 
+const CELL_REM = 4.4; // width of a cell with its gap, and of the planners' names
+const NAMES_REM = 7;
 const STRONGEST = 0.7; // opacity; above this the numbers are hard to read
 
 // One grid for each variant and pedestrian model: {title, planners, controllers, cells: [[summary or null]]}.
@@ -84,7 +87,7 @@ function grid_table(data, grid, metric, decimals) {
   const goodness = ranking.goodness(means, metric.direction);
   const width = grid.controllers.length;
   const is_best = (cell) => cell && ranking.is_best(data, data.combinations[cell.combination], metric.name);
-  return element(
+  const facet = element(
     'div',
     {class: 'facet'},
     scroll_box(
@@ -115,6 +118,7 @@ function grid_table(data, grid, metric, decimals) {
     ),
     scale_key(means, decimals, metric.direction)
   );
+  return with_svg_button(facet, `${metric.name} ${grid.title}`);
 }
 
 function key_words(data, metric) {
@@ -165,6 +169,8 @@ export function mount(body, data) {
       name,
       all.flatMap((grid) => grid.cells.flat().map((cell) => cell && cell.mean))
     );
+    const columns = Math.max(...all.map((grid) => grid.controllers.length));
+    holder.style.setProperty('--widest', `${NAMES_REM + CELL_REM * columns}rem`);
     fill(
       holder,
       all.map((grid) => grid_table(data, grid, metric, decimals))

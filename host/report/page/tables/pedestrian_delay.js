@@ -5,6 +5,7 @@ import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
 const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
@@ -53,7 +54,7 @@ function table_of(data, rows, variants) {
       )
     );
   }
-  return scroll_box({'aria-label': 'Pedestrian delay'}, table);
+  return with_svg_button(scroll_box({'aria-label': 'Pedestrian delay'}, table));
 }
 
 const measured_rows = (data) => data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
