@@ -82,12 +82,17 @@ void add_run(CLI::App& app, RunOptions& options, std::string& shard, std::option
       command->add_flag("--resume", options.resume, "continue the run in --out: run only the trials that it lacks");
   command->add_flag("--retry-faults", options.retry_faults, "with --resume: run trials with faults again, too")
       ->needs(resume);
-  command->add_option("--shard", shard, "run only the trials k with k mod N = I; merge joins the parts (docs/cluster.md)")->check(check_shard)->type_name("I/N");
+  command
+      ->add_option("--shard", shard, "run only the trials k with k mod N = I; merge joins the parts (docs/cluster.md)")
+      ->check(check_shard)
+      ->type_name("I/N");
   command->add_option("--trials", options.trials, "repetitions of each combination; overrides the file")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("K");
   CLI::Option* quiet = command->add_flag("--quiet", options.quiet, "print neither progress nor results");
   command->add_flag("--json", options.json, "print the results as JSON, and no progress")->excludes(quiet);
+  command->add_option("--bundle", options.bundle, "then write a folder that repeats the run elsewhere (see bundle)")
+      ->type_name("DIR");
   command->add_option("--debug", debugged, "run this trial alone, in this process, without limits: for debuggers")
       ->excludes(resume)
       ->type_name("TRIAL");
@@ -242,6 +247,34 @@ CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
   return command;
 }
 
+CLI::App* add_bundle(CLI::App& app, BundleOptions& options) {
+  CLI::App* command = app.add_subcommand("bundle", "write a folder that repeats a run or an experiment elsewhere");
+  command->add_option("source", options.source, "run directory, or experiment file")
+      ->required()
+      ->type_name("RUN_DIR|EXPERIMENT.toml");
+  command->add_option("--out", options.out, "folder to create (default: NAME-bundle)")->type_name("DIR");
+  command->add_flag("--with-plugins", options.with_plugins, "copy the libraries that come with dmrp-host, too");
+  return command;
+}
+
+CLI::App* add_verify(CLI::App& app, VerifyOptions& options) {
+  CLI::App* command = app.add_subcommand("verify", "run some trials again, and compare them to the bit");
+  command->add_option("directory", options.directory, "run directory, or bundle of one")
+      ->required()
+      ->type_name("RUN_DIR|BUNDLE");
+  command->add_option("--trials", options.trials, "number of trials, drawn at random; all if there are fewer")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->type_name("K")
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "seed of the draw, and of the order")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--jobs", options.jobs, "worker processes (default: one per core)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  return command;
+}
+
 CLI::App* add_new(CLI::App& app, NewOptions& options) {
   CLI::App* command = app.add_subcommand("new", "write the folder of a new plugin, which builds at once");
   command->add_option("kind", options.kind, "planner, controller, pedestrian-model or metric")
@@ -321,6 +354,13 @@ int run_main(int argc, char** argv) {
   MergeOptions merge;
   CLI::App* merging = add_merge(app, merge);
 
+  BundleOptions bundle;
+  CLI::App* bundling = add_bundle(app, bundle);
+
+  VerifyOptions verify;
+  verify.jobs = run.jobs;
+  CLI::App* verifying = add_verify(app, verify);
+
   CompareOptions compare;
   CLI::App* comparing = add_compare(app, compare);
 
@@ -372,6 +412,8 @@ int run_main(int argc, char** argv) {
   if (report->parsed()) return report_command(reported, replayed);
   if (listing->parsed()) return keys_command(listed_format);
   if (beginning->parsed()) return new_command(new_plugin);
+  if (bundling->parsed()) return bundle_command(bundle);
+  if (verifying->parsed()) return verify_command(verify);
   if (merging->parsed()) return merge_command(merge, std::vector<std::string>(argv, argv + argc));
   if (evaluating->parsed()) return evaluate_command(evaluate);
   if (discriminating->parsed()) return discriminate_command(discriminate);

@@ -20,6 +20,7 @@ inline constexpr int faults = 1;  // some trials ended in a fault
 inline constexpr int bad_input = 2;
 inline constexpr int machine_failed = 3;  // a full disk, an I/O error, no memory
 inline constexpr int findings = 1;        // check: a case failed or crashed
+inline constexpr int different = 1;       // verify: a trial has other bits
 inline constexpr int worse = 1;           // compare --fail-if: a condition holds
 inline constexpr int undecided = 4;       // compare --fail-if: the trials cannot decide
 inline constexpr int interrupted = 130;
@@ -34,7 +35,8 @@ struct RunOptions {
   Shard shard;
   std::uint32_t trials = 0;  // 0: as the file says
   bool quiet = false;
-  bool json = false;  // results as JSON, without progress
+  bool json = false;             // results as JSON, without progress
+  std::filesystem::path bundle;  // to be written afterwards; empty: none
 };
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line);
 
@@ -137,5 +139,24 @@ struct MergeOptions {
   std::vector<std::filesystem::path> runs;
 };
 int merge_command(const MergeOptions& options, const std::vector<std::string>& command_line);
+
+struct BundleOptions {
+  std::filesystem::path source;  // a run directory or an experiment
+  std::filesystem::path out;     // empty: NAME-bundle
+  bool with_plugins = false;     // copies those that come with dmrp-host, too
+};
+int bundle_command(const BundleOptions& options);
+
+// Of a run directory that no other process works on.
+void bundle_run(const std::filesystem::path& run, const std::filesystem::path& out, bool with_plugins);
+void check_new_bundle(const std::filesystem::path& out);  // throws InputError if something is there
+
+struct VerifyOptions {
+  std::filesystem::path directory;  // of a run, or a bundle of one
+  std::size_t trials = 10;          // at most
+  std::uint64_t seed = 1;           // chooses the trials and their order
+  unsigned jobs = 1;
+};
+int verify_command(const VerifyOptions& options);
 
 }  // namespace dmrp::host

@@ -31,15 +31,15 @@ namespace fs = std::filesystem;
 struct Part {
   RunDirectory directory;
   std::string shown;
-  std::string experiment;  // the text of experiment.toml
-  std::string effective;   // and of effective.toml
-  Manifest manifest;
-  std::vector<MetricColumn> metrics;
-  std::vector<TrialRecord> trials;  // without skipped ones
+  std::string experiment{};  // the text of experiment.toml
+  std::string effective{};   // and of effective.toml
+  Manifest manifest{};
+  std::vector<MetricColumn> metrics{};
+  std::vector<TrialRecord> trials{};  // without skipped ones
 };
 
 Part read_part(const fs::path& path) {
-  Part part = {RunDirectory::open_finished(path, path.string()), path.string(), {}, {}, {}, {}, {}};
+  Part part = {RunDirectory::open_finished(path, path.string()), path.string()};
   part.experiment = read_file(path / "experiment.toml", (path / "experiment.toml").string());
   part.effective = read_file(path / "effective.toml", (path / "effective.toml").string());
   part.manifest = read_manifest(path / "manifest.json");
@@ -52,9 +52,18 @@ Part read_part(const fs::path& path) {
 
 // Results can only be joined if one run would have given the same bits.
 void check_same(const Part& first, const Part& other) {
-  if (other.effective != first.effective)
+  for (const Part* part : {&first, &other})
+    if (part->manifest.identity.empty())
+      throw InputError(fmt::format("{}: was made by an older dmrp-host: it cannot be joined", part->shown));
+  if (const auto keys = differences(first.manifest.identity, other.manifest.identity); !keys.empty())
+    throw InputError(fmt::format("{}: is a run of another experiment than {}: {} is {}, not {}{}", other.shown,
+                                 first.shown, keys[0].key, keys[0].now, keys[0].before, and_others(keys.size())));
+  const std::uint32_t repetitions = first.manifest.experiment.repetitions;
+  if (const std::uint32_t others = other.manifest.experiment.repetitions; others != repetitions)
     throw InputError(
-        fmt::format("{}: is a run of another experiment than {} (effective.toml differs)", other.shown, first.shown));
+        fmt::format("{}: has {} trials of each combination, but {} has {}: the smaller can be continued "
+                    "with --resume --trials {}",
+                    other.shown, others, first.shown, repetitions, std::max(others, repetitions)));
   if (const auto reasons = differences(first.manifest, other.manifest); !reasons.empty())
     throw InputError(fmt::format("{}: cannot be joined with {}: {}", other.shown, first.shown, reasons.front()));
 }

@@ -2,24 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <set>
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/run_description.hpp"
 #include "host/commands/run_directory.hpp"
 #include "host/commands/run_results.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
-#include "host/files/read_file.hpp"
 #include "host/files/sync_directory.hpp"
 #include "host/plan/check_planners.hpp"
-#include "host/plugins/check_descriptor.hpp"
 #include "host/process/box.hpp"
 #include "host/program/executable.hpp"
-#include "host/program/version.hpp"
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
@@ -31,25 +27,6 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The type of each robot; empty if all are of one type.
-std::vector<std::string> types_of_robots(const ScenarioVariant& variant) {
-  std::vector<std::string> types = core::drawn_types(variant.drawn_types, variant.drawn_robots);
-  for (const core::RobotTask& task : variant.scenario.robots) types.push_back(task.type);
-  for (std::string& type : types)
-    if (type.empty()) type = "default";
-  if (std::all_of(types.begin(), types.end(), [&](const std::string& type) { return type == types[0]; })) return {};
-  return types;
-}
-
-std::vector<MetricColumn> columns_of(const Experiment& experiment) {
-  std::vector<MetricColumn> columns;
-  for (const PluginUse& use : experiment.metrics)
-    for (const MetricValueSpec& value : use.info.values)
-      columns.push_back({value.name, value.unit, value.direction, value.wall_clock, value.description,
-                         !is_reserved_id(use.info.id) && !value.curve});
-  return columns;
-}
 
 std::vector<std::uint64_t> trials_of_shard(std::uint64_t count, const Shard& shard) {
   std::vector<std::uint64_t> trials;
@@ -85,53 +62,13 @@ std::string fault_note(const TrialRecord& trial) {
   return trial.faults.empty() ? "" : fault_note(trial.id, trial.faults.front());
 }
 
-ExperimentFacts facts_of(const Experiment& experiment, const Shard& shard, std::uint64_t trials_planned) {
-  ExperimentFacts facts{experiment.name, experiment.seed, experiment.trials, shard, trials_planned, {}};
-  for (const ScenarioVariant& variant : experiment.scenarios) {
-    const core::Scenario& scenario = variant.scenario;
-    const double time_limit_s = experiment.time_limit_set
-                                    ? static_cast<double>(experiment.simulation.time_limit_ns) / 1e9
-                                    : scenario.time_limit_s;
-    const Grade& grade = variant.grade;
-    facts.scenarios.push_back({scenario.name, scenario.title, scenario.description, robot_count(variant),
-                               core::person_count(scenario), time_limit_s, types_of_robots(variant), grade.series,
-                               grade.quantity, grade.unit, grade.harder_when_higher, grade.level});
-  }
-  return facts;
-}
-
-// The files and settings that the run depends on, beside the experiment's text.
-Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint64_t trials_planned,
-                     const std::vector<std::string>& command_line) {
-  Manifest manifest = new_manifest(version, command_line, std::chrono::system_clock::now());
-  manifest.experiment = facts_of(experiment, shard, trials_planned);
-  for (const LibraryUse& library : experiment.libraries)
-    manifest.files.push_back(hashed_file("plugin library", library.file));
-  std::set<fs::path> scenarios;
-  for (const ScenarioVariant& variant : experiment.scenarios) {
-    scenarios.insert(variant.file);
-    scenarios.insert(variant.files.begin(), variant.files.end());
-  }
-  for (const fs::path& file : scenarios) manifest.files.push_back(hashed_file("scenario", file));
-  std::set<fs::path> parameters;
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
-    for (const PluginUse& use : *uses) {
-      if (!use.parameter_file.empty()) parameters.insert(use.parameter_file);
-      for (const ParameterValue& value : use.parameters)
-        if (value.type == DMRP_PARAM_PATH && !value.text.empty()) parameters.insert(value.text);
-    }
-  for (const fs::path& file : parameters) manifest.files.push_back(hashed_file("parameter", file));
-  return manifest;
-}
-
 class RunFiles {
  public:
-  RunFiles(const RunOptions& options, const Experiment& experiment, const Manifest& manifest)
+  RunFiles(const RunOptions& options, const Experiment& experiment, Manifest manifest)
       : directory_(options.resume ? RunDirectory::reopen(options.out)
                                   : RunDirectory::make(options.out, experiment.name)) {
     if (fs::exists(database()))
-      check_same(experiment, manifest);
+      go_on(experiment, std::move(manifest));
     else
       begin(experiment, manifest);
   }
@@ -142,9 +79,7 @@ class RunFiles {
  private:
   void begin(const Experiment& experiment, const Manifest& manifest) const {
     if (experiment.traces != RecordTraces::none) fs::create_directories(directory() / "traces");
-    write_file_atomically(directory() / "experiment.toml", experiment.text);
-    write_file_atomically(directory() / "effective.toml", effective_toml(experiment));
-    write_file_atomically(directory() / "manifest.json", to_json_text(manifest));
+    describe(experiment, manifest);
     // last, and whole: a run that is killed before has not begun
     const fs::path unfinished = directory() / "results.new";
     for (const char* rest : {"", "-wal", "-shm", "-journal"}) fs::remove(unfinished.string() + rest);
@@ -153,19 +88,37 @@ class RunFiles {
     sync_directory(directory());
   }
 
-  // A run can only be continued if that gives the same bits.
-  void check_same(const Experiment& experiment, const Manifest& manifest) const {
-    const fs::path effective = directory() / "effective.toml";
-    if (read_file(effective, effective.string()) != effective_toml(experiment))
-      throw InputError(
-          fmt::format("--out {}: was run with another experiment (effective.toml differs)", directory().string()));
-    const Manifest before = read_manifest(directory() / "manifest.json");
-    if (const Shard& shard = before.experiment.shard; shard.count > 0 && !(shard == manifest.experiment.shard))
-      throw InputError(fmt::format("--out {}: is a run of {}, not of {}", directory().string(), shard_text(shard),
-                                   shard_text(manifest.experiment.shard)));
-    const auto reasons = differences(before, manifest);
-    if (!reasons.empty())
-      throw InputError(fmt::format("--out {}: cannot be continued: {}", directory().string(), reasons.front()));
+  // The manifest last: it decides whether the run has grown.
+  void describe(const Experiment& experiment, const Manifest& manifest) const {
+    write_file_atomically(directory() / "experiment.toml", experiment.text);
+    write_file_atomically(directory() / "effective.toml", effective_toml(experiment));
+    write_file_atomically(directory() / "manifest.json", to_json_text(manifest));
+  }
+
+  // The run can have moved and grown since it began.
+  void go_on(const Experiment& experiment, Manifest manifest) const {
+    Manifest before = read_manifest(directory() / "manifest.json");
+    if (const std::string why = why_not_same(before, manifest); !why.empty())
+      throw InputError(fmt::format("--out {}: {}", directory().string(), why));
+    manifest.started_at = std::move(before.started_at);
+    manifest.command_line = std::move(before.command_line);
+    describe(experiment, manifest);
+  }
+
+  // Why the run cannot be continued with the same bits; "" if it can.
+  static std::string why_not_same(const Manifest& before, const Manifest& now) {
+    if (before.identity.empty()) return "was made by an older dmrp-host: it cannot be continued";
+    if (const auto keys = differences(before.identity, now.identity); !keys.empty())
+      return fmt::format("was run with another experiment: {} was {}, is {} now{}", keys[0].key, keys[0].before,
+                         keys[0].now, and_others(keys.size()));
+    if (!(before.experiment.shard == now.experiment.shard))
+      return fmt::format("is a run of {}, not of {}", shard_text(before.experiment.shard),
+                         shard_text(now.experiment.shard));
+    if (before.experiment.repetitions > now.experiment.repetitions)
+      return fmt::format("has {0} trials of each combination, not {1}: a run can grow, not shrink (--trials {0})",
+                         before.experiment.repetitions, now.experiment.repetitions);
+    const auto reasons = differences(before, now);
+    return reasons.empty() ? "" : "cannot be continued: " + reasons.front();
   }
 
   RunDirectory directory_;
@@ -174,6 +127,7 @@ class RunFiles {
 }  // namespace
 
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
+  check_new_bundle(options.bundle);
   const Experiment experiment = load_experiment(options.experiment, options.trials);
   check_planners(experiment, options.experiment);
   if (!options.quiet)
@@ -215,6 +169,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                files.directory().string());
     return exit_status::interrupted;
   }
+  if (!options.bundle.empty()) bundle_run(files.directory(), options.bundle, false);
   const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
                                   [](const TrialRecord& trial) { return !trial.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;

@@ -100,4 +100,9 @@ RunDirectory RunDirectory::open_finished(const fs::path& path, const std::string
   return directory;
 }
 
+std::string and_others(std::size_t differences) {
+  if (differences <= 1) return "";
+  return fmt::format(" (and {} more {})", differences - 1, differences == 2 ? "key" : "keys");
+}
+
 }  // namespace dmrp::host

@@ -33,4 +33,7 @@ class RunDirectory {
   Descriptor lock_;
 };
 
+// Of so many differences of which one has been named: " (and 2 more keys)", or "".
+std::string and_others(std::size_t differences);
+
 }  // namespace dmrp::host

@@ -106,6 +106,18 @@ MetricComparison compare_metric(const MetricColumn& column, const CountedValue& 
   return result;
 }
 
+// One line each; of the keys, the first ones.
+std::vector<std::string> changes_between(const Manifest& before, const Manifest& after) {
+  constexpr std::size_t most_keys = 12;
+  std::vector<std::string> changes = differences(before, after);
+  if (before.identity.empty() || after.identity.empty()) return changes;  // of older versions
+  const std::vector<KeyDifference> keys = differences(before.identity, after.identity);
+  for (std::size_t i = 0; i < std::min(keys.size(), most_keys); ++i)
+    changes.push_back(fmt::format("{}: {}, now {}", keys[i].key, keys[i].before, keys[i].now));
+  if (keys.size() > most_keys) changes.push_back(fmt::format("and {} more keys", keys.size() - most_keys));
+  return changes;
+}
+
 }  // namespace
 
 RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
@@ -117,7 +129,7 @@ RunComparison compare_runs(const ReportRun& before, const ReportRun& after, cons
   result.pairs = static_cast<std::uint32_t>(pairs.size());
   result.only_before = static_cast<std::uint32_t>(trials_before.size() - pairs.size());
   result.only_after = static_cast<std::uint32_t>(trials_after.size() - pairs.size());
-  result.changes = differences(before.manifest, after.manifest);
+  result.changes = changes_between(before.manifest, after.manifest);
 
   const ReportFrame frame_before = make_report_frame(before.metrics, before.trials);
   const ReportFrame frame_after = make_report_frame(after.metrics, after.trials);

@@ -32,7 +32,7 @@ struct RunComparison {
   std::uint32_t pairs = 0;
   std::uint32_t only_before = 0;  // trials without a partner
   std::uint32_t only_after = 0;
-  std::vector<std::string> changes;  // plugin libraries and files with other contents, another program, another machine
+  std::vector<std::string> changes;  // another program, machine or plugin library, other settings
   std::vector<MetricComparison> metrics;
 };
 

@@ -13,7 +13,7 @@
 #include "host/experiment/read_parameters.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
-#include "host/files/sha256.hpp"
+#include "host/plugins/elf_file.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/program/version.hpp"
 #include "host/results/manifest.hpp"
@@ -87,7 +87,8 @@ class EvaluationPlanner {
 
   // A run may come from a machine where its libraries are in other folders.
   void add_of_run(const std::string& path) {
-    const fs::path file = fs::exists(path) ? fs::path(path) : find_library(fs::path(path).filename(), {});
+    const fs::path known = choice_.run_directory / path;  // within it, if it is a bundle
+    const fs::path file = fs::exists(known) ? known : find_library(fs::path(path).filename(), {});
     if (file.empty()) return missing_.push_back(fmt::format("the run's library {} is gone", path));
     try {
       add(path, file, true);
@@ -181,7 +182,7 @@ class EvaluationPlanner {
       const auto recorded = std::find_if(before.files.begin(), before.files.end(), [&](const HashedFile& file) {
         return file.role == "plugin library" && file.path == library.written;
       });
-      if (recorded == before.files.end() || recorded->sha256 != sha256_of_file(library.file))
+      if (recorded == before.files.end() || recorded->code != code_digest(library.file))
         evaluation_.warnings.push_back(
             fmt::format("{} has changed since the run: values may differ from the run's", library.file.string()));
     }

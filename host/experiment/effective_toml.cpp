@@ -19,7 +19,14 @@ bool is_finite(const ParameterValue& value) {
          std::all_of(value.numbers.begin(), value.numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
-void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses) {
+// A default need not name a file.
+std::string value_text(const ParameterValue& value, const FileName& name) {
+  std::error_code ignored;
+  if (value.type != DMRP_PARAM_PATH || !std::filesystem::is_regular_file(value.text, ignored)) return toml_text(value);
+  return toml_text(name(value.text));
+}
+
+void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses, const FileName& name) {
   for (const PluginUse& use : uses) {
     out += fmt::format("\n[[{}]]\nuse   = {}\nlabel = {}\n", kind_name(kind), toml_text(use.info.id),
                        toml_text(use.label));
@@ -29,7 +36,7 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
     out += fmt::format("[{}.params]\n", kind_name(kind));
     // A default may be infinite or NaN, which an experiment file cannot set: it becomes a comment.
     for (const ParameterValue& value : use.parameters)
-      out += fmt::format("{}{} = {}\n", is_finite(value) ? "" : "# ", toml_key(value.key), toml_text(value));
+      out += fmt::format("{}{} = {}\n", is_finite(value) ? "" : "# ", toml_key(value.key), value_text(value, name));
   }
 }
 
@@ -49,7 +56,7 @@ std::string tasks_text(const core::TaskWishes& wishes) {
 }
 
 // The random tasks for one number of robots depend on the other numbers of the same [[scenario]].
-void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios) {
+void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios, const FileName& name) {
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const ScenarioVariant& variant = scenarios[i];
     std::string robots = std::to_string(robot_count(variant));
@@ -58,7 +65,7 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
         robots += fmt::format(", {}", robot_count(scenarios[i + 1]));
       robots = "[" + robots + "]";
     }
-    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(variant.file.string()), robots);
+    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(name(variant.file)), robots);
     if (variant.most_drawn > 0) out += fmt::format("tasks  = {}\n", tasks_text(variant.wishes));
     write_shares(out, variant);
     if (!variant.grade.series.empty()) out += fmt::format("levels = [{}]\n", toml_text(variant.grade.level));
@@ -70,18 +77,22 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
 
 }  // namespace
 
-std::string effective_toml(const Experiment& experiment) {
+std::string absolute_name(const std::filesystem::path& file) {
+  return file.string();
+}
+
+std::string effective_toml(const Experiment& experiment, const FileName& name) {
   std::string out = "[experiment]\n";
   out += fmt::format("name    = {}\nseed    = {}\ntrials  = {}\n", toml_text(experiment.name), experiment.seed,
                      experiment.trials);
   std::vector<std::string> libraries;
-  for (const LibraryUse& library : experiment.libraries) libraries.push_back(library.file.string());
+  for (const LibraryUse& library : experiment.libraries) libraries.push_back(name(library.file));
   out += "plugins = " + toml_text(libraries) + "\n";
-  write_scenarios(out, experiment.scenarios);
-  write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners);
-  write_uses(out, DMRP_KIND_LOCAL_CONTROLLER, experiment.local_controllers);
-  write_uses(out, DMRP_KIND_PEDESTRIAN_MODEL, experiment.pedestrian_models);
-  write_uses(out, DMRP_KIND_METRIC, experiment.metrics);
+  write_scenarios(out, experiment.scenarios, name);
+  write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners, name);
+  write_uses(out, DMRP_KIND_LOCAL_CONTROLLER, experiment.local_controllers, name);
+  write_uses(out, DMRP_KIND_PEDESTRIAN_MODEL, experiment.pedestrian_models, name);
+  write_uses(out, DMRP_KIND_METRIC, experiment.metrics, name);
   return out + settings_text(experiment);
 }
 

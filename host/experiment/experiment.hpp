@@ -85,7 +85,11 @@ using PluginSource = std::function<Probe(const std::filesystem::path&)>;
 Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials,
                            const PluginSource& source = &probe_library);
 
+// How effective_toml() writes the path of a library, of a scenario.toml or of a file that a parameter names.
+using FileName = std::function<std::string(const std::filesystem::path&)>;
+std::string absolute_name(const std::filesystem::path& file);
+
 // The experiment as TOML with all defaults; reading it gives the same experiment.
-std::string effective_toml(const Experiment& experiment);
+std::string effective_toml(const Experiment& experiment, const FileName& name = &absolute_name);
 
 }  // namespace dmrp::host

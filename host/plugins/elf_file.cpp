@@ -8,6 +8,8 @@
 #include <fstream>
 #include <optional>
 
+#include "host/files/sha256.hpp"
+
 namespace dmrp::host {
 
 namespace {
@@ -91,6 +93,26 @@ std::string why_not_loadable(const std::filesystem::path& file) {
   if (head->e_type == ET_REL) return "is an object file, not a shared object: link it with -shared";
   if (head->e_type == ET_EXEC) return "is a program, not a shared object: link it with -shared";
   return "";
+}
+
+std::string code_digest(const std::filesystem::path& file) {
+  ElfFile elf(file);
+  const auto head = elf.read<Elf64_Ehdr>(0);
+  const auto section = [&](std::uint64_t i) {
+    return elf.read<Elf64_Shdr>(head->e_shoff + i * sizeof(Elf64_Shdr)).value_or(Elf64_Shdr{});
+  };
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_shnum == 0) return sha256_of_file(file);
+  Sha256 hash;
+  for (unsigned i = 0; i < head->e_shnum; ++i) {
+    const Elf64_Shdr one = section(i);
+    const bool is_program = one.sh_type == SHT_PROGBITS || one.sh_type == SHT_INIT_ARRAY ||
+                            one.sh_type == SHT_FINI_ARRAY || one.sh_type == SHT_RELA;
+    if (!is_program || (one.sh_flags & SHF_ALLOC) == 0) continue;
+    hash.add(&one.sh_addr, sizeof(one.sh_addr));
+    const std::string content = elf.text(one.sh_offset, one.sh_size);
+    hash.add(content.data(), content.size());
+  }
+  return hash.finish();
 }
 
 std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file) {

@@ -22,4 +22,8 @@ struct ExportedSymbol {
 // Those of a shared object of this machine; empty if they cannot be read.
 std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file);
 
+// SHA-256, hexadecimal, of all that is loaded of it, but for what names folders and builds: equal for a library in the
+// build tree, installed (another RUNPATH) and stripped. Of the whole file if it has no sections.
+std::string code_digest(const std::filesystem::path& file);
+
 }  // namespace dmrp::host

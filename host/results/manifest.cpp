@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -95,6 +96,9 @@ Manifest parse(const Json& json) {
   json.at("abi").get_to(manifest.abi);
   json.at("command_line").get_to(manifest.command_line);
   json.at("started_at").get_to(manifest.started_at);
+  manifest.commit = json.value("commit", "");
+  manifest.identity = json.value("identity", Identity());
+  manifest.digest = json.value("digest", "");
   manifest.experiment.shard.count = 0;
   if (json.contains("experiment")) manifest.experiment = parse_experiment(json.at("experiment"));
   const Json& machine = json.at("machine");
@@ -103,7 +107,7 @@ Manifest parse(const Json& json) {
   machine.at("cpu_features").get_to(manifest.machine.cpu_features);
   machine.at("compiler").get_to(manifest.machine.compiler);
   for (const Json& file : json.at("files"))
-    manifest.files.push_back({file.at("role"), file.at("path"), file.at("sha256")});
+    manifest.files.push_back({file.at("role"), file.at("path"), file.at("sha256"), file.value("code", "")});
   return manifest;
 }
 
@@ -128,6 +132,45 @@ void compare_features(std::vector<std::string>& found, const Machine& before, co
     if (decides_on_code(feature)) found.push_back("CPU feature " + feature + " is missing now");
   for (const std::string& feature : only_in(now.cpu_features, before.cpu_features))
     if (decides_on_code(feature)) found.push_back("CPU feature " + feature + " is new");
+}
+
+// Two libraries in different folders can have the same name.
+std::map<std::string, std::set<std::string>> code_by_name(const Manifest& manifest) {
+  std::map<std::string, std::set<std::string>> libraries;
+  for (const HashedFile& file : manifest.files)
+    if (file.role == "plugin library")
+      libraries[std::filesystem::path(file.path).filename()].insert(file.code.empty() ? file.sha256 : file.code);
+  return libraries;
+}
+
+void compare_libraries(std::vector<std::string>& found, const Manifest& before, const Manifest& now) {
+  auto was = code_by_name(before);
+  auto is = code_by_name(now);
+  for (const auto& [name, code] : was)
+    if (is[name].empty())
+      found.push_back("plugin library " + name + " is missing now");
+    else if (is[name] != code)
+      found.push_back("plugin library " + name + " has changed");
+  for (const auto& [name, code] : is)
+    if (was[name].empty()) found.push_back("plugin library " + name + " is new");
+}
+
+bool is_hash(std::string_view word) {
+  return word.size() == 64 && word.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+// With 12 digits of each hash.
+std::string shortened(const std::string& text) {
+  std::string out;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find_first_of(" ,\"", at), text.size());
+    const std::string word = text.substr(at, end - at);
+    out += is_hash(word) ? word.substr(0, 12) : word;
+    if (end < text.size()) out += text[end];
+    at = end + 1;
+  }
+  return out;
 }
 
 }  // namespace
@@ -155,6 +198,7 @@ HashedFile hashed_file(std::string role, const std::filesystem::path& path) {
 std::string to_json_text(const Manifest& manifest) {
   Json json;
   json["dmrp_version"] = manifest.dmrp_version;
+  json["commit"] = manifest.commit;
   json["abi"] = manifest.abi;
   json["command_line"] = manifest.command_line;
   json["started_at"] = manifest.started_at;
@@ -164,8 +208,12 @@ std::string to_json_text(const Manifest& manifest) {
                      {"cpu_features", manifest.machine.cpu_features},
                      {"compiler", manifest.machine.compiler}};
   json["files"] = Json::array();
-  for (const HashedFile& file : manifest.files)
-    json["files"].push_back({{"role", file.role}, {"path", file.path}, {"sha256", file.sha256}});
+  for (const HashedFile& file : manifest.files) {
+    Json& written = json["files"].emplace_back(Json{{"role", file.role}, {"path", file.path}, {"sha256", file.sha256}});
+    if (!file.code.empty()) written["code"] = file.code;
+  }
+  json["digest"] = manifest.digest;
+  json["identity"] = manifest.identity;
   // a path need not be UTF-8
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -183,15 +231,25 @@ Manifest read_manifest(const std::filesystem::path& path) {
 std::vector<std::string> differences(const Manifest& before, const Manifest& now) {
   std::vector<std::string> found;
   compare(found, "dmrp", before.dmrp_version, now.dmrp_version);
+  if (!before.commit.empty() && !now.commit.empty()) compare(found, "commit", before.commit, now.commit);
   compare(found, "ABI", before.abi, now.abi);
   compare(found, "libc", before.machine.libc, now.machine.libc);
   compare(found, "CPU level", before.machine.cpu_level, now.machine.cpu_level);
   compare(found, "compiler", before.machine.compiler, now.machine.compiler);
   compare_features(found, before.machine, now.machine);
-  compare(found, "number of files", std::to_string(before.files.size()), std::to_string(now.files.size()));
-  for (std::size_t i = 0; i < std::min(before.files.size(), now.files.size()); ++i)
-    if (before.files[i].role != now.files[i].role || before.files[i].sha256 != now.files[i].sha256)
-      found.push_back(now.files[i].role + " " + now.files[i].path + " has changed");
+  compare_libraries(found, before, now);
+  return found;
+}
+
+std::vector<KeyDifference> differences(const Identity& before, const Identity& now) {
+  std::vector<KeyDifference> found;
+  for (const auto& [key, value] : before)
+    if (const auto other = now.find(key); other == now.end())
+      found.push_back({key, shortened(value), "missing"});
+    else if (other->second != value)
+      found.push_back({key, shortened(value), shortened(other->second)});
+  for (const auto& [key, value] : now)
+    if (!before.contains(key)) found.push_back({key, "missing", shortened(value)});
   return found;
 }
 

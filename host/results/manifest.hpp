@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +15,10 @@
 namespace dmrp::host {
 
 struct HashedFile {
-  std::string role;  // "plugin library", "map", "scenario", "parameter"
+  std::string role;  // "plugin library", "scenario", "parameter"
   std::string path;
   std::string sha256;
+  std::string code{};  // of a library: code_digest()
 };
 
 // A scenario with a number of robots.
@@ -57,12 +59,18 @@ struct ExperimentFacts {
   std::vector<ScenarioFacts> scenarios;
 };
 
+// What an experiment means (host/experiment/identity.hpp); empty in manifests of older versions.
+using Identity = std::map<std::string, std::string>;
+
 struct Manifest {
   std::string dmrp_version;
-  std::string abi;  // "1.0", "1.0 draft 3"
+  std::string commit;  // that the program was built from; empty in manifests of older versions
+  std::string abi;     // "1.0", "1.0 draft 3"
   std::vector<std::string> command_line;
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;
+  Identity identity;
+  std::string digest;  // of the identity
   Machine machine;
   std::vector<HashedFile> files;
 };
@@ -76,8 +84,16 @@ HashedFile hashed_file(std::string role, const std::filesystem::path& path);  //
 std::string to_json_text(const Manifest& manifest);
 Manifest read_manifest(const std::filesystem::path& path);  // throws std::runtime_error
 
-// The reasons why results of the two can differ in their bits, one line each; empty if they can be merged. Compares
-// files by role and content in order, not by path.
+// Why results of the same experiment can differ in their bits, one line each: another program, machine or plugin
+// library. Libraries are compared by name and code, wherever they lie.
 std::vector<std::string> differences(const Manifest& before, const Manifest& now);
+
+// A key of two identities. A value that one of them lacks is "missing".
+struct KeyDifference {
+  std::string key;
+  std::string before;  // for people: hashes are cut short
+  std::string now;
+};
+std::vector<KeyDifference> differences(const Identity& before, const Identity& now);
 
 }  // namespace dmrp::host

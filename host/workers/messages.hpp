@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // messages.hpp: the messages between supervisor and worker.
 //
-//   worker     -> {"type": "ready", "digest"}        of the experiment as the worker reads it
+//   worker     -> {"type": "ready", "digest"}        of what the worker has read (loaded_digest())
 //   supervisor -> Job                                one trial
 //   worker     -> {"type": "began"}                  the worker begins it
 //   worker     -> {"type": "measuring", "index"}     a metric begins

@@ -17,7 +17,7 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/experiment/digest.hpp"
+#include "host/experiment/identity.hpp"
 #include "host/files/try_to_write.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
@@ -71,7 +71,7 @@ class Supervisor {
  public:
   Supervisor(const Experiment& experiment, const std::vector<std::uint64_t>& trials, const SupervisorSettings& settings,
              const SupervisorSinks& sinks)
-      : experiment_(experiment), settings_(settings), sinks_(sinks), digest_(experiment_digest(experiment)) {
+      : experiment_(experiment), settings_(settings), sinks_(sinks), digest_(loaded_digest(experiment)) {
     const fs::path log = settings.run_directory / "log.txt";
     log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());

@@ -18,7 +18,7 @@
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/experiment/digest.hpp"
+#include "host/experiment/identity.hpp"
 #include "host/process/box.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/line_channel.hpp"
@@ -94,7 +94,7 @@ class Worker {
 
   void serve() {
     if (experiment_.limits.processes) guard_.allow_processes();
-    sender_.send({{"type", "ready"}, {"digest", experiment_digest(experiment_)}});
+    sender_.send({{"type", "ready"}, {"digest", loaded_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
       sender_.begin(job);

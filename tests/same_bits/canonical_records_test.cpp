@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/same_bits/canonical_records.hpp"
+#include "core/trace/canonical_records.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstddef>
@@ -12,7 +12,6 @@
 #include "core/trace/trace_reader.hpp"
 
 using namespace dmrp::core;
-using dmrp::test::CanonicalRecords;
 
 namespace {
 

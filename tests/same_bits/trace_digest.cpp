@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// trace_digest [--records] TRACE.mcap...: for each file a line `SHA-256  file` over its channel dmrp/trace, that which
-// metrics read, but for what was measured by a clock. With --records a line for each record in its place, `number kind
+// trace_digest [--records] TRACE.mcap...: for each file a line `SHA-256  file`, the digest that host/verify/trace_digest.hpp
+// defines, which is the same for all format versions. With --records a line for each record in its place, `number kind
 // log_time_ns bytes SHA-256`, so that the diff of two lists shows where two trials part.
 //
-// In the digest: every message of the channel, in the order of the file: its log time, and its record in the form of
-// canonical_records.hpp, which is the same for all format versions. (The world's call_budget_ns is a setting.) Not in
-// the digest: how the messages are spread over compressed chunks, and the channels for people to look at, of which /log
-// names the planning time.
-//
 // Exit status 1 where a trace is damaged or was cut short.
+#include "host/verify/trace_digest.hpp"
+
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
@@ -19,9 +16,9 @@
 
 #include "core/bytes/trace_bytes.hpp"
 #include "core/mcap/mcap_reader.hpp"
+#include "core/trace/canonical_records.hpp"
 #include "core/trace/trace.hpp"
 #include "host/files/sha256.hpp"
-#include "tests/same_bits/canonical_records.hpp"
 
 namespace {
 
@@ -29,25 +26,22 @@ using dmrp::core::McapReader;
 using dmrp::core::TraceBytes;
 using dmrp::host::Sha256;
 
-// On standard output: a line a record, or one for all.
-void print_digest(const char* path, bool each_record) {
+// On standard output: a line a record.
+void print_records(const char* path) {
   McapReader file(path, dmrp::core::trace_topic);
-  dmrp::test::CanonicalRecords records;
-  Sha256 all;
+  dmrp::core::CanonicalRecords records;
   std::size_t number = 0;
   for (auto message = file.next(); message; message = file.next(), ++number) {
     const TraceBytes record = records.next(message->data);
-    all.add(&message->log_time_ns, sizeof(message->log_time_ns));
-    all.add(record.data(), record.size());
-    if (!each_record) continue;
     Sha256 one;
     one.add(record.data(), record.size());
     std::printf("%zu %d %lld %zu %s\n", number, record[4], static_cast<long long>(message->log_time_ns), record.size(),
                 one.finish().c_str());
   }
-  if (number == 0) throw std::runtime_error("no message of the channel " + std::string(dmrp::core::trace_topic));
-  if (!file.is_whole()) throw std::runtime_error("the file was cut short");
-  if (!each_record) std::printf("%s  %s\n", all.finish().c_str(), path);
+}
+
+void print_digest(const char* path) {
+  std::printf("%s  %s\n", dmrp::host::trace_digest(path).c_str(), path);
 }
 
 }  // namespace
@@ -62,7 +56,7 @@ int main(int argc, char** argv) {
   }
   int status = 0;
   for (const char* path : paths) try {
-      print_digest(path, each_record);
+      each_record ? print_records(path) : print_digest(path);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "trace_digest: %s: %s\n", path, error.what());
       status = 1;

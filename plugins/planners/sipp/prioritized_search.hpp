@@ -32,9 +32,8 @@ class PrioritizedSearch {
 
   Result run(std::int64_t restart_limit);
 
-  // Plans in the first order only, and gives up when the low level has expanded so many states since the number of
-  // robots without a path was last halved. Result::restart_limit: no plan.
-  Result run_once(std::int64_t patience);
+  // Plans in the first order only, until the low level has expanded so many states. Result::restart_limit: no plan.
+  Result run_once(std::int64_t expansions);
 
   // After Result::solved: one path for each agent.
   std::vector<std::vector<Location>>& paths() { return paths_; }
@@ -47,7 +46,7 @@ class PrioritizedSearch {
  private:
   enum class Attempt { succeeded, failed, stopped };
 
-  Attempt attempt(std::int64_t restart, std::int64_t patience);
+  Attempt attempt(std::int64_t restart, std::int64_t expansions);
   void begin(std::int64_t restart);
   Attempt tighten();
   SippSearch::Result plan(std::int32_t agent);

@@ -2,7 +2,6 @@
 // lists.js: the lists beside the map: robots with their current state, and events.
 import {element, head_row} from '../elements.js';
 import * as numbers from '../numbers.js';
-import {explained_mark} from '../tips.js';
 import {is_now} from './events.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
@@ -27,7 +26,7 @@ function state_words(robot, k) {
     : 'driving';
 }
 
-// handlers: pick(robot index), point(robot index or null).
+// handlers: pick(robot index).
 export function make_robot_list(handlers) {
   const body = element('tbody');
   const node = element(
@@ -40,7 +39,7 @@ export function make_robot_list(handlers) {
         element('th', {scope: 'col'}, 'Robot'),
         element('th', {scope: 'col'}, 'State'),
         element('th', {scope: 'col', class: 'number'}, 'm/s'),
-        element('th', {scope: 'col', class: 'number'}, explained_mark('off path (m)', 'distance from its current path'))
+        element('th', {scope: 'col', class: 'number', title: 'distance from its current path'}, 'off path (m)')
       ),
       body
     )
@@ -76,14 +75,7 @@ export function make_robot_list(handlers) {
     return {
       button,
       cells,
-      row: element(
-        'tr',
-        {onpointerenter: () => handlers.point(robot.index), onpointerleave: () => handlers.point(null)},
-        element('th', {scope: 'row'}, button),
-        cells.state,
-        cells.speed,
-        cells.deviation
-      ),
+      row: element('tr', {}, element('th', {scope: 'row'}, button), cells.state, cells.speed, cells.deviation),
     };
   }
 
@@ -111,14 +103,14 @@ export function make_robot_list(handlers) {
     });
   }
 
-  function mark({picked, hovered}) {
+  function pick(picked) {
     rows.forEach(({button, row}, i) => {
       button.setAttribute('aria-pressed', String(i === picked));
-      row.classList.toggle('marked', i === picked || i === hovered);
+      row.classList.toggle('picked', i === picked);
     });
   }
 
-  return {node, show, draw, mark};
+  return {node, show, draw, pick};
 }
 
 const SYMBOLS = {

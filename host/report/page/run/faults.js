@@ -91,12 +91,8 @@ export function count_words(faults) {
     .join(', ');
 }
 
-// The reason why there is nothing to show, or null.
-export function absent(data) {
-  return data.faults.length > 0 ? null : 'no plugin failed';
-}
-
 export function mount(body, data) {
+  if (data.faults.length === 0) return 'no plugin failed';
   fill(
     body,
     element('p', {class: 'note'}, `${count_words(data.faults)}.`),
@@ -106,4 +102,5 @@ export function mount(body, data) {
       groups(data.faults).map((faults) => group_item(data, faults))
     )
   );
+  return null;
 }

@@ -4,8 +4,6 @@ import * as controls from '../controls.js';
 import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
-import {scroll_box} from '../scroll_box.js';
-import {explained_mark} from '../tips.js';
 
 const state = {combination: 0, words: '', changed: () => {}};
 const BETTER = {higher: '↑', lower: '↓', none: ''};
@@ -41,7 +39,7 @@ function row(metric, summary, trials) {
     element('td', {class: 'unit-cell', 'data-label': 'unit'}, numbers.unit(metric.unit) || '\u2013'),
     element(
       'td',
-      {class: 'better', 'data-label': 'better', 'data-about': labels.direction_words(metric.direction)},
+      {class: 'better', 'data-label': 'better', title: labels.direction_words(metric.direction)},
       BETTER[metric.direction],
       hidden(labels.direction_words(metric.direction))
     ),
@@ -58,7 +56,7 @@ function row(metric, summary, trials) {
       show(summary.paper_mean),
       ` (${summary.paper_count})`,
       summary.paper_trimmed_all_nonzero &&
-        explained_mark('†', 'the rule removed every value that is not zero', {class: 'flag'})
+        element('abbr', {class: 'flag', title: 'the rule removed every value that is not zero'}, '†')
     )
   );
 }
@@ -86,13 +84,9 @@ function combination_options(data) {
   );
 }
 
-// The reason why there is nothing to show, or null.
-export function absent(data) {
-  return data.combinations.length > 0 ? null : 'no trial was run';
-}
-
 export function mount(body, data) {
   const options = combination_options(data);
+  if (options.length === 0) return 'no trial was run';
   if (!options.some((option) => option.value === String(state.combination)))
     state.combination = Number(options[0].value);
   const rows = element('tbody');
@@ -125,8 +119,9 @@ export function mount(body, data) {
       })
     ),
     title,
-    scroll_box(
-      {class: 'tall', 'aria-labelledby': 'title-metrics'},
+    element(
+      'div',
+      {class: 'table-scroll tall', tabindex: '0', role: 'region', 'aria-labelledby': 'title-metrics'},
       element('table', {class: 'metrics with-intervals', 'aria-labelledby': 'title-metrics'}, head(), rows)
     ),
     count,
@@ -137,6 +132,7 @@ export function mount(body, data) {
     )
   );
   state.changed();
+  return null;
 }
 
 // Shows a combination; the links of the result tables call it.

@@ -7,7 +7,6 @@
 #include "core/tasks/task_difficulty.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/experiment/digest.hpp"
 #include "host/trial/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
@@ -49,7 +48,7 @@ void check_round_trip(const Experiment& original) {
   write_file("elsewhere/effective.toml", effective);
   const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
   CHECK(effective_toml(again) == effective);
-  CHECK(experiment_digest(again) == experiment_digest(original));
+  CHECK(identity_digest(again) == identity_digest(original));
   CHECK(combinations(again).size() == combinations(original).size());
 }
 
@@ -129,7 +128,7 @@ TEST_CASE("more robots than listed get random tasks, different in each repetitio
     CHECK(first.view.world().robot_count == robot_count(variant));
     CHECK(first.scenario.robots.size() + first.scenario.other_starts.size() == 5);
     if (variant.drawn_robots == 0) continue;
-    CHECK(first.scenario.robots[0].name == "robot 0");
+    CHECK(first.scenario.robots[0].name == "robot 1");
     CHECK_FALSE((first.scenario.robots[0].start.x == second.scenario.robots[0].start.x &&
                  first.scenario.robots[0].start.y == second.scenario.robots[0].start.y &&
                  first.scenario.robots[1].start.x == second.scenario.robots[1].start.x));
@@ -294,7 +293,7 @@ center_m = [5.0, 5.7]
 size_m = [0.2, 4.6]
 )";
   CHECK_THAT(message_of_scenario(wall, door),
-             Catch::EndsWith("robot 0 cannot reach its goal (9.5, 0.5) from its start (0.5, 0.5) on the planning grid; "
+             Catch::EndsWith("robot 1 cannot reach its goal (9.5, 0.5) from its start (0.5, 0.5) on the planning grid; "
                              "grid_resolution_m = 0.4 would do"));
   const auto with_cells = [](const std::string& cell_m) {
     return message_of(experiment_text + ("[simulation]\ngrid_resolution_m = " + cell_m + "\n"));
@@ -392,9 +391,9 @@ TEST_CASE("recorded people come from a file beside the scenario") {
   CHECK(hall.tracks[1].points.size() == 1);
   CHECK(core::person_count(hall) == 4);
   CHECK(core::walker_count(hall) == 2);
-  const std::string digest = experiment_digest(e);
+  const std::string digest = identity_digest(e);
   write_file("hall/crowd.csv", "\xEF\xBB\xBFtime,id,x,y\n0,7,1,1\n");
-  CHECK(experiment_digest(load(experiment_text)) != digest);
+  CHECK(identity_digest(load(experiment_text)) != digest);
   check_round_trip(load(experiment_text));
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/experiment/experiment.hpp"
+#include "host/experiment/identity.hpp"
 
 namespace dmrp::test {
 
@@ -197,6 +198,10 @@ inline host::Experiment load(std::uint32_t trials = 0) {
 inline host::Experiment load(const std::string& text) {
   write_file("experiment.toml", text);
   return load();
+}
+
+inline std::string identity_digest(const host::Experiment& experiment) {
+  return host::digest_of(host::identity_of(experiment));
 }
 
 // `text` with its one `from` replaced.

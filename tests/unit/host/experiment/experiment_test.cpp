@@ -6,7 +6,6 @@
 #include <dmrp/toolkit/random.hpp>
 
 #include "host/errors/input_error.hpp"
-#include "host/experiment/digest.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
@@ -139,7 +138,7 @@ TEST_CASE("a scenario file as data") {
   CHECK(dmrp::toolkit::signed_area(scenario.shapes[2].vertices) == Approx(0.5));  // clockwise in the file
 
   REQUIRE(scenario.robots.size() == 2);
-  CHECK(scenario.robots[0].name == "robot 0");
+  CHECK(scenario.robots[0].name == "robot 1");
   CHECK(std::isnan(scenario.robots[0].start.theta));
   CHECK(std::isnan(scenario.robots[0].goals[0].theta));
   CHECK(scenario.robots[1].name == "second");
@@ -280,7 +279,7 @@ TEST_CASE("a number of robots selects the first of the list") {
   CHECK(e.scenarios[0].label == "hall");
   CHECK(e.scenarios[1].label == "hall/1");
   REQUIRE(e.scenarios[1].scenario.robots.size() == 1);
-  CHECK(e.scenarios[1].scenario.robots[0].name == "robot 0");
+  CHECK(e.scenarios[1].scenario.robots[0].name == "robot 1");
 
   // a robot that takes no part may stand in a wall
   write_file("hall/scenario.toml", with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [5, 4]"));
@@ -296,7 +295,7 @@ TEST_CASE("near starts and libraries with warnings give warnings") {
   REQUIRE(e.warnings.size() == 2);
   CHECK(e.warnings[0] == "experiment.toml:5:28: ./librival.so: changes the rounding mode");
   CHECK(e.warnings[1] ==
-        "hall/scenario.toml:25:1: the starts of robots 0 and 1 are 2.00 m apart; the method wants more than 2 m");
+        "hall/scenario.toml:25:1: the starts of robots 1 and 2 are 2.00 m apart; the method wants more than 2 m");
 }
 
 TEST_CASE("libraries and scenarios are found by name in the folders of the environment") {
@@ -335,24 +334,55 @@ TEST_CASE("effective.toml reads back as the same experiment, from anywhere") {
   write_file("elsewhere/effective.toml", effective);
   const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
   CHECK(effective_toml(again) == effective);
-  CHECK(experiment_digest(again) == experiment_digest(original));
+  CHECK(identity_digest(again) == identity_digest(original));
   CHECK(labels_of(again.global_planners) == labels_of(original.global_planners));
   for (std::size_t i = 0; i < original.scenarios.size(); ++i)
     CHECK(again.scenarios[i].label == original.scenarios[i].label);
 }
 
+TEST_CASE("an experiment is the same wherever its files lie, and whatever its name and number of trials") {
+  const ExperimentFolder folder;
+  const Experiment here = load(full_experiment());
+  std::filesystem::create_directory("elsewhere");
+  for (const char* name : {"hall", "libfake.so", "table.csv"})
+    std::filesystem::copy(name, std::filesystem::path("elsewhere") / name, std::filesystem::copy_options::recursive);
+  write_file("elsewhere/other_name.toml", with(full_experiment(), "name = \"test\"\n", ""));
+  const Experiment there = load_experiment("elsewhere/other_name.toml", 40, &fake_probe);
+  CHECK(there.name == "other_name");
+  CHECK(there.trials == 40);
+  CHECK(identity_of(there) == identity_of(here));
+  CHECK(identity_digest(there) == identity_digest(here));
+}
+
+TEST_CASE("what an experiment means has a key for everything that can change a value") {
+  const ExperimentFolder folder;
+  const std::map<std::string, std::string> identity = identity_of(load(full_experiment()));
+  CHECK(identity.at("experiment.seed") == "7");
+  CHECK(identity.at("simulation.step_s") == "0.05");
+  CHECK(identity.at("robot.v_max") == "1.1");
+  CHECK(identity.at("scenario[0].use").starts_with("\"hall "));
+  CHECK(identity.at("scenario[1].robots") == "1");
+  CHECK(identity.at("global_planner[0].use") == "\"test.planner\"");
+  CHECK(identity.at("global_planner[0].version") == "\"\"");
+  CHECK(identity.at("global_planner[0].params.weight") == "1.25");
+  for (const auto& [key, value] : identity)
+    CHECK(value.find(folder.path().string()) == std::string::npos);  // no path is part of it
+}
+
 TEST_CASE("the digest changes with every file that an experiment reads") {
   const ExperimentFolder folder;
-  const std::string digest = experiment_digest(load(full_experiment()));
+  const std::string digest = identity_digest(load(full_experiment()));
   CHECK(digest.size() == 64);
-  CHECK(experiment_digest(load(full_experiment())) == digest);
-  const auto changed = [&] { return experiment_digest(load(full_experiment())) != digest; };
+  CHECK(identity_digest(load(full_experiment())) == digest);
+  const auto changed = [&] { return identity_digest(load(full_experiment())) != digest; };
   SECTION("a setting") {
-    CHECK(experiment_digest(load(with(full_experiment(), "seed = 7", "seed = 8"))) != digest);
+    CHECK(identity_digest(load(with(full_experiment(), "seed = 7", "seed = 8"))) != digest);
   }
-  SECTION("a library") {
+  SECTION("a library: that of what processes load, but a plugin is known by id and version") {
+    const std::string loaded = loaded_digest(load(full_experiment()));
     write_file("libfake.so", "another");
-    CHECK(changed());
+    CHECK_FALSE(changed());
+    CHECK(loaded_digest(load(full_experiment())) != loaded);
   }
   SECTION("a scenario") {
     write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 3"));
@@ -362,12 +392,14 @@ TEST_CASE("the digest changes with every file that an experiment reads") {
     write_file("table.csv", "1,3\n");
     CHECK(changed());
   }
-  SECTION("a file of parameters, even with the same values") {
+  SECTION("a file of parameters, if it has other values") {
     const std::string text = with(experiment_text, "params = {", "params_file = \"set.toml\"\nparams = {");
     write_file("set.toml", "expansions = 7\n");
-    const std::string before = experiment_digest(load(text));
+    const std::string before = identity_digest(load(text));
     write_file("set.toml", "expansions = 7  # seven\n");
-    CHECK(experiment_digest(load(text)) != before);
+    CHECK(identity_digest(load(text)) == before);
+    write_file("set.toml", "expansions = 8\n");
+    CHECK(identity_digest(load(text)) != before);
   }
 }
 

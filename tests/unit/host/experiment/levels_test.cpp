@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "host/errors/input_error.hpp"
-#include "host/experiment/digest.hpp"
 #include "host/toml/expression.hpp"
 #include "host/trial/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
@@ -90,7 +89,7 @@ TEST_CASE("a scenario with levels is a scenario for each") {
   write_file("elsewhere/effective.toml", effective_toml(all));
   const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
   CHECK(effective_toml(again) == effective_toml(all));
-  CHECK(experiment_digest(again) == experiment_digest(all));
+  CHECK(identity_digest(again) == identity_digest(all));
 
   CHECK(message_of(alone("levels = []\n")) == "experiment.toml:9:10: 'levels' must have at least one number");
   write_file("hall/scenario.toml", with(graded_hall, "\"2.5 - level / 2\"]", "\"2.5 - with / 2\"]"));

@@ -11,7 +11,6 @@
 
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/experiment/digest.hpp"
 #include "host/maps/map_image.hpp"
 #include "host/scenario/read_scenario.hpp"
 #include "tests/support/test_data.hpp"
@@ -235,9 +234,9 @@ TEST_CASE("a scenario of a map of map_server has the map's origin") {
         "[simulation]\ngrid_resolution_m = 0.5\nplanning_margin_m = 0.0\n[robot]\nfootprint = { radius_m = 0.2 }\n");
     REQUIRE(before.scenarios[0].files.size() == 2);
     CHECK(before.scenarios[0].files[1] == folder.path() / "attic/attic.pgm");
-    const std::string digest = host::experiment_digest(before);
+    const std::string digest = identity_digest(before);
     write_file("attic/attic.pgm", pgm_text + "\n");
-    CHECK(host::experiment_digest(before) != digest);
+    CHECK(identity_digest(before) != digest);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/same_bits/canonical_records.hpp"
+#include "core/trace/canonical_records.hpp"
 
 #include <cstddef>
 #include <cstring>
@@ -8,12 +8,8 @@
 #include "core/trace/trace.hpp"
 #include "core/trace/trace_elements.hpp"
 
-namespace dmrp::test {
+namespace dmrp::core {
 namespace {
-
-using core::ByteWriter;
-using core::RecordCursor;
-using core::TraceRecordKind;
 
 // Copies fields from a record of either version to one of version 1.
 class Transcript {
@@ -58,7 +54,7 @@ class Transcript {
 
   template <class Element, class CopyFields>
   void elements(CopyFields&& copy) {
-    const core::TraceElements stored = core::take_element_count<Element>(in_);
+    const TraceElements stored = take_element_count<Element>(in_);
     out_.put(stored.count);
     for (std::uint32_t i = 0; i < stored.count; ++i) {
       const std::size_t begin = in_.position();
@@ -70,7 +66,7 @@ class Transcript {
 
   template <class Element>
   void elements() {
-    elements<Element>([](Transcript& copy) { copy.bytes(core::trace_element_size<Element>.format_1); });
+    elements<Element>([](Transcript& copy) { copy.bytes(trace_element_size<Element>.format_1); });
   }
 
   void skip(std::uint64_t count) { in_.take_bytes(count); }
@@ -188,29 +184,29 @@ void copy_body(TraceRecordKind kind, Transcript& copy) {
     case TraceRecordKind::end:
       return copy_end(copy);
   }
-  throw core::TraceError(0, "the kind of the record is unknown");
+  throw TraceError(0, "the kind of the record is unknown");
 }
 
 }  // namespace
 
-core::TraceBytes CanonicalRecords::next(std::span<const std::uint8_t> record) {
-  core::ByteCursor prefix(record);
+TraceBytes CanonicalRecords::next(std::span<const std::uint8_t> record) {
+  ByteCursor prefix(record);
   const auto body_bytes = prefix.take<std::uint32_t>();
   const auto kind = prefix.take<TraceRecordKind>();
   if (body_bytes != prefix.rest().size()) prefix.fail("a message that is not one record");
-  if (kind == TraceRecordKind::world) version_ = core::ByteCursor(prefix).take<std::uint32_t>();
-  if (version_ == 0 || version_ > core::trace_format_version) prefix.fail("a format version that is not known");
+  if (kind == TraceRecordKind::world) version_ = ByteCursor(prefix).take<std::uint32_t>();
+  if (version_ == 0 || version_ > trace_format_version) prefix.fail("a format version that is not known");
 
-  core::TraceBytes bytes;
+  TraceBytes bytes;
   ByteWriter out(bytes);
   out.put(std::uint32_t{0});
   out.put(kind);
   RecordCursor body(prefix.rest(), prefix.position(), version_);
   Transcript copy(body, out);
   copy_body(kind, copy);
-  const auto length = static_cast<std::uint32_t>(bytes.size() - core::trace_record_prefix_bytes);
+  const auto length = static_cast<std::uint32_t>(bytes.size() - trace_record_prefix_bytes);
   std::memcpy(bytes.data(), &length, sizeof(length));
   return bytes;
 }
 
-}  // namespace dmrp::test
+}  // namespace dmrp::core

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "host/bundle/bundle_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/files/sha256.hpp"
+#include "host/plugins/library.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The deepest folder that both are in.
+fs::path common_folder(const fs::path& a, const fs::path& b) {
+  fs::path common;
+  const auto [end, unused] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  for (auto part = a.begin(); part != end; ++part) common /= *part;
+  return common;
+}
+
+bool comes_with_host(const fs::path& library) {
+  std::error_code ignored;
+  return fs::equivalent(library.parent_path(), plugin_path().back(), ignored);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+BundleLayout::BundleLayout(const Experiment& experiment, const Manifest& manifest, bool all_libraries) {
+  for (const LibraryUse& library : experiment.libraries)
+    add_library(library.file, all_libraries || !comes_with_host(library.file));
+  for (const ScenarioVariant& variant : experiment.scenarios) add_scenario(variant);
+  for (const auto* uses :
+       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+    for (const PluginUse& use : *uses)
+      for (const ParameterValue& value : use.parameters)
+        if (value.type == DMRP_PARAM_PATH && is_file(value.text)) add_parameter(value.text);
+  for (const HashedFile& file : manifest.files)
+    if (file.role == "parameter" && is_file(file.path) && sha256_of_file(file.path) == file.sha256)
+      add_parameter(file.path);
+}
+
+std::string BundleLayout::name_of(const fs::path& file) const {
+  const auto found = names_.find(file);
+  return found == names_.end() ? file.string() : found->second;
+}
+
+void BundleLayout::add_scenario(const ScenarioVariant& variant) {
+  fs::path root = variant.file.parent_path();
+  for (const fs::path& file : variant.files) root = common_folder(root, file.parent_path());
+  fs::path& folder = scenario_folders_[root];
+  if (folder.empty()) folder = free_place(fs::path("scenarios") / root.relative_path().filename());
+  std::vector<fs::path> files = variant.files;
+  files.push_back(variant.file);
+  for (const fs::path& file : files) {
+    const fs::path place = folder / file.lexically_relative(root);
+    copies_[place] = file;
+    names_[file] = place.string();
+  }
+}
+
+void BundleLayout::add_parameter(const fs::path& file) {
+  if (names_.contains(file)) return;
+  const fs::path place = free_place("parameters" / file.filename());
+  copies_[place] = file;
+  names_[file] = place.string();
+}
+
+void BundleLayout::add_library(const fs::path& file, bool copied) {
+  names_[file] = file.filename().string();
+  if (!copied) return;
+  const fs::path place = free_place("plugins" / file.filename());
+  copies_[place] = file;
+  names_[file] = place.string();
+}
+
+// "plugins/libmine.so"; "plugins-2/libmine.so", ... for others of that name. The last part stays: a scenario.toml has the
+// name of its folder.
+fs::path BundleLayout::free_place(const fs::path& wanted) {
+  fs::path place = wanted;
+  for (int i = 2; !taken_.insert(place).second; ++i)
+    place = fs::path(fmt::format("{}-{}", wanted.parent_path().string(), i)) / wanted.filename();
+  return place;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Writes a folder that repeats a run, or an experiment, elsewhere.
+#include "host/bundle/bundle.hpp"
+
+#include <fmt/format.h>
+
+#include "host/commands/command_output.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/run_description.hpp"
+#include "host/commands/run_directory.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/experiment/identity.hpp"
+#include "host/files/read_file.hpp"
+#include "host/results/database.hpp"
+#include "host/verify/stored_digests.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Into a new database: one file, without what a killed run has left in a log beside it.
+void copy_results(const fs::path& run, const fs::path& folder) {
+  const ResultsDatabase from = ResultsDatabase::open_read_only(run / "results.sqlite");
+  ResultsDatabase to = ResultsDatabase::create(folder / "results.sqlite", from.metrics());
+  for (const TrialRecord& trial : from.trials()) to.write(trial);
+  write_digests(StoredDigests(run), from.finished_trials(), folder);
+}
+
+// Writes the bundle, or leaves nothing.
+template <class Write>
+void write_whole(const fs::path& folder, Write&& write) {
+  check_new_bundle(folder);
+  fs::create_directories(folder);
+  try {
+    write();
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw;
+  }
+}
+
+fs::path folder_of(const BundleOptions& options, const std::string& name) {
+  return options.out.empty() ? fs::path(name + "-bundle") : options.out;
+}
+
+void bundle_experiment(const BundleOptions& options) {
+  const Experiment experiment = load_experiment(options.source, 0);
+  const std::uint64_t trials = combinations(experiment).size() * experiment.trials;
+  const fs::path folder = folder_of(options, experiment.name);
+  const Manifest manifest = manifest_of(experiment, {}, trials, {});
+  write_whole(folder, [&] {
+    write_bundle(experiment, experiment.text, manifest, BundleLayout(experiment, manifest, options.with_plugins),
+                 folder);
+  });
+  fmt::print("{0}: run it by dmrp-host {0}/experiment.toml\n", folder.string());
+}
+
+}  // namespace
+
+void check_new_bundle(const fs::path& out) {
+  if (std::error_code ignored;
+      fs::exists(out, ignored) && !(fs::is_directory(out, ignored) && fs::is_empty(out, ignored)))
+    throw InputError(fmt::format("{}: exists already: a bundle is written to a new folder", out.string()));
+}
+
+void bundle_run(const fs::path& run, const fs::path& out, bool with_plugins) {
+  const Experiment experiment = load_experiment(run / "effective.toml", 0);
+  const std::string original = read_file(run / "experiment.toml", (run / "experiment.toml").string());
+  const Manifest manifest = read_manifest(run / "manifest.json");
+  if (const auto keys = differences(manifest.identity, identity_of(experiment)); !keys.empty())
+    throw InputError(fmt::format("{}: cannot be bundled, its files have changed since: {} was {}, is {} now{}",
+                                 run.string(), keys[0].key, keys[0].before, keys[0].now, and_others(keys.size())));
+  for (const std::string& change : differences(manifest, manifest_of(experiment, {}, 0, {})))
+    warn("changed since the run: " + change);
+  write_whole(out, [&] {
+    write_bundle(experiment, original, manifest, BundleLayout(experiment, manifest, with_plugins), out);
+    copy_results(run, out);
+  });
+}
+
+int bundle_command(const BundleOptions& options) {
+  if (std::error_code ignored; !fs::is_directory(options.source, ignored)) {
+    bundle_experiment(options);
+    return exit_status::done;
+  }
+  const RunDirectory locked = RunDirectory::open_finished(options.source, options.source.string());
+  const fs::path folder = folder_of(options, fs::canonical(options.source).filename());
+  bundle_run(options.source, folder, options.with_plugins);
+  fmt::print("{0}: run it by dmrp-host {0}/experiment.toml, compare by dmrp-host verify {0}\n", folder.string());
+  return exit_status::done;
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Runs some trials of a run or bundle again, and compares them to the bit.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <dmrp/toolkit/random.hpp>
+#include <numeric>
+#include <system_error>
+
+#include "host/commands/command_output.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/run_description.hpp"
+#include "host/commands/run_directory.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/results/database.hpp"
+#include "host/verify/stored_digests.hpp"
+#include "host/verify/trial_differences.hpp"
+#include "host/workers/supervisor.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder for this time, deleted at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "dmrp_verify_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// What ended by a fault or by a wall-clock limit may end otherwise.
+bool is_comparable(const TrialRecord& trial) {
+  return trial.repeatable && trial.faults.empty() && trial.outcome != trial_outcome::skipped;
+}
+
+// In random order: results must not depend on what a worker ran before.
+std::vector<TrialRecord> chosen(std::vector<TrialRecord> trials, std::size_t count, std::uint64_t seed) {
+  toolkit::Stream stream(seed, "verify");
+  for (std::size_t i = trials.size(); i > 1; --i) std::swap(trials[i - 1], trials[stream.below(i)]);
+  if (trials.size() > count) trials.resize(count);
+  return trials;
+}
+
+// Runs them in the order given.
+class Rerun {
+ public:
+  Rerun(const Experiment& experiment, unsigned jobs) : experiment_(experiment), jobs_(jobs) {}
+
+  RunEnding run(const std::vector<TrialRecord>& trials) {
+    if (experiment_.traces != RecordTraces::none) fs::create_directories(folder_.path() / "traces");
+    ResultsDatabase database = ResultsDatabase::create(folder_.path() / "results.sqlite", columns_of(experiment_));
+    std::vector<std::uint64_t> numbers;
+    for (const TrialRecord& trial : trials) numbers.push_back(trial.id);
+    const SupervisorSettings settings = {jobs_, folder_.path(), combinations(experiment_).size() * experiment_.trials};
+    const SupervisorSinks sinks = {
+        [&](TrialRecord&& trial) { database.write(trial); },
+        [&](std::uint64_t trial, const FaultRecord& fault) { database.add_fault(trial, fault); },
+        [](const std::string& text) { warn(text); }, [] {}};
+    const RunEnding ending = supervise(experiment_, numbers, settings, sinks);
+    for (TrialRecord& trial : database.trials()) trials_.emplace(trial.id, std::move(trial));
+    return ending;
+  }
+
+  const TrialRecord& trial(std::uint64_t id) const { return trials_.at(id); }
+  std::optional<std::string> digest(std::uint64_t id) const { return StoredDigests(folder_.path()).of(id); }
+
+ private:
+  const Experiment& experiment_;
+  unsigned jobs_;
+  TemporaryFolder folder_;
+  std::map<std::uint64_t, TrialRecord> trials_;
+};
+
+std::vector<std::string> differences_of(const TrialRecord& before, const std::optional<std::string>& digest_before,
+                                        const Rerun& rerun, std::span<const MetricColumn> metrics) {
+  std::vector<std::string> out = trial_differences(before, rerun.trial(before.id), metrics);
+  if (!digest_before) return out;  // it kept no trace
+  const std::string digest = rerun.digest(before.id).value_or("missing");
+  if (digest != *digest_before) out.push_back(fmt::format("the trace's digest is {}, was {}", digest, *digest_before));
+  return out;
+}
+
+// Prints what the experiment means now and did not mean then.
+bool is_same_experiment(const Manifest& before, const Manifest& now, const fs::path& directory) {
+  if (before.identity.empty())
+    throw InputError(fmt::format("{}: was made by an older dmrp-host: it cannot be verified", directory.string()));
+  const auto keys = differences(before.identity, now.identity);
+  for (const KeyDifference& key : keys) fmt::print("{} is {}, was {}\n", key.key, key.now, key.before);
+  for (const std::string& change : differences(before, now)) warn("changed since the run: " + change);
+  return keys.empty();
+}
+
+}  // namespace
+
+int verify_command(const VerifyOptions& options) {
+  const fs::path& directory = options.directory;
+  const RunDirectory locked = RunDirectory::open_finished(directory, directory.string());
+  const ResultsDatabase database = ResultsDatabase::open_read_only(directory / "results.sqlite");
+  const StoredDigests digests(directory);
+  const Manifest before = read_manifest(directory / "manifest.json");
+  const Experiment experiment = load_experiment(directory / "effective.toml", 0);
+  if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}), directory)) return exit_status::different;
+
+  std::vector<TrialRecord> trials = database.trials();
+  const std::size_t others = std::erase_if(trials, [](const TrialRecord& trial) { return !is_comparable(trial); });
+  if (others > 0) warn(plural(others, "trial") + " with faults or stopped by a clock cannot be compared");
+  if (trials.empty()) throw InputError(fmt::format("{}: has no trial to compare", directory.string()));
+  trials = chosen(std::move(trials), options.trials, options.seed);
+  Rerun rerun(experiment, options.jobs);
+  if (rerun.run(trials) == RunEnding::interrupted) return exit_status::interrupted;
+
+  std::size_t different = 0;
+  const std::vector<MetricColumn> metrics = database.metrics();
+  for (const TrialRecord& trial : trials) {
+    const std::vector<std::string> lines = differences_of(trial, digests.of(trial.id), rerun, metrics);
+    for (const std::string& line : lines) fmt::print("trial {}: {}\n", trial.id, line);
+    if (!lines.empty()) ++different;
+  }
+  if (different == 0)
+    fmt::print("{}: {} run again, equal to the bit\n", directory.string(), plural(trials.size(), "trial"));
+  else
+    fmt::print("{}: {} of {} differ\n", directory.string(), different, plural(trials.size(), "trial"));
+  return different == 0 ? exit_status::done : exit_status::different;
+}
+
+}  // namespace dmrp::host

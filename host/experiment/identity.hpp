@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// identity.hpp: what an experiment means, whatever the folders it is read from. Runs with the same identity can be merged,
+// and continue each other.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "host/experiment/experiment.hpp"
+
+namespace dmrp::host {
+
+// Each key with its value as TOML text: "simulation.step_s" -> "0.02", "local_controller[1].use" -> "\"dmrp...\"".
+// Scenarios, with the files that they name, and files that parameters name stand by SHA-256, plugins by id and version.
+// Not in it: the name of the experiment and the number of its trials, so that a run can grow; libraries.
+std::map<std::string, std::string> identity_of(const Experiment& experiment);
+
+// SHA-256, hexadecimal.
+std::string digest_of(const std::map<std::string, std::string>& identity);
+
+// A fingerprint that is equal in all processes of a run: the identity, and the contents of the libraries.
+std::string loaded_digest(const Experiment& experiment);
+
+}  // namespace dmrp::host

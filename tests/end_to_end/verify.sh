@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# `verify` runs trials again in another order within a worker, and finds what differs.
+# Called as: verify.sh DMRP_HOST LIBRARY_WITH_PLANTED_FAULTS
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+planted=$2
+cd "$scratch" || exit 1
+
+expect_status 0 "$host" "$here/crossing.toml" --trials 2 --quiet --jobs 1 --out run
+for jobs in 1 2; do
+  expect_status 0 "$host" verify run --trials 8 --jobs $jobs --seed $jobs
+  grep -q "8 trials run again, equal to the bit" stdout || fail "$(cat stdout)"
+  [[ ! -s stderr ]] || fail "nothing is to be said: $(cat stderr)"
+done
+
+# what differs: a value, an event, a trace, the experiment
+expect_difference() {  # PATTERN RUN_DIR
+  expect_status 1 "$host" verify "$2" --trials 100
+  grep -Eq -- "$1" stdout || fail "'$(cat stdout)' does not match '$1'"
+}
+cp -r run changed
+query changed "UPDATE value SET value = 123.25 WHERE trial_id = 5 AND metric = 'path_length' AND subject_kind = 'system'"
+expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' changed
+[[ $(wc -l <stdout) == 2 ]] || fail "one difference, one line: $(cat stdout)"
+cp run/traces/trial_000002.mcap changed/traces/trial_000007.mcap
+expect_difference "^trial 7: the trace's digest is [0-9a-f]{64}, was [0-9a-f]{64}\$" changed
+sed -i 's/^seed .*/seed = 8/' changed/effective.toml
+expect_difference '^experiment.seed is 8, was 7$' changed
+rm changed/effective.toml
+expect_status 2 "$host" verify changed
+grep -q 'effective.toml: there is no such experiment file' stderr || fail "$(cat stderr)"
+
+# a plugin that keeps something from trial to trial is found, because the order is another
+sed -e "s|\"libdmrp_metrics.so\"|\"$planted\"|" "$here/crossing.toml" >leaky.toml
+expect_status 0 "$host" leaky.toml --trials 2 --quiet --jobs 1 --out leaky_good
+expect_status 0 "$host" verify leaky_good --trials 8 --jobs 1
+export DMRP_TEST_FAULT='shares a variable'
+expect_status 0 "$host" leaky.toml --trials 2 --quiet --jobs 1 --out leaky
+expect_status 1 "$host" verify leaky --trials 8 --jobs 1
