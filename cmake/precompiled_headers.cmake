@@ -29,7 +29,7 @@ set(DMRP_STANDARD_HEADERS
     <variant>
     <vector>)
 
-# dmrp_add_precompiled_headers(NAME HEADERS <header>... [LIBRARIES target...] [OPTIONS option...] [EXECUTABLE])
+# dmrp_add_precompiled_headers(NAME HEADERS <header>... LIBRARIES target... [OPTIONS option...] [EXECUTABLE])
 # A set of headers, for targets with the same flags: OPTIONS and what LIBRARIES ask for. As for a library, or with
 # EXECUTABLE as for a program: their position-independent code differs.
 function(dmrp_add_precompiled_headers name)
@@ -40,7 +40,7 @@ function(dmrp_add_precompiled_headers name)
     list(APPEND set_OPTIONS -fPIE)
   endif()
   target_compile_options(${name} PRIVATE ${set_OPTIONS})
-  target_link_libraries(${name} PRIVATE ${set_LIBRARIES} dmrp_build_settings)
+  target_link_libraries(${name} PRIVATE ${set_LIBRARIES})
   target_precompile_headers(${name} PRIVATE ${set_HEADERS})
 endfunction()
 

@@ -56,7 +56,7 @@ class TaskSampler {
     take(grid, *start, apart_m, start_is_taken_);
     take(grid, *goal, apart_m, goal_is_taken_);
     constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-    tasks.push_back({"robot " + std::to_string(tasks.size() + 1),
+    tasks.push_back({"robot " + std::to_string(tasks.size()),
                      {from.x, from.y, free_heading},
                      {{to.x, to.y, free_heading}},
                      grids_[kind].type});

@@ -69,7 +69,7 @@ void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const 
                    type.type.empty() ? task.name : fmt::format("{} ({})", task.name, type.type));
     picture.arrow({start.x, start.y}, {start.x + 0.6 * std::cos(start.theta), start.y + 0.6 * std::sin(start.theta)},
                   {"heading", color});
-    picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i + 1), {"label", color});
+    picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i), {"label", color});
   }
 }
 

@@ -81,7 +81,7 @@ class WorldCheck {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
   [[noreturn]] void fail_robot(std::size_t robot, const std::string& text) const {
-    file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot + 1, text));
+    file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot, text));
   }
 
   // The two largest robots fit cells next to each other, whatever they do.
@@ -210,15 +210,15 @@ class WorldCheck {
     const double distance_m = std::hypot(p.x - q.x, p.y - q.y);
     const double touching_m = types_.of(scenario_.robots[a]).radius_m + types_.of(scenario_.robots[b]).radius_m;
     if (distance_m < touching_m)
-      fail_robot(b, fmt::format("overlaps robot {} at its {} (distance {:.2f} m, needs {:.2f} m)", a + 1, noun,
-                                distance_m, touching_m));
+      fail_robot(b, fmt::format("overlaps robot {} at its {} (distance {:.2f} m, needs {:.2f} m)", a, noun, distance_m,
+                                touching_m));
     if (grid.index(grid.cell_of({p.x, p.y})) == grid.index(grid.cell_of({q.x, q.y})))
-      fail_robot(b, fmt::format("has its {} on the same planning cell as robot {}", noun, a + 1));
+      fail_robot(b, fmt::format("has its {} on the same planning cell as robot {}", noun, a));
     check_cells(a, b, noun, grid.cell_of({p.x, p.y}), grid.cell_of({q.x, q.y}));
     if (distance_m <= start_distance_m)
       warn(file_.robots[b],
-           fmt::format("the {}s of robots {} and {} are {:.2f} m apart; the method wants more than {} m", noun, a + 1,
-                       b + 1, distance_m, start_distance_m));
+           fmt::format("the {}s of robots {} and {} are {:.2f} m apart; the method wants more than {} m", noun, a, b,
+                       distance_m, start_distance_m));
   }
 
   // Plans stand robots on the centres of cells, at any heading.
@@ -233,7 +233,7 @@ class WorldCheck {
     fail_robot(
         b, fmt::format("has its {} on a cell that overlaps robot {} on its own (centres {:.2f} m apart, radii {:.2f} "
                        "and {:.2f} m)",
-                       noun, a + 1, cell_m * std::hypot(cell_a.column - cell_b.column, cell_a.row - cell_b.row),
+                       noun, a, cell_m * std::hypot(cell_a.column - cell_b.column, cell_a.row - cell_b.row),
                        body(a).radius_m, body(b).radius_m));
   }
 

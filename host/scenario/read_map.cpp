@@ -105,7 +105,7 @@ void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const
   };
   for (std::size_t i = 0; i < count; ++i) {
     out.scenario.robots.push_back(
-        {fmt::format("robot {}", i + 1), pose_of(read.tasks[i].start), {pose_of(read.tasks[i].goal)}});
+        {fmt::format("robot {}", i), pose_of(read.tasks[i].start), {pose_of(read.tasks[i].goal)}});
     out.robots.push_back(name.position());
   }
 }

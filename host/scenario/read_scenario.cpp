@@ -71,7 +71,7 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
       task.name = name->line();
       refuse_twice(*name, "robots", names);
     } else {
-      task.name = fmt::format("robot {}", out.scenario.robots.size() + 1);
+      task.name = fmt::format("robot {}", out.scenario.robots.size());
     }
     if (const auto type = table.find("type")) task.type = type->line();
     task.start = pose(table.need("start"));

@@ -214,7 +214,7 @@ core::RobotTypes robot_types_of(const ScenarioFile& file, const core::RobotSetti
   for (std::size_t i = 0; i < file.scenario.robots.size(); ++i) {
     const std::string& name = file.scenario.robots[i].type;
     if (!types.find(name))
-      file.document->fail(file.robots[i], fmt::format("robot {} has the {}", i + 1, unknown_type(name, types)));
+      file.document->fail(file.robots[i], fmt::format("robot {} has the {}", i, unknown_type(name, types)));
   }
   return types;
 }

@@ -21,7 +21,7 @@ function(dmrp_add_test name)
 
   add_executable(${name} ${test_SOURCES})
   target_compile_definitions(${name} PRIVATE DMRP_TEST_DATA="${DMRP_TEST_DATA}")
-  target_link_libraries(${name} PRIVATE ${test_LIBRARIES} dmrp_build_settings Catch2::Catch2WithMain)
+  target_link_libraries(${name} PRIVATE ${test_LIBRARIES} dmrp_test_settings Catch2::Catch2WithMain)
   dmrp_use_precompiled_headers(dmrp_test_headers ${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT TARGET tests_${area})

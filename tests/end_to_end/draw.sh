@@ -6,6 +6,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 expect_status 0 "$host" draw mall --planner dmrp.planner.cbs --svg "$scratch/mall.svg"
 (($(grep -c 'class="path"' "$scratch/mall.svg") >= 4)) || fail "the picture should show four paths"
 
+for robot in 0 1 2 3; do
+  grep -q "class=\"label\"[^>]*>$robot</text>" "$scratch/mall.svg" || fail "the picture should name robot $robot"
+done
+grep -q 'class="label"[^>]*>4</text>' "$scratch/mall.svg" && fail "the four robots have the numbers 0 to 3"
+
 expect_status 0 "$host" draw mall
 grep -q '^<svg' "$scratch/stdout" || fail "no picture on standard output"
 

@@ -36,7 +36,7 @@ sed -n p "$here/crossing.toml" >experiment.toml
 expect_status 0 "$host" validate experiment.toml
 
 line='^experiment\.toml:[0-9]+:[0-9]+: '
-robot='scenario\.toml:[0-9]+:[0-9]+: robot 1 '
+robot='scenario\.toml:[0-9]+:[0-9]+: robot 0 '
 expect_mistake "misspelt key" 's/^trials /trails /' '' "$line.*'trails'.*did you mean 'trials'"
 expect_mistake "misspelt table" 's/global_planner/global_planer/' '' "$line.*'global_planer'.*did you mean 'global_planner'"
 expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"

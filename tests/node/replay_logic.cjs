@@ -233,6 +233,23 @@ const tests = {
     ]);
   },
 
+  'wheels steer by the curve that the robot drives, and stand straight where it stands'() {
+    const data = packed();
+    data.robots[0] = {...data.robots[0], drive: 'ackermann', wheelbase: 500};
+    data.robots[1].x = [1000, 0, 0, 0];
+    Object.assign(data.robots[1], {drive: 'ackermann', wheelbase: 500});
+    const replay = recording.from_json(data);
+    // backwards: 0.2 m along +x with the heading 3.2 rad, 0.2 rad to the left
+    near(
+      recording.steering_angle(replay.robots[0], recording.moment(replay, 0.1)),
+      Math.atan((0.5 * 0.2) / (0.2 * Math.cos(3.2)))
+    );
+    assert.strictEqual(recording.steering_angle(replay.robots[1], recording.moment(replay, 0.1)), 0);
+    const discs = recording.from_json(packed());
+    assert.strictEqual(recording.steering_angle(discs.robots[0], recording.moment(discs, 0.1)), 0);
+    near(recording.mean_heading(replay.robots[0], recording.moment(replay, 0.1)), (3.1 + 3.2 + 3.3 + 3.3) / 4);
+  },
+
   'zooming keeps the point under the pointer, and stops at the whole world'() {
     const view = map_view.make_map_view();
     view.width = 400;

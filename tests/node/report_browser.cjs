@@ -7,6 +7,7 @@ const {spawnSync} = require('node:child_process');
 const fs = require('node:fs');
 const os = require('node:os');
 const path = require('node:path');
+const zlib = require('node:zlib');
 
 const SKIPPED = 77;
 const LAPTOP = {width: 1366, height: 768};
@@ -92,9 +93,11 @@ async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'l
   return {page, said};
 }
 
-// Checks that no plot or section is empty, the page fits the screen, and no text is NaN, null or an object.
+// Checks that no plot or section is empty, the page fits the screen, a wide screen cuts no table and a small one says
+// what it hides, and no text is NaN, null or an object.
 async function check_layout(page, where) {
-  const found = await page.evaluate(() => {
+  const found = await page.evaluate(async () => {
+    for (let frames = 0; frames < 2; ++frames) await new Promise(requestAnimationFrame); // sizes are observed in each
     const problems = [];
     const wide = document.scrollingElement.scrollWidth;
     if (wide > window.innerWidth) problems.push(`the page is ${wide} px wide on a screen of ${window.innerWidth}`);
@@ -103,6 +106,21 @@ async function check_layout(page, where) {
         problems.push(`an empty plot in ${plot.closest('section').id}`);
     for (const body of document.querySelectorAll('.section .section-body'))
       if (!body.children.length) problems.push(`an empty section: ${body.closest('section').id}`);
+    for (const box of document.querySelectorAll('.section .table-scroll')) {
+      if (box.closest('details:not([open])') || box.scrollWidth <= box.clientWidth + 2) continue;
+      const table = `the table ${box.querySelector('table').id || box.querySelector('table').className}`;
+      const frame = box.parentElement;
+      const last = [...box.querySelectorAll('thead th')].pop();
+      const name = (last.querySelector('.header') || last).textContent;
+      const first = [...box.querySelectorAll('tbody tr > :first-child:not([colspan])')];
+      if (window.innerWidth > 1200) problems.push(`${table} is cut: ${box.scrollWidth} px in ${box.clientWidth}`);
+      if (!frame.classList.contains('more-right'))
+        problems.push(`${table} goes on behind an edge that does not say so`);
+      else if (!frame.querySelector('.more-columns').textContent.includes(name))
+        problems.push(`${table} has no line that names its hidden columns`);
+      if (first.some((cell) => getComputedStyle(cell).position !== 'sticky'))
+        problems.push(`${table} loses its first column when it scrolls`);
+    }
     for (const attribute of document.querySelectorAll('svg [d], svg [transform], svg [x], svg [x1], svg [cx]'))
       for (const {name, value} of attribute.attributes)
         if (/NaN|undefined/.test(value)) problems.push(`${name}="${value}" in ${attribute.closest('section').id}`);
@@ -112,6 +130,20 @@ async function check_layout(page, where) {
     return problems;
   });
   assert.deepStrictEqual(found, [], where);
+}
+
+// The JSON of a replay in a report, changed by `change`, in a copy of the report.
+function with_replay(report, element, change) {
+  const text = fs.readFileSync(report, 'utf8');
+  const tag = `<script type="application/gzip" id="${element}">`;
+  const from = text.indexOf(tag) + tag.length;
+  const to = text.indexOf('</script>', from);
+  const replay = JSON.parse(zlib.gunzipSync(Buffer.from(text.slice(from, to), 'base64')));
+  change(replay);
+  const file = path.join(path.dirname(report), 'changed_replay.html');
+  const packed = zlib.gzipSync(JSON.stringify(replay)).toString('base64');
+  fs.writeFileSync(file, text.slice(0, from) + packed + text.slice(to));
+  return file;
 }
 
 // Writes a copy of a report with changed data, for cases that no quick run produces.
@@ -160,6 +192,7 @@ module.exports = {
   run_experiment,
   scratch_folder,
   with_data,
+  with_replay,
   open_report,
   check_layout,
   read_csv,

@@ -208,6 +208,114 @@ tests['a name links to all metrics of its combination'] = async (browser) => {
   await close(opened);
 };
 
+// The crossing's report with its combinations repeated in six scenarios, four columns of planned values in each.
+function of_six_scenarios(report) {
+  return with_data(report, (data) => {
+    const per_scenario = (rows) =>
+      Array.from({length: 6}, (_, i) => rows.map((row) => ({...row, scenario: `crossing ${i}`}))).flat();
+    const count = data.combinations.length;
+    data.scenarios = Array.from({length: 6}, (_, i) => ({...data.scenarios[0], name: `crossing ${i}`}));
+    data.combinations = per_scenario(data.combinations);
+    data.planners = per_scenario(data.planners);
+    data.summaries = data.combinations.map((_, i) => data.summaries[i % count]);
+    data.planner_summaries = data.planners.map((_, i) => data.planner_summaries[i % data.planner_summaries.length]);
+  });
+}
+
+tests['six scenarios fit, and each can be chosen'] = async (browser) => {
+  const report = of_six_scenarios(crossing);
+  for (const viewport of [LAPTOP, PHONE]) {
+    const opened = await open_report(browser, report, {viewport});
+    await check_layout(opened.page, 'six scenarios');
+    await opened.page.locator('#tables').getByLabel('Scenario').selectOption('all');
+    await check_layout(opened.page, 'all of six scenarios');
+    assert.match(await opened.page.locator('#table-plans').textContent(), /crossing 5/);
+    await close(opened);
+  }
+};
+
+tests['the last column of a wide table is reached by a tap, beside the first'] = async (browser) => {
+  const opened = await open_report(browser, crossing, {viewport: PHONE});
+  const {page} = opened;
+  const frame = page.locator('.table-frame', {has: page.locator('#table-driving')});
+  const last = frame.locator('thead th').last();
+  for (let taps = 0; taps < 12 && (await frame.locator('.more-columns').isVisible()); ++taps) {
+    await frame.locator('.more-columns').tap();
+    await page.waitForTimeout(50);
+  }
+  const [box, cell, first] = [
+    await frame.boundingBox(),
+    await last.boundingBox(),
+    await frame.locator('tbody th').first().boundingBox(),
+  ];
+  assert.ok(cell.x + cell.width <= box.x + box.width + 2, 'the last column is cut');
+  assert.ok(Math.abs(first.x - box.x) < 2 && first.x + first.width <= cell.x + 1, 'the first column is gone');
+  await close(opened);
+};
+
+tests['an abbreviation is explained on tap'] = async (browser) => {
+  const opened = await open_report(browser, crossing, {viewport: PHONE});
+  const {page} = opened;
+  const about = await page.evaluate(() => dmrp.data.metrics.find((metric) => metric.name === 'pfd').description);
+  const tip = page.locator('#tip');
+  assert.ok(await tip.isHidden());
+  const header = page.locator('#table-driving thead button', {hasText: 'PFD'});
+  await header.scrollIntoViewIfNeeded();
+  await header.tap();
+  await tip.waitFor({state: 'visible'});
+  assert.ok((await tip.textContent()).includes(about), await tip.textContent());
+  const box = await tip.boundingBox();
+  assert.ok(box.x >= 0 && box.x + box.width <= PHONE.width, 'the explanation leaves the window');
+  await page.locator('#tables h2').tap();
+  assert.ok(await tip.isHidden());
+  await close(opened);
+};
+
+tests['the contents stay, and a jump arrives, while sections are filled'] = async (browser) => {
+  const context = await browser.newContext({viewport: LAPTOP});
+  const page = await context.newPage();
+  await page.goto(`file://${enlarged(crossing)}`, {waitUntil: 'domcontentloaded'});
+  const contents = () => page.locator('#contents a').allTextContents();
+  const at_first = await contents();
+  await page.evaluate(() => document.querySelector('#contents a[href="#metrics"]').click());
+  await page.locator('#provenance.ready').waitFor({state: 'attached'});
+  await page.waitForTimeout(300);
+  assert.deepStrictEqual(await contents(), at_first);
+  const top = await page.evaluate(
+    () =>
+      document.querySelector('#metrics h2').getBoundingClientRect().top -
+      document.getElementById('contents').getBoundingClientRect().bottom
+  );
+  assert.ok(top >= 0 && top < 60, `the title is ${top} px below the contents`);
+  assert.strictEqual(await page.locator('#contents a[aria-current]').textContent(), 'All metrics');
+  await context.close();
+};
+
+tests['every figure is saved as SVG, in light colours and without a style sheet'] = async (browser) => {
+  const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
+  const {page} = opened;
+  for (const section of ['heat-map', 'distributions', 'diagnosis', 'comparisons', 'curves', 'completion']) {
+    const button = page.locator(`#${section} .figure-tools button`).first();
+    const [saved] = await Promise.all([page.waitForEvent('download'), button.click()]);
+    assert.match(saved.suggestedFilename(), new RegExp(`^${section}.*\\.svg$`));
+    const text = fs.readFileSync(await saved.path(), 'utf8');
+    const found = await page.evaluate((svg) => {
+      const root = new DOMParser().parseFromString(svg, 'image/svg+xml').documentElement;
+      return {
+        name: root.nodeName,
+        texts: [...root.querySelectorAll('text')].map((one) => one.textContent).join(' '),
+        marks: root.querySelectorAll('path, line, circle, rect').length,
+      };
+    }, text);
+    assert.strictEqual(found.name, 'svg');
+    assert.ok(found.marks > 3, `${section}: ${found.marks} marks`);
+    assert.match(found.texts, /[a-z0-9]{2}/, section);
+    assert.doesNotMatch(text, /class=|var\(/, section);
+  }
+  assert.strictEqual(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+  await close(opened);
+};
+
 tests['the printed report is complete'] = async (browser) => {
   const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
   const pdf = await opened.page.pdf({format: 'A4'});

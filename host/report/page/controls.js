@@ -24,9 +24,13 @@ export function metric_select(data, title, metrics, value, changed) {
   return select(title, options, value, changed);
 }
 
-// A row of buttons, one of them pressed; the contract is that of select.
+const MOST_LETTERS = 32; // in a row of buttons; more do not fit on a telephone
+
+// A row of buttons, one of them pressed, or a select where they would be too wide; the contract is that of select.
 export function segmented(title, options, value, changed) {
   if (options.length < 2) return null;
+  if (options.map((option) => option.label).join('').length > MOST_LETTERS)
+    return select(title, options, value, changed);
   const buttons = options.map((option) =>
     element('button', {type: 'button', class: 'button', 'aria-pressed': String(option.value === value)}, option.label)
   );

@@ -42,15 +42,3 @@ export function group_row(title, columns) {
     element('th', {scope: 'rowgroup', colspan: columns}, element('span', {}, title))
   );
 }
-
-// A table below its title, in a box that scrolls horizontally on a narrow screen.
-export function titled_table(id, title, note, table) {
-  table.setAttribute('aria-labelledby', id);
-  return element(
-    'div',
-    {class: 'titled'},
-    element('h3', {id}, title),
-    note && element('p', {class: 'about-table'}, note),
-    element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-labelledby': id}, table)
-  );
-}

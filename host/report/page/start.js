@@ -19,50 +19,66 @@ import * as heat_map from './tables/heat_map.js';
 import * as metrics_table from './tables/metrics_table.js';
 import * as pedestrian_delay from './tables/pedestrian_delay.js';
 import * as result_tables from './tables/result_tables.js';
+import {watch_edges} from './scroll_box.js';
 import * as theme from './theme.js';
+import * as tips from './tips.js';
 import './page.css';
 
-// Each function fills the body of its section. If there are no data it returns the reason: the section is removed and
-// the reason listed at the end of the page.
+// mount(body, data) of a section's module fills its body; absent(data), if there is one, says why it would stay empty.
 function parts() {
   return [
-    ['answer', answer.mount],
-    ['tables', result_tables.mount],
-    ['graded', graded_tests.mount],
-    ['failures', failures.mount],
-    ['heat-map', heat_map.mount],
-    ['distributions', distributions.mount],
-    ['replay', (body, data) => player.mount(body, data, make_3d_view)],
-    ['diagnosis', diagnosis.mount],
-    ['comparisons', comparisons.mount],
-    ['curves', threshold_curves.mount],
-    ['completion', completion.mount],
-    ['pedestrian-delay', pedestrian_delay.mount],
-    ['faults', faults.mount],
-    ['metrics', metrics_table.mount],
-    ['provenance', provenance.mount],
-  ];
+    ['answer', answer],
+    ['tables', result_tables],
+    ['graded', graded_tests],
+    ['failures', failures],
+    ['heat-map', heat_map],
+    ['distributions', distributions],
+    ['replay', {absent: player.absent, mount: (body, data) => player.mount(body, data, make_3d_view)}],
+    ['diagnosis', diagnosis],
+    ['comparisons', comparisons],
+    ['curves', threshold_curves],
+    ['completion', completion],
+    ['pedestrian-delay', pedestrian_delay],
+    ['faults', faults],
+    ['metrics', metrics_table],
+    ['provenance', provenance],
+  ].map(([id, module]) => ({...module, section: document.getElementById(id), done: false}));
+}
+
+function reason_of_absence(part, data) {
+  try {
+    return part.absent ? part.absent(data) : null;
+  } catch (error) {
+    return null; // mounting the section shows the error
+  }
+}
+
+// Removes the sections without data and lists the reasons at the end of the page, before anything is shown, so that
+// the contents never change under the reader's pointer. Returns the others.
+function with_data(all, data) {
+  const list = document.getElementById('left-out');
+  return all.filter((part) => {
+    const reason = reason_of_absence(part, data);
+    if (reason === null) return true;
+    list.hidden = false;
+    list.append(element('li', {}, `${part.section.querySelector('h2').textContent}: ${reason}.`));
+    part.section.remove();
+    return false;
+  });
 }
 
 function mount_part(part, data) {
   if (part.done) return;
   part.done = true;
   const body = part.section.querySelector('.section-body');
-  let reason = null;
   try {
-    reason = part.mount(body, data);
+    part.mount(body, data);
   } catch (error) {
     // an error in one section must not stop the others
     console.error(error);
     fill(body, element('p', {class: 'note'}, `This section could not be shown: ${error.message}`));
   }
   part.section.classList.add('ready');
-  if (typeof reason !== 'string') return;
-  const list = document.getElementById('left-out');
-  list.hidden = false;
-  list.append(element('li', {}, `${part.section.querySelector('h2').textContent}: ${reason}.`));
-  part.section.remove();
-  part.link.remove();
 }
 
 function fill_contents(all) {
@@ -74,6 +90,7 @@ function fill_contents(all) {
     list.append(part.link);
   }
   contents.append(list);
+  watch_edges(contents, list);
 }
 
 // Scrolls the list horizontally; the page must not move.
@@ -84,22 +101,51 @@ function bring_into_sight(link) {
     list.scrollLeft = link.offsetLeft - room / 2;
 }
 
-// Marks the current section in the contents.
-function follow_reading(all) {
+function mark_current(all, current) {
+  for (const part of all) {
+    if (part === current) part.link.firstChild.setAttribute('aria-current', 'true');
+    else part.link.firstChild.removeAttribute('aria-current');
+  }
+  if (current) bring_into_sight(current.link);
+}
+
+// Marks the current section in the contents: the one that was jumped to, or the first that is seen.
+function follow_reading(all, anchor) {
   const seen = new Set();
   const observer = new IntersectionObserver(
     (entries) => {
       for (const entry of entries) entry.isIntersecting ? seen.add(entry.target) : seen.delete(entry.target);
-      const current = all.find((part) => seen.has(part.section));
-      for (const part of all) {
-        if (part === current) part.link.firstChild.setAttribute('aria-current', 'true');
-        else part.link.firstChild.removeAttribute('aria-current');
-      }
-      if (current) bring_into_sight(current.link);
+      if (!anchor.held()) mark_current(all, all.find((part) => seen.has(part.section)));
     },
     {rootMargin: '-30% 0px -60% 0px'}
   );
   for (const part of all) observer.observe(part.section);
+}
+
+const HELD_MS = 4000; // by then, all sections have been filled
+
+// Keeps the section that was jumped to at the top of the window while sections above it are filled and grow. Ends when
+// the reader scrolls, points or types.
+function make_anchor() {
+  let section = null;
+  let timer = 0;
+  const release = () => {
+    section = null;
+    clearTimeout(timer);
+  };
+  const align = () => section && section.scrollIntoView({block: 'start', behavior: 'instant'});
+  for (const kind of ['wheel', 'touchstart', 'pointerdown', 'keydown'])
+    window.addEventListener(kind, release, {passive: true, capture: true});
+  new ResizeObserver(align).observe(document.querySelector('main'));
+  return {
+    held: () => section,
+    hold: (target) => {
+      release();
+      section = target;
+      timer = setTimeout(release, HELD_MS);
+      align();
+    },
+  };
 }
 
 function mount_when_near(all, data) {
@@ -130,14 +176,6 @@ function mount_when_idle(all, data) {
   );
 }
 
-// Sections above the target of a jump are filled first, since they grow.
-function mount_before_jumps(all, data) {
-  document.addEventListener('click', (event) => {
-    const link = event.target.closest('a[href^="#"]');
-    if (link) mount_up_to(all, data, link.getAttribute('href').slice(1));
-  });
-}
-
 function mount_up_to(all, data, id) {
   for (const part of all) {
     mount_part(part, data);
@@ -145,9 +183,17 @@ function mount_up_to(all, data, id) {
   }
 }
 
-function open_replay(all, data, trial) {
-  mount_up_to(all, data, 'replay');
-  document.getElementById('replay').scrollIntoView({block: 'start'});
+// Sections above the target are filled first, since they grow.
+function jump_to(all, data, anchor, id) {
+  const target = all.find((part) => part.section.id === id);
+  if (!target) return;
+  mount_up_to(all, data, id);
+  anchor.hold(target.section);
+  mark_current(all, target);
+}
+
+function open_replay(all, data, anchor, trial) {
+  jump_to(all, data, anchor, 'replay');
   return player.open(trial);
 }
 
@@ -155,17 +201,22 @@ function open_replay(all, data, trial) {
 function begin() {
   theme.follow_system();
   theme.follow_printing();
+  tips.explain_on_demand();
   const data = JSON.parse(document.getElementById('dmrp-data').textContent);
   overview.mount(document.getElementById('overview'), data);
-  const all = parts().map(([id, mount]) => ({section: document.getElementById(id), mount, done: false}));
+  const all = with_data(parts(), data);
+  const anchor = make_anchor();
   fill_contents(all);
-  document.addEventListener('dmrp:open-replay', (event) => open_replay(all, data, event.detail));
-  window.dmrp = {data, open_replay: (trial) => open_replay(all, data, trial)};
+  document.addEventListener('dmrp:open-replay', (event) => open_replay(all, data, anchor, event.detail));
+  document.addEventListener('click', (event) => {
+    const link = event.target.closest('a[href^="#"]');
+    if (link) jump_to(all, data, anchor, link.getAttribute('href').slice(1));
+  });
+  window.dmrp = {data, open_replay: (trial) => open_replay(all, data, anchor, trial)};
   mount_up_to(all, data, 'tables');
-  mount_before_jumps(all, data);
-  if (window.location.hash) mount_up_to(all, data, window.location.hash.slice(1));
+  jump_to(all, data, anchor, window.location.hash.slice(1));
   mount_when_near(all, data);
-  follow_reading(all);
+  follow_reading(all, anchor);
   mount_when_idle(all, data);
   window.addEventListener('beforeprint', () => mount_up_to(all, data, null));
 }

@@ -9,7 +9,8 @@
 //    "times": D,                                    of the samples: ten a second and the last; 0 if there are none
 //    "world": {"lower": [x, y], "upper": [x, y],
 //              "shapes": [{"name", "height", "vertices": points | "center": [x, y], "radius"}]},
-//    "robots": [{"name", "radius", "outline"?: points, "v_max",
+//    "robots": [{"name", "radius", "parts"?: [points], "v_max",
+//                "drive"?: "holonomic" | "ackermann", "wheelbase"?,        differential if absent
 //                "goals": [{"at": [x, y], "theta"?, "tolerance"}],
 //                "x": D, "y": D, "theta": D,        unwrapped heading
 //                "state": R, "goal": R,             DMRP_ROBOT_*, the current goal

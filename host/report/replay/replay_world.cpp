@@ -72,6 +72,11 @@ json replay_robot(const dmrp_robot& robot) {
              {"radius", thousandths(footprint.radius_m)},
              {"v_max", thousandths(robot.limits->v_max)},
              {"goals", std::move(goals)}};
+  if (robot.kinematics == DMRP_KINEMATICS_HOLONOMIC) to["drive"] = "holonomic";
+  if (robot.kinematics == DMRP_KINEMATICS_ACKERMANN) {
+    to["drive"] = "ackermann";
+    to["wheelbase"] = thousandths(robot.limits->wheelbase_m);
+  }
   for (std::uint32_t i = 0; i < footprint.part_count; ++i)
     to["parts"].push_back(points(footprint.parts[i].vertices, footprint.parts[i].vertex_count));
   return to;

@@ -46,23 +46,30 @@ PrioritizedSearch::Result PrioritizedSearch::run(std::int64_t restart_limit) {
   return Result::restart_limit;
 }
 
-PrioritizedSearch::Result PrioritizedSearch::run_once(std::int64_t expansions) {
-  const Attempt result = attempt(0, expansions);
+PrioritizedSearch::Result PrioritizedSearch::run_once(std::int64_t patience) {
+  const Attempt result = attempt(0, patience);
   if (result == Attempt::succeeded) return Result::solved;
   return result == Attempt::stopped ? Result::stopped : Result::restart_limit;
 }
 
 // Plans all robots, in the first order or in a random one.
-PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart, std::int64_t expansions) {
+PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart, std::int64_t patience) {
   begin(restart);
   const std::int64_t limit =
       statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
+  std::size_t next_half = order_.size() / 2;
+  std::int64_t halved_at = low_level_.expanded();
   while (!order_.empty()) {
+    if (order_.size() <= next_half) {
+      next_half = order_.size() / 2;
+      halved_at = low_level_.expanded();
+    }
     const std::int32_t agent = order_.front();
     order_.pop_front();
     const SippSearch::Result result = plan(agent);
     if (result == SippSearch::Result::stopped) return Attempt::stopped;
-    if (result == SippSearch::Result::none || statistics_.displaced > limit || low_level_.expanded() > expansions)
+    if (result == SippSearch::Result::none || statistics_.displaced > limit ||
+        low_level_.expanded() - halved_at > patience)
       return Attempt::failed;
   }
   return restart == 0 ? Attempt::succeeded : tighten();

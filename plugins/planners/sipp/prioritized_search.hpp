@@ -32,8 +32,9 @@ class PrioritizedSearch {
 
   Result run(std::int64_t restart_limit);
 
-  // Plans in the first order only, until the low level has expanded so many states. Result::restart_limit: no plan.
-  Result run_once(std::int64_t expansions);
+  // Plans in the first order only, and gives up when the low level has expanded so many states since the number of
+  // robots without a path was last halved. Result::restart_limit: no plan.
+  Result run_once(std::int64_t patience);
 
   // After Result::solved: one path for each agent.
   std::vector<std::vector<Location>>& paths() { return paths_; }
@@ -46,7 +47,7 @@ class PrioritizedSearch {
  private:
   enum class Attempt { succeeded, failed, stopped };
 
-  Attempt attempt(std::int64_t restart, std::int64_t expansions);
+  Attempt attempt(std::int64_t restart, std::int64_t patience);
   void begin(std::int64_t restart);
   Attempt tighten();
   SippSearch::Result plan(std::int32_t agent);

@@ -4,9 +4,10 @@ import {scaleLinear} from 'd3-scale';
 import {curveStepAfter, line} from 'd3-shape';
 
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row, titled_table} from '../elements.js';
+import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {titled_table} from '../scroll_box.js';
 import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 
@@ -129,9 +130,15 @@ function show_variants(data, rows, variants, holder) {
   holder.append(table(data, rows, variants));
 }
 
+const measured_rows = (data) => data.completion.filter((row) => numbers.is_number(row.restricted_mean_s));
+
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return measured_rows(data).length > 0 ? null : 'completion times were not measured';
+}
+
 export function mount(body, data) {
-  const rows = data.completion.filter((row) => numbers.is_number(row.restricted_mean_s));
-  if (rows.length === 0) return 'completion times were not measured';
+  const rows = measured_rows(data);
   const variants = labels.variants(data);
   const first = controls.first_variant(variants, rows.length);
   const holder = element('div');
@@ -149,5 +156,4 @@ export function mount(body, data) {
     holder
   );
   show(first);
-  return null;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // diagnosis.js: scatter plots of two metrics, one panel for each scenario and planner, with rank correlations.
 import * as controls from '../controls.js';
-import {element, fill, head_row, titled_table} from '../elements.js';
+import {element, fill, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
+import {titled_table} from '../scroll_box.js';
 import * as plots from './plots.js';
 import * as small_plots from './small_plots.js';
 import * as trial_points from './trial_points.js';
@@ -60,7 +61,7 @@ function correlation_cell(found) {
   if (!found || !numbers.is_number(found.rho)) {
     return element(
       'td',
-      {class: 'number', title: found ? `too few trials, or equal values (n ${found.n})` : null},
+      {class: 'number', 'data-about': found ? `too few trials, or equal values (n ${found.n})` : null},
       numbers.UNDEFINED,
       found && element('span', {class: 'interval'}, `n ${found.n}`)
     );
@@ -127,11 +128,15 @@ function first_choice(data, measured) {
   return {x, y};
 }
 
-export function mount(body, data) {
-  const measured = labels.measured_metrics(data);
+// The reason why there is nothing to show, or null.
+export function absent(data) {
   if (data.trials.id.length < 3)
     return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be computed`;
-  if (measured.length < 2) return 'fewer than two metrics have values';
+  return labels.measured_metrics(data).length < 2 ? 'fewer than two metrics have values' : null;
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
   const strata = labels.strata(data);
   const chosen = first_choice(data, measured);
   const holder = element('div');
@@ -176,5 +181,4 @@ export function mount(body, data) {
     correlation_table(data, strata)
   );
   show();
-  return null;
 }

@@ -119,9 +119,13 @@ function default_metric(data, measured) {
   return measured.some((metric) => metric.name === wanted) ? wanted : measured[0].name;
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return labels.measured_metrics(data).length > 0 ? null : 'no metric has a value in any trial';
+}
+
 export function mount(body, data) {
   const measured = labels.measured_metrics(data);
-  if (measured.length === 0) return 'no metric has a value in any trial';
   const variants = labels.variants(data).filter((variant) => variant.combinations.length > 0);
   const chosen = {metric: default_metric(data, measured), variant: 'all'};
   const holder = element('div');
@@ -160,5 +164,4 @@ export function mount(body, data) {
     detail
   );
   show();
-  return null;
 }

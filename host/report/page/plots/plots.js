@@ -18,6 +18,7 @@ import {
 import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {with_svg_button} from '../svg_files.js';
 
 // Draws now and after every change of width. draw(holder, width) fills the holder.
 export function responsive(holder, draw) {
@@ -158,23 +159,6 @@ export function field_legend(data, field, line = false) {
   );
 }
 
-// Places the tooltip near `target`, inside the window.
-export function show_tip(target, ...content) {
-  const tip = document.getElementById('tip');
-  fill(tip, content);
-  tip.hidden = false;
-  const of = target.getBoundingClientRect();
-  const own = tip.getBoundingClientRect();
-  const left = Math.min(Math.max(8, of.left + of.width / 2 - own.width / 2), window.innerWidth - own.width - 8);
-  const above = of.top - own.height - 8;
-  tip.style.left = `${left}px`;
-  tip.style.top = `${above > 8 ? above : of.bottom + 8}px`;
-}
-
-export function hide_tip() {
-  document.getElementById('tip').hidden = true;
-}
-
 const text_measure = () => document.createElement('canvas').getContext('2d');
 
 // Width in pixels of the longest of `texts` in the font of labels.
@@ -189,7 +173,7 @@ export function fit_text(text, words, width) {
   let shown = words;
   while (shown.length > 4 && text_width([shown]) > width) shown = `${shown.slice(0, -2).trimEnd()}…`;
   text.text(shown);
-  if (shown !== words) text.append('title').text(words);
+  if (shown !== words) text.attr('data-about', words);
 }
 
 export const SMALL_PANELS = {least: 240, most: 520, most_columns: 4};
@@ -202,8 +186,9 @@ export function panels(holder, titles, {least, most, most_columns}) {
   const share = `calc((100% - ${columns - 1} * 1.75rem) / ${columns})`;
   grid.style.gridTemplateColumns = `repeat(auto-fill, minmax(max(min(100%, ${least}px), ${share}), 1fr))`;
   const made = titles.map((title) => {
-    const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), element('div', {class: 'plot'}));
-    grid.append(panel);
+    const plot = element('div', {class: 'plot'});
+    const panel = element('div', {class: 'facet'}, title && element('h4', {}, title), plot);
+    grid.append(with_svg_button(panel, title));
     return panel;
   });
   holder.append(grid);

@@ -127,9 +127,13 @@ function show_metric(data, metric, holder, note) {
   fill(note, about ? `${about.description} (${labels.direction_words(about.direction)}).` : '');
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.curves.some(has_values) ? null : 'no metric was measured over a range of thresholds';
+}
+
 export function mount(body, data) {
   const names = labels.distinct(data.curves.filter(has_values).map((curve) => curve.metric));
-  if (names.length === 0) return 'no metric was measured over a range of thresholds';
   const holder = element('div');
   const note = element('p', {class: 'note'});
   const options = names.map((name) => ({value: name, label: labels.metric_with_unit(data, name)}));
@@ -141,5 +145,4 @@ export function mount(body, data) {
     note
   );
   show_metric(data, names[0], holder, note);
-  return null;
 }

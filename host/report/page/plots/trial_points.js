@@ -4,6 +4,7 @@ import {element, fill} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
+import * as tips from '../tips.js';
 import * as plots from './plots.js';
 
 // A number in [-1, 1) that depends on the trial alone, so that a plot always looks the same. `axis`: 0 or 1, for two
@@ -93,7 +94,7 @@ export function selectable(svg, data, points, metrics, detail) {
     if (current >= 0) points[current].node.classList.remove('chosen');
     current = index;
     points[current].node.classList.add('chosen');
-    plots.show_tip(points[current].node, tip_of(data, points[current].row, metrics));
+    tips.show_tip(points[current].node, tip_of(data, points[current].row, metrics));
   };
   const choose = (index) => {
     fill(detail, detail_of(data, points[index].row, metrics));
@@ -103,13 +104,13 @@ export function selectable(svg, data, points, metrics, detail) {
   points.forEach((point, i) => {
     point.node.classList.add('clickable');
     point.node.addEventListener('pointerenter', () => point_at(i));
-    point.node.addEventListener('pointerleave', plots.hide_tip);
+    point.node.addEventListener('pointerleave', tips.hide_tip);
     point.node.addEventListener('click', () => choose(i));
   });
   svg
     .attr('tabindex', 0)
     .attr('role', 'group')
-    .on('blur', plots.hide_tip)
+    .on('blur', tips.hide_tip)
     .node()
     .addEventListener('keydown', (event) => {
       const {key} = event;
@@ -119,7 +120,7 @@ export function selectable(svg, data, points, metrics, detail) {
       } else if (key === 'Enter' && current >= 0) {
         choose(current);
       } else if (key === 'Escape') {
-        plots.hide_tip();
+        tips.hide_tip();
       }
     });
 }

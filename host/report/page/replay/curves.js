@@ -6,7 +6,9 @@ import {select} from 'd3-selection';
 import {line} from 'd3-shape';
 
 import {element} from '../elements.js';
+import * as numbers from '../numbers.js';
 import * as look from './look.js';
+import {moment} from './recording.js';
 
 const MARGIN = {
   top: 22,
@@ -17,6 +19,7 @@ const MARGIN = {
 const HEIGHT_PX = 118;
 const MANY_ROBOTS = 12;
 const POINTS_A_PIXEL = 1;
+const NEAR_PX = 14; // of the pointer to the line that it means
 
 const KINDS = [
   {key: 'speed', title: 'Speed (m/s)', top: (replay) => Math.max(0.1, ...replay.robots.map((robot) => robot.v_max))},
@@ -52,7 +55,7 @@ function thinned(values, most) {
   return kept;
 }
 
-// handlers: go(t), pick(robot index).
+// handlers: go(t), pick(robot index), point(robot index or null).
 export function make_curves(handlers) {
   const node = element('div', {class: 'replay-curves'});
   const cursors = [];
@@ -128,10 +131,26 @@ export function make_curves(handlers) {
       .on('click', (robot) => handlers.pick(robot.index));
   }
 
-  function follow_pointer(svg) {
+  // The robot whose line is nearest to a place of the plot, or null.
+  function robot_at(kind, y, px, py) {
+    const {k} = moment(replay, x.invert(px));
+    let best = null;
+    let nearest = NEAR_PX;
+    for (const robot of replay.robots) {
+      const away = Math.abs(y(robot[kind.key][k]) - py); // NaN where it has no value
+      if (away < nearest) [nearest, best] = [away, robot.index];
+    }
+    return best;
+  }
+
+  function follow_pointer(svg, kind, y) {
     let dragging = false;
     const plot = svg.node();
-    const go = (event) => handlers.go(x.invert(event.clientX - plot.getBoundingClientRect().left));
+    const place = (event) => {
+      const box = plot.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    const go = (event) => handlers.go(x.invert(place(event)[0]));
     const stop = () => {
       dragging = false;
     };
@@ -142,7 +161,9 @@ export function make_curves(handlers) {
     });
     plot.addEventListener('pointermove', (event) => {
       if (dragging) go(event);
+      else handlers.point(robot_at(kind, y, ...place(event)));
     });
+    plot.addEventListener('pointerleave', () => handlers.point(null));
     plot.addEventListener('pointerup', stop);
     plot.addEventListener('pointercancel', stop);
   }
@@ -160,6 +181,7 @@ export function make_curves(handlers) {
       .attr('role', 'img')
       .attr('aria-label', `${kind.title} of each robot over time`);
     svg.append('text').attr('class', 'replay-plot-title').attr('x', 0).attr('y', 12).text(kind.title);
+    const readout = svg.append('text').attr('class', 'soft').attr('x', width).attr('y', 12).attr('text-anchor', 'end');
     draw_axes(svg, y, width);
     draw_spans(svg);
     draw_lines(svg, kind, y, width);
@@ -169,8 +191,8 @@ export function make_curves(handlers) {
       .attr('y1', MARGIN.top - 4)
       .attr('y2', HEIGHT_PX - MARGIN.bottom);
     const dot = cursor.append('circle').attr('r', 4).style('display', 'none');
-    cursors.push({cursor, dot, y, key: kind.key});
-    follow_pointer(svg);
+    cursors.push({cursor, dot, readout, y, key: kind.key});
+    follow_pointer(svg, kind, y);
   }
 
   function resize() {
@@ -190,24 +212,29 @@ export function make_curves(handlers) {
     resize();
   }
 
-  function draw(at, picked) {
-    for (const {cursor, dot, y, key} of cursors) {
+  // Shows the value of the robot at the pointer, else of the picked one.
+  function draw(at, picked, hovered) {
+    const shown = hovered === null ? picked : hovered;
+    for (const {cursor, dot, readout, y, key} of cursors) {
       cursor.attr('transform', `translate(${x(at.t)},0)`);
-      const value = picked === null ? NaN : replay.robots[picked][key][at.k];
+      const value = shown === null ? NaN : replay.robots[shown][key][at.k];
       dot.style('display', Number.isFinite(value) ? null : 'none');
-      if (Number.isFinite(value)) dot.attr('cy', y(value)).style('fill', look.robot_variable(picked));
+      if (Number.isFinite(value)) dot.attr('cy', y(value)).style('fill', look.robot_variable(shown));
+      const words = Number.isFinite(value) ? `: ${numbers.fixed(value, 2)}` : '';
+      readout.text(shown === null ? '' : `robot ${shown}${words}`);
     }
   }
 
-  function pick(picked) {
+  function mark({picked, hovered}) {
+    const is_marked = (robot) => robot.index === picked || robot.index === hovered;
     select(node)
       .selectAll('.replay-lines')
-      .classed('some-picked', picked !== null)
+      .classed('some-marked', picked !== null || hovered !== null)
       .selectAll('path')
-      .classed('picked', (robot) => robot.index === picked)
-      .filter((robot) => robot.index === picked)
+      .classed('marked', is_marked)
+      .filter(is_marked)
       .raise();
   }
 
-  return {node, show, draw, resize, pick};
+  return {node, show, draw, resize, mark};
 }

@@ -2,6 +2,7 @@
 // lists.js: the lists beside the map: robots with their current state, and events.
 import {element, head_row} from '../elements.js';
 import * as numbers from '../numbers.js';
+import {explained_mark} from '../tips.js';
 import {is_now} from './events.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
@@ -26,7 +27,7 @@ function state_words(robot, k) {
     : 'driving';
 }
 
-// handlers: pick(robot index).
+// handlers: pick(robot index), point(robot index or null).
 export function make_robot_list(handlers) {
   const body = element('tbody');
   const node = element(
@@ -39,7 +40,7 @@ export function make_robot_list(handlers) {
         element('th', {scope: 'col'}, 'Robot'),
         element('th', {scope: 'col'}, 'State'),
         element('th', {scope: 'col', class: 'number'}, 'm/s'),
-        element('th', {scope: 'col', class: 'number', title: 'distance from its current path'}, 'off path (m)')
+        element('th', {scope: 'col', class: 'number'}, explained_mark('off path (m)', 'distance from its current path'))
       ),
       body
     )
@@ -75,7 +76,14 @@ export function make_robot_list(handlers) {
     return {
       button,
       cells,
-      row: element('tr', {}, element('th', {scope: 'row'}, button), cells.state, cells.speed, cells.deviation),
+      row: element(
+        'tr',
+        {onpointerenter: () => handlers.point(robot.index), onpointerleave: () => handlers.point(null)},
+        element('th', {scope: 'row'}, button),
+        cells.state,
+        cells.speed,
+        cells.deviation
+      ),
     };
   }
 
@@ -103,14 +111,14 @@ export function make_robot_list(handlers) {
     });
   }
 
-  function pick(picked) {
+  function mark({picked, hovered}) {
     rows.forEach(({button, row}, i) => {
       button.setAttribute('aria-pressed', String(i === picked));
-      row.classList.toggle('picked', i === picked);
+      row.classList.toggle('marked', i === picked || i === hovered);
     });
   }
 
-  return {node, show, draw, pick};
+  return {node, show, draw, mark};
 }
 
 const SYMBOLS = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // look.js: the colours of the replay, read from the style sheet for the canvases.
 
-const SERIES = 8;
+const SERIES = 24; // colours in base.css; they repeat after that
 
 export function read_colours() {
   const style = getComputedStyle(document.documentElement);

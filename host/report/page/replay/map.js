@@ -5,7 +5,7 @@ import * as look from './look.js';
 import * as recording from './recording.js';
 import {make_map_view} from './map_view.js';
 
-const MANY_ROBOTS = 12; // above this, only the picked robot shows its whole plan and trail
+const MANY_ROBOTS = 12; // above this, only marked robots show their whole plan and trail
 const SHORT_TRAIL = 100; // samples
 const CONTACT_SEEN_S = 1.0;
 const TOGETHER_M = 4; // members of a group closer than this are joined by a line
@@ -303,17 +303,17 @@ function draw_contacts(context, view, scene) {
   }
 }
 
-// Draws what moves. `scene`: {replay, at, picked, layers, events, colours}.
+// Draws what moves. `scene`: {replay, at, picked, hovered, layers, events, colours}.
 function draw_moving(context, view, scene) {
-  const {replay, at, picked, layers, colours} = scene;
+  const {replay, at, picked, hovered, layers, colours} = scene;
+  const is_marked = (robot) => robot.index === picked || robot.index === hovered;
   const few = replay.robots.length <= MANY_ROBOTS;
   const poses = replay.robots.map((robot) => recording.robot_pose(robot, at));
-  const ordered = replay.robots.filter((robot) => robot.index !== picked);
-  if (picked !== null) ordered.push(replay.robots[picked]);
+  const ordered = [...replay.robots.filter((robot) => !is_marked(robot)), ...replay.robots.filter(is_marked)];
   const colour = (robot) => look.robot_colour(colours, robot.index);
 
   for (const robot of ordered) {
-    const strong = robot.index === picked;
+    const strong = is_marked(robot);
     const path = recording.current_path(replay, robot.index, at);
     if (few || strong)
       draw_goal(
@@ -336,7 +336,7 @@ function draw_moving(context, view, scene) {
   draw_relations(context, view, scene, poses);
   for (const robot of ordered) {
     const path = recording.current_path(replay, robot.index, at);
-    if (layers.plans && path && robot.state[at.k] === recording.ACTIVE && (few || robot.index === picked))
+    if (layers.plans && path && robot.state[at.k] === recording.ACTIVE && (few || is_marked(robot)))
       draw_planned_position(context, view, path, at.t, colour(robot));
     draw_robot(context, view, robot, poses[robot.index], robot.state[at.k], colours, robot.index === picked);
   }

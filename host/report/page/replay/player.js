@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // player.js: the replay of chosen trials. mount() builds it into its section once; open() shows a trial.
 //
-// For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, play,
-// back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The section carries the
-// id of the shown trial as data-trial once it can be played.
+// For tests and other scripts: data-testid of the parts is "replay-" and combination, trial, stage, map, 2d, 3d, fit,
+// robots, fill, save-picture, save-video, save-curves,
+// play, back, forward, speed, scrub, time, robot-N, events, follow, plans, trails, people, scans. The
+// section carries the id of the shown trial as data-trial once it can be played.
 import {element} from '../elements.js';
 import {choice_words, left_out_words, make_chooser, trial_summary} from './chooser.js';
 import {make_clock} from './clock.js';
 import {make_curves} from './curves.js';
 import {all_events} from './events.js';
+import {make_full_screen} from './full_screen.js';
 import {make_event_list, make_robot_list} from './lists.js';
 import * as look from './look.js';
 import * as recording from './recording.js';
+import {make_saving} from './saving.js';
 import {make_stage} from './stage.js';
 import {make_time_line} from './time_line.js';
 import {follow_keys, make_transport} from './transport.js';
@@ -20,7 +23,12 @@ const KEY =
   'Solid: trail. Dotted: current plan, with a small ring at the planned position. ' +
   'Large rings: goals. Grey: people.';
 const SCANS_KEY = " Dots in a robot's colour: lidar hits.";
+const ROOM_PX = 16; // around the parts of the player
 let player = null;
+
+function summary_words(data, entry, replay) {
+  return `${trial_summary(data, entry)}: ended after ${replay.end.toFixed(1)} s, ${replay.reason}.`;
+}
 
 function make_player(section, data, make_3d_view) {
   const clock = make_clock();
@@ -29,6 +37,7 @@ function make_player(section, data, make_3d_view) {
     replay: null,
     at: null,
     picked: null,
+    hovered: null,
     follow: false,
     layers,
     events: [],
@@ -37,10 +46,10 @@ function make_player(section, data, make_3d_view) {
   };
   let latest = 0; // number of the last request; results of older ones are dropped
 
-  const stage = make_stage({pick, redraw}, make_3d_view);
+  const stage = make_stage({pick, point, follow, redraw, room, fills}, make_3d_view);
   const time_line = make_time_line(data, {jump, go: seek});
-  const curves = make_curves({pick, go: seek});
-  const robots = make_robot_list({pick});
+  const curves = make_curves({pick, point, go: seek});
+  const robots = make_robot_list({pick, point});
   const event_list = make_event_list({jump});
   const chooser = make_chooser(data, open);
   const summary = element('p', {class: 'note replay-summary', 'aria-live': 'polite'});
@@ -62,8 +71,8 @@ function make_player(section, data, make_3d_view) {
     type: 'checkbox',
     'data-testid': 'replay-follow',
     onchange: () => {
-      scene.follow = follow_box.checked;
-      if (scene.follow) prepare_following();
+      follow(follow_box.checked);
+      if (scene.follow && stage.node.dataset.mode === '2d') stage.zoom(2.5);
       redraw();
     },
   });
@@ -78,6 +87,17 @@ function make_player(section, data, make_3d_view) {
     element('label', {class: 'control check'}, follow_box, element('span', {}, 'follow'))
   );
 
+  const saving = make_saving(clock, {
+    picture: () => {
+      redraw();
+      return stage.canvas();
+    },
+    curves: () => curves.node,
+    trial: () => scene.replay.trial,
+    say: stage.say,
+  });
+  boxes.append(saving.node);
+
   const key = element('p', {class: 'note replay-key'});
   const controls = element('div', {class: 'replay-controls'}, make_transport(clock), stage.tools, boxes);
   const node = element(
@@ -86,14 +106,16 @@ function make_player(section, data, make_3d_view) {
     element('div', {class: 'replay-main'}, stage.node, time_line.node, controls, key),
     element('div', {class: 'replay-side'}, robots.node, curves.node, event_list.node)
   );
-  follow_keys(node, clock, {pick, zoom: stage.zoom});
+  const full_screen = make_full_screen(node, () => requestAnimationFrame(resize));
+  stage.tools.append(full_screen.button);
+  follow_keys(node, clock, {pick, zoom: stage.zoom, fill: full_screen.toggle});
 
   function redraw() {
     if (!scene.replay) return;
     scene.at = recording.moment(scene.replay, clock.t);
     stage.draw(scene);
     time_line.draw(clock.t);
-    curves.draw(scene.at, scene.picked);
+    curves.draw(scene.at, scene.picked, scene.hovered);
     robots.draw(scene.at, clock.playing);
     event_list.draw(clock.t, clock.playing);
   }
@@ -101,14 +123,38 @@ function make_player(section, data, make_3d_view) {
   function pick(index) {
     if (index !== null && (!scene.replay || index >= scene.replay.robots.length)) return;
     scene.picked = index === scene.picked ? null : index;
-    robots.pick(scene.picked);
-    curves.pick(scene.picked);
+    robots.mark(scene);
+    curves.mark(scene);
     redraw();
   }
 
-  function prepare_following() {
-    if (scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
-    if (stage.node.dataset.mode === '2d') stage.zoom(2.5);
+  // The robot at which the pointer is, on the map, in the list or in the curves.
+  function point(index) {
+    if (index === scene.hovered || !scene.replay) return;
+    scene.hovered = index;
+    robots.mark(scene);
+    curves.mark(scene);
+    redraw();
+  }
+
+  function fills() {
+    return node.classList.contains('filled');
+  }
+
+  // The height for the picture with which everything from the title of the section to the buttons is in the window.
+  function room() {
+    const below = time_line.node.offsetHeight + controls.offsetHeight + 3 * ROOM_PX;
+    if (fills()) return window.innerHeight - below;
+    const navigation = document.getElementById('contents').offsetHeight;
+    const title = section.querySelector('h2').getBoundingClientRect().top;
+    return window.innerHeight - below - navigation - ROOM_PX - (stage.node.getBoundingClientRect().top - title);
+  }
+
+  // Keeps the picked robot in the middle of the picture; the first one if none is picked.
+  function follow(follows) {
+    scene.follow = follows;
+    follow_box.checked = follows;
+    if (follows && scene.picked === null && scene.replay && scene.replay.robots.length > 0) pick(0);
   }
 
   function seek(t) {
@@ -124,6 +170,7 @@ function make_player(section, data, make_3d_view) {
   function show(replay) {
     scene.replay = replay;
     scene.picked = null;
+    scene.hovered = null;
     scene.events = all_events(replay);
     scene.at = recording.moment(replay, 0);
     scene.colours = look.read_colours();
@@ -132,10 +179,10 @@ function make_player(section, data, make_3d_view) {
     robots.node.hidden = replay.robots.length === 0;
     curves.node.hidden = robots.node.hidden || replay.end === 0; // without a plan no robot moves
     robots.show(replay);
-    robots.pick(null);
+    robots.mark(scene);
     event_list.show(scene.events);
-    stage.show(scene);
     time_line.show(replay, scene.events);
+    stage.show(scene);
     curves.show(replay, scene.events);
     clock.begin(replay.end);
   }
@@ -145,20 +192,19 @@ function make_player(section, data, make_3d_view) {
     if (!entry) return false;
     const request = ++latest;
     clock.pause();
+    saving.stop();
     chooser.show(trial);
     delete section.dataset.trial;
     try {
       const replay = await recording.load(document.getElementById(entry.element));
       if (request !== latest) return false;
       stage.say('');
+      summary.textContent = summary_words(data, entry, replay);
       show(replay);
     } catch (error) {
       if (request === latest) stage.say(`This replay cannot be unpacked: ${error.message}`);
       return false;
     }
-    summary.textContent = `${trial_summary(data, entry)}: ended after ${scene.replay.end.toFixed(1)} s, ${
-      scene.replay.reason
-    }.`;
     section.dataset.trial = trial;
     return true;
   }
@@ -170,10 +216,10 @@ function make_player(section, data, make_3d_view) {
   }
 
   function resize() {
-    stage.resize();
     time_line.resize();
+    stage.resize();
     curves.resize();
-    curves.pick(scene.picked);
+    curves.mark(scene);
     redraw();
   }
 
@@ -209,25 +255,28 @@ function notes(data) {
   return words.map((sentence) => element('p', {class: 'note'}, sentence));
 }
 
-// make_3d_view: replay_3d/view.js's make_view. Returns the reason if there is no replay, else null.
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.replays.length + data.replays_left_out.length > 0 ? null : 'no trace was recorded';
+}
+
+// make_3d_view: replay_3d/view.js's make_view.
 export function mount(body, data, make_3d_view) {
-  if (data.replays.length === 0 && data.replays_left_out.length === 0) return 'no trace was recorded';
   if (data.replays.length === 0) {
     body.append(element('p', {class: 'note'}, 'This report embeds no replay.'), ...notes(data));
-    return null;
+    return;
   }
   player = make_player(body.closest('section'), data, make_3d_view);
   const choice = choice_words(data);
   body.append(
-    choice ? element('p', {class: 'lead'}, choice) : '',
     player.chooser,
     player.summary,
     player.node,
+    choice ? element('p', {class: 'note'}, choice) : '',
     ...notes(data)
   );
   const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
   player.open(first.trial);
-  return null;
 }
 
 // Resolves to whether the trial can be played now.

@@ -60,6 +60,8 @@ function robot(packed, index, count) {
     name: packed.name,
     radius: packed.radius / 1000,
     parts: (packed.parts || []).map(points), // convex polygons; none: a disc
+    drive: packed.drive || 'differential',
+    wheelbase: (packed.wheelbase || 0) / 1000, // of wheels that steer, else 0
     v_max: packed.v_max / 1000,
     goals: packed.goals.map((goal) => ({
       at: point(goal.at),
@@ -182,6 +184,23 @@ export function robot_pose(one, at) {
     y: between(one.y, at.k, at.fraction),
     theta: between(one.theta, at.k, at.fraction),
   };
+}
+
+// The heading over some seconds: a robot that turns to and fro for a moment does not change it much.
+export function mean_heading(one, at) {
+  const [from, to] = [Math.max(0, at.k - 10), Math.min(one.theta.length - 1, at.k + 10)];
+  let sum = 0;
+  for (let k = from; k <= to; ++k) sum += one.theta[k];
+  return sum / (to - from + 1);
+}
+
+// The angle of the front wheels of a robot with wheels that steer, from the curve that it drives; 0 where it stands.
+export function steering_angle(one, at) {
+  if (one.wheelbase === 0) return 0;
+  const [a, b] = [Math.max(0, at.k - 1), Math.min(one.x.length - 1, at.k + 1)];
+  const ahead = (one.x[b] - one.x[a]) * Math.cos(one.theta[at.k]) + (one.y[b] - one.y[a]) * Math.sin(one.theta[at.k]);
+  if (Math.abs(ahead) < 0.01) return 0;
+  return Math.atan((one.wheelbase * (one.theta[b] - one.theta[a])) / ahead);
 }
 
 // Null while the person is absent; `heading` is NaN for a standing person.

@@ -15,19 +15,34 @@ function tool(text, label, id, pressed) {
   );
 }
 
+const CAMERAS = {
+  overview: 'camera: all robots from above',
+  follow: 'camera: behind the picked robot',
+  low: 'camera: at the height of people',
+};
+const LEAST_HEIGHT_PX = 220;
 const NO_WEBGL = 'This browser offers no WebGL, which the 3-D view needs. The flat map shows the same.';
 
-// handlers: pick(robot index or null), redraw(). make_3d_view: replay_3d/view.js's make_view.
+// handlers: pick(robot index or null), point(robot index or null), follow(whether), redraw(), room(): the most height
+// of the picture in pixels, fills(): whether it is to have all of it. make_3d_view: replay_3d/view.js's make_view.
 export function make_stage(handlers, make_3d_view) {
   const flat_canvas = element('canvas', {class: 'replay-canvas', 'data-testid': 'replay-map'});
   const message = element('p', {class: 'replay-message', role: 'status', hidden: true});
   const flat_button = tool('2-D', 'flat map', 'replay-2d', () => choose('flat'));
   const solid_button = tool('3-D', '3-D view', 'replay-3d', () => choose('solid'));
   const tip = element('div', {class: 'replay-tip', hidden: true});
+  const cameras = element(
+    'div',
+    {class: 'segmented replay-cameras', hidden: true},
+    Object.entries(CAMERAS).map(([preset, label]) =>
+      tool(preset, label, `replay-camera-${preset}`, () => look_from(preset))
+    )
+  );
   const node = element(
     'div',
     {class: 'replay-stage', tabindex: 0, role: 'group', 'data-testid': 'replay-stage'},
     flat_canvas,
+    cameras,
     tip,
     message
   );
@@ -39,7 +54,8 @@ export function make_stage(handlers, make_3d_view) {
       {class: 'segmented'},
       tool('−', 'zoom out', 'replay-zoom-out', () => zoom(1 / 1.4)),
       tool('+', 'zoom in', 'replay-zoom-in', () => zoom(1.4)),
-      tool('⤢', 'show the whole world', 'replay-fit', fit)
+      tool('⤢', 'show the whole world', 'replay-fit', fit),
+      tool('◎', 'show where robots drive', 'replay-robots', fit_robots)
     ),
     element('div', {class: 'segmented'}, flat_button, solid_button)
   );
@@ -63,6 +79,7 @@ export function make_stage(handlers, make_3d_view) {
     flat_canvas.hidden = mode !== 'flat';
     if (solid) solid.canvas.hidden = mode !== 'solid';
     node.dataset.mode = mode === 'solid' ? '3d' : '2d';
+    cameras.hidden = mode !== 'solid';
   }
 
   // Null, after a message, if there can be no 3-D view.
@@ -87,7 +104,7 @@ export function make_stage(handlers, make_3d_view) {
         handlers.redraw();
       },
       pinch: (factor) => zoom(factor),
-      hover: () => {},
+      hover: (x, y) => handlers.point(x === null || !scene ? null : solid.robot_at(scene, x, y)),
     });
   }
 
@@ -124,7 +141,22 @@ export function make_stage(handlers, make_3d_view) {
     handlers.redraw();
   }
 
+  function look_from(preset) {
+    handlers.follow(preset === 'follow');
+    solid.look_from(preset, scene);
+    handlers.redraw();
+  }
+
+  // Shows the part of the world in which robots drive.
+  function fit_robots() {
+    const box = recording.active_box(scene.replay);
+    mode === 'solid' ? solid.show_box(box) : map.view.show_box(box);
+    show_zoom();
+    handlers.redraw();
+  }
+
   function hover(x, y) {
+    handlers.point(x === null || !scene ? null : map.robot_at(scene, x, y));
     const words = x === null || !scene ? '' : map.words_at(scene, x, y);
     tip.hidden = words === '';
     if (words === '') return;
@@ -143,12 +175,12 @@ export function make_stage(handlers, make_3d_view) {
     hover,
   });
 
-  // The height follows the aspect of the world, limited so that the buttons below stay in the window.
+  // The height follows the aspect of the world, limited so that time line and buttons are in sight together with it.
   function resize() {
     if (!scene) return;
     const [width, height] = [0, 1].map((axis) => scene.replay.upper[axis] - scene.replay.lower[axis]);
-    const most = Math.max(260, window.innerHeight - 290);
-    node.style.height = `${Math.round(Math.min(most, Math.max(220, (node.clientWidth * height) / width)))}px`;
+    const wished = handlers.fills() ? Infinity : (node.clientWidth * height) / width;
+    node.style.height = `${Math.floor(Math.max(LEAST_HEIGHT_PX, Math.min(wished, handlers.room())))}px`;
     current().resize();
   }
 
@@ -163,7 +195,6 @@ export function make_stage(handlers, make_3d_view) {
       )}; space plays, arrow keys step, digits select a robot`
     );
     resize();
-    map.view.show_box(recording.active_box(scene.replay));
     show_zoom();
   }
 
@@ -173,5 +204,15 @@ export function make_stage(handlers, make_3d_view) {
   }
 
   show_mode();
-  return {node, tools, show, draw, resize, zoom, say, forget: () => map.forget()};
+  return {
+    node,
+    tools,
+    show,
+    draw,
+    resize,
+    zoom,
+    say,
+    canvas: () => (mode === 'solid' ? solid.canvas : flat_canvas),
+    forget: () => map.forget(),
+  };
 }

@@ -1,39 +1,9 @@
 // SPDX-License-Identifier: MIT
 // transport.js: the buttons and keys that control the clock of a replay.
 import {element} from '../elements.js';
+import {icon, icon_button} from './icons.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8, 16];
-const ICONS = {
-  play: 'M4 2.5v11l9.5-5.5z',
-  pause: 'M3.5 2.5h3.2v11H3.5zM9.3 2.5h3.2v11H9.3z',
-  back: 'M3 2.5h2v11H3zM13 2.5v11L5.8 8z',
-  forward: 'M11 2.5h2v11h-2zM3 2.5v11L10.2 8z',
-};
-
-function icon(name) {
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', '0 0 16 16');
-  svg.setAttribute('aria-hidden', 'true');
-  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-  path.setAttribute('d', ICONS[name]);
-  svg.append(path);
-  return svg;
-}
-
-function icon_button(name, label, id, pressed) {
-  return element(
-    'button',
-    {
-      type: 'button',
-      class: 'button replay-icon',
-      'aria-label': label,
-      title: label,
-      'data-testid': id,
-      onclick: pressed,
-    },
-    icon(name)
-  );
-}
 
 export function make_transport(clock) {
   const play = icon_button('play', 'Play (space)', 'replay-play', () => clock.toggle());
@@ -69,7 +39,7 @@ export function make_transport(clock) {
 }
 
 // Space plays; arrow keys step by a sample, with Shift by a second; Home and End jump; a digit picks a robot, Escape
-// none.
+// none; F fills the screen.
 export function follow_keys(node, clock, handlers) {
   const actions = {
     ' ': () => clock.toggle(),
@@ -78,6 +48,7 @@ export function follow_keys(node, clock, handlers) {
     Home: () => clock.go(0),
     End: () => clock.go(clock.end),
     Escape: () => handlers.pick(null),
+    f: () => handlers.fill(),
     '+': () => handlers.zoom(1.4),
     '-': () => handlers.zoom(1 / 1.4),
   };

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// bodies.js: the moving parts of the 3-D view: robots, people, plans and trails.
+// bodies.js: the moving parts of the 3-D view that belong to robots: bodies, labels, goals, plans, trails, lidar hits.
 import * as look from '../replay/look.js';
 import * as recording from '../replay/recording.js';
+import {make_vehicle} from './vehicles.js';
 import {THREE} from './three.js';
 
-export const ROBOT_HEIGHT_M = 0.35;
-const BODY_HEIGHT_M = 1.4; // of people, below the head
-const HEAD_M = 0.14;
+const LIDAR_HEIGHT_M = 0.3;
 export const PLAN = {
   width: 0.1,
   height: 0.02,
@@ -75,47 +74,17 @@ function number_label(text, colour) {
     new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false})
   );
   label.renderOrder = 10;
-  label.position.y = 1.1;
+  label.position.y = 1.0;
   return label;
-}
-
-function robot_solid(robot) {
-  if (robot.parts.length === 0) {
-    const disc = new THREE.CylinderBufferGeometry(robot.radius, robot.radius, ROBOT_HEIGHT_M, 28);
-    disc.translate(0, ROBOT_HEIGHT_M / 2, 0);
-    return disc;
-  }
-  const outlines = robot.parts.map((part) => new THREE.Shape(part.map(([x, y]) => new THREE.Vector2(x, y))));
-  const solid = new THREE.ExtrudeBufferGeometry(outlines, {depth: ROBOT_HEIGHT_M, bevelEnabled: false});
-  solid.rotateX(-Math.PI / 2);
-  return solid;
-}
-
-// The wedge on top of the robot that shows its heading.
-function heading_solid(robot) {
-  const r = robot.radius;
-  const arrow = new THREE.Shape(
-    [
-      [1.5 * r, 0],
-      [0.1 * r, 0.6 * r],
-      [0.1 * r, -0.6 * r],
-    ].map(([x, y]) => new THREE.Vector2(x, y))
-  );
-  const solid = new THREE.ExtrudeBufferGeometry(arrow, {depth: 0.06, bevelEnabled: false});
-  solid.rotateX(-Math.PI / 2);
-  solid.translate(0, ROBOT_HEIGHT_M, 0);
-  return solid;
 }
 
 export function make_robot(robot, colours) {
   const colour = look.robot_colour(colours, robot.index);
   const body = new THREE.Group();
-  const base = new THREE.Mesh(robot_solid(robot), new THREE.MeshLambertMaterial({color: colour}));
-  base.castShadow = true;
-  const heading = new THREE.Mesh(heading_solid(robot), new THREE.MeshLambertMaterial({color: look.text_on(colour)}));
+  const vehicle = make_vehicle(robot, colour);
   const picked = flat_ring(robot.radius + 0.12, robot.radius + 0.24, colours.ink);
   const label = number_label(String(robot.index), colour);
-  body.add(base, heading, picked, label);
+  body.add(vehicle.node, picked, label);
   const goals = robot.goals.map((goal) => {
     const mark = new THREE.Group();
     mark.add(flat_ring(robot.radius, robot.radius + 0.1, colour), flat_ring(0, 0.1, colour));
@@ -123,7 +92,7 @@ export function make_robot(robot, colours) {
     return mark;
   });
   const trail = band(robot.x, robot.y, TRAIL, colour, 0.85);
-  return {body, base, picked, label, goals, trail, hits: make_hits(robot, colour), colour, plans: new Map()};
+  return {body, vehicle, picked, label, goals, trail, hits: make_hits(robot, colour), colour, plans: new Map()};
 }
 
 function make_hits(robot, colour) {
@@ -138,45 +107,7 @@ function make_hits(robot, colour) {
 export function place_hits(points, robot, at) {
   const places = points.geometry.attributes.position;
   const hits = recording.scan_hits(robot, at);
-  hits.forEach(([x, y], i) => places.setXYZ(i, x, ROBOT_HEIGHT_M, -y));
+  hits.forEach(([x, y], i) => places.setXYZ(i, x, LIDAR_HEIGHT_M, -y));
   points.geometry.setDrawRange(0, hits.length);
   places.needsUpdate = true;
-}
-
-// Instanced meshes of bodies and heads; their number is the maximum of people at one time.
-export function make_people(replay, colours) {
-  const most = Math.max(1, replay.people.length);
-  const material = new THREE.MeshLambertMaterial({color: colours.person});
-  const trunk = new THREE.CylinderBufferGeometry(0.72, 1, 1, 16); // scaled to each person's radius
-  trunk.translate(0, 0.5, 0);
-  const meshes = [
-    new THREE.InstancedMesh(trunk, material, most),
-    new THREE.InstancedMesh(new THREE.SphereBufferGeometry(HEAD_M, 14, 10), material, most),
-  ];
-  for (const mesh of meshes) {
-    mesh.castShadow = true;
-    mesh.frustumCulled = false;
-    mesh.count = 0;
-  }
-  return meshes;
-}
-
-export function place_people(meshes, replay, at, shown) {
-  const [trunks, heads] = meshes;
-  const matrix = new THREE.Matrix4();
-  let count = 0;
-  for (const person of shown ? replay.people : []) {
-    const pose = recording.person_pose(person, at);
-    if (!pose) continue;
-    const width = 0.8 * person.radius;
-    matrix.makeScale(width, BODY_HEIGHT_M, width).setPosition(pose.x, 0, -pose.y);
-    trunks.setMatrixAt(count, matrix);
-    matrix.makeTranslation(pose.x, BODY_HEIGHT_M + 0.8 * HEAD_M, -pose.y);
-    heads.setMatrixAt(count, matrix);
-    ++count;
-  }
-  for (const mesh of meshes) {
-    mesh.count = count;
-    mesh.instanceMatrix.needsUpdate = true;
-  }
 }

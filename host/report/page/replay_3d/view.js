@@ -4,11 +4,14 @@ import {element} from '../elements.js';
 import * as recording from '../replay/recording.js';
 import * as bodies from './bodies.js';
 import {make_camera} from './camera.js';
+import {make_people} from './people.js';
 import {make_world} from './world.js';
 import {THREE, load_three} from './three.js';
 
 const MANY_ROBOTS = 12;
+const SHORT_TRAIL = 100; // samples
 const LABEL_PX = 20;
+const LABEL_PX_OF_MANY = 15;
 const CONTACT_SEEN_S = 1.0;
 
 function dispose(node) {
@@ -38,8 +41,8 @@ function build(replay, colours) {
   stage.add(make_world(replay, colours));
   const robots = replay.robots.map((robot) => bodies.make_robot(robot, colours));
   for (const robot of robots) stage.add(robot.body, robot.trail, robot.hits, ...robot.goals);
-  const people = bodies.make_people(replay, colours);
-  stage.add(...people);
+  const people = make_people(replay, colours);
+  stage.add(...people.meshes);
   const contacts = replay.contacts.map((contact) => {
     const mark = make_contact_mark(colours);
     mark.position.set(contact.at[0], 0, -contact.at[1]);
@@ -63,24 +66,27 @@ function show_plan(set, scene, robot, shown) {
 }
 
 function place_robots(set, scene, label_scale) {
-  const {replay, at, picked, layers} = scene;
+  const {replay, at, picked, hovered, layers} = scene;
+  const few = replay.robots.length <= MANY_ROBOTS;
   set.robots.forEach((robot, i) => {
     const known = replay.robots[i];
     const pose = recording.robot_pose(known, at);
-    const clear = replay.robots.length <= MANY_ROBOTS || i === picked;
+    const marked = i === picked || i === hovered;
+    const clear = few || marked;
     robot.body.position.set(pose.x, 0, -pose.y);
     robot.body.rotation.y = pose.theta;
-    robot.base.material.wireframe = known.state[at.k] === recording.FAILED;
-    robot.picked.visible = i === picked;
+    robot.vehicle.fail(known.state[at.k] === recording.FAILED);
+    robot.vehicle.steer(recording.steering_angle(known, at));
+    robot.picked.visible = marked;
     robot.label.scale.set(label_scale, label_scale, 1);
-    robot.label.visible = clear;
     robot.goals.forEach((goal, g) => {
       goal.visible = clear && g === Math.min(known.goal[at.k], robot.goals.length - 1);
     });
     robot.hits.visible = layers.scans && known.scans !== null && (picked === null || i === picked);
     if (robot.hits.visible) bodies.place_hits(robot.hits, known, at);
-    robot.trail.visible = layers.trails && clear;
-    robot.trail.geometry.setDrawRange(0, 6 * at.k);
+    const from = clear ? 0 : Math.max(0, at.k - SHORT_TRAIL);
+    robot.trail.visible = layers.trails;
+    robot.trail.geometry.setDrawRange(6 * from, 6 * (at.k - from));
     show_plan(set, scene, robot, layers.plans && clear);
   });
 }
@@ -131,17 +137,28 @@ export async function make_view() {
 
   const fit = () => camera.show_box(...box);
 
+  // The positions from which the world can be seen; `follow` stays behind the picked robot.
+  function look_from(preset, scene) {
+    const [lower, upper] = recording.active_box(scene.replay);
+    if (preset === 'overview') camera.show_box(lower, upper);
+    if (preset === 'low') camera.stand_before(lower, upper);
+    if (preset === 'follow') camera.chase();
+  }
+
   function draw(scene) {
     rebuild(scene);
     if (scene.follow && scene.picked !== null) {
-      const pose = recording.robot_pose(scene.replay.robots[scene.picked], scene.at);
+      const robot = scene.replay.robots[scene.picked];
+      const pose = recording.robot_pose(robot, scene.at);
+      if (camera.chases) camera.look_along(recording.mean_heading(robot, scene.at));
       camera.look_at(pose.x, pose.y);
     }
     // three.js scales a sprite of constant size as if it were one unit from the lens
-    const label_scale = (2 * Math.tan((camera.lens.fov * Math.PI) / 360) * LABEL_PX) / size[1];
+    const label_px = scene.replay.robots.length <= MANY_ROBOTS ? LABEL_PX : LABEL_PX_OF_MANY;
+    const label_scale = (2 * Math.tan((camera.lens.fov * Math.PI) / 360) * label_px) / size[1];
     place_robots(set, scene, label_scale);
     place_contacts(set, scene);
-    bodies.place_people(set.people, scene.replay, scene.at, scene.layers.people);
+    set.people.place(scene.at, scene.layers.people);
     renderer.render(set.stage, camera.lens);
   }
 
@@ -159,5 +176,16 @@ export async function make_view() {
     return best;
   }
 
-  return {canvas, resize, fit, draw, robot_at, orbit: camera.orbit, shift: camera.shift, zoom_by: camera.zoom_by};
+  return {
+    canvas,
+    resize,
+    fit,
+    show_box: ([lower, upper]) => camera.show_box(lower, upper),
+    look_from,
+    draw,
+    robot_at,
+    orbit: camera.orbit,
+    shift: camera.shift,
+    zoom_by: camera.zoom_by,
+  };
 }

@@ -5,6 +5,7 @@ import * as controls from '../controls.js';
 import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {scroll_box} from '../scroll_box.js';
 
 const DECIMALS = 2;
 const STANDINGS = {first: 'first', not_told_apart: 'not told apart', worse: 'worse'};
@@ -40,7 +41,7 @@ function criterion_cell(one, c) {
     against &&
       element(
         'span',
-        {class: 'against', title: `p (Holm) ${numbers.p_value(against.p_holm)}`},
+        {class: 'against', 'data-about': `p (Holm) ${numbers.p_value(against.p_holm)}`},
         one.decided === c && hidden('decides: '),
         difference_words(against)
       )
@@ -91,19 +92,22 @@ function answer_element(answer) {
       'details',
       {class: 'order'},
       element('summary', {}, `The order of ${numbers.counted(answer.ranking.length, 'combination')}`),
-      element('div', {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': 'Order'}, table(answer)),
+      scroll_box({'aria-label': 'Order'}, table(answer)),
       element('p', {class: 'note'}, KEY)
     ),
   ];
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.answers.length > 0 ? null : 'there is one combination, or its success was not measured';
+}
+
 export function mount(body, data) {
-  if (data.answers.length === 0) return 'there is one combination, or its success was not measured';
   const holder = element('div', {class: 'answer'});
   const show = (index) => fill(holder, answer_element(data.answers[Number(index)]));
   const options = data.answers.map((answer, i) => ({value: String(i), label: scope_words(data, answer)}));
   const choose = (options.length <= 4 ? controls.segmented : controls.select)('Scenario', options, '0', show);
   show(0);
   fill(body, choose && controls.row(choose), holder);
-  return null;
 }

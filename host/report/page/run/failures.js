@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // failures.js: why robots failed: a table of combinations and causes, with the trials behind each count; and how many
 // robots arrived of each type, where there are several.
-import {element, fill, group_row, head_row, titled_table} from '../elements.js';
+import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {titled_table} from '../scroll_box.js';
 
 // The causes of all combinations, the most frequent first; contacts of robots that arrived come last.
 export function causes(data) {
@@ -92,13 +93,19 @@ function arrivals_by_type(data) {
   return titled_table('title-arrivals-by-type', 'Robots that arrived, by type', null, table);
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return causes(data).length > 0 || arrivals_by_type(data) !== null
+    ? null
+    : 'every robot arrived, without a contact at its fault';
+}
+
 export function mount(body, data) {
   const columns = causes(data);
   const by_type = arrivals_by_type(data);
   if (columns.length === 0) {
-    if (by_type === null) return 'every robot arrived, without a contact at its fault';
     fill(body, element('p', {class: 'note'}, 'Every robot arrived, without a contact at its fault.'), by_type);
-    return null;
+    return;
   }
   const note = element('p', {class: 'note', role: 'status'});
   const bodies = labels.variants(data).map((variant) => {
@@ -135,5 +142,4 @@ export function mount(body, data) {
     note,
     by_type
   );
-  return null;
 }

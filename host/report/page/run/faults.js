@@ -91,8 +91,12 @@ export function count_words(faults) {
     .join(', ');
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.faults.length > 0 ? null : 'no plugin failed';
+}
+
 export function mount(body, data) {
-  if (data.faults.length === 0) return 'no plugin failed';
   fill(
     body,
     element('p', {class: 'note'}, `${count_words(data.faults)}.`),
@@ -102,5 +106,4 @@ export function mount(body, data) {
       groups(data.faults).map((faults) => group_item(data, faults))
     )
   );
-  return null;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // provenance.js: software, machine and files behind the results, and the command that reproduces them.
 import * as controls from '../controls.js';
-import {element, fill, head_row, titled_table} from '../elements.js';
+import {element, fill, head_row} from '../elements.js';
+import {titled_table} from '../scroll_box.js';
 import * as overview from './overview.js';
 
 // Quotes an argument for a POSIX shell.
@@ -100,5 +101,4 @@ export function mount(body, data) {
     folded('manifest.json', JSON.stringify(data.run.manifest, null, 2)),
     files(data)
   );
-  return null;
 }

@@ -4,6 +4,8 @@ import * as controls from '../controls.js';
 import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
 const SIGNIFICANT = 0.05;
@@ -116,7 +118,7 @@ function table(data, rows, chosen) {
       )
     );
   }
-  return element('div', {class: 'table-scroll'}, made);
+  return with_svg_button(scroll_box({'aria-label': 'Paired differences'}, made), chosen.metric);
 }
 
 function note_words(data, rows, chosen) {
@@ -148,9 +150,13 @@ export function default_metric(data) {
   );
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  if (data.comparisons.length > 0) return null;
+  return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
+}
+
 export function mount(body, data) {
-  if (data.comparisons.length === 0)
-    return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
   const distinct = (key) => labels.distinct(data.comparisons.map((one) => one[key]));
   const variants = labels.variants(data);
   const chosen = {
@@ -196,5 +202,4 @@ export function mount(body, data) {
     note
   );
   show();
-  return null;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // graded_tests.js: the level of each test that a combination passes half of the time.
-import {element, fill, head_row, titled_table} from '../elements.js';
+import {element, fill, head_row} from '../elements.js';
+import {titled_table} from '../scroll_box.js';
 
 const unit_of = (series) => (series.unit === '1' ? '' : ` (${series.unit})`);
 const mean_words = (mean) => (mean === null ? '–' : mean.toFixed(2));
@@ -32,8 +33,11 @@ function table_of(series, index) {
   return titled_table(`graded-${index}`, series.title, note, element('table', {}, head, element('tbody', {}, rows)));
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.graded.length > 0 ? null : 'no test has levels';
+}
+
 export function mount(body, data) {
-  if (data.graded.length === 0) return 'no test has levels';
   fill(body, data.graded.map(table_of));
-  return null;
 }

@@ -7,7 +7,11 @@ import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
+import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 
+const CELL_REM = 4.4; // width of a cell with its gap, and of the planners' names
+const NAMES_REM = 7;
 const STRONGEST = 0.7; // opacity; above this the numbers are hard to read
 
 // One grid for each variant and pedestrian model: {title, planners, controllers, cells: [[summary or null]]}.
@@ -41,18 +45,18 @@ export function grids(data, metric) {
 }
 
 function cell_element(cell, good, best, decimals, unit) {
-  if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', title: 'not run'}, '\u00a0'));
+  if (cell === null) return element('td', {}, element('span', {class: 'cell nothing', 'data-about': 'not run'}, '\u00a0'));
   if (!ranking.is_defined(cell.mean)) {
     return element(
       'td',
       {},
-      element('span', {class: 'cell nothing', title: 'undefined in every trial'}, numbers.UNDEFINED)
+      element('span', {class: 'cell nothing', 'data-about': 'undefined in every trial'}, numbers.UNDEFINED)
     );
   }
   const about = numbers.with_unit(numbers.interval(cell.low, cell.high, decimals), unit);
   const made = element(
     'span',
-    {class: best ? 'cell best-cell' : 'cell', title: `${about} from ${numbers.counted(cell.defined, 'trial')}`},
+    {class: best ? 'cell best-cell' : 'cell', 'data-about': `${about} from ${numbers.counted(cell.defined, 'trial')}`},
     element('span', {}, best && hidden('best: '), numbers.fixed(cell.mean, decimals))
   );
   made.style.setProperty('--strength', scaleLinear().range([0.03, STRONGEST])(good).toFixed(3));
@@ -83,12 +87,11 @@ function grid_table(data, grid, metric, decimals) {
   const goodness = ranking.goodness(means, metric.direction);
   const width = grid.controllers.length;
   const is_best = (cell) => cell && ranking.is_best(data, data.combinations[cell.combination], metric.name);
-  return element(
+  const facet = element(
     'div',
     {class: 'facet'},
-    element(
-      'div',
-      {class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': grid.title},
+    scroll_box(
+      {'aria-label': grid.title},
       element(
         'table',
         {class: 'heat'},
@@ -115,6 +118,7 @@ function grid_table(data, grid, metric, decimals) {
     ),
     scale_key(means, decimals, metric.direction)
   );
+  return with_svg_button(facet, `${metric.name} ${grid.title}`);
 }
 
 function key_words(data, metric) {
@@ -143,13 +147,18 @@ export function default_metric(data, measured) {
   return names.find((name) => differs(data, name)) || names[0] || measured[0].name;
 }
 
-export function mount(body, data) {
-  const measured = labels.measured_metrics(data);
+// The reason why there is nothing to show, or null.
+export function absent(data) {
   const pairs = Math.max(
     labels.values_of(data, 'global_planner').length,
     labels.values_of(data, 'local_controller').length
   );
-  if (pairs < 2 || measured.length === 0) return 'there is one planner and one controller';
+  const is_measured = labels.measured_metrics(data).length > 0;
+  return pairs < 2 || !is_measured ? 'there is one planner and one controller' : null;
+}
+
+export function mount(body, data) {
+  const measured = labels.measured_metrics(data);
   const holder = element('div', {class: 'facets heat-grids'});
   const note = element('p', {class: 'note'});
   const show = (name) => {
@@ -160,6 +169,8 @@ export function mount(body, data) {
       name,
       all.flatMap((grid) => grid.cells.flat().map((cell) => cell && cell.mean))
     );
+    const columns = Math.max(...all.map((grid) => grid.controllers.length));
+    holder.style.setProperty('--widest', `${NAMES_REM + CELL_REM * columns}rem`);
     fill(
       holder,
       all.map((grid) => grid_table(data, grid, metric, decimals))
@@ -169,5 +180,4 @@ export function mount(body, data) {
   const first = default_metric(data, measured);
   show(first);
   fill(body, controls.row(controls.metric_select(data, 'Metric', measured, first, show)), holder, note);
-  return null;
 }

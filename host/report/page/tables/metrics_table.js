@@ -4,6 +4,8 @@ import * as controls from '../controls.js';
 import {element, fill, head_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {scroll_box} from '../scroll_box.js';
+import {explained_mark} from '../tips.js';
 
 const state = {combination: 0, words: '', changed: () => {}};
 const BETTER = {higher: '↑', lower: '↓', none: ''};
@@ -39,7 +41,7 @@ function row(metric, summary, trials) {
     element('td', {class: 'unit-cell', 'data-label': 'unit'}, numbers.unit(metric.unit) || '\u2013'),
     element(
       'td',
-      {class: 'better', 'data-label': 'better', title: labels.direction_words(metric.direction)},
+      {class: 'better', 'data-label': 'better', 'data-about': labels.direction_words(metric.direction)},
       BETTER[metric.direction],
       hidden(labels.direction_words(metric.direction))
     ),
@@ -56,7 +58,7 @@ function row(metric, summary, trials) {
       show(summary.paper_mean),
       ` (${summary.paper_count})`,
       summary.paper_trimmed_all_nonzero &&
-        element('abbr', {class: 'flag', title: 'the rule removed every value that is not zero'}, '†')
+        explained_mark('†', 'the rule removed every value that is not zero', {class: 'flag'})
     )
   );
 }
@@ -84,9 +86,13 @@ function combination_options(data) {
   );
 }
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.combinations.length > 0 ? null : 'no trial was run';
+}
+
 export function mount(body, data) {
   const options = combination_options(data);
-  if (options.length === 0) return 'no trial was run';
   if (!options.some((option) => option.value === String(state.combination)))
     state.combination = Number(options[0].value);
   const rows = element('tbody');
@@ -119,9 +125,8 @@ export function mount(body, data) {
       })
     ),
     title,
-    element(
-      'div',
-      {class: 'table-scroll tall', tabindex: '0', role: 'region', 'aria-labelledby': 'title-metrics'},
+    scroll_box(
+      {class: 'tall', 'aria-labelledby': 'title-metrics'},
       element('table', {class: 'metrics with-intervals', 'aria-labelledby': 'title-metrics'}, head(), rows)
     ),
     count,
@@ -132,7 +137,6 @@ export function mount(body, data) {
     )
   );
   state.changed();
-  return null;
 }
 
 // Shows a combination; the links of the result tables call it.

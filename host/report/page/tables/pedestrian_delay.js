@@ -4,6 +4,8 @@ import * as controls from '../controls.js';
 import {element, fill, group_row, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
+import {scroll_box} from '../scroll_box.js';
+import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
 const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
@@ -52,12 +54,20 @@ function table_of(data, rows, variants) {
       )
     );
   }
-  return element('div', {class: 'table-scroll'}, table);
+  return with_svg_button(scroll_box({'aria-label': 'Pedestrian delay'}, table));
+}
+
+const measured_rows = (data) => data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
+
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return measured_rows(data).length > 0
+    ? null
+    : 'the experiment has no variant of the scenario with robots = 0 as a reference';
 }
 
 export function mount(body, data) {
-  const rows = data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
-  if (rows.length === 0) return 'the experiment has no variant of the scenario with robots = 0 as a reference';
+  const rows = measured_rows(data);
   const variants = labels.variants(data);
   const first = controls.first_variant(variants, rows.length);
   const holder = element('div');
@@ -82,5 +92,4 @@ export function mount(body, data) {
         'intervals from fewer pairs are too narrow.'
     )
   );
-  return null;
 }

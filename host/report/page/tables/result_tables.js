@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // result_tables.js: the result tables that the layout defines; their headers sort them.
 import * as controls from '../controls.js';
-import {element, fill, group_row, hidden, titled_table} from '../elements.js';
+import {element, fill, group_row, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
+import {titled_table} from '../scroll_box.js';
+import {explained_mark} from '../tips.js';
 import * as metrics_table from './metrics_table.js';
 import * as table_model from './table_model.js';
 
@@ -21,7 +23,7 @@ function paper_line(cell, column) {
     {class: 'paper'},
     `${text} (${cell.paper_count})`,
     cell.paper_trimmed_all_nonzero &&
-      element('abbr', {class: 'flag', title: 'the rule removed every value that is not zero'}, '†')
+      explained_mark('†', 'the rule removed every value that is not zero', {class: 'flag'})
   );
 }
 
@@ -31,7 +33,7 @@ function cell_element(cell, column) {
   const partly = cell.defined < cell.trials;
   return element(
     'td',
-    {class: cell.best ? 'number best' : 'number', title: partly || !defined ? defined_words(cell) : null},
+    {class: cell.best ? 'number best' : 'number', 'data-about': partly || !defined ? defined_words(cell) : null},
     element(
       'span',
       {class: 'mean'},
@@ -93,7 +95,7 @@ function column_button(column, c, starts, sort_by) {
     {scope: 'col', class: starts ? 'number starts' : 'number', 'data-key': c, 'aria-sort': 'none'},
     element(
       'button',
-      {type: 'button', class: 'sort', 'data-sort': c, title: about, onclick: () => sort_by(c)},
+      {type: 'button', class: 'sort', 'data-sort': c, 'data-about': about, onclick: () => sort_by(c)},
       element('span', {class: 'header'}, column.header),
       element('span', {class: 'unit'}, numbers.unit(column.metric.unit) || '\u2013')
     )
@@ -148,7 +150,17 @@ function sorter(table, model, bodies) {
   };
 }
 
-function table_element(data, layout, variants) {
+const MOST_COLUMNS = 9; // that fit beside each other on a laptop
+const MOST_COLUMNS_PHONE = 3;
+
+// A table with the scenarios beside each other where they fit, all of them whichever is chosen; else below each other.
+function arranged(layout, all, chosen) {
+  const most = window.innerWidth > 760 ? MOST_COLUMNS : MOST_COLUMNS_PHONE;
+  const is_across = (layout.across || []).length > 0 && all.length * layout.columns.length <= most;
+  return is_across ? {layout, variants: all} : {layout: {...layout, across: []}, variants: chosen};
+}
+
+function table_element(data, {layout, variants}) {
   const model = table_model.make(data, layout, variants);
   if (model.columns.length === 0) return null;
   const table = element('table', {class: 'results', id: `table-${layout.id}`});
@@ -177,6 +189,11 @@ const PAPER_KEY =
   'trials (except for metrics that count failures) and values beyond two standard deviations. † the rule removed every ' +
   'value that is not zero.';
 
+// The reason why there is nothing to show, or null.
+export function absent(data) {
+  return data.combinations.length > 0 ? null : 'no trial was run';
+}
+
 export function mount(body, data) {
   const variants = labels.variants(data);
   const holder = element('div', {class: 'tables with-intervals'});
@@ -184,11 +201,7 @@ export function mount(body, data) {
     fill(
       holder,
       data.layouts.report.tables.map((layout) =>
-        table_element(
-          data,
-          layout,
-          variants.filter((variant) => key === 'all' || variant.key === key || layout.across)
-        )
+        table_element(data, arranged(layout, variants, variants.filter((one) => key === 'all' || one.key === key)))
       )
     );
   const paper_key = element('p', {class: 'note', hidden: true}, PAPER_KEY);
@@ -208,5 +221,4 @@ export function mount(body, data) {
     element('p', {class: 'note'}, KEY),
     paper_key
   );
-  return data.combinations.length > 0 ? null : 'no trial was run';
 }

@@ -128,7 +128,7 @@ TEST_CASE("more robots than listed get random tasks, different in each repetitio
     CHECK(first.view.world().robot_count == robot_count(variant));
     CHECK(first.scenario.robots.size() + first.scenario.other_starts.size() == 5);
     if (variant.drawn_robots == 0) continue;
-    CHECK(first.scenario.robots[0].name == "robot 1");
+    CHECK(first.scenario.robots[0].name == "robot 0");
     CHECK_FALSE((first.scenario.robots[0].start.x == second.scenario.robots[0].start.x &&
                  first.scenario.robots[0].start.y == second.scenario.robots[0].start.y &&
                  first.scenario.robots[1].start.x == second.scenario.robots[1].start.x));
@@ -293,7 +293,7 @@ center_m = [5.0, 5.7]
 size_m = [0.2, 4.6]
 )";
   CHECK_THAT(message_of_scenario(wall, door),
-             Catch::EndsWith("robot 1 cannot reach its goal (9.5, 0.5) from its start (0.5, 0.5) on the planning grid; "
+             Catch::EndsWith("robot 0 cannot reach its goal (9.5, 0.5) from its start (0.5, 0.5) on the planning grid; "
                              "grid_resolution_m = 0.4 would do"));
   const auto with_cells = [](const std::string& cell_m) {
     return message_of(experiment_text + ("[simulation]\ngrid_resolution_m = " + cell_m + "\n"));

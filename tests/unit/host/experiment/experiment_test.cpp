@@ -138,7 +138,7 @@ TEST_CASE("a scenario file as data") {
   CHECK(dmrp::toolkit::signed_area(scenario.shapes[2].vertices) == Approx(0.5));  // clockwise in the file
 
   REQUIRE(scenario.robots.size() == 2);
-  CHECK(scenario.robots[0].name == "robot 1");
+  CHECK(scenario.robots[0].name == "robot 0");
   CHECK(std::isnan(scenario.robots[0].start.theta));
   CHECK(std::isnan(scenario.robots[0].goals[0].theta));
   CHECK(scenario.robots[1].name == "second");
@@ -279,7 +279,7 @@ TEST_CASE("a number of robots selects the first of the list") {
   CHECK(e.scenarios[0].label == "hall");
   CHECK(e.scenarios[1].label == "hall/1");
   REQUIRE(e.scenarios[1].scenario.robots.size() == 1);
-  CHECK(e.scenarios[1].scenario.robots[0].name == "robot 1");
+  CHECK(e.scenarios[1].scenario.robots[0].name == "robot 0");
 
   // a robot that takes no part may stand in a wall
   write_file("hall/scenario.toml", with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [5, 4]"));
@@ -295,7 +295,7 @@ TEST_CASE("near starts and libraries with warnings give warnings") {
   REQUIRE(e.warnings.size() == 2);
   CHECK(e.warnings[0] == "experiment.toml:5:28: ./librival.so: changes the rounding mode");
   CHECK(e.warnings[1] ==
-        "hall/scenario.toml:25:1: the starts of robots 1 and 2 are 2.00 m apart; the method wants more than 2 m");
+        "hall/scenario.toml:25:1: the starts of robots 0 and 1 are 2.00 m apart; the method wants more than 2 m");
 }
 
 TEST_CASE("libraries and scenarios are found by name in the folders of the environment") {

@@ -277,26 +277,26 @@ TEST_CASE("mistakes in a scenario file") {
        "47:1: unknown key 'group_size' in [[recording]] (it is a key of [[flow]])"},
       // the world itself
       {"start = [0.5, 0.5]", "start = [5.0, 4.0]",
-       "21:1: robot 1 starts inside 'wall' (clearance 0.00 m, needs 0.35 m)"},
+       "21:1: robot 0 starts inside 'wall' (clearance 0.00 m, needs 0.35 m)"},
       {"start = [0.5, 0.5]", "start = [4.75, 4.5]",
-       "21:1: robot 1 starts too near to 'wall' (clearance 0.15 m, needs 0.35 m)"},
+       "21:1: robot 0 starts too near to 'wall' (clearance 0.15 m, needs 0.35 m)"},
       {"start = [0.5, 0.5]", "start = [0.1, 0.5]",
-       "21:1: robot 1 starts too near to the border (clearance 0.10 m, needs 0.35 m)"},
-      {"start = [0.5, 0.5]", "start = [-1, 0.5]", "21:1: robot 1 starts outside the world, at (-1, 0.5)"},
+       "21:1: robot 0 starts too near to the border (clearance 0.10 m, needs 0.35 m)"},
+      {"start = [0.5, 0.5]", "start = [-1, 0.5]", "21:1: robot 0 starts outside the world, at (-1, 0.5)"},
       {"goal = [9.5, 0.5]", "goal = [8.0, 5.9]",
-       "21:1: robot 1 has its goal inside 'pillar' (clearance 0.00 m, needs 0.35 m)"},
+       "21:1: robot 0 has its goal inside 'pillar' (clearance 0.00 m, needs 0.35 m)"},
       {"goal = [9.5, 0.5]", "goal = [1.2, 6.8]",
-       "21:1: robot 1 has its goal too near to 'stall' (clearance 0.18 m, needs 0.35 m)"},
+       "21:1: robot 0 has its goal too near to 'stall' (clearance 0.18 m, needs 0.35 m)"},
       {"goal = [9.5, 0.5]",
        "goal = [0.5, 3.6]\n[[box]]\nname = \"bar\"\ncenter_m = [0.75, 2.5]\nsize_m = [1.5, 0.1]\n"
        "[[box]]\nname = \"lid\"\ncenter_m = [0.75, 4.5]\nsize_m = [1.5, 0.1]\n"
        "[[box]]\nname = \"side\"\ncenter_m = [1.5, 3.5]\nsize_m = [0.1, 2.1]",
-       "21:1: robot 1 cannot reach its goal (0.5, 3.6) from its start (0.5, 0.5) on the planning grid; "
+       "21:1: robot 0 cannot reach its goal (0.5, 3.6) from its start (0.5, 0.5) on the planning grid; "
        "neither smaller cells nor a smaller planning_margin_m would do"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.8, 0.5]",
-       "25:1: robot 2 overlaps robot 1 at its start (distance 0.30 m, needs 0.50 m)"},
+       "25:1: robot 1 overlaps robot 0 at its start (distance 0.30 m, needs 0.50 m)"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.7, 0.99]",
-       "25:1: robot 2 has its start on the same planning cell as robot 1"},
+       "25:1: robot 1 has its start on the same planning cell as robot 0"},
       {"[[flow]]",
        "[[region]]\nname = \"in the wall\"\nlower_m = [5, 3]\nupper_m = [5, 5]\n[[flow]]\nvia = [\"in the wall\"]",
        "40:1: region 'in the wall' has no free place for a person"},
@@ -322,7 +322,7 @@ TEST_CASE("robots must not overlap on the centres of their cells") {
   const ExperimentFolder folder;
   const std::string fine_cells = std::string(experiment_text) + "[simulation]\ngrid_resolution_m = 0.4\n";
   CHECK(message_of(fine_cells, with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [1.01, 0.5]")) ==
-        "hall/scenario.toml:25:1: robot 2 has its start on a cell that overlaps robot 1 on its own (centres 0.40 m "
+        "hall/scenario.toml:25:1: robot 1 has its start on a cell that overlaps robot 0 on its own (centres 0.40 m "
         "apart, "
         "radii 0.25 and 0.25 m)");
 }

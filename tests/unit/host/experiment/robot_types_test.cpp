@@ -136,14 +136,14 @@ TEST_CASE("a bad type gets one line") {
   CHECK_THAT(message_of("\n[robot_type.car]\nwheelbase_m = 0.5\n"),
              EndsWith("'wheelbase_m' belongs to drive = 'ackermann', but the drive is 'differential'"));
   CHECK_THAT(message_of(transporter, with_type("transprter")),
-             EndsWith("robot 1 has the unknown type 'transprter' (there: transporter) (did you mean 'transporter'?)"));
+             EndsWith("robot 0 has the unknown type 'transprter' (there: transporter) (did you mean 'transporter'?)"));
   CHECK_THAT(message_of("", with_type("x")),
-             EndsWith("robot 1 has the unknown type 'x' (there: no [robot_type.NAME])"));
+             EndsWith("robot 0 has the unknown type 'x' (there: no [robot_type.NAME])"));
   CHECK_THAT(message_of("\n[robot_type.t]\ndrive = \"holonomic\"\n", with_type("t")),
              EndsWith("test.controller cannot drive robots with a holonomic drive (type 't' in scenario 'hall')"));
   // wider than the way round the wall at the border: 2 m
   CHECK_THAT(message_of("\n[robot_type.wide]\nfootprint = { vertices_m = [[-0.1, -1.1], [0.1, -1.1], [0.1, 1.1], "
                         "[-0.1, 1.1]] }\n",
                         with_type("wide")),
-             Catch::Contains("robot 1 "));
+             Catch::Contains("robot 0 "));
 }

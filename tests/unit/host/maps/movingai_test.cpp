@@ -170,5 +170,5 @@ TEST_CASE("tasks that the robots cannot do are refused") {
   write_yard();
   // 0.5 m cells on a planning grid of 1 m: starts are no cells' centres any more
   write_file("yard/scenario.toml", with(yard_text, "cell_m = 2.0", "cell_m = 0.25"));
-  REQUIRE_THROWS_WITH(host::adhoc_experiment("./yard"), Catch::Contains("robot 1"));
+  REQUIRE_THROWS_WITH(host::adhoc_experiment("./yard"), Catch::Contains("robot 0"));
 }

@@ -142,3 +142,17 @@ TEST_CASE("large neighborhood search improves crowded maps", "[data]") {
     CHECK(plan.cost() < 0.95 * plan.statistics.at("first_cost"));
   }
 }
+
+TEST_CASE("large neighborhood search begins with a prioritized plan as long as that gets on", "[data]") {
+  const auto data = test_data();
+  if (!data) {
+    WARN("skipped: DMRP_TEST_DATA is not set");
+    return;
+  }
+  const PlanningCase c = read_instance(*data, "room-32-32-4", 250, 1);
+  const Plan prioritized = run_planner("dmrp.planner.sipp", c, {{"restarts", 0}});
+  REQUIRE(prioritized.status == DMRP_OK);
+  const Plan plan = run_planner(lns, c, {{"iterations", 1}});
+  REQUIRE(plan.status == DMRP_OK);
+  CHECK(plan.statistics.at("first_cost") <= prioritized.cost());
+}

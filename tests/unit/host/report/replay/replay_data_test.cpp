@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/trace/trace_reader.hpp"
+#include "host/report/replay/replay_world.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
@@ -81,6 +82,23 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
   CHECK(second["parts"][1].size() == 8);
   CHECK(second["arrival"] == 0);
   CHECK(replay["end"]["reason"] == "time limit");
+}
+
+TEST_CASE("a robot says how it is driven, if not by two wheels", "[report]") {
+  const core::TraceBytes bytes = test::example_trace(1);
+  const core::TraceReader trace(bytes);
+  dmrp_robot robot = trace.world().robots[0];
+  dmrp_limits limits = *robot.limits;
+  limits.wheelbase_m = 0.62;
+  robot.limits = &limits;
+  robot.kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
+  CHECK_FALSE(replay_robot(robot).contains("drive"));
+  robot.kinematics = DMRP_KINEMATICS_HOLONOMIC;
+  CHECK(replay_robot(robot)["drive"] == "holonomic");
+  CHECK_FALSE(replay_robot(robot).contains("wheelbase"));
+  robot.kinematics = DMRP_KINEMATICS_ACKERMANN;
+  CHECK(replay_robot(robot)["drive"] == "ackermann");
+  CHECK(replay_robot(robot)["wheelbase"] == 620);
 }
 
 TEST_CASE("without a plan the robots stand at their starts", "[report]") {
