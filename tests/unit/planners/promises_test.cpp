@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The promises of CBS, ECBS and EECBS hold with all parameters, and wherever the host stops them.
+// The promises of CBS, ECBS and EECBS hold with all parameters, and all planners keep theirs wherever they are stopped.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/unit/planners/joint_optimum.hpp"
+#include "tests/unit/planners/large_case.hpp"
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/random_case.hpp"
 
@@ -96,6 +98,30 @@ TEST_CASE("a planner that is stopped knows at least the sum of the robots' costs
       REQUIRE(bound->second >= 6 * 5 + 5);
     }
     CHECK(known > 10);
+  }
+}
+
+TEST_CASE("a planner asks whether to stop at least every 256 states, and at each step of all robots") {
+  const PlanningCase c = large_case(7, 80);
+  for (const char* id : {"cbs", "ecbs", "eecbs", "ecbs8", "sipp", "lacam", "lns", "pibt"}) {
+    CAPTURE(id);
+    PluginUnderTest planner("libdmrp_planners.so", std::string("dmrp.planner.") + id);
+    for (const int calls_until_stop : {500, 2000, 4000}) {
+      CAPTURE(calls_until_stop);
+      int calls = 0;
+      planner.host().should_stop = [&] { return ++calls > calls_until_stop; };
+      const Plan plan = run_planner(planner, c);
+      REQUIRE(calls <= calls_until_stop + 1);
+      const auto count = [&](const char* name) {
+        const auto found = plan.statistics.find(name);
+        return found == plan.statistics.end() ? 0 : found->second;
+      };
+      CHECK(count("low_level_expanded") <= 256.0 * calls);
+      CHECK(count("high_level_expanded") <= calls);
+      std::size_t steps = 0;
+      for (const auto& path : plan.paths) steps = std::max(steps, path.size());
+      if (std::string(id) == "pibt") CHECK(steps <= static_cast<std::size_t>(calls) + 1);
+    }
   }
 }
 
