@@ -3,7 +3,28 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/workers/whole_number.hpp"
+
 namespace dmrp::host {
+
+namespace {
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+std::optional<double> number_or_none(const nlohmann::json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+template <class T>
+std::vector<T> whole_numbers(const nlohmann::json& json) {
+  std::vector<T> numbers;
+  for (const nlohmann::json& number : json) numbers.push_back(whole_number<T>(number));
+  return numbers;
+}
+
+}  // namespace
 
 // As NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE, but not inline: the header needs no json.hpp.
 #define DMRP_FIELDS(Type, ...)                                                   \
@@ -20,42 +41,53 @@ void to_json(nlohmann::json& json, const MetricEvent& e) {
 }
 void from_json(const nlohmann::json& json, MetricEvent& e) {
   json.at(0).get_to(e.metric);
-  json.at(1).get_to(e.from_ns);
-  json.at(2).get_to(e.to_ns);
-  json.at(3).get_to(e.robots);
-  json.at(4).get_to(e.people);
+  e.from_ns = whole_number<std::int64_t>(json.at(1));
+  e.to_ns = whole_number<std::int64_t>(json.at(2));
+  e.robots = whole_numbers<std::uint32_t>(json.at(3));
+  e.people = whole_numbers<std::uint64_t>(json.at(4));
   json.at(5).get_to(e.text);
-  json.at(6).get_to(e.severity);
+  e.severity = whole_number<std::uint32_t>(json.at(6));
   const nlohmann::json& place = json.at(7);
   e.place = place.is_null() ? std::nullopt : std::optional(dmrp_vec2{place.at(0), place.at(1)});
 }
 
 DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics, known_events)
 DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
-DMRP_FIELDS(FaultRecord, kind, plugin, function, step, robot, signal, detail, rerun)
 
-namespace {
-
-template <class T>
-nlohmann::json or_null(const std::optional<T>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
+void to_json(nlohmann::json& json, const FaultRecord& f) {
+  json = {{"kind", f.kind},   {"plugin", f.plugin}, {"function", f.function}, {"step", f.step},
+          {"robot", f.robot}, {"signal", f.signal}, {"detail", f.detail},     {"rerun", f.rerun}};
 }
-template <class T>
-std::optional<T> from_null(const nlohmann::json& json) {
-  return json.is_null() ? std::nullopt : std::optional<T>(json.get<T>());
+void from_json(const nlohmann::json& json, FaultRecord& f) {
+  json.at("kind").get_to(f.kind);
+  json.at("plugin").get_to(f.plugin);
+  json.at("function").get_to(f.function);
+  f.step = whole_number<std::int64_t>(json.at("step"));
+  f.robot = whole_number<std::int32_t>(json.at("robot"));
+  f.signal = whole_number<std::int32_t>(json.at("signal"));
+  json.at("detail").get_to(f.detail);
+  json.at("rerun").get_to(f.rerun);
 }
-
-}  // namespace
 
 // An array, not an object: there are many values. JSON keeps the bits of finite doubles (shortest round trip).
 void to_json(nlohmann::json& json, const MetricValue& v) {
   json = nlohmann::json::array({v.metric, v.subject_kind, or_null(v.subject), or_null(v.coordinate), or_null(v.value)});
 }
 void from_json(const nlohmann::json& json, MetricValue& v) {
-  v = {json.at(0).get<std::string>(), json.at(1).get<std::uint32_t>(), from_null<std::uint64_t>(json.at(2)),
-       from_null<double>(json.at(3)), from_null<double>(json.at(4))};
+  json.at(0).get_to(v.metric);
+  v.subject_kind = whole_number<std::uint32_t>(json.at(1));
+  v.subject = json.at(2).is_null() ? std::nullopt : std::optional(whole_number<std::uint64_t>(json.at(2)));
+  v.coordinate = number_or_none(json.at(3));
+  v.value = number_or_none(json.at(4));
 }
 
-DMRP_FIELDS(MetricResult, index, values, events)
+void to_json(nlohmann::json& json, const MetricResult& result) {
+  json = {{"index", result.index}, {"values", result.values}, {"events", result.events}};
+}
+void from_json(const nlohmann::json& json, MetricResult& result) {
+  result.index = whole_number<std::uint32_t>(json.at("index"));
+  json.at("values").get_to(result.values);
+  json.at("events").get_to(result.events);
+}
 
 }  // namespace dmrp::host

@@ -21,12 +21,19 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
+
+// A worker sent what its state does not allow: a plugin wrote into the channel, or copied the process.
+class UnbelievableMessage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 struct Job {
   std::uint64_t trial = 0;

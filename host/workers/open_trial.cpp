@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "host/process/fault_kind.hpp"
+#include "host/workers/whole_number.hpp"
 
 namespace dmrp::host {
 
@@ -73,7 +74,8 @@ Job OpenTrial::begin(std::uint64_t stamp) {
 }
 
 void OpenTrial::check_sender(const nlohmann::json& message) const {
-  expect(message.at("trial").get<std::uint64_t>() == record_.id && message.at("stamp").get<std::uint64_t>() == stamp_,
+  expect(whole_number<std::uint64_t>(message.at("trial")) == record_.id &&
+             whole_number<std::uint64_t>(message.at("stamp")) == stamp_,
          "from another trial or process");
 }
 
@@ -84,7 +86,7 @@ OpenTrial::State OpenTrial::take(const nlohmann::json& message) {
   if (type == "began") {
     begun_ = true;
   } else if (type == "measuring") {
-    const auto index = message.at("index").get<std::uint32_t>();
+    const auto index = whole_number<std::uint32_t>(message.at("index"));
     expect(
         !failed_ && !measuring_ && index >= next_metric_ && index < experiment_->metrics.size() && !is_skipped(index),
         "a metric out of order");

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,12 +13,6 @@
 #include "host/workers/messages.hpp"
 
 namespace dmrp::host {
-
-// A worker sent what its state does not allow: a plugin wrote into the channel, or copied the process.
-class UnbelievableMessage : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 class OpenTrial {
  public:

@@ -27,6 +27,7 @@
 #include "host/workers/open_trial.hpp"
 #include "host/workers/scratch_folder.hpp"
 #include "host/workers/stored_trace.hpp"
+#include "host/workers/whole_number.hpp"
 #include "host/workers/worker_fault.hpp"
 #include "host/workers/worker_process.hpp"
 
@@ -229,7 +230,7 @@ class Supervisor {
     slot.trial->check_sender(message);
     const auto text = message.at("text").get<std::string>();
     if (slot.trial->worker_failed && message.at("machine").get<bool>() &&
-        machine_fails(message.at("number").get<int>()))
+        machine_fails(whole_number<int>(message.at("number"))))
       throw MachineError(text);
     FaultRecord fault = fault_at(slot.worker->last_call());
     fault.kind = fault_kind::worker_error;

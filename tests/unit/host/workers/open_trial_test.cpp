@@ -111,6 +111,37 @@ TEST_CASE("messages out of order are not believed") {
   CHECK_THROWS_AS(worker.say({{"type", "dine"}}), UnbelievableMessage);
 }
 
+TEST_CASE("numbers that an integer cannot hold are not taken for others") {
+  Conversation worker;
+  worker.began();
+  constexpr std::uint64_t beyond = std::uint64_t{1} << 32;  // 0 in 32 bits
+  for (const json& number : {json(beyond), json(1e300), json(0.5), json(-1), json("0")}) {
+    INFO(number.dump());
+    CHECK_THROWS_AS(worker.say({{"type", "measuring"}, {"index", number}}), UnbelievableMessage);
+    CHECK_THROWS_AS(worker.trial().take({{"type", "measuring"}, {"index", 0}, {"trial", 5}, {"stamp", number}}),
+                    UnbelievableMessage);
+  }
+  worker.measuring(0);
+  json fault = FaultRecord{fault_kind::bad_output, "length", "finish", 0, -1, 0, "", ""};
+  fault["type"] = "fault";
+  fault["fatal"] = false;
+  for (const char* field : {"step", "robot", "signal"}) {
+    json wrong = fault;
+    wrong[field] = 1e300;
+    CHECK_THROWS_AS(worker.say(wrong), UnbelievableMessage);
+  }
+  json metric = MetricResult{0, {Conversation::system("length")}, {{"length", 0, 1, {0}, {7}, "", 0, {}}}};
+  metric["type"] = "metric";
+  for (const char* place : {"/index", "/values/0/1", "/values/0/2", "/events/0/1", "/events/0/2", "/events/0/3/0",
+                            "/events/0/4/0", "/events/0/6"}) {
+    INFO(place);
+    json wrong = metric;
+    wrong[json::json_pointer(place)] = 1e300;
+    CHECK_THROWS_AS(worker.say(wrong), UnbelievableMessage);
+  }
+  CHECK(worker.say(metric) == State::running);
+}
+
 TEST_CASE("a metric gives only what it declares, and that once") {
   Conversation worker;
   worker.began();
