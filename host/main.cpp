@@ -425,6 +425,7 @@ int run_main(int argc, char** argv) {
 // What was printed is buffered: a full disk shows only here.
 void flush_output() {
   if (std::fflush(stdout) != 0) throw MachineError("standard output", errno);
+  if (std::ferror(stdout)) throw MachineError("standard output: not everything could be written");
 }
 
 }  // namespace

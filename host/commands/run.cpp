@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 
 #include "host/commands/command_output.hpp"
@@ -127,6 +128,7 @@ class RunFiles {
 }  // namespace
 
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
+  signal(SIGPIPE, SIG_IGN);  // results are kept although nobody reads what is printed
   check_new_bundle(options.bundle);
   const Experiment experiment = load_experiment(options.experiment, options.trials);
   check_planners(experiment, options.experiment);

@@ -33,6 +33,11 @@ std::string duration(double s) {
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
+// Where standard output is closed or full, the run goes on without; fmt::print would throw.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+}
+
 }  // namespace
 
 unsigned terminal_width() {
@@ -43,13 +48,13 @@ unsigned terminal_width() {
 
 Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
     : heading_(std::move(heading)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
-  if (!quiet_ && !terminal_) fmt::print("{}\n", heading_);
+  if (!quiet_ && !terminal_) show(heading_ + "\n");
   std::fflush(stdout);
   refresh();
 }
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_ && drawn_ns_ > 0) fmt::print("\n");  // an error message starts on a new line
+  if (!quiet_ && terminal_ && drawn_ns_ > 0) show("\n");  // an error message starts on a new line
   std::fflush(stdout);
 }
 
@@ -80,7 +85,7 @@ void Progress::draw() const {
     line = name + "  " + line;
   else if (display_width(line) > width)
     line = count.size() + times.size() <= width ? count + times : count;
-  fmt::print("\r\x1b[2K{}", line);
+  show("\r\x1b[2K" + line);
   std::fflush(stdout);
 }
 
@@ -91,7 +96,7 @@ void Progress::refresh() {
 }
 
 void Progress::note(const std::string& line) {
-  if (!quiet_) fmt::print("{}{}\n", terminal_ ? "\r\x1b[2K" : "  ", line);
+  if (!quiet_) show((terminal_ ? "\r\x1b[2K" : "  ") + line + "\n");
 }
 
 void Progress::add(const std::string& text) {
@@ -99,14 +104,14 @@ void Progress::add(const std::string& text) {
   if (quiet_) return;
   if (!text.empty()) note(text);
   if (terminal_) return draw();
-  fmt::print("  {}/{}  {}\n", done_, total_, duration(elapsed_s()));
+  show(fmt::format("  {}/{}  {}\n", done_, total_, duration(elapsed_s())));
   std::fflush(stdout);
 }
 
 void Progress::finish() {
   if (quiet_ || !terminal_) return;
   draw();
-  fmt::print("\n");
+  show("\n");
   drawn_ns_ = 0;
 }
 

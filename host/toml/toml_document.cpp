@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t longest_message = 2000;
 constexpr unsigned most_key_parts = 1000;
+constexpr std::size_t longest_line = 1000;
 
 SourcePosition position_of(const toml::source_region& region) {
   return {std::max<std::uint32_t>(region.begin.line, 1), std::max<std::uint32_t>(region.begin.column, 1)};
@@ -176,6 +177,7 @@ std::string TomlValue::text() const {
 std::string TomlValue::line() const {
   const std::string value = text();
   if (value.empty()) fail(fmt::format("'{}' must not be empty", key_));
+  if (value.size() > longest_line) fail(fmt::format("'{}' must have at most {} bytes", key_, longest_line));
   if (std::any_of(value.begin(), value.end(), is_control))
     fail(fmt::format("'{}' must not have line breaks or other control characters", key_));
   return value;
