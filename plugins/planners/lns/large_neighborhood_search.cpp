@@ -21,7 +21,7 @@ LargeNeighborhoodSearch::LargeNeighborhoodSearch(const Problem& problem, const s
       stop_(stop),
       random_(seed, "lns"),
       plan_{SafeIntervals(problem.graph), std::move(paths)},
-      low_level_(problem.graph, plan_.occupied),
+      low_level_(problem.graph, plan_.occupied, SippSearch::Preference::near),
       neighborhoods_(problem, tables, plan_, random_),
       kept_(neighborhood_size) {
   for (std::size_t i = 0; i < plan_.paths.size(); ++i) {

@@ -177,8 +177,8 @@ void SippSearch::push(const Task& task, Label label) {
   const std::int32_t turns =
       label.turns + fewest_turns(graph_, label.location, task.agent.goal(label.leg), label.heading);
   // a robot with time to spare should first make progress
-  const bool has_time = steps == task.rest_from;
-  push_open({pack(label.price, steps), has_time ? pack(to_go, turns) : pack(turns, to_go),
+  const bool is_near_first = preference_ == Preference::near || steps == task.rest_from;
+  push_open({pack(label.price, steps), is_near_first ? pack(to_go, turns) : pack(turns, to_go),
              static_cast<std::int32_t>(labels_.size())});
   label.is_end = label.is_end || (to_go == 0 && label.t >= task.rest_from);
   labels_.push_back(label);

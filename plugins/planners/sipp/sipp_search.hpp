@@ -19,9 +19,14 @@ namespace dmrp::planners {
 class SippSearch {
  public:
   enum class Result { free, displacing, none, stopped };
+  // Among labels of equal cost: the one with the fewest turns, or the one nearest to the goal, which takes less time.
+  enum class Preference : std::uint8_t { straight, near };
 
-  SippSearch(const GridGraph& graph, const SafeIntervals& others)
-      : graph_(graph), others_(others), intervals_(static_cast<std::size_t>(graph.location_count())) {}
+  SippSearch(const GridGraph& graph, const SafeIntervals& others, Preference preference = Preference::straight)
+      : graph_(graph),
+        others_(others),
+        preference_(preference),
+        intervals_(static_cast<std::size_t>(graph.location_count())) {}
 
   // The agent itself must not be among the others. `prices` has the positive price of displacing each robot; if it is
   // empty no robot may be displaced. Result::displacing: the path conflicts with some robots. The robot stays at its
@@ -112,6 +117,7 @@ class SippSearch {
 
   const GridGraph& graph_;
   const SafeIntervals& others_;
+  const Preference preference_;
   std::vector<LocationStates> intervals_;
   std::vector<State> states_;          // the first block_size are not used
   std::vector<std::uint32_t> blocks_;  // where a block is in states_; 0: not made yet
