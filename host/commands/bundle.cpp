@@ -12,6 +12,7 @@
 #include "host/experiment/identity.hpp"
 #include "host/files/read_file.hpp"
 #include "host/results/database.hpp"
+#include "host/results/sqlite.hpp"
 #include "host/verify/stored_digests.hpp"
 
 namespace dmrp::host {
@@ -20,11 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Into a new database: one file, without what a killed run has left in a log beside it.
+// Into a new database: one file, without what a killed run has left in a log beside it. It needs no log when it is read,
+// also from a folder that cannot be written.
 void copy_results(const fs::path& run, const fs::path& folder) {
   const ResultsDatabase from = ResultsDatabase::open_read_only(run / "results.sqlite");
-  ResultsDatabase to = ResultsDatabase::create(folder / "results.sqlite", from.metrics());
-  for (const TrialRecord& trial : from.trials()) to.write(trial);
+  const fs::path file = folder / "results.sqlite";
+  {
+    ResultsDatabase to = ResultsDatabase::create(file, from.metrics());
+    for (const TrialRecord& trial : from.trials()) to.write(trial);
+  }
+  SqliteConnection(file, SqliteMode::read_write).execute("PRAGMA journal_mode = DELETE");
   write_digests(StoredDigests(run), from.finished_trials(), folder);
 }
 

@@ -52,6 +52,7 @@ bundle=$scratch/elsewhere_bundle/moved
 expect_status 0 "$host" verify "$bundle" --trials 3
 grep -q "3 trials run again, equal to the bit" "$scratch/stdout" || fail "$(cat "$scratch/stdout")"
 [[ ! -s $scratch/stderr ]] || fail "nothing is to be said: $(cat "$scratch/stderr")"
+[[ $(echo "$bundle"/results*) == "$bundle/results.sqlite" ]] || fail "reading left $(echo "$bundle"/results*)"
 expect_refusal "results.sqlite" "$host" verify "$scratch/elsewhere_unrun/moved"
 
 # a bundle of results is a run directory
