@@ -29,16 +29,14 @@ Descriptor Sto::describe() {
 }
 
 void Sto::finish(const TrialEnd&, MetricSink& sink) {
-  const bool planned = first_plan_ && first_plan_->path_count > 0;
-  if (planned && first_plan_->step_duration_ns <= 0)
+  if (has_paths() && first_plan_->step_duration_ns <= 0)
     throw std::invalid_argument("STO needs a plan with a step duration above 0");
-  const std::vector<Steps> all =
-      planned ? resample_all(Plan(*first_plan_), first_plan_->step_duration_ns) : std::vector<Steps>();
+  const auto all = has_paths() ? resample_all(*first_plan_, first_plan_->step_duration_ns) : std::vector<Steps>();
   const auto steps = static_cast<std::size_t>(*window);
   give_mean(sink, "sto", overlapping_shares(all, distance_m, steps));
   give_curve(sink, "sto_by_distance", distances_m,
              [&](double threshold_m) { return mean_of_defined(overlapping_shares(all, threshold_m, steps)); });
-  sink.system("sto_cell_size", planned ? world().planning_grid().resolution_m : undefined);
+  sink.system("sto_cell_size", has_paths() ? world().planning_grid().resolution_m : undefined);
 }
 
 }  // namespace dmrp::metrics

@@ -2,12 +2,13 @@
 // sto.hpp: spatio-temporal overlap: the share of planned waypoints near another robot's at about the same time.
 #pragma once
 
-#include <dmrp/plugin.hpp>
 #include <vector>
+
+#include "metrics/measure/first_plan_metric.hpp"
 
 namespace dmrp::metrics {
 
-class Sto final : public Metric {
+class Sto final : public FirstPlanMetric {
  public:
   static Descriptor describe();
   Param<double> distance_m =
@@ -23,12 +24,7 @@ class Sto final : public Metric {
           .range(0.0, 100.0)
           .doc("values of D for the curve sto_by_distance");
 
-  void begin(const dmrp_plan* plan) override { first_plan_ = plan; }
-  void observe(const Sample&) override {}
   void finish(const TrialEnd& end, MetricSink& sink) override;
-
- private:
-  const dmrp_plan* first_plan_ = nullptr;
 };
 
 }  // namespace dmrp::metrics

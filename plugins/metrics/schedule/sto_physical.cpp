@@ -28,8 +28,7 @@ Descriptor StoPhysical::describe() {
 }
 
 void StoPhysical::finish(const TrialEnd&, MetricSink& sink) {
-  const bool planned = first_plan_ && first_plan_->path_count > 0;
-  const std::vector<Steps> all = planned ? resample_all(Plan(*first_plan_), period_ns) : std::vector<Steps>();
+  const auto all = has_paths() ? resample_all(*first_plan_, period_ns) : std::vector<Steps>();
   constexpr double rounding = 1e-9;  // 3.6 s is a whole number of tenths, not of binary fractions
   const double window = std::floor(*window_s * 1e9 / static_cast<double>(period_ns) + rounding);
   give_mean(sink, "sto_physical", overlapping_shares(all, distance_m, static_cast<std::size_t>(window)));

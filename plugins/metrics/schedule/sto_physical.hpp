@@ -2,11 +2,11 @@
 // sto_physical.hpp: spatio-temporal overlap of plans in metres and seconds, whatever their cells and steps.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "metrics/measure/first_plan_metric.hpp"
 
 namespace dmrp::metrics {
 
-class StoPhysical final : public Metric {
+class StoPhysical final : public FirstPlanMetric {
  public:
   static Descriptor describe();
   Param<double> distance_m =
@@ -16,12 +16,7 @@ class StoPhysical final : public Metric {
                                .range(0.0, 1000.0)
                                .doc("a position is compared with the others' at most this much earlier and later");
 
-  void begin(const dmrp_plan* plan) override { first_plan_ = plan; }
-  void observe(const Sample&) override {}
   void finish(const TrialEnd& end, MetricSink& sink) override;
-
- private:
-  const dmrp_plan* first_plan_ = nullptr;
 };
 
 }  // namespace dmrp::metrics
