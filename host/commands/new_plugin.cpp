@@ -100,7 +100,8 @@ std::vector<std::string> write_files(const fs::path& from, const fs::path& to, c
   std::vector<std::string> written;
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     if (!entry.is_regular_file()) continue;
-    const std::string relative = names.in(fs::relative(entry.path(), from).string());
+    std::string relative = names.in(fs::relative(entry.path(), from).string());
+    if (relative == "gitignore") relative = ".gitignore";  // packages hold no file of that name
     write_new_file(to / relative, names.in(read_file(entry.path(), entry.path().string())));
     written.push_back(relative);
   }

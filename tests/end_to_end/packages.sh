@@ -20,6 +20,8 @@ done
 depends=$(dpkg-deb -f debs/dmrp-plugins_*.deb Depends)
 [[ $depends == *libstdc++6* && $depends != *libfmt* ]] || fail "built-in plugins need the C++ library alone: $depends"
 
+doubles=$(for package in debs/*.deb; do dpkg-deb -c "$package" | grep -v '/$' | awk '{print $6}'; done | sort | uniq -d)
+[[ -z $doubles ]] || fail "two packages cannot have the same file: $doubles"
 for package in debs/*.deb; do
   dpkg-deb -x "$package" root || fail "cannot unpack $package"
   name=$(dpkg-deb -f "$package" Package)
@@ -27,7 +29,9 @@ for package in debs/*.deb; do
 done
 for file in share/man/man1/dmrp-host.1 share/bash-completion/completions/dmrp-host \
   share/zsh/vendor-completions/_dmrp-host share/doc/dmrp/README.md share/doc/dmrp/docs/plugins.md \
-  share/dmrp/examples/quickstart.toml share/pkgconfig/dmrp.pc include/dmrp/plugin.hpp; do
+  share/dmrp/examples/quickstart.toml share/dmrp/examples/nav2/CMakeLists.txt \
+  share/dmrp/examples/nav2/adapter/controller.cpp share/dmrp/examples/python_controller/policy.py \
+  share/dmrp/examples/other_languages/planner.c share/pkgconfig/dmrp.pc include/dmrp/plugin.hpp; do
   compgen -G "root/usr/$file*" >/dev/null || fail "no package has $file"
 done
 ! grep -rqF "$build_dir" root || fail "packages know where they were made: $(grep -rlF "$build_dir" root)"
