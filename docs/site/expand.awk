@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# expand.awk -v root=SOURCE_DIR PAGE.md: replaces `<!-- source: FILE NAME -->` by the function NAME of FILE, with the
-# comments above it, as code. Fails where there is no such function.
+# expand.awk -v root=SOURCE_DIR PAGE.md: replaces a line that ends with `<!-- source: FILE NAME -->` (before it stands a
+# link, for those who read the Markdown) by the function NAME of FILE, with the comments above it, as code. Fails where
+# there is no such function.
 function source(file, name,   line, held, indent, inside, found, out, at) {
   while ((getline line < (root "/" file)) > 0) {
     if (!inside && line ~ ("^[ ]*[A-Za-z].*[ :*&>]" name "\\(.*") && line !~ /;$/ && line !~ /^ *(return|if|for)/) {
@@ -25,8 +26,8 @@ function source(file, name,   line, held, indent, inside, found, out, at) {
   return out
 }
 function without_indent(line) { sub(/^ +/, "", line); return line }
-/^<!-- source: .* -->$/ {
-  printf "```cpp\n%s```\n", source($3, $4)
+/<!-- source: .* -->$/ {
+  printf "```cpp\n%s```\n", source($(NF - 2), $(NF - 1))
   next
 }
 { print }
