@@ -33,6 +33,50 @@ double noncentrality_at(double f, double df_entries, double df_rest, double belo
   return 0.5 * (low + high);
 }
 
+constexpr BlockEffect undefined_effect = {undefined, {undefined, undefined}, undefined, undefined, undefined};
+
+std::vector<double> means_of(std::span<const std::vector<double>> rows) {
+  std::vector<double> means;
+  for (const std::vector<double>& row : rows) means.push_back(mean(row));
+  return means;
+}
+
+// The sum of squares that is left once each row and each task has its mean; [row][task].
+double rest_of(std::span<const std::vector<double>> rows) {
+  const std::size_t tasks = rows.front().size();
+  const std::vector<double> row_means = means_of(rows);
+  const double all = mean(row_means);
+  std::vector<double> task_means(tasks);
+  for (const std::vector<double>& row : rows)
+    for (std::size_t task = 0; task < tasks; ++task) task_means[task] += row[task] / static_cast<double>(rows.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const double rest = rows[i][task] - row_means[i] - task_means[task] + all;
+      sum += rest * rest;
+    }
+  return sum;
+}
+
+// From sums of squares and degrees of freedom.
+BlockEffect effect_of(double of_entries, double of_rest, double df_entries, double df_rest) {
+  constexpr double rounding = 1e-12;
+  BlockEffect effect = undefined_effect;
+  if (of_entries + of_rest < rounding) return effect;
+  effect.df_entries = df_entries;
+  effect.df_rest = df_rest;
+  effect.partial_eta_squared = of_entries / (of_entries + of_rest);
+  if (of_rest < rounding) {
+    effect.interval = {1.0, 1.0};  // the limit
+    return effect;
+  }
+  effect.f = (of_entries / df_entries) / (of_rest / df_rest);
+  const Interval noncentrality = noncentrality_interval(effect.f, df_entries, df_rest);
+  const auto share = [&](double l) { return l / (l + df_entries + df_rest + 1.0); };
+  effect.interval = {share(noncentrality.low), share(noncentrality.high)};
+  return effect;
+}
+
 }  // namespace
 
 Interval noncentrality_interval(double f, double df_entries, double df_rest) {
@@ -40,40 +84,37 @@ Interval noncentrality_interval(double f, double df_entries, double df_rest) {
 }
 
 BlockEffect block_effect(std::span<const std::vector<double>> by_entry) {
-  BlockEffect effect{undefined, {undefined, undefined}, undefined, undefined, undefined};
-  if (by_entry.size() < 2 || by_entry.front().size() < 2) return effect;
-  const std::size_t tasks = by_entry.front().size();
-  std::vector<double> task_means(tasks);
-  std::vector<double> entry_means;
-  for (const std::vector<double>& values : by_entry) {
-    entry_means.push_back(mean(values));
-    for (std::size_t task = 0; task < tasks; ++task)
-      task_means[task] += values[task] / static_cast<double>(by_entry.size());
-  }
+  if (by_entry.size() < 2 || by_entry.front().size() < 2) return undefined_effect;
+  const double df_entries = static_cast<double>(by_entry.size() - 1);
+  const double tasks = static_cast<double>(by_entry.front().size());
+  const std::vector<double> entry_means = means_of(by_entry);
   const double all = mean(entry_means);
   double of_entries = 0.0;
-  double of_rest = 0.0;
-  for (std::size_t entry = 0; entry < by_entry.size(); ++entry) {
-    of_entries += static_cast<double>(tasks) * (entry_means[entry] - all) * (entry_means[entry] - all);
-    for (std::size_t task = 0; task < tasks; ++task) {
-      const double rest = by_entry[entry][task] - entry_means[entry] - task_means[task] + all;
-      of_rest += rest * rest;
+  for (const double one : entry_means) of_entries += tasks * (one - all) * (one - all);
+  return effect_of(of_entries, rest_of(by_entry), df_entries, df_entries * (tasks - 1.0));
+}
+
+BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>> table) {
+  if (table.size() < 2 || table.front().size() < 2 || table.front().front().size() < 2) return undefined_effect;
+  const double tasks = static_cast<double>(table.front().front().size());
+  std::vector<std::vector<double>> cells;
+  std::vector<double> first_means;
+  std::vector<double> second_means(table.front().size());
+  for (const auto& of_first : table) {
+    cells.insert(cells.end(), of_first.begin(), of_first.end());
+    const std::vector<double> means = means_of(of_first);
+    first_means.push_back(mean(means));
+    for (std::size_t j = 0; j < means.size(); ++j) second_means[j] += means[j] / static_cast<double>(table.size());
+  }
+  const double all = mean(first_means);
+  double of_interaction = 0.0;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t j = 0; j < second_means.size(); ++j) {
+      const double off = mean(table[i][j]) - first_means[i] - second_means[j] + all;
+      of_interaction += tasks * off * off;
     }
-  }
-  constexpr double rounding = 1e-12;
-  if (of_entries + of_rest < rounding) return effect;
-  effect.df_entries = static_cast<double>(by_entry.size() - 1);
-  effect.df_rest = effect.df_entries * static_cast<double>(tasks - 1);
-  effect.partial_eta_squared = of_entries / (of_entries + of_rest);
-  if (of_rest < rounding) {
-    effect.interval = {1.0, 1.0};  // the limit
-    return effect;
-  }
-  effect.f = (of_entries / effect.df_entries) / (of_rest / effect.df_rest);
-  const Interval noncentrality = noncentrality_interval(effect.f, effect.df_entries, effect.df_rest);
-  const auto share = [&](double l) { return l / (l + effect.df_entries + effect.df_rest + 1.0); };
-  effect.interval = {share(noncentrality.low), share(noncentrality.high)};
-  return effect;
+  return effect_of(of_interaction, rest_of(cells), static_cast<double>((table.size() - 1) * (second_means.size() - 1)),
+                   static_cast<double>(cells.size() - 1) * (tasks - 1.0));
 }
 
 double kendall_tau(std::span<const double> x, std::span<const double> y) {

@@ -23,6 +23,11 @@ struct BlockEffect {
 };
 BlockEffect block_effect(std::span<const std::vector<double>> by_entry);  // [entry][task]
 
+// Two factors in tasks, all their levels crossed: the interaction's partial eta squared, SS_interaction /
+// (SS_interaction + SS_rest). The rest is what varies within tasks once each cell has its mean. NaN as above, or with
+// fewer than two levels of a factor.
+BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>> table);  // [first][second][task]
+
 // The interval of the noncentrality for an observed F; its lower end is 0 where no noncentrality is so unlikely.
 Interval noncentrality_interval(double f, double df_entries, double df_rest);
 

@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
@@ -15,17 +20,25 @@ namespace dmrp::host {
 namespace {
 
 // The trials of all runs; with several, a planner's name says its run.
-ReportRun read_all(const std::vector<std::filesystem::path>& directories) {
-  ReportRun all = read_report_run(directories.front());
-  const auto name = [&](std::vector<TrialRecord>& trials, const std::string& run) {
+struct AllRuns {
+  std::vector<MetricColumn> metrics;
+  std::vector<TrialRecord> trials;
+  std::vector<std::string> names;
+  std::vector<ScenarioFacts> scenarios;
+};
+
+AllRuns read_all(const std::vector<std::filesystem::path>& directories) {
+  AllRuns all;
+  for (const std::filesystem::path& directory : directories) {
+    ReportRun run = read_report_run(directory);
+    all.names.push_back(run.manifest.experiment.name);
     if (directories.size() > 1)
-      for (TrialRecord& trial : trials) trial.global_planner += " (" + run + ")";
-  };
-  name(all.trials, all.manifest.experiment.name);
-  for (std::size_t i = 1; i < directories.size(); ++i) {
-    ReportRun run = read_report_run(directories[i]);
-    name(run.trials, run.manifest.experiment.name);
+      for (TrialRecord& trial : run.trials)
+        trial.global_planner = planner_in_run(trial.global_planner, all.names.back());
     all.trials.insert(all.trials.end(), run.trials.begin(), run.trials.end());
+    const auto& scenarios = run.manifest.experiment.scenarios;
+    all.scenarios.insert(all.scenarios.end(), scenarios.begin(), scenarios.end());
+    if (all.metrics.empty()) all.metrics = run.metrics;
   }
   return all;
 }
@@ -39,7 +52,16 @@ std::string joined(const std::vector<std::string>& words) {
   return words.empty() ? "passes" : fmt::format("misses: {}", fmt::join(words, "; "));
 }
 
-void print_text(const Discrimination& one, bool declared_time) {
+std::string interaction_words(const std::optional<RunInteraction>& found) {
+  if (!found) return "–";
+  std::string words = effect_words(found->effect);
+  if (found->difference)
+    words += fmt::format(", {:+.0f} points [{:.0f}, {:.0f}]", 100.0 * *found->difference, 100.0 * found->interval.low,
+                         100.0 * found->interval.high);
+  return words;
+}
+
+void print_text(const Discrimination& one, std::span<const std::string> runs, bool declared_time) {
   fmt::print("{}, {} robots: {} tasks, {} entries\n", one.scenario, one.robots, one.tasks, one.entries.size());
   for (const DiscriminationEntry& entry : one.entries)
     fmt::print("  {:<40}  safe success {:.3f}  time {:.3f} s/m\n", entry.name, entry.share, entry.time);
@@ -49,22 +71,39 @@ void print_text(const Discrimination& one, bool declared_time) {
   if (one.tasks_needed)
     fmt::print("  {} points would show from {} tasks on (paired deviation {:.3f})\n",
                std::lround(100.0 * least_share_difference), *one.tasks_needed, one.median_deviation);
+  if (const auto interaction = run_interaction(one, runs)) {
+    fmt::print("  interaction of {} with the run ({}): partial eta squared {}\n", fmt::join(interaction->entries, ", "),
+               fmt::join(interaction->runs, ", "), interaction_words(interaction));
+    if (interaction->difference)
+      fmt::print("    points: by how much more {} raises {} than {}\n", interaction->runs[1], interaction->entries[0],
+                 interaction->entries[1]);
+  }
   fmt::print("  {}\n\n", joined(misses(one, declared_time)));
 }
 
+// "12"; "12, 60" if the runs differ.
+std::string people_words(const Discrimination& one, std::span<const ScenarioFacts> scenarios) {
+  std::set<std::uint32_t> numbers;
+  for (const ScenarioFacts& facts : scenarios)
+    if (facts.name == one.scenario && facts.robots == one.robots) numbers.insert(facts.people);
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
 // A row of docs/discrimination.md.
-void print_row(const Discrimination& one, const DiscriminateOptions& options) {
+void print_row(const Discrimination& one, const AllRuns& all, const DiscriminateOptions& options) {
   const bool time = options.declared == "time";
-  fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {}/{} | {:.2f} | {} | {} | {:.2f} | {} | {} |\n", one.scenario,
-             one.robots, options.factor, options.declared, one.tasks, one.mean_share, one.at_ceiling,
-             one.entries.size(), one.separated_share(), effect_words(one.share_effect), effect_words(one.time_effect),
-             one.half_agreement, one.tasks_needed ? std::to_string(*one.tasks_needed) : "–", joined(misses(one, time)));
+  fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {}/{} | {:.2f} | {} | {} | {:.2f} | {} | {} | {} |\n",
+             one.scenario, one.robots, people_words(one, all.scenarios), options.factor, options.declared, one.tasks,
+             one.mean_share, one.at_ceiling, one.entries.size(), one.separated_share(), effect_words(one.share_effect),
+             effect_words(one.time_effect), one.half_agreement,
+             one.tasks_needed ? std::to_string(*one.tasks_needed) : "–",
+             interaction_words(run_interaction(one, all.names)), joined(misses(one, time)));
 }
 
 }  // namespace
 
 int discriminate_command(const DiscriminateOptions& options) {
-  const ReportRun run = read_all(options.runs);
+  const AllRuns run = read_all(options.runs);
   const auto layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::vector<Discrimination> found = discriminations(layout, run.metrics, run.trials);
   if (found.empty())
@@ -72,9 +111,9 @@ int discriminate_command(const DiscriminateOptions& options) {
                                  options.runs.front().string(), layout.answer.shares.front()));
   for (const Discrimination& one : found)
     if (options.factor.empty())
-      print_text(one, options.declared == "time");
+      print_text(one, run.names, options.declared == "time");
     else
-      print_row(one, options);
+      print_row(one, run, options);
   return exit_status::done;
 }
 

@@ -13,10 +13,12 @@
 
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/program/executable.hpp"
 #include "host/ranking/answer.hpp"
 #include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/failure_causes.hpp"
+#include "host/ranking/tested_worlds.hpp"
 #include "host/report/write_report.hpp"
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/answer_block.hpp"
@@ -24,6 +26,7 @@
 #include "host/terminal/graded_table.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/terminal/summary_table.hpp"
+#include "host/terminal/wrapped_text.hpp"
 
 namespace dmrp::host {
 
@@ -85,6 +88,9 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", caution);
+  const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
+  for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
+    fmt::print("{}\n", wrapped_text(sentence, width, "  "));
   const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
     fmt::print("{}\n", answer_block(found.front(), failures, width));

@@ -72,6 +72,7 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
     if (const StartJitter& jitter = variant.jitter; jitter.position_m > 0.0 || jitter.heading_rad > 0.0)
       out += fmt::format("start_jitter = {{ position_m = {}, heading_rad = {} }}\n", toml_text(jitter.position_m),
                          toml_text(jitter.heading_rad));
+    if (variant.people_times != 1.0) out += fmt::format("people_times = {}\n", toml_text(variant.people_times));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t max_robots = 10'000;
 constexpr std::int64_t max_tasks = 1'000'000;
+constexpr double max_people_times = 100.0;
 
 // A number of robots that a [[scenario]] asks for.
 struct RobotCount {
@@ -139,6 +141,7 @@ void add_variant(const ScenarioUse& use, const fs::path& file, const RobotCount&
   variant.wishes = use.random.wishes;
   variant.grade = use.file.grade;
   variant.jitter = use.jitter;
+  variant.people_times = use.people_times;
   for (const ScenarioVariant& other : experiment.scenarios)
     if (other.scenario.name == variant.scenario.name && robot_count(other) == count.robots)
       count.value.fail(fmt::format("scenario '{}' occurs twice", variant.label));
@@ -182,10 +185,24 @@ StartJitter read_jitter(const TomlTable& table) {
   return jitter;
 }
 
+// The flows with so many times their people, rounded; groups are at most as large as their flow.
+double scale_people(const TomlTable& table, core::Scenario& scenario) {
+  const auto value = table.find("people_times");
+  if (!value) return 1.0;
+  const double times = value->number(0.0, max_people_times);
+  if (scenario.flows.empty()) value->fail_at_key(fmt::format("scenario '{}' has no flows of people", scenario.name));
+  for (core::Flow& flow : scenario.flows) {
+    flow.people = static_cast<std::uint32_t>(std::lround(times * flow.people));
+    flow.group_size = std::max(1U, std::min(flow.group_size, flow.people));
+  }
+  return times;
+}
+
 // One [[scenario]] at one level.
 ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::path& file, std::optional<double> level,
                      std::size_t entry, Experiment& experiment) {
   ScenarioUse use = {name, read_scenario_file(file, shown(file), level), {}, table.find("types")};
+  use.people_times = scale_people(table, use.file.scenario);
   const TasksKey tasks = read_tasks_key(table);
   const std::vector<RobotCount> counts = robot_counts(table, name, use.file.scenario, tasks);
   use.random.wishes = tasks.wishes;

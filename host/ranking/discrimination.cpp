@@ -156,22 +156,23 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
   result.robots = contest.cells.front().robots;
   const auto shares = by_task(contest, measures, criteria.share);
   const auto times = criteria.time ? by_task(contest, measures, *criteria.time) : std::vector<std::vector<double>>();
-  result.tasks = static_cast<std::uint32_t>(complete(shares).front().size());
+  const auto complete_shares = complete(shares);
+  result.tasks = static_cast<std::uint32_t>(complete_shares.front().size());
   std::vector<double> means;
   for (std::size_t entry = 0; entry < contest.contestants.size(); ++entry) {
     std::vector<std::size_t> trials;
     for (const auto& of_situation : contest.trials[entry])
       trials.insert(trials.end(), of_situation.begin(), of_situation.end());
     const CombinationLabels& labels = contest.contestants[entry];
-    result.entries.push_back({labels.global_planner + " + " + labels.local_controller,
-                              measures.mean(trials, criteria.share),
-                              criteria.time ? measures.mean(trials, *criteria.time) : undefined});
+    result.entries.push_back(
+        {labels.global_planner + " + " + labels.local_controller, measures.mean(trials, criteria.share),
+         criteria.time ? measures.mean(trials, *criteria.time) : undefined, complete_shares[entry]});
     means.push_back(result.entries.back().share);
     result.at_ceiling += means.back() >= DiscriminationBars().ceiling - rounding ? 1 : 0;
   }
   result.mean_share = core::mean(means);
   test_pairs(contest, measures, criteria, result);
-  result.share_effect = core::block_effect(complete(shares));
+  result.share_effect = core::block_effect(complete_shares);
   if (criteria.time) result.time_effect = core::block_effect(complete(times));
   result.half_agreement = half_agreement(measures, criteria, shares, times);
   return result;
@@ -200,6 +201,47 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
     if (contest.contestants.size() > 1) all.push_back(discrimination_of(contest, measures, criteria));
   }
   return all;
+}
+
+std::string planner_in_run(const std::string& planner, const std::string& run) {
+  return planner + " (" + run + ")";
+}
+
+std::optional<RunInteraction> run_interaction(const Discrimination& result, std::span<const std::string> runs) {
+  if (runs.size() < 2) return std::nullopt;
+  // [entry without its run]: the shares by run
+  std::vector<std::pair<std::string, std::map<std::size_t, std::vector<double>>>> found;
+  for (const DiscriminationEntry& entry : result.entries)
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      const std::string mark = planner_in_run("", runs[run]);
+      const std::size_t at = entry.name.find(mark);
+      if (at == std::string::npos) continue;
+      const std::string name = std::string(entry.name).erase(at, mark.size());
+      auto known = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.first == name; });
+      if (known == found.end()) known = found.insert(found.end(), {name, {}});
+      known->second[run] = entry.shares;
+    }
+  std::erase_if(found, [&](const auto& one) { return one.second.size() < runs.size(); });
+  if (found.size() < 2) return std::nullopt;
+
+  RunInteraction out;
+  out.runs.assign(runs.begin(), runs.end());
+  std::vector<std::vector<std::vector<double>>> table;  // [entry][run][task]
+  for (const auto& one : found) {
+    out.entries.push_back(one.first);
+    auto& row = table.emplace_back();
+    for (const auto& of_run : one.second) row.push_back(of_run.second);
+  }
+  out.effect = core::interaction_effect(table);
+  if (table.size() != 2 || runs.size() != 2) return out;
+  std::vector<std::vector<double>> differences;  // a cluster each
+  for (std::size_t task = 0; task < table[0][0].size(); ++task)
+    differences.push_back({(table[0][1][task] - table[0][0][task]) - (table[1][1][task] - table[1][0][task])});
+  double sum = 0.0;
+  for (const auto& one : differences) sum += one.front();
+  out.difference = sum / static_cast<double>(differences.size());
+  out.interval = core::cluster_bootstrap_interval(differences);
+  return out;
 }
 
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars) {

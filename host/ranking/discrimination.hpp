@@ -32,7 +32,8 @@ struct DiscriminationBars {
 struct DiscriminationEntry {
   std::string name;
   double share = 0.0;
-  double time = 0.0;  // s/m; NaN if nothing arrived
+  double time = 0.0;             // s/m; NaN if nothing arrived
+  std::vector<double> shares{};  // by task, of the tasks that every entry has
 };
 
 struct Discrimination {
@@ -59,6 +60,23 @@ struct Discrimination {
 // compared.
 std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                                             std::span<const TrialRecord> trials);
+
+// Of several runs that have two or more entries in common: does it depend on the run how these entries differ?
+struct RunInteraction {
+  std::vector<std::string> entries;
+  std::vector<std::string> runs;
+  core::BlockEffect effect;
+  // Of two entries in two runs: by how much more the second run raises the first entry's share than the second's; its
+  // interval is a bootstrap over tasks.
+  std::optional<double> difference;
+  core::Interval interval{};
+};
+
+// How discriminations() must find the planners of several runs named.
+std::string planner_in_run(const std::string& planner, const std::string& run);
+
+// None with one run, or if fewer than two entries are in all of them.
+std::optional<RunInteraction> run_interaction(const Discrimination& result, std::span<const std::string> runs);
 
 // What it misses, in words; empty: it passes. The effect that counts was declared before: of the share, or of the time.
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars = {});

@@ -43,6 +43,7 @@ struct ScenarioVariant {
   core::TaskWishes wishes{};                   // for the drawn tasks
   Grade grade{};
   StartJitter jitter{};
+  double people_times = 1.0;  // applied: how many times the people that the file lists
 };
 
 // Whether each trial has robots of its own.

@@ -21,6 +21,7 @@
 #include "metrics/safety/clearance.hpp"
 #include "metrics/safety/collisions.hpp"
 #include "metrics/safety/time_to_collision.hpp"
+#include "metrics/schedule/root_conflicts.hpp"
 #include "metrics/schedule/schedule_error.hpp"
 #include "metrics/schedule/sto_physical.hpp"
 #include "metrics/social/group_intrusion.hpp"
@@ -33,9 +34,9 @@
 DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::PlanningTime,
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Arrivals, dmrp::metrics::Spl,
              dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
-             dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::Collisions,
-             dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime,
-             dmrp::metrics::Deadlock, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics,
-             dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress,
-             dmrp::metrics::Smoothness, dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands,
-             dmrp::metrics::ComputeTime)
+             dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::RootConflicts,
+             dmrp::metrics::Collisions, dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision,
+             dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock, dmrp::metrics::Neighbours,
+             dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion,
+             dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness,
+             dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands, dmrp::metrics::ComputeTime)

@@ -7,8 +7,8 @@
 # Finished trials in OUT are kept: call it again to continue after an interruption, or to add worlds. JOBS (2) and TASKS
 # (40) are environment variables; a page of fewer tasks says so. With NO_RUN=1 it only writes the page again.
 #
-# Everything below was declared before any of these trials was run: tasks, numbers of robots, entries, and for each world
-# the effect that must show between planners. Tasks are those of the seed, as drawn; none was left out.
+# Everything below was declared before any of these trials was run: tasks, numbers of robots and people, entries. Numbers
+# were chosen on one to three tasks a world of another seed. Tasks are those of the seed, as drawn; none was left out.
 set -euo pipefail
 host=$(realpath "$1")
 out=$2
@@ -21,7 +21,11 @@ worlds=("$@")
 mkdir -p "$out"
 
 seed=20271
+# planner x execution
 declare -A robots=([mall]=16 [library]=16 [office]=16 [hospital]=12 [warehouse]=20)
+# controllers: fewer robots, more people than the world lists
+crowd_robots=8
+declare -A people_times=([mall]=5 [library]=5 [office]=5 [hospital]=2 [warehouse]=10)
 
 # use KIND ID [LABEL]
 use() {
@@ -33,7 +37,13 @@ use() {
   [[ -z ${3:-} ]] || printf 'label = "%s"\n' "$3"
 }
 
-# experiment NAME WORLD ROBOTS EXECUTION V_MAX: planners and controllers follow on standard input
+uses() { # KIND ID...
+  local kind=$1 id
+  shift
+  for id in "$@"; do use "$kind" "$id"; done
+}
+
+# experiment NAME WORLD ROBOTS PEOPLE_TIMES EXECUTION V_MAX: planners and controllers follow on standard input
 experiment() {
   cat <<TOML
 [experiment]
@@ -45,19 +55,30 @@ plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians
 use = "$2"
 robots = $3
 tasks = { drawn = $tasks, conflicts_min = 2 }
+people_times = $4
 TOML
   cat
   use pedestrian_model social_force
-  printf '[[metric]]\nuse = "dmrp.metric.%s"\n' success completion_time spl
+  printf '[[metric]]\nuse = "dmrp.metric.%s"\n' success completion_time spl root_conflicts
   printf '[simulation]\nexecution = "%s"\n[robot]\nv_max = %s\n[record]\ntraces = "none"\n' "$4" "$5"
 }
 
 experiments() {
   local world=$1
-  { for id in individual cbs pibt; do use global_planner $id; done && use local_controller stop_and_wait; } |
-    experiment free "$world" "${robots[$world]}" free 0.8 >"$out/$world.free.toml"
-  { for id in cbs pibt; do use global_planner $id; done && use local_controller stop_and_wait; } |
-    experiment ordered "$world" "${robots[$world]}" ordered 0.8 >"$out/$world.ordered.toml"
+  planners() { uses global_planner "$@" && use local_controller stop_and_wait; }
+  controllers() { use global_planner cbs && uses local_controller "$@"; }
+  planned() { experiment "$1" "$world" "${robots[$world]}" 1 "$1" 0.8 >"$out/$world.$1.toml"; }
+  driven() { experiment "$1" "$world" "$crowd_robots" "$2" free "$3" >"$out/$world.$1.toml"; }
+  planners individual cbs pibt | planned free
+  planners cbs pibt | planned ordered
+  planners individual cbs pibt | experiment plans "$world" "${robots[$world]}" 1 free 0.8 |
+    sed 's/^\[simulation\]$/&\ntime_limit_s = 1.0/' >"$out/$world.plans.toml"
+  controllers dwa | driven base "${people_times[$world]}" 0.8
+  controllers teb orca pure_pursuit stop_and_wait | driven controllers "${people_times[$world]}" 0.8
+  controllers mpc e3mop | driven optimisers "${people_times[$world]}" 0.8
+  controllers dwa | driven sparse 1 0.8
+  { use global_planner cbs && use local_controller dwa 'DWA again'; } | driven twin "${people_times[$world]}" 0.8
+  controllers dwa | driven slow "${people_times[$world]}" 0.72
 }
 
 run() {
@@ -67,9 +88,92 @@ run() {
     { (($? == 1)) && echo "$1: some trials ended in a fault"; } || { cat "$out/$1.log" && exit 2; }
 }
 
+# The first of these runs, and the others that exist; false if the first is missing.
+found() {
+  local run
+  [[ -e $out/$1/results.sqlite ]] || return 1
+  for run in "$@"; do [[ ! -e $out/$run/results.sqlite ]] || echo "$out/$run"; done
+}
+
+row() { # FACTOR RUN...
+  local factor=$1 runs
+  shift
+  runs=$(found "$@") || return 0
+  # shellcheck disable=SC2086
+  "$host" discriminate $runs --row "$factor"
+}
+
+# field N RUN...: of a row
+field() { "$host" discriminate "${@:2}" --row x | awk -F' *[|] *' -v field="$1" '{ print $field }'; }
 for world in "${worlds[@]}"; do experiments "$world"; done
 if [[ -z ${NO_RUN:-} ]]; then
   for world in "${worlds[@]}"; do
-    for name in free ordered; do run "$world.$name"; done
+    for name in ${RUNS:-free ordered plans base controllers optimisers sparse twin slow}; do run "$world.$name"; done
   done
 fi
+
+rows() {
+  local world
+  for world in mall library office hospital warehouse; do
+    row 'planner x execution' "$world".{free,ordered}
+    row controller "$world".{controllers,base,optimisers}
+    row 'crowd density' "$world".{sparse,base}
+  done
+}
+
+controls() {
+  local world
+  for world in mall library office hospital warehouse; do
+    [[ -e $out/$world.twin/results.sqlite && -e $out/$world.slow/results.sqlite ]] || continue
+    base=$out/$world.base twin=$out/$world.twin slow=$out/$world.slow
+    echo "| $world | $(field 10 "$base" "$twin") | $(field 10 "$base" "$slow") | $(field 12 "$base" "$slow") |"
+  done
+}
+
+# How plans resolve the conflicts of the robots' own shortest paths: means over the tasks.
+resolutions() {
+  local world
+  for world in mall library office hospital warehouse; do
+    [[ -e $out/$world.plans/summary.csv ]] || continue
+    awk -F, -v world="$world" '
+      $6 ~ /^root_conflicts/ { mean[$3, $6] = $10; if (!($3 in seen)) { seen[$3] = 1; order[++n] = $3 } }
+      END {
+        for (i = 1; i <= n; ++i)
+          printf "| %s | %s | %.1f | %.1f | %.1f | %.1f |\n", world, order[i], mean[order[i], "root_conflicts"],
+            mean[order[i], "root_conflicts_waited"], mean[order[i], "root_conflicts_detoured"],
+            mean[order[i], "root_conflicts_left"]
+      }' "$out/$world.plans/summary.csv"
+  done
+}
+
+# What dmrp-host marks as "sanity only": the verdicts, as data.
+verdicts() {
+  awk -F ' *[|] *' '
+    BEGIN { factor["planner x execution"] = "planners"; factor["controller"] = "controllers" }
+    $5 in factor {
+      printf "%s    {\"scenario\": \"%s\", \"robots\": %d, \"people\": %d, \"factor\": \"%s\", \"passes\": %s}",
+        (n++ ? ",\n" : "{\n  \"rows\": [\n"), $2, $3, $4, factor[$5], ($16 == "passes" ? "true" : "false")
+    }
+    END { print (n ? "\n  ]\n}" : "{\n  \"rows\": []\n}") }'
+}
+
+# The page: its text is written by hand down to the mark.
+rows >"$out/rows.md"
+verdicts <"$out/rows.md" >"$out/discrimination.json"
+{
+  sed '/^<!-- tests\/bench\/discrimination.sh -->$/q' "$page"
+  printf '\n%s tasks a world. Written by dmrp %s.\n\n' "$tasks" "$("$host" --version | awk 'NR == 1 { print $2 }')"
+  echo '| world | robots | people | factor | declared | tasks | mean safe success | at ceiling | D | eta² of safe success | eta² of time | halves | tasks for 5 points | interaction | |'
+  echo '| --- | ---: | ---: | --- | --- | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: | --- | --- |'
+  cat "$out/rows.md"
+  printf '\nControls: one controller under two labels, and with v_max 10 %% lower. The first must give D at most 0.05, the second must be found: an effect of the time above zero.\n\n'
+  echo '| world | two labels: D | 10 % slower: D | 10 % slower: eta² of time |'
+  echo '| --- | ---: | ---: | --- |'
+  controls
+  printf '\nPairs of robots whose own shortest paths conflict, and what the plan does about it: mean over the tasks.\n\n'
+  echo '| world | planner | pairs | resolved by waiting | by another way | left |'
+  echo '| --- | --- | ---: | ---: | ---: | ---: |'
+  resolutions
+} >"$out/page.md"
+cp "$out/page.md" "$page"
+cp "$out/discrimination.json" "$(dirname "${BASH_SOURCE[0]}")/../../host/layouts/discrimination.json"

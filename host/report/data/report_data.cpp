@@ -276,7 +276,7 @@ Json with_added_table(Json layout, const std::vector<MetricColumn>& metrics) {
 ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
   const std::filesystem::path summary = folder / "summary.json";
   return {read_summary_layout(summary), read_file(summary, summary.string()),
-          read_report_layout(folder / "report.json")};
+          read_report_layout(folder / "report.json"), read_tested_worlds(folder / "discrimination.json")};
 }
 
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
@@ -296,6 +296,7 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
   json["graded"] = graded_json(run, layouts.summary);
+  json["sanity_only"] = sanity_only(layouts.tested_worlds, run.manifest.experiment.scenarios, run.trials);
   json["arrivals_by_type"] = arrivals_by_type_json(frame, run.manifest.experiment, layouts.summary.arrived);
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)},

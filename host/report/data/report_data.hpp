@@ -18,6 +18,7 @@
 //   comparisons, correlations, completion, pedestrian_delay: report_statistics.hpp
 //   graded            [{name, title, quantity, unit, levels, tells_apart, results: [{global_planner, local_controller,
 //                     pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
+//   sanity_only       [sentence]: worlds that are not known to tell this run's planners or controllers apart
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts
 //   replays           [{trial, why, element}] in the page; replays_left_out [{why, trials, reason}]
@@ -28,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include "host/ranking/tested_worlds.hpp"
 #include "host/report/data/report_layout.hpp"
 #include "host/report/data/report_run.hpp"
 #include "host/report/replay/replays.hpp"
@@ -39,6 +41,7 @@ struct ReportLayouts {
   SummaryLayout summary;
   std::string summary_json;  // the whole file
   ReportLayout report;
+  std::vector<TestedWorld> tested_worlds{};
 };
 
 // Reads the files of share/dmrp/layouts.

@@ -47,8 +47,9 @@ std::map<std::string, double> read_parameters(const std::string& file, const dmr
 TEST_CASE("the metrics declare the values that results are read by, each once") {
   // properties of the crowd and of the task are neither better nor worse
   const std::set<std::string> neither_better_nor_worse = {
-      "people_nearby",    "sto_cell_size",    "shortest_length",         "neighbours",
-      "schedule_error_s", "proxemics_social", "pedestrian_desired_speed"};
+      "people_nearby",         "sto_cell_size",          "shortest_length",          "neighbours",
+      "schedule_error_s",      "proxemics_social",       "pedestrian_desired_speed", "root_conflicts",
+      "root_conflicts_waited", "root_conflicts_detoured"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance", "ibtr_by_speed_fraction",
@@ -140,6 +141,10 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"sto_physical", "1"},
                                                        {"schedule_error_s", "s"},
                                                        {"schedule_deviation_s", "s"},
+                                                       {"root_conflicts", "1"},
+                                                       {"root_conflicts_waited", "1"},
+                                                       {"root_conflicts_detoured", "1"},
+                                                       {"root_conflicts_left", "1"},
                                                        {"heading_change", "rad"},
                                                        {"path_irregularity", "rad/m"},
                                                        {"acceleration", "m/s^2"},
@@ -178,7 +183,7 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
 
 TEST_CASE("in a trial with a plan, only values without events or people are undefined") {
   SyntheticTrial trial(2);  // nobody moves, nobody arrives
-  trial.plan({{{0, 0}, {1, 0}}, {{5, 0}}});
+  trial.planning_grid(6, 1).plan({{{0, 0}, {1, 0}}, {{5, 0}}});
   for (int t = 0; t <= 3; ++t) trial.sample(t, {at(0, 0), at(5, 0)});
   trial.end(3.0, {never, never});
   const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan"};

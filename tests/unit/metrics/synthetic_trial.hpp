@@ -141,6 +141,25 @@ class SyntheticTrial {
     return *this;
   }
 
+  // The planning grid: free cells of 1 m from (0, 0) on, with all moves between them. Without it there are no cells.
+  SyntheticTrial& planning_grid(std::uint32_t columns, std::uint32_t rows) {
+    free_.assign(static_cast<std::size_t>(columns) * rows, 1);
+    edges_.assign(free_.size(), 0xFF);
+    for (std::uint32_t row = 0; row < rows; ++row)
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        std::uint8_t& edges = edges_[static_cast<std::size_t>(row) * columns + column];
+        if (column == 0) edges &= static_cast<std::uint8_t>(~(DMRP_EDGE_W | DMRP_EDGE_NW | DMRP_EDGE_SW));
+        if (column + 1 == columns) edges &= static_cast<std::uint8_t>(~(DMRP_EDGE_E | DMRP_EDGE_NE | DMRP_EDGE_SE));
+        if (row == 0) edges &= static_cast<std::uint8_t>(~(DMRP_EDGE_S | DMRP_EDGE_SW | DMRP_EDGE_SE));
+        if (row + 1 == rows) edges &= static_cast<std::uint8_t>(~(DMRP_EDGE_N | DMRP_EDGE_NW | DMRP_EDGE_NE));
+      }
+    planning_grid_->width = columns;
+    planning_grid_->height = rows;
+    planning_grid_->free = free_.data();
+    planning_grid_->edges = edges_.data();
+    return *this;
+  }
+
   // A path a robot, one waypoint a second from t = 0.
   SyntheticTrial& plan(const std::vector<Points>& paths, std::int64_t planning_ns = 0) {
     std::vector<std::vector<dmrp_waypoint>> timed;
@@ -254,7 +273,7 @@ class SyntheticTrial {
     world.upper = upper_;
     world.step_ns = 20'000'000;
     world.control_period_ns = 100'000'000;
-    world.planning_grid = &planning_grid_;
+    world.planning_grid = planning_grid_.get();
     return world;
   }
   const dmrp_grid& walking_grid() const { return *walking_grid_; }
@@ -294,7 +313,6 @@ class SyntheticTrial {
   }
 
  private:
-  static constexpr dmrp_grid planning_grid_ = {sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr};
   struct StoredPlan {
     dmrp_plan c{};
     std::deque<std::vector<Longer<dmrp_waypoint>>> waypoints;
@@ -312,9 +330,12 @@ class SyntheticTrial {
   std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
+  std::unique_ptr<dmrp_grid> planning_grid_ =
+      std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
   std::vector<float> clearance_;
+  std::vector<std::uint8_t> free_, edges_;  // of the planning grid
   std::vector<dmrp_robot> robots_;
   std::vector<dmrp_shape> shapes_;
   dmrp_vec2 lower_ = {-1000.0, -1000.0};

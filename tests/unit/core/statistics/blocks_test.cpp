@@ -24,6 +24,22 @@ TEST_CASE("partial eta squared takes the differences between tasks out") {
   CHECK(std::isnan(block_effect(std::vector<std::vector<double>>{{1, 2}}).partial_eta_squared));
 }
 
+TEST_CASE("the interaction of two factors is what their sums do not explain") {
+  // by hand, two tasks: cell means 1, 2 | 2, 5, so that rows have 1.5 and 3.5, columns 1.5 and 3.5, all 2.5: each cell is
+  // 0.5 off their sum, 2 * 4 * 0.25 = 2; the second task is 2 harder throughout, but 2 more in the last cell:
+  // rests are 0.25 in three cells and 0.75 in the last, each twice: 2 * (3 * 0.0625 + 0.5625) = 1.5
+  const std::vector<std::vector<std::vector<double>>> table = {{{0, 2}, {1, 3}}, {{1, 3}, {3, 7}}};
+  const BlockEffect effect = interaction_effect(table);
+  CHECK(effect.df_entries == 1.0);
+  CHECK(effect.df_rest == 3.0);
+  CHECK(effect.partial_eta_squared == Approx(2.0 / 3.5));
+  CHECK(effect.f == Approx(2.0 / (1.5 / 3.0)));
+  // what the factors add up to is no interaction
+  const std::vector<std::vector<std::vector<double>>> sums = {{{0, 2}, {1, 2}}, {{5, 7}, {6, 7}}};
+  CHECK(interaction_effect(sums).partial_eta_squared == Approx(0.0).margin(1e-12));
+  CHECK(std::isnan(interaction_effect(std::vector<std::vector<std::vector<double>>>{{{1, 2}, {2, 1}}}).f));
+}
+
 TEST_CASE("the interval of the noncentrality inverts the distribution of F, here simulated") {
   // F with 2 and 40 degrees of freedom
   constexpr double f = 5.0;

@@ -92,6 +92,31 @@ TEST_CASE("an experiment without robots needs no planner and no controller") {
                         "")) == "experiment.toml:1:1: the experiment needs a [[global_planner]]");
 }
 
+TEST_CASE("people_times multiplies the people of every flow, and changes neither seeds nor tasks") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 2\ngroup_size = 2"));
+  const auto times = [](const std::string& value) {
+    return with(experiment_text, "scenario.toml\"\n",
+                "scenario.toml\"\nrobots = 3\ntasks = \"drawn\"\npeople_times = " + value + "\n");
+  };
+  const Experiment once = load(times("1"));
+  const Experiment thrice = load(times("3"));
+  CHECK(once.scenarios[0].scenario.flows[0].people == 2);
+  CHECK(thrice.scenarios[0].scenario.flows[0].people == 6);
+  CHECK(thrice.scenarios[0].label == once.scenarios[0].label);
+  CHECK(trial_seed(thrice, 1) == trial_seed(once, 1));
+  CHECK(load(times("1.2")).scenarios[0].scenario.flows[0].people == 2);
+  const core::Flow half = load(times("0.5")).scenarios[0].scenario.flows[0];
+  CHECK(half.people == 1);
+  CHECK(half.group_size == 1);
+
+  write_file("elsewhere/effective.toml", effective_toml(thrice));
+  CHECK(effective_toml(load_experiment("elsewhere/effective.toml", 0, &fake_probe)) == effective_toml(thrice));
+  CHECK_THAT(message_of(times("-1")), Catch::StartsWith("experiment.toml:11:16: 'people_times' must be"));
+  write_file("hall/scenario.toml", std::string(scenario_text).substr(0, std::string(scenario_text).find("[[flow]]")));
+  CHECK(message_of(times("2")) == "experiment.toml:11:1: scenario 'hall' has no flows of people");
+}
+
 TEST_CASE("a scenario without robots and people is a mistake") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 0"));

@@ -83,3 +83,28 @@ TEST_CASE("a difference below the least of interest does not count, however cert
   CHECK(found[0] == "mean 1.00 outside [0.3, 0.9]");
   CHECK(found[1] == "3 of 3 entries at the ceiling");
 }
+
+TEST_CASE("entries of several runs: how they differ may depend on the run", "[ranking]") {
+  const auto in_run = [](const char* planner, const char* run) { return planner_in_run(planner, run); };
+  std::vector<TrialRecord> trials;
+  add_trials(trials, in_run("searcher", "free"), 40, arriving(0.5, 1));
+  add_trials(trials, in_run("greedy", "free"), 40, arriving(0.5, 2));
+  add_trials(trials, in_run("searcher", "ordered"), 40, arriving(1.0, 3));
+  add_trials(trials, in_run("greedy", "ordered"), 40, arriving(0.5, 4));
+  add_trials(trials, in_run("alone", "free"), 40, arriving(0.2, 5));  // in one run only: no part of the factors
+  const std::vector<std::string> runs = {"free", "ordered"};
+  const auto found = run_interaction(only(trials), runs);
+  REQUIRE(found);
+  REQUIRE(found->entries.size() == 2);
+  CHECK(found->entries[0] == "P + searcher");
+  CHECK(found->effect.partial_eta_squared > 0.1);
+  REQUIRE(found->difference);
+  CHECK(*found->difference == Approx(0.5).margin(0.15));
+  CHECK(found->interval.low > 0.2);
+  CHECK_FALSE(run_interaction(only(trials), std::vector<std::string>{"free"}));
+
+  std::vector<TrialRecord> one_each;
+  add_trials(one_each, in_run("searcher", "free"), 40, arriving(0.5, 1));
+  add_trials(one_each, in_run("searcher", "ordered"), 40, arriving(1.0, 3));
+  CHECK_FALSE(run_interaction(only(one_each), runs));
+}

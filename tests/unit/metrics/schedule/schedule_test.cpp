@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Schedule error and overlap in seconds, against values worked out by hand.
+// Schedule error, overlap in seconds and conflicts at the root, against values worked out by hand.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
@@ -94,4 +94,42 @@ TEST_CASE("overlap in seconds: robots rest at their goals, and without a plan th
   SyntheticTrial without(1);
   without.sample(0.0, {at(0, 0)}).end(0.0, {never});
   CHECK(std::isnan(measure("dmrp.metric.sto_physical", without).system("sto_physical")));
+}
+
+TEST_CASE("conflicts at the root: by waiting, by a detour, or left") {
+  const auto counts = [](const std::vector<Points>& paths) {
+    SyntheticTrial trial(paths.size());
+    trial.planning_grid(7, 7).plan(paths).end(0.0);
+    const Measurement m = measure("dmrp.metric.root_conflicts", trial);
+    return std::vector<double>{m.system("root_conflicts"), m.system("root_conflicts_waited"),
+                               m.system("root_conflicts_detoured"), m.system("root_conflicts_left")};
+  };
+  // both on their straight ways are on (2.5, 2.5) after two steps
+  const Points east = {{0.5, 2.5}, {1.5, 2.5}, {2.5, 2.5}, {3.5, 2.5}, {4.5, 2.5}};
+  const Points north = {{2.5, 0.5}, {2.5, 1.5}, {2.5, 2.5}, {2.5, 3.5}, {2.5, 4.5}};
+  CHECK(counts({east, north}) == std::vector{1.0, 0.0, 0.0, 1.0});
+  const Points north_later = {{2.5, 0.5}, {2.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {2.5, 3.5}, {2.5, 4.5}};
+  CHECK(counts({east, north_later}) == std::vector{1.0, 1.0, 0.0, 0.0});
+  const Points north_beside = {{2.5, 0.5}, {1.5, 0.5}, {1.5, 1.5}, {1.5, 2.5}, {1.5, 3.5}, {1.5, 4.5}, {2.5, 4.5}};
+  CHECK(counts({east, north_beside}) == std::vector{1.0, 0.0, 1.0, 0.0});
+
+  // head-on: they exchange (2.5, 2.5) and (3.5, 2.5)
+  const Points eastward = {{0.5, 2.5}, {1.5, 2.5}, {2.5, 2.5}, {3.5, 2.5}, {4.5, 2.5}, {5.5, 2.5}};
+  const Points westward = {{5.5, 2.5}, {4.5, 2.5}, {3.5, 2.5}, {2.5, 2.5}, {1.5, 2.5}, {0.5, 2.5}};
+  CHECK(counts({eastward, westward}) == std::vector{1.0, 0.0, 0.0, 1.0});
+  const Points aside = {{5.5, 2.5}, {5.5, 3.5}, {4.5, 3.5}, {3.5, 3.5}, {2.5, 3.5}, {1.5, 3.5}, {0.5, 3.5}, {0.5, 2.5}};
+  CHECK(counts({eastward, aside}) == std::vector{1.0, 0.0, 1.0, 0.0});
+
+  // a robot that follows, and one that waits at its goal out of the way, are no conflicts
+  CHECK(counts({east, {{0.5, 1.5}, {0.5, 2.5}, {1.5, 2.5}, {2.5, 2.5}}}) == std::vector{0.0, 0.0, 0.0, 0.0});
+}
+
+TEST_CASE("conflicts at the root need a plan from cell to cell") {
+  SyntheticTrial leaps(1);
+  leaps.planning_grid(7, 7).plan({{{0.5, 0.5}, {4.5, 2.5}}}).end(0.0);
+  CHECK(std::isnan(measure("dmrp.metric.root_conflicts", leaps).system("root_conflicts")));
+  SyntheticTrial tour(1);
+  tour.route(0, {0.5, 0.5, 0}, {{1.5, 0.5, 0}, {2.5, 0.5, 0}});
+  tour.planning_grid(7, 7).plan({{{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}}}).end(0.0);
+  CHECK(std::isnan(measure("dmrp.metric.root_conflicts", tour).system("root_conflicts")));
 }
