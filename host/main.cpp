@@ -210,6 +210,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   format("--latex", ExportFormat::latex, "tables with booktabs: those of the report, or one of --rows and --columns");
   format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
   CLI::Option* svg = format("--svg", ExportFormat::svg, "one --metric over --over, as lines with 95 % intervals");
+  format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as an SVG figure");
   formats->require_option(1);
   command->add_option("--rows", options.rows, "scenario, robots, planner, controller, people")->delimiter(',');
   command->add_option("--columns", options.columns, "the same, across")->delimiter(',');

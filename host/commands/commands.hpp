@@ -91,7 +91,7 @@ int plan_command(const PlanOptions& options);
 // Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
-enum class ExportFormat { latex, csv, svg };
+enum class ExportFormat { latex, csv, svg, thresholds };
 struct ExportOptions {
   std::filesystem::path run_directory;
   ExportFormat format = ExportFormat::latex;

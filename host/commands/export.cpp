@@ -10,6 +10,7 @@
 #include "host/export/layout_tables.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
+#include "host/export/threshold_chart.hpp"
 #include "host/export/trials_table.hpp"
 #include "host/program/executable.hpp"
 #include "host/report/data/report_data.hpp"
@@ -62,6 +63,12 @@ std::string figure(const ExportOptions& options, const ReportRun& run, const Rep
   return svg_document(metric_over(metric, options.over, layouts.summary, run.metrics, run.trials, settings));
 }
 
+std::string thresholds(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
+  const auto series = graded_series(layouts.summary, run.manifest.experiment.scenarios, run.trials);
+  if (series.empty()) throw InputError(options.run_directory.string() + ": no scenario of this run has levels");
+  return threshold_chart(series);
+}
+
 std::vector<MetricColumn> chosen_metrics(const ExportOptions& options, std::span<const MetricColumn> metrics) {
   std::vector<MetricColumn> chosen;
   for (const MetricColumn& metric : metrics)
@@ -81,6 +88,8 @@ int export_command(const ExportOptions& options) {
   std::string text;
   if (options.format == ExportFormat::latex) {
     text = latex(options, run, layouts);
+  } else if (options.format == ExportFormat::thresholds) {
+    text = thresholds(options, run, layouts);
   } else {
     const RunSettings settings(run.effective_toml);
     text = options.format == ExportFormat::csv

@@ -120,6 +120,21 @@ std::string threshold_words(const GradedSeries& series, const core::ThresholdEst
   return fmt::format("{} [{}, {}]{}", at, low, high, unit);
 }
 
+std::string combination_name(std::span<const GradedSeries> all, const GradedResult& result) {
+  const GradedResult& first = all.front().results.front();
+  bool planners = false;
+  bool models = false;
+  for (const GradedSeries& series : all)
+    for (const GradedResult& other : series.results) {
+      planners = planners || other.global_planner != first.global_planner;
+      models = models || (!other.pedestrian_model.empty() && other.pedestrian_model != result.pedestrian_model &&
+                          !result.pedestrian_model.empty());
+    }
+  std::string name = planners ? result.global_planner + " + " + result.local_controller : result.local_controller;
+  if (models) name += " · " + result.pedestrian_model;
+  return name;
+}
+
 bool tells_apart(const GradedSeries& series) {
   for (std::size_t level = 0; level < series.levels.size(); ++level) {
     std::vector<double> means;

@@ -40,6 +40,9 @@ std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<c
 // "0.72 [0.71, 0.74] m"; "≤ 0.55 m" if even the hardest level, 0.55 m, is passed; "> 1 m" if not even the easiest is.
 std::string threshold_words(const GradedSeries& series, const core::ThresholdEstimate& estimate);
 
+// What tells a combination from the others of all series: the controller alone, if there is one planner.
+std::string combination_name(std::span<const GradedSeries> all, const GradedResult& result);
+
 // Whether there is a level whose mean over the combinations lies in [0.2, 0.8].
 bool tells_apart(const GradedSeries& series);
 

@@ -9,25 +9,6 @@
 #include "host/terminal/display_width.hpp"
 
 namespace dmrp::host {
-namespace {
-
-// What tells the combinations of all series apart: the controller alone, if there is one planner.
-std::string name_of(std::span<const GradedSeries> all, const GradedResult& result) {
-  const GradedResult& first = all.front().results.front();
-  bool planners = false;
-  bool models = false;
-  for (const GradedSeries& series : all)
-    for (const GradedResult& other : series.results) {
-      planners = planners || other.global_planner != first.global_planner;
-      models = models || (!other.pedestrian_model.empty() && other.pedestrian_model != result.pedestrian_model &&
-                          !result.pedestrian_model.empty());
-    }
-  std::string name = planners ? result.global_planner + " + " + result.local_controller : result.local_controller;
-  if (models) name += " · " + result.pedestrian_model;
-  return name;
-}
-
-}  // namespace
 
 std::string graded_table(std::span<const GradedSeries> all) {
   if (all.empty()) return "";
@@ -35,7 +16,7 @@ std::string graded_table(std::span<const GradedSeries> all) {
   std::size_t words_width = 0;
   for (const GradedSeries& series : all)
     for (const GradedResult& result : series.results) {
-      name_width = std::max(name_width, display_width(name_of(all, result)));
+      name_width = std::max(name_width, display_width(combination_name(all, result)));
       words_width = std::max(words_width, display_width(threshold_words(series, result.estimate)));
     }
   std::string out;
@@ -46,7 +27,7 @@ std::string graded_table(std::span<const GradedSeries> all) {
     for (const double level : series.levels) out += fmt::format("  {:>5}", fmt::format("{:.3g}", level));
     out += "\n";
     for (const GradedResult& result : series.results) {
-      out += fmt::format("    {}  {}", pad_right(name_of(all, result), name_width),
+      out += fmt::format("    {}  {}", pad_right(combination_name(all, result), name_width),
                          pad_right(threshold_words(series, result.estimate), words_width));
       for (const double mean : result.means)
         out += fmt::format("  {:>5}", std::isnan(mean) ? "–" : fmt::format("{:.2f}", mean));

@@ -60,7 +60,7 @@ TOML
   cat
   use pedestrian_model social_force
   printf '[[metric]]\nuse = "dmrp.metric.%s"\n' success completion_time spl root_conflicts
-  printf '[simulation]\nexecution = "%s"\n[robot]\nv_max = %s\n[record]\ntraces = "none"\n' "$4" "$5"
+  printf '[simulation]\nexecution = "%s"\n[robot]\nv_max = %s\n[record]\ntraces = "none"\n' "$5" "$6"
 }
 
 experiments() {

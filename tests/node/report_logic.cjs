@@ -11,6 +11,7 @@ const {
   verdict,
   answer,
   failures,
+  graded_tests,
   table_model,
   trial_points,
   comparisons,
@@ -26,6 +27,7 @@ const {
   verdict: 'run/verdict.js',
   answer: 'run/answer.js',
   failures: 'run/failures.js',
+  graded_tests: 'tables/graded_tests.js',
   table_model: 'tables/table_model.js',
   trial_points: 'plots/trial_points.js',
   comparisons: 'tables/comparisons.js',
@@ -298,6 +300,27 @@ const tests = {
     same(answer.difference_words({...against, mean: 0, p_holm: null}), '=');
     same(answer.difference_words({...against, observations: 0}), '—');
   },
+  'a threshold opens the trials of its level, failed ones first'() {
+    const result = {global_planner: 'P', local_controller: 'C', pedestrian_model: '', means: [0, 0.5, 1]};
+    const series = {scenarios: ['door 0.6', 'door 0.7', 'door 0.8'], results: [result]};
+    const data = {
+      combinations: [
+        {scenario: 'door 0.6', global_planner: 'P', local_controller: 'C', pedestrian_model: ''},
+        {scenario: 'door 0.7', global_planner: 'P', local_controller: 'C', pedestrian_model: ''},
+        {scenario: 'door 0.7', global_planner: 'P', local_controller: 'D', pedestrian_model: ''},
+      ],
+      trials: {
+        id: [4, 5, 6, 7],
+        combination: [0, 1, 1, 2],
+        outcome: ['failed', 'succeeded', 'failed', 'failed'],
+      },
+    };
+    assert.strictEqual(graded_tests.level_of_threshold(result), 1);
+    assert.strictEqual(graded_tests.level_of_threshold({means: [0, null, 0.4]}), 2);
+    same(graded_tests.trials_at(data, series, result, 1), [6, 5]);
+    same(graded_tests.trials_at(data, series, result, 2), []);
+  },
+
   'a count of failures opens a trial that the page can replay'() {
     const data = sample();
     const none = {cause: 'contact', robots: 0, trials: []};

@@ -71,6 +71,7 @@ Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
                     {"quantity", series.quantity},
                     {"unit", series.unit},
                     {"levels", series.levels},
+                    {"scenarios", series.scenarios},
                     {"tells_apart", tells_apart(series)},
                     {"results", std::move(results)}});
   }

@@ -16,8 +16,8 @@
 //                     controllers and pedestrian models
 //   curves            [{metric, combination, coordinate_unit, points: [[coordinate, mean, low, high, defined]]}]
 //   comparisons, correlations, completion, pedestrian_delay: report_statistics.hpp
-//   graded            [{name, title, quantity, unit, levels, tells_apart, results: [{global_planner, local_controller,
-//                     pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
+//   graded            [{name, title, quantity, unit, levels, scenarios, tells_apart, results: [{global_planner,
+//                     local_controller, pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
 //   sanity_only       [sentence]: worlds that are not known to tell this run's planners or controllers apart
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts

@@ -27,7 +27,8 @@ export function trial_to_open(data, cell) {
   return trial === undefined ? {trial: cell.trials[0], replayed: false} : {trial, replayed: true};
 }
 
-function open(data, cell, note) {
+// Opens the replay of one of these trials, or notes how to get it.
+export function open(data, cell, note) {
   const {trial, replayed} = trial_to_open(data, cell);
   if (replayed) {
     document.dispatchEvent(new CustomEvent('dmrp:open-replay', {detail: trial}));
