@@ -74,8 +74,8 @@ experiments() {
   planners individual cbs pibt | experiment plans "$world" "${robots[$world]}" 1 free 0.8 |
     sed 's/^\[simulation\]$/&\ntime_limit_s = 1.0/' >"$out/$world.plans.toml"
   controllers dwa | driven base "${people_times[$world]}" 0.8
-  controllers teb orca pure_pursuit stop_and_wait | driven controllers "${people_times[$world]}" 0.8
-  controllers mpc e3mop | driven optimisers "${people_times[$world]}" 0.8
+  controllers orca pure_pursuit stop_and_wait | driven controllers "${people_times[$world]}" 0.8
+  controllers teb mpc e3mop | driven optimisers "${people_times[$world]}" 0.8
   controllers dwa | driven sparse 1 0.8
   { use global_planner cbs && use local_controller dwa 'DWA again'; } | driven twin "${people_times[$world]}" 0.8
   controllers dwa | driven slow "${people_times[$world]}" 0.72
