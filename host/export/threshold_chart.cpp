@@ -92,9 +92,8 @@ std::string panel_svg(const Panel& panel, std::span<const GradedSeries> all, con
         x, rows_top, rows_end, x, rows_end + 13.0, series.levels[i]);
   }
   const std::string unit = series.unit == "1" ? "" : ", " + series.unit;
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-                     0.5 * (panel.axis_from() + panel.axis_to()), rows_end + 27.0,
-                     toolkit::escape_xml(series.quantity + unit));
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", panel.axis_to(),
+                     rows_end + 27.0, toolkit::escape_xml(series.quantity + unit));
   for (const GradedResult& result : series.results) {
     const std::string name = combination_name(all, result);
     const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
