@@ -178,6 +178,29 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
   return result;
 }
 
+// An entry without its run, and its shares by task in each run (its index).
+struct EntryInRuns {
+  std::string name;
+  std::map<std::size_t, std::vector<double>> shares{};
+};
+
+// Those that are in all runs.
+std::vector<EntryInRuns> entries_in_all(const Discrimination& result, std::span<const std::string> runs) {
+  std::vector<EntryInRuns> found;
+  for (const DiscriminationEntry& entry : result.entries)
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      const std::string mark = planner_in_run("", runs[run]);
+      const std::size_t at = entry.name.find(mark);
+      if (at == std::string::npos) continue;
+      const std::string name = std::string(entry.name).erase(at, mark.size());
+      auto known = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.name == name; });
+      if (known == found.end()) known = found.insert(found.end(), EntryInRuns{name, {}});
+      known->shares[run] = entry.shares;
+    }
+  std::erase_if(found, [&](const EntryInRuns& one) { return one.shares.size() < runs.size(); });
+  return found;
+}
+
 }  // namespace
 
 std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
@@ -209,38 +232,26 @@ std::string planner_in_run(const std::string& planner, const std::string& run) {
 
 std::optional<RunInteraction> run_interaction(const Discrimination& result, std::span<const std::string> runs) {
   if (runs.size() < 2) return std::nullopt;
-  // [entry without its run]: the shares by run
-  std::vector<std::pair<std::string, std::map<std::size_t, std::vector<double>>>> found;
-  for (const DiscriminationEntry& entry : result.entries)
-    for (std::size_t run = 0; run < runs.size(); ++run) {
-      const std::string mark = planner_in_run("", runs[run]);
-      const std::size_t at = entry.name.find(mark);
-      if (at == std::string::npos) continue;
-      const std::string name = std::string(entry.name).erase(at, mark.size());
-      auto known = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.first == name; });
-      if (known == found.end()) known = found.insert(found.end(), {name, {}});
-      known->second[run] = entry.shares;
-    }
-  std::erase_if(found, [&](const auto& one) { return one.second.size() < runs.size(); });
+  const std::vector<EntryInRuns> found = entries_in_all(result, runs);
   if (found.size() < 2) return std::nullopt;
-
   RunInteraction out;
   out.runs.assign(runs.begin(), runs.end());
   std::vector<std::vector<std::vector<double>>> table;  // [entry][run][task]
-  for (const auto& one : found) {
-    out.entries.push_back(one.first);
+  for (const EntryInRuns& one : found) {
+    out.entries.push_back(one.name);
     auto& row = table.emplace_back();
-    for (const auto& of_run : one.second) row.push_back(of_run.second);
+    for (const auto& of_run : one.shares) row.push_back(of_run.second);
   }
   out.effect = core::interaction_effect(table);
   if (table.size() != 2 || runs.size() != 2) return out;
-  std::vector<std::vector<double>> differences;  // a cluster each
-  for (std::size_t task = 0; task < table[0][0].size(); ++task)
-    differences.push_back({(table[0][1][task] - table[0][0][task]) - (table[1][1][task] - table[1][0][task])});
-  double sum = 0.0;
-  for (const auto& one : differences) sum += one.front();
-  out.difference = sum / static_cast<double>(differences.size());
-  out.interval = core::cluster_bootstrap_interval(differences);
+  std::vector<double> all;
+  std::vector<std::vector<double>> clusters;
+  for (std::size_t task = 0; task < table[0][0].size(); ++task) {
+    all.push_back((table[0][1][task] - table[0][0][task]) - (table[1][1][task] - table[1][0][task]));
+    clusters.push_back({all.back()});
+  }
+  out.difference = core::mean(all);
+  out.interval = core::cluster_bootstrap_interval(clusters);
   return out;
 }
 
