@@ -65,17 +65,17 @@ TOML
 
 experiments() {
   local world=$1
-  local robots=${robots[$world]}
+  local count=${robots[$world]}
   planners() { uses global_planner "$@" && use local_controller stop_and_wait; }
   controllers() { use global_planner individual && uses local_controller "$@"; }
   twin() { use global_planner individual && use local_controller dwa 'DWA again'; }
   cbs_and_dwa() { use global_planner cbs && use local_controller dwa; }
-  planned() { experiment "$1" "$world" $planner_seed "$robots" 1 "$1" 0.8 >"$out/$world.$1.toml"; }
-  driven() { experiment "$1" "$world" $controller_seed "$robots" 1 free "$2" >"$out/$world.$1.toml"; }
+  planned() { experiment "$1" "$world" $planner_seed "$count" 1 "$1" 0.8 >"$out/$world.$1.toml"; }
+  driven() { experiment "$1" "$world" $controller_seed "$count" 1 free "$2" >"$out/$world.$1.toml"; }
   among() { experiment "$1" "$world" $density_seed "$density_robots" "$2" free 0.8 >"$out/$world.$1.toml"; }
   planners individual cbs pibt | planned free
   planners cbs pibt | planned ordered
-  planners individual cbs pibt | experiment plans "$world" $planner_seed "$robots" 1 free 0.8 |
+  planners individual cbs pibt | experiment plans "$world" $planner_seed "$count" 1 free 0.8 |
     sed 's/^\[simulation\]$/&\ntime_limit_s = 1.0/' >"$out/$world.plans.toml"
   controllers dwa | driven base 0.8
   controllers orca pure_pursuit stop_and_wait | driven controllers 0.8
