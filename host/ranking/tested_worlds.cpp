@@ -50,8 +50,9 @@ std::string counted(std::uint32_t count, const char* one, const char* more) {
 std::vector<TestedWorld> read_tested_worlds(const std::filesystem::path& path) {
   try {
     std::ifstream in(path);
+    const nlohmann::json document = nlohmann::json::parse(in);
     std::vector<TestedWorld> rows;
-    for (const nlohmann::json& row : nlohmann::json::parse(in).at("rows")) rows.push_back(parse_row(row));
+    for (const nlohmann::json& row : document.at("rows")) rows.push_back(parse_row(row));
     return rows;
   } catch (const std::exception& error) {
     throw std::runtime_error(path.string() + ": " + error.what());

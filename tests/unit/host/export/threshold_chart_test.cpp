@@ -37,15 +37,15 @@ std::vector<double> places(const std::string& svg, const std::string& pattern) {
 TEST_CASE("thresholds lie between their levels, evenly spaced, hard ones on the right", "[export]") {
   const GradedSeries series = door({passing("one", {0.65}, {0.6}, {0.7}), passing("two", {0.7}, {0.7}, {0.7})});
   const std::string svg = threshold_chart(std::vector{series});
-  const std::vector<double> ticks = places(svg, R"(class="grid" d="M([0-9.]+))");
+  const std::vector<double> ticks = places(svg, R"x(class="grid" d="M([0-9.]+))x");
   REQUIRE(ticks.size() == 3);
   CHECK(ticks[0] > ticks[1]);  // 0.6 m, the hardest, is on the right
   CHECK(ticks[0] - ticks[1] == Approx(ticks[1] - ticks[2]).margin(0.11));
-  const std::vector<double> dots = places(svg, R"(<circle cx="([0-9.]+)");
+  const std::vector<double> dots = places(svg, R"x(<circle cx="([0-9.]+))x");
   REQUIRE(dots.size() == 2);
   CHECK(dots[0] == Approx(0.5 * (ticks[0] + ticks[1])).margin(0.11));
   CHECK(dots[1] == Approx(ticks[1]).margin(0.11));
-  CHECK(places(svg, R"(class="interval" d="M([0-9.]+))").front() == Approx(ticks[0]).margin(0.11));
+  CHECK(places(svg, R"x(class="interval" d="M([0-9.]+))x").front() == Approx(ticks[0]).margin(0.11));
   CHECK(svg.find("Door &lt;1&gt;") != std::string::npos);
   CHECK(svg.find("one: 0.65 [0.6, 0.7] m") != std::string::npos);
 }
@@ -55,10 +55,10 @@ TEST_CASE("what lies beyond the levels has a mark of its own at the end", "[expo
   const Threshold easiest = {0.8, false, true};
   const std::string svg = threshold_chart(
       std::vector{door({passing("best", hardest, hardest, hardest), passing("worst", easiest, easiest, easiest)})});
-  CHECK(places(svg, R"(<circle cx="([0-9.]+)").empty());
-  const std::vector<double> ticks = places(svg, R"(class="grid" d="M([0-9.]+))");
-  const std::vector<double> triangles = places(svg, R"(<path stroke="none" d="M([0-9.]+))");
-  const std::vector<double> crosses = places(svg, R"(<path d="M([0-9.]+))");
+  CHECK(places(svg, R"x(<circle cx="([0-9.]+))x").empty());
+  const std::vector<double> ticks = places(svg, R"x(class="grid" d="M([0-9.]+))x");
+  const std::vector<double> triangles = places(svg, R"x(<path stroke="none" d="M([0-9.]+))x");
+  const std::vector<double> crosses = places(svg, R"x(<path d="M([0-9.]+))x");
   REQUIRE(triangles.size() == 1);
   REQUIRE(crosses.size() == 1);
   CHECK(triangles[0] > ticks[0]);

@@ -19,7 +19,7 @@ const std::vector<TestedWorld> tested = {
     {"mall", 16, 12, "planners", true}, {"mall", 8, 60, "controllers", true}, {"library", 16, 8, "planners", false}};
 
 TrialRecord trial_in(const std::string& scenario, std::uint32_t robots, const std::string& planner) {
-  TrialRecord trial = ranking_trial(planner, "DWA", 0, {});
+  TrialRecord trial = ranking_trial(planner, "DWA", 0, {{20.0, true, 10.0}});
   trial.scenario = scenario;
   trial.robots = robots;
   return trial;
