@@ -44,7 +44,7 @@ refused "did you mean 'success'" --latex --metric sucess
 refused "none of scenario, robots, planner" --latex --rows planet
 refused "did you mean 'simulation.step_s'" --svg --over simulation.step
 refused "do not differ in the number 'simulation.step_s'" --svg --over simulation.step_s
-refused "xactly 1 option from \[--latex,--csv,--svg\]" --latex --csv
+refused "xactly 1 option from \[--latex,--csv,--svg,--thresholds\]" --latex --csv
 
 if command -v rsvg-convert >/dev/null; then
   rsvg-convert -f pdf "$scratch/pfd.svg" -o "$scratch/pfd.pdf" || fail "rsvg-convert refuses the figure"
