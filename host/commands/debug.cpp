@@ -45,7 +45,10 @@ class DebuggedTrial {
                 std::fputs(log_line(level, plugin, text, logged_, note_).c_str(), stderr);
               }) {
     const ScenarioVariant& scenario = experiment.scenarios[combination_.scenario];
-    if (is_drawn(scenario)) own_ = std::make_unique<VariantWorld>(experiment, scenario, shared_, seed_);
+    if (is_drawn(scenario))
+      own_ = std::make_unique<VariantWorld>(experiment, scenario, shared_,
+                                            task_seed(experiment, scenario.scenario.name, scenario.wishes,
+                                                      trial_id(trial, combinations_.size()).repetition));
     logged_ = {trial, world().simulation.step_ns};
     // while a breakpoint holds, time passes: it does not count
     guard_.stop_after_asks(std::numeric_limits<std::int64_t>::max());

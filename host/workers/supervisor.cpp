@@ -97,9 +97,9 @@ class Supervisor {
       for (Slot& slot : slots_) assign_work(slot);
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
       for (Slot& slot : slots_)
-        if (slot.worker) check_time(slot);
-      for (Slot& slot : slots_)
         if (slot.worker && watches_memory_) check_memory(slot);
+      for (Slot& slot : slots_)
+        if (slot.worker) check_time(slot);
       sinks_.on_idle();
     }
     shut_down_workers();
