@@ -168,6 +168,14 @@ CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
   return command;
 }
 
+CLI::App* add_video(CLI::App& app, VideoOptions& options) {
+  CLI::App* command = app.add_subcommand("video", "make a video of a trial, by ffmpeg");
+  command->add_option("run", options.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--trial", options.trial, "trial with a recorded trace")->required()->type_name("TRIAL");
+  command->add_option("--out", options.out, "output file: .mp4, .gif or .webm")->required()->type_name("FILE");
+  return command;
+}
+
 CLI::App* add_discriminate(CLI::App& app, DiscriminateOptions& options) {
   CLI::App* command = app.add_subcommand("discriminate", "whether the tasks of a run tell its entries apart");
   command->add_option("run", options.runs, "run directories of the same tasks")->required()->type_name("RUN_DIR");
@@ -346,6 +354,9 @@ int run_main(int argc, char** argv) {
   DrawOptions draw;
   CLI::App* drawing = add_draw(app, draw);
 
+  VideoOptions video;
+  CLI::App* filming = add_video(app, video);
+
   EvaluateOptions evaluate;
   CLI::App* evaluating = add_evaluate(app, evaluate);
 
@@ -407,6 +418,7 @@ int run_main(int argc, char** argv) {
                                                  : PluginsFormat::text);
   if (checking->parsed()) return check_command(check);
   if (drawing->parsed()) return draw_command(draw);
+  if (filming->parsed()) return video_command(video);
   if (planning->parsed()) return plan_command(plan);
   if (comparing->parsed()) return compare_command(compare);
   if (exporting->parsed()) return export_command(exported);

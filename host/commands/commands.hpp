@@ -71,6 +71,13 @@ struct DrawOptions {
 };
 int draw_command(const DrawOptions& options);
 
+struct VideoOptions {
+  std::filesystem::path run_directory;
+  std::uint64_t trial = 0;
+  std::filesystem::path out;  // its ending is the format
+};
+int video_command(const VideoOptions& options);
+
 struct PlanOptions {
   std::filesystem::path map;  // either a MovingAI map, its tasks and a number of agents
   std::filesystem::path tasks;
