@@ -320,8 +320,11 @@ int run_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.fallthrough();
-  app.add_flag_callback("--no-box", &box::disable,
-                        "let plugins start and reach other processes: for debuggers of plugins");
+  CLI::Option* no_box = app.add_flag_callback("--no-box", &box::disable,
+                                              "let plugins start and reach other processes: for debuggers of plugins");
+  app.add_flag_callback("--sandbox", &box::demand_sandbox,
+                        "let plugins write in their scratch folder alone, and open no sockets")
+      ->excludes(no_box);
   app.footer(
       "Exit status: 0 done, 1 some trials ended in a fault, 2 bad input, 3 the machine failed (full disk, no memory),\n"
       "130 interrupted.");
@@ -411,6 +414,8 @@ int run_main(int argc, char** argv) {
     return app.exit(error) == 0 ? exit_status::done : exit_status::bad_input;
   }
 
+  if (const std::string gaps = box::sandbox_gaps(); !gaps.empty())
+    std::fprintf(stderr, "warning: --sandbox: %s\n", gaps.c_str());
   if (validate->parsed()) return validate_command(validated);
   if (plugins->parsed())
     return plugins_command(libraries, json       ? PluginsFormat::json

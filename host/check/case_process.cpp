@@ -101,6 +101,7 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   ChildProcess child = ChildProcess::fork({counts_resident ? 0 : memory_mb, false, file_mb},
                                           [&] { examine(check_case, file, plugin, seed, note.note(), answer_file); },
                                           {output.descriptor(), &note.note().refused});
+  child.allow_cpu(processor_time_s(case_limit_s));
   Watchdog watchdog;
   bool too_large = false;
   const bool ended = watchdog.wait(child.ended().number(), [&] {

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Draws a scenario, with the paths of a planner if one is named; the planner runs in this process.
+// Draws a scenario, with the paths of a planner if one is named.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/svg.hpp>
 #include <memory>
+#include <optional>
 
 #include "core/scene/planning_grids.hpp"
 #include "core/scene/robot_task.hpp"
 #include "core/tasks/task_difficulty.hpp"
-#include "core/world/world.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/plugins/library.hpp"
+#include "host/plan/plan_task.hpp"
+#include "host/plan/planner_process.hpp"
+#include "host/process/fault_kind.hpp"
 #include "host/scenario/read_scenario.hpp"
 #include "host/scenario/scenario_variant.hpp"
-#include "host/trial/instance_pool.hpp"
-#include "host/trial/planning.hpp"
-#include "host/trial/variant_world.hpp"
 
 namespace dmrp::host {
 
@@ -51,15 +50,15 @@ void draw_footprint(toolkit::SvgPlan& picture, const core::RobotSettings& type, 
   for (const core::ConvexPolygon& part : type.parts) picture.polygon(toolkit::to_world(pose, part), style, title);
 }
 
-void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const Plan* plan) {
+void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const PlannedPaths* paths) {
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const core::RobotTask& task = scenario.robots[i];
     const core::RobotSettings& type = experiment.scenarios[0].types.of(task);
     const auto color = toolkit::series_color(i);
-    if (plan) {
+    if (paths) {
       std::vector<dmrp_vec2> points;
-      for (const dmrp_waypoint& w : plan->paths[i]) points.push_back({w.x, w.y});
+      for (const dmrp_waypoint& w : (*paths)[i]) points.push_back({w.x, w.y});
       picture.polyline(points, {"path", color}, fmt::format("path of {}", task.name));
     }
     for (const dmrp_pose& goal : task.goals)
@@ -102,31 +101,32 @@ void print_difficulty(const Experiment& experiment) {
   fmt::print(stderr, "{}\n", difficulty.well_formed ? "" : ", robots stand in each other's only way");
 }
 
-// Plans once, and prints the length, the time and the planner's statistics on standard error.
-Plan plan_once(const Experiment& experiment) {
-  auto note = std::make_unique<CallNote>();
-  CallGuard guard(*note);
-  InstancePool pool(experiment.libraries, guard, [](std::int32_t, const std::string& plugin, const std::string& text) {
-    fmt::print(stderr, "{}: {}\n", plugin, text);
-  });
-  const VariantWorld variant(experiment, experiment.scenarios[0]);
-  const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, experiment.seed);
-  const PluginUse& use = experiment.global_planners[0];
-  Instance& planner = pool.get(use, DMRP_NO_ROBOT);
-  const std::int64_t budget_ns = nanoseconds(experiment.limits.planner_time_s);
-  planner.start(variant.view.world(), experiment.seed, budget_ns);
-  Plan plan = make_plan(planner, use.info, variant, world, nullptr, budget_ns, 0);
-  if (!plan.exists()) throw std::runtime_error(use.info.id + " found no plan");
+// Plans once, in a child process, and prints the length, the time and the planner's statistics on standard error, or the
+// planner's fault.
+std::optional<PlannedPaths> plan_once(const Experiment& experiment) {
+  const PluginInfo& info = experiment.global_planners[0].info;
+  const std::unique_ptr<PlanTask> task = scenario_task(experiment);
+  PlannerRun run = run_planner(experiment, *task);
+  const auto fault = [](const std::string& kind, const std::string& detail) {
+    fmt::print(stderr, "{}: {}\n", kind, detail);
+    return std::nullopt;
+  };
+  if (!run.answer) return fault(run.fault, run.detail);
+  PlannerAnswer& answer = *run.answer;
+  if (answer.paths.empty()) throw std::runtime_error(info.id + " found no plan");
+  if (const std::string breach = breach_of(task->validate(answer.paths, info.connectivity), info); !breach.empty())
+    return fault(fault_kind::bad_output, fmt::format("{}: plan(): {}", info.id, breach));
 
   double total_m = 0.0;
-  for (const auto& path : plan.paths)
+  for (const auto& path : answer.paths)
     for (std::size_t i = 1; i < path.size(); ++i)
       total_m += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
-  fmt::print(stderr, "{}: {:.2f} m in all, {:.2f} ms", use.info.id, total_m,
-             static_cast<double>(plan.planning_ns) * 1e-6);
-  for (const PlanStatistic& statistic : plan.statistics) fmt::print(stderr, ", {} {}", statistic.name, statistic.value);
+  fmt::print(stderr, "{}: {:.2f} m in all, {:.2f} ms", info.id, total_m,
+             static_cast<double>(answer.planning_ns) * 1e-6);
+  for (const PlanStatistic& statistic : answer.statistics)
+    fmt::print(stderr, ", {} {}", statistic.name, statistic.value);
   fmt::print(stderr, "\n");
-  return plan;
+  return std::move(answer.paths);
 }
 
 }  // namespace
@@ -148,8 +148,9 @@ int draw_command(const DrawOptions& options) {
   if (options.planner.empty()) {
     draw_robots(picture, experiment, nullptr);
   } else {
-    const Plan plan = plan_once(experiment);
-    draw_robots(picture, experiment, &plan);
+    const std::optional<PlannedPaths> paths = plan_once(experiment);
+    if (!paths) return exit_status::faults;
+    draw_robots(picture, experiment, &*paths);
   }
   picture.scale_bar(5.0);
   write_output("--svg", options.svg, picture.document());

@@ -8,6 +8,8 @@
 #include "host/experiment/identity.hpp"
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
+#include "host/process/box.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
 
@@ -25,6 +27,20 @@ std::vector<std::string> types_of_robots(const ScenarioVariant& variant) {
     if (type.empty()) type = "default";
   if (std::all_of(types.begin(), types.end(), [&](const std::string& type) { return type == types[0]; })) return {};
   return types;
+}
+
+PluginLimits limits_of(const Experiment& experiment) {
+  const RunLimits& limits = experiment.limits;
+  const bool watched = limits.memory_mb > 0 && counts_resident_memory(experiment);
+  std::set<std::string> with_processes;
+  for (const auto* uses :
+       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+    for (const PluginUse& use : *uses)
+      if (use.info.has_flag(DMRP_FLAG_PROCESSES)) with_processes.insert(use.info.id);
+  return {box::kind(),
+          watched ? "resident memory, watched" : memory_limit_kind(limits.memory_mb),
+          limits.processes,
+          {with_processes.begin(), with_processes.end()}};
 }
 
 }  // namespace
@@ -60,6 +76,7 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
   manifest.commit = commit;
   manifest.identity = identity_of(experiment);
   manifest.digest = digest_of(manifest.identity);
+  manifest.plugin_limits = limits_of(experiment);
   for (const LibraryUse& library : experiment.libraries) {
     manifest.files.push_back(hashed_file("plugin library", library.file));
     manifest.files.back().code = code_digest(library.file);

@@ -111,6 +111,9 @@ class MeasureProcess {
   MeasureProcess(const Evaluation& evaluation, const std::vector<StoredTrial>& trials, Position position)
       : MeasureProcess(evaluation, trials, position, make_pipe()) {}
 
+  // For what it measures next.
+  void allow_cpu(double s) { process_.allow_cpu(s); }
+
   // The next message. Nothing when the process has ended, when it sent an invalid message, or when a call hangs.
   std::optional<nlohmann::json> receive() {
     auto message =
@@ -157,6 +160,8 @@ class MeasureProcess {
 void measure_some(const Evaluation& evaluation, const std::vector<StoredTrial>& trials, const MeasureSinks& sinks,
                   Position& position) {
   MeasureProcess process(evaluation, trials, position);
+  const double cpu_s = processor_time_s(evaluation.limits.trial_wall_time_s);
+  process.allow_cpu(cpu_s);
   bool started = false;
   bool reading = false;   // the trace at `position`
   bool answered = false;  // for `position`
@@ -172,6 +177,7 @@ void measure_some(const Evaluation& evaluation, const std::vector<StoredTrial>& 
       position = {at.at(0).get<std::size_t>(), reading ? 0 : at.at(1).get<std::uint32_t>()};
       started = true;
       answered = false;
+      process.allow_cpu(cpu_s);
       continue;
     }
     if (message->contains("result"))

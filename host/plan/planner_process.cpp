@@ -128,6 +128,7 @@ PlannerRun run_planner(const Experiment& experiment, const PlanTask& task) {
   Watchdog watchdog;
   NotedCall call;
   const std::int64_t limit_ns = task.problem.c.time_budget_ns + call_grace_ns;
+  child.allow_cpu(processor_time_s(static_cast<double>(limit_ns + process_grace_ns) * 1e-9));
   const bool ended = watchdog.wait(child.ended().number(), [&] {
     call = note.read();
     return watchdog.elapsed_ns(start_ns) > limit_ns + process_grace_ns ||

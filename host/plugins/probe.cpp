@@ -36,6 +36,7 @@ nlohmann::json answer_of_child(const std::filesystem::path& file) {
   Pipe pipe = make_pipe();
   const int write_end = pipe.write_end.number();
   ChildProcess child = ChildProcess::execute({{"probe", file.string(), std::to_string(write_end)}, {write_end}});
+  child.allow_cpu(processor_time_s(probe_limit_s));
   pipe.write_end.close();
   LineChannel channel(std::move(pipe.read_end), Descriptor());
 

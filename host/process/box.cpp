@@ -20,6 +20,7 @@
 #include <cstring>
 #include <vector>
 
+#include "host/process/landlock.hpp"
 #include "host/process/sanitized.hpp"
 
 namespace dmrp::host::box {
@@ -34,7 +35,8 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t architecture = 0;  // no filter
 #endif
 
-constexpr const char* off_variable = "DMRP_NO_BOX";  // children inherit it
+constexpr const char* off_variable = "DMRP_NO_BOX";       // children inherit it
+constexpr const char* sandbox_variable = "DMRP_SANDBOX";  // likewise
 constexpr rlim_t most_descriptors = 4096;
 constexpr rlim_t most_file_bytes = rlim_t{1} << 36;  // traces of a night are smaller
 
@@ -71,6 +73,32 @@ constexpr std::array starts_programs = {
 // Likewise, unless they are for this process.
 constexpr std::array sends_signals = {Call{SYS_kill, "kill"}, Call{SYS_tkill, "tkill"}, Call{SYS_tgkill, "tgkill"}};
 
+// A sandbox answers these with an error. io_uring opens sockets, too.
+constexpr std::array opens_sockets = {Call{SYS_socket, "socket"}, Call{SYS_io_uring_setup, "io_uring_setup"}};
+// Likewise; Landlock does not cover modes, owners, times and attributes of files.
+constexpr std::array changes_attributes = {
+#if defined(__x86_64__)
+    Call{SYS_chmod, "chmod"},
+    Call{SYS_chown, "chown"},
+    Call{SYS_lchown, "lchown"},
+    Call{SYS_utime, "utime"},
+    Call{SYS_utimes, "utimes"},
+    Call{SYS_futimesat, "futimesat"},
+#endif
+    Call{SYS_fchmod, "fchmod"},
+    Call{SYS_fchmodat, "fchmodat"},
+    Call{452, "fchmodat2"},  // older headers do not name it
+    Call{SYS_fchown, "fchown"},
+    Call{SYS_fchownat, "fchownat"},
+    Call{SYS_utimensat, "utimensat"},
+    Call{SYS_setxattr, "setxattr"},
+    Call{SYS_lsetxattr, "lsetxattr"},
+    Call{SYS_fsetxattr, "fsetxattr"},
+    Call{SYS_removexattr, "removexattr"},
+    Call{SYS_lremovexattr, "lremovexattr"},
+    Call{SYS_fremovexattr, "fremovexattr"},
+};
+
 constexpr Call clone_call = {SYS_clone, "fork (clone)"};
 constexpr Call limit_call = {SYS_prlimit64, "prlimit64"};
 constexpr Call process_call = {SYS_prctl, "prctl"};
@@ -96,9 +124,9 @@ class Filter {
     if_number(call, {{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_TRAP}});
   }
 
-  // The kernel says that it does not know the call; the C library then uses an older one, whose arguments can be seen.
-  void deny_existence(const Call& call) {
-    if_number(call, {{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | (ENOSYS & SECCOMP_RET_DATA)}});
+  // The kernel answers with this error.
+  void deny(const Call& call, std::uint32_t error) {
+    if_number(call, {{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | (error & SECCOMP_RET_DATA)}});
   }
 
   // Refused unless the lower half of an argument is this value.
@@ -169,6 +197,10 @@ class Filter {
   std::vector<sock_filter> code_;
 };
 
+bool is_sandbox() {
+  return std::getenv(sandbox_variable) != nullptr;
+}
+
 bool install_filter(bool processes_allowed) {
   const auto self = static_cast<std::uint32_t>(getpid());
   Filter filter;
@@ -179,7 +211,12 @@ bool install_filter(bool processes_allowed) {
     for (const Call& call : starts_programs) filter.refuse(call);
     for (const Call& call : sends_signals) filter.allow_only(call, 0, self);
     filter.need_bit(clone_call, 0, CLONE_THREAD);
-    filter.deny_existence({SYS_clone3, "clone3"});
+    // the C library then uses clone(), whose arguments can be seen
+    filter.deny({SYS_clone3, "clone3"}, ENOSYS);
+  }
+  if (is_sandbox()) {
+    for (const Call& call : opens_sockets) filter.deny(call, EACCES);
+    for (const Call& call : changes_attributes) filter.deny(call, EPERM);
   }
   return filter.install();
 }
@@ -205,6 +242,10 @@ void disable() {
   setenv(off_variable, "1", 1);
 }
 
+void demand_sandbox() {
+  setenv(sandbox_variable, "1", 1);
+}
+
 std::string gaps() {
   if (is_sanitized || std::getenv(off_variable)) return "";
   if (architecture == 0 || prctl(PR_GET_SECCOMP) < 0)
@@ -212,7 +253,18 @@ std::string gaps() {
   return "";
 }
 
-void enter(bool processes_allowed, std::atomic<std::int32_t>* refused) {
+std::string sandbox_gaps() {
+  if (!is_sandbox()) return "";
+  if (is_sanitized) return "plugins are in no sandbox: sanitizers exclude it";
+  return landlock::gap(landlock::version());
+}
+
+std::string kind() {
+  if (is_sanitized || std::getenv(off_variable)) return "none";
+  return is_sandbox() ? "sandbox" : "box";
+}
+
+void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std::filesystem::path& scratch) {
   if (is_sanitized || std::getenv(off_variable)) return;
   lower_limit(RLIMIT_NOFILE, most_descriptors);
   lower_limit(RLIMIT_FSIZE, most_file_bytes);
@@ -222,6 +274,7 @@ void enter(bool processes_allowed, std::atomic<std::int32_t>* refused) {
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
   sigaction(SIGSYS, &action, nullptr);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  if (is_sandbox()) landlock::restrict_writing(scratch);
   if constexpr (architecture != 0) install_filter(processes_allowed);
 }
 

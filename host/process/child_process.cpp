@@ -9,9 +9,12 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <new>
 #include <string_view>
@@ -71,6 +74,7 @@ void execute_program(const char* const* arguments, const ChildProcess::Program& 
 
 const char* ProcessEnding::fault_kind() const {
   if (signal == SIGSYS) return fault_kind::abi_breach;
+  if (signal == SIGXCPU) return fault_kind::hang;
   if (signal != 0) return fault_kind::crash;
   if (exit_status == channel_closed_exit) return fault_kind::abi_breach;
   return exit_status == out_of_memory_exit ? fault_kind::out_of_memory : fault_kind::exit;
@@ -78,6 +82,7 @@ const char* ProcessEnding::fault_kind() const {
 
 std::string ProcessEnding::explain(std::int64_t memory_mb) const {
   if (signal == SIGSYS) return "made a system call that its process may not make";
+  if (signal == SIGXCPU) return fmt::format("took more than {:.3g} s of processor time", cpu_limit_s);
   if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
   if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
   return fmt::format("ended the process with status {}", exit_status);
@@ -136,6 +141,19 @@ double ChildProcess::resident_mb() const {
   double resident_pages = 0.0;
   if (!(file >> all_pages >> resident_pages)) return 0.0;
   return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+void ChildProcess::allow_cpu(double s) {
+  clockid_t clock{};
+  timespec used{};
+  rlimit limit{};
+  if (pid_ < 0 || clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &used) != 0 ||
+      prlimit(pid_, RLIMIT_CPU, nullptr, &limit) != 0)
+    return;  // it has ended
+  const auto until_s = static_cast<rlim_t>(used.tv_sec) + static_cast<rlim_t>(std::ceil(s)) + 1;
+  limit.rlim_cur = std::min(until_s, limit.rlim_max);
+  prlimit(pid_, RLIMIT_CPU, &limit, nullptr);
+  ending_.cpu_limit_s = s;
 }
 
 const ProcessEnding& ChildProcess::wait() {

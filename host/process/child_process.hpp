@@ -32,10 +32,11 @@ struct ProcessEnding {
   int exit_status = 0;               // if it exited
   bool killed_from_outside = false;  // by SIGKILL, and not by kill(): the kernel, when memory is short, or a person
   double peak_rss_mb = 0.0;
+  double cpu_limit_s = 0.0;  // the last of allow_cpu(); 0: none
 
   bool succeeded() const { return signal == 0 && exit_status == 0; }
 
-  // Of the plugin that ended the process: crash, out_of_memory, abi_breach or exit.
+  // Of the plugin that ended the process: hang, crash, out_of_memory, abi_breach or exit.
   const char* fault_kind() const;
 
   // "crashed (signal 11, Segmentation fault)", "needs more than 400 MB of memory" or "ended the process with status 0".
@@ -73,6 +74,10 @@ class ChildProcess {
 
   // Megabytes of memory that it has in use now; 0 once it has been waited for.
   double resident_mb() const;
+
+  // From now on, it and each process that it starts may take so many seconds of processor time; then the kernel kills it with
+  // SIGXCPU.
+  void allow_cpu(double s);
 
   // Readable once the process has ended.
   const Descriptor& ended() const { return ended_; }

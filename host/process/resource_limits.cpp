@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "host/process/sanitized.hpp"
 
@@ -18,6 +19,14 @@ void set_resource_limits(std::int64_t memory_mb) {
   memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
   memory.rlim_max = memory.rlim_cur;
   setrlimit(RLIMIT_DATA, &memory);
+}
+
+const char* memory_limit_kind(std::int64_t memory_mb) {
+  return is_sanitized || memory_mb == 0 ? "none" : "RLIMIT_DATA";
+}
+
+double processor_time_s(double wall_s, unsigned sharers) {
+  return wall_s * std::max(1u, std::thread::hardware_concurrency() / std::max(1u, sharers));
 }
 
 void limit_files(std::int64_t file_mb) {

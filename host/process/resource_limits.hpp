@@ -17,6 +17,13 @@ struct ProcessLimits {
 // already set stays.
 void set_resource_limits(std::int64_t memory_mb);
 
+// What set_resource_limits() uses: "RLIMIT_DATA", or "none".
+const char* memory_limit_kind(std::int64_t memory_mb);
+
+// The processor time of a process that may take `wall_s`, if so many share the processors: each has its share of them, and
+// at least one.
+double processor_time_s(double wall_s, unsigned sharers = 1);
+
 // Limits the files that this process writes.
 void limit_files(std::int64_t file_mb);
 

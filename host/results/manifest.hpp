@@ -62,6 +62,14 @@ struct ExperimentFacts {
 // What an experiment means (host/experiment/identity.hpp); empty in manifests of older versions.
 using Identity = std::map<std::string, std::string>;
 
+// What plugins could do on this machine.
+struct PluginLimits {
+  std::string box;                            // "sandbox", "box" or "none"
+  std::string memory;                         // what holds memory_mb
+  bool processes = false;                     // plugins that declare it could start processes
+  std::vector<std::string> with_processes{};  // those of the experiment that declare it
+};
+
 struct Manifest {
   std::string dmrp_version;
   std::string commit;  // that the program was built from; empty in manifests of older versions
@@ -70,7 +78,8 @@ struct Manifest {
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;
   Identity identity;
-  std::string digest;  // of the identity
+  std::string digest;          // of the identity
+  PluginLimits plugin_limits;  // empty texts in manifests of older versions
   Machine machine;
   std::vector<HashedFile> files;
 };

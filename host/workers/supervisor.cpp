@@ -115,6 +115,7 @@ class Supervisor {
       slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
       slot.worker = std::make_unique<WorkerProcess>(experiment_, slot.scratch->path());
       slot.worker_started_ns = monotonic_ns();
+      allow_cpu(slot);
     }
     if (!slot.ready) return;
     slot.trial = std::move(waiting_.front());
@@ -122,10 +123,17 @@ class Supervisor {
     slot.trial->started_ns = monotonic_ns();
     // a worker that has died is noticed by its end
     slot.scratch->restore();
+    allow_cpu(slot);
     Job job = slot.trial->begin(new_stamp());
     if (experiment_.traces != RecordTraces::none) job.trace_file = scratch_trace(slot, job.trial).string();
     job.scratch_file = (slot.scratch->path() / "samples").string();
     slot.worker->channel().send(job);
+  }
+
+  // For one trial.
+  void allow_cpu(Slot& slot) const {
+    slot.worker->process().allow_cpu(
+        processor_time_s(experiment_.limits.trial_wall_time_s, static_cast<unsigned>(slots_.size())));
   }
 
   fs::path stored_trace(std::uint64_t trial) const { return trace_path(settings_.run_directory, trial); }

@@ -225,7 +225,7 @@ int run_worker(const WorkerTask& task) {
     adopt_orphans();
     const SharedCallNote shared{Descriptor(task.note)};
     set_resource_limits(task.limits.memory_mb);
-    box::enter(task.limits.processes, &shared.note().refused);
+    box::enter(task.limits.processes, &shared.note().refused, task.scratch);
     const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors);
     Worker(experiment, channel, sender, shared.note()).serve();
     return 0;

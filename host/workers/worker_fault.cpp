@@ -32,6 +32,8 @@ FaultRecord fault_of_end(WorkerProcess& worker, std::int64_t memory_mb) {
     fault.detail += "killed by SIGKILL from outside";
   else if (ending.signal == SIGSYS)
     fault.detail += fmt::format("the box refuses {}", box::name_of(worker.last_call().refused));
+  else if (ending.signal == SIGXCPU)
+    fault.detail += fmt::format("more than {:.3g} s of processor time", ending.cpu_limit_s);
   else if (ending.signal != 0)
     fault.detail += strsignal(ending.signal);
   else if (ending.exit_status == out_of_memory_exit)

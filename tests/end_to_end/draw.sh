@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The mall, drawn and planned: called as draw.sh DMRP_HOST.
+# The mall, drawn and planned: called as draw.sh DMRP_HOST LIBRARY_OF_FAULTS.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 expect_status 0 "$host" draw mall --planner dmrp.planner.cbs --svg "$scratch/mall.svg"
@@ -37,6 +37,15 @@ expect_status 2 "$host" draw mall --planner dmrp.planner.cbz --svg "$scratch/non
 expect_status 2 "$host" draw mall --planner dmrp.planner.cbs --set node_limits=5 --svg "$scratch/none.svg"
 [[ $(cat "$scratch/stderr") == *"did you mean 'node_limit'?"* ]] || fail "$(cat "$scratch/stderr")"
 [[ ! -e $scratch/none.svg ]] || fail "a mistake should leave nothing behind"
+
+# a planner runs apart, as in `plan`: its crash is a line, and so is a path into a wall
+expect_status 1 "$host" draw crossing --planner test.planner.faulty --plugin "$2" --set fault=crash --svg "$scratch/none.svg"
+[[ $(tail -n 1 "$scratch/stderr") == "crash: test.planner.faulty: plan(): crashed (signal 11, Segmentation fault)" ]] ||
+  fail "$(cat "$scratch/stderr")"
+expect_status 1 "$host" draw crossing --planner test.planner.faulty --plugin "$2" --set fault=into_wall --svg "$scratch/none.svg"
+grep -q "^bad_output: test.planner.faulty: plan(): robot 0, waypoint 2 .* is not on a free cell" "$scratch/stderr" ||
+  fail "$(cat "$scratch/stderr")"
+[[ ! -e $scratch/none.svg ]] || fail "a fault should leave no picture"
 
 # tasks as difficult as wished
 expect_status 0 "$host" draw library --agents 8 --seed 2 --conflicts-min 4 --conflicts-max 5 --in-corridors --svg "$scratch/eight.svg"

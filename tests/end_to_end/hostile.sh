@@ -50,6 +50,7 @@ attacks=(
   'writes into the observation|abi_breach|step|wrote into the observation'
   'writes into the world|abi_breach|trial_end|wrote into the world|late'
   'late thread|crash|.*|Segmentation fault|late'
+  'burns processors|hang|step|'
 )
 # expect_faults NAME ROW...
 expect_faults() {
@@ -93,6 +94,32 @@ if $limited; then # the box and sanitizers exclude each other
     AND local_controller IN ('none', 'threads', 'files limited')") == 6 ]] || fail "threads may be used in the box"
   expect_same boxed
 fi
+
+# in the sandbox a plugin writes in its scratch folder alone, and opens no socket; otherwise it can
+export DMRP_TEST_OUTSIDE=$scratch/outside
+restrained=("writes elsewhere" "deletes traces" "opens a socket")
+begin open
+hostile open "writes elsewhere"
+hostile open "opens a socket"
+run_with_faults open 1
+[[ -e $scratch/outside ]] || fail "without a sandbox it should write"
+[[ $(query "$scratch/open" "SELECT DISTINCT kind FROM fault") == crash ]] || fail "it should open a socket"
+if $limited; then
+  rm "$scratch/outside"
+  begin sandbox
+  for attack in none threads "${restrained[@]}"; do hostile sandbox "$attack"; done
+  expect_status 0 "$host" "$scratch/sandbox.toml" --quiet --sandbox --out "$scratch/sandbox"
+  expect_same sandbox
+  expect_status 0 env DMRP_TEST_AT_LOAD=write "$host" --sandbox plugins "$library"
+  if grep -q "warning: --sandbox: plugins can write wherever you can" "$scratch/stderr"; then
+    echo "not tested: the kernel has no Landlock"
+  else
+    [[ ! -s $scratch/stderr ]] || fail "nothing should be said: $(cat "$scratch/stderr")"
+    [[ ! -e $scratch/outside ]] || fail "a plugin has left the sandbox"
+    [[ $(find "$scratch/sandbox/traces" -name "*.mcap" | wc -l) == 12 ]] || fail "traces were deleted"
+  fi
+fi
+expect_status 2 "$host" "$scratch/open.toml" --sandbox --no-box
 
 # faults that were a plugin's are tried again on demand; late ones need not come again in the same trial
 prompt_faults() {
@@ -142,6 +169,9 @@ grep -q "test.controller.helped starts processes: '\[limits\] processes = true' 
   fail "$(cat "$scratch/stderr")"
 sed -i '/^memory_mb/a processes = true' "$scratch/helped.toml"
 run_with_faults helped 0
+tr -d ' \n' <"$scratch/helped/manifest.json" |
+  grep -q '"processes":true,"plugins_with_processes":\["test.controller.helped"\]' ||
+  fail "the manifest should name the plugin: $(cat "$scratch/helped/manifest.json")"
 expect_same helped
 
 # a plugin that asks for it is watched by the memory in use

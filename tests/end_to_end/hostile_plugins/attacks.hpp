@@ -9,6 +9,7 @@
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -68,7 +70,12 @@ inline void kill_siblings() {
 // The worker's scratch folder is that of temporary files; the run directory is two levels above.
 inline void delete_files(const std::string& of) {
   const std::filesystem::path scratch = std::filesystem::temp_directory_path();
-  std::filesystem::remove_all(of == "run" ? scratch.parent_path().parent_path() / "traces" : scratch);
+  std::error_code ignored;
+  std::filesystem::remove_all(of == "run" ? scratch.parent_path().parent_path() / "traces" : scratch, ignored);
+}
+
+inline void write_elsewhere() {
+  if (const char* const outside = std::getenv("DMRP_TEST_OUTSIDE")) std::ofstream(outside) << "written by a plugin";
 }
 
 inline void replace_trace() {
@@ -127,6 +134,16 @@ inline void attack(const std::string& what) {
   if (what == "deletes its files") delete_files("worker");
   if (what == "deletes traces") delete_files("run");
   if (what == "replaces its trace") replace_trace();
+  if (what == "writes elsewhere") write_elsewhere();
+  if (what == "opens a socket" && socket(AF_INET, SOCK_STREAM, 0) >= 0) crash();
+  if (what == "burns processors")
+    for (int i = 0; i < 4; ++i)
+      std::thread([] {
+        for (volatile bool forever = true; forever;) {
+        }
+      }).detach();
+  if (what == "burns processors")
+    for (;;) pause();
   if (what == "all closed") close_range(3, ~0u, 0);
   if (what == "all descriptors taken")
     while (dup(2) >= 0) {

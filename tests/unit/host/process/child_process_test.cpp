@@ -47,6 +47,24 @@ TEST_CASE("the end of a child is explained") {
   CHECK(full.explain(400) == "needs more than 400 MB of memory");
 }
 
+TEST_CASE("a child that takes more processor time than it may is ended") {
+  ChildProcess child = ChildProcess::fork(no_limits, [] {
+    for (volatile bool forever = true; forever;) {
+    }
+  });
+  child.allow_cpu(0.1);
+  const ProcessEnding& ending = child.wait();
+  CHECK(ending.signal == SIGXCPU);
+  CHECK(ending.fault_kind() == std::string(fault_kind::hang));
+  child.allow_cpu(5.0);  // it has ended: nothing to allow
+  CHECK(ending.explain(400) == "took more than 0.1 s of processor time");
+}
+
+TEST_CASE("processes share the processors, each has one") {
+  CHECK(processor_time_s(2.0, 1) >= 2.0);
+  CHECK(processor_time_s(2.0, 1'000'000) == 2.0);
+}
+
 TEST_CASE("a child is killed, and waited for once") {
   ChildProcess child = ChildProcess::fork(no_limits, [] { pause(); });
   child.kill();

@@ -18,6 +18,7 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   manifest.commit = "597cdd0a1b2c";
   manifest.identity = {{"experiment.seed", "7"}};
   manifest.files.push_back(hashed_file("map", folder / "map.yaml"));
+  manifest.plugin_limits = {"sandbox", "RLIMIT_DATA", true, {"org.example.helped"}};
   write_file_atomically(folder / "manifest.json", to_json_text(manifest));
   const Manifest read = read_manifest(folder / "manifest.json");
 
@@ -31,6 +32,10 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   REQUIRE(read.files.size() == 1);
   CHECK(read.files[0].role == "map");
   CHECK(read.files[0].sha256 == sha256_of_bytes("abc"));
+  CHECK(read.plugin_limits.box == "sandbox");
+  CHECK(read.plugin_limits.memory == "RLIMIT_DATA");
+  CHECK(read.plugin_limits.processes);
+  CHECK(read.plugin_limits.with_processes == std::vector<std::string>{"org.example.helped"});
   CHECK(differences(manifest, read).empty());
 
   write_file_atomically(folder / "half.json", "{\"dmrp_version\": \"0.1.0\"");
