@@ -30,7 +30,7 @@ std::vector<TrialRecord> chosen_trials(const EvaluateOptions& options) {
   if (std::error_code ignored; !fs::is_regular_file(database, ignored))
     throw InputError(
         fmt::format("{}: is no run directory (there is no results.sqlite)", options.choice.run_directory.string()));
-  std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials();
+  std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials_with_events_of("");
   if (trials.empty()) throw InputError(fmt::format("{}: has no finished trial", options.choice.run_directory.string()));
   for (const std::uint64_t id : options.trials)
     if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& trial) { return trial.id == id; }))

@@ -29,12 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::uint64_t> trials_of_shard(std::uint64_t count, const Shard& shard) {
-  std::vector<std::uint64_t> trials;
-  for (std::uint64_t k = shard.index; k < count; k += shard.count) trials.push_back(k);
-  return trials;
-}
-
 // "quickstart · mall · 4 robots, 12 people · 3 trials"
 std::string heading(const Experiment& experiment, std::size_t trials) {
   std::string out = experiment.name;
@@ -138,14 +132,15 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
-  std::vector<std::uint64_t> trials = trials_of_shard(count, options.shard);
-  const RunFiles files(options, experiment, manifest_of(experiment, options.shard, trials.size(), command_line));
+  const Shard& shard = options.shard;
+  const std::uint64_t in_shard = PlannedTrials(shard.index, shard.count, count, {}).all();
+  const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line));
   ResultsDatabase database = ResultsDatabase::open(files.database());
-  const auto finished = database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
-                                                                      : ResultsDatabase::Finished::all);
-  std::erase_if(trials, [&](std::uint64_t k) { return std::binary_search(finished.begin(), finished.end(), k); });
+  PlannedTrials trials(shard.index, shard.count, count,
+                       database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
+                                                                     : ResultsDatabase::Finished::all));
 
-  Progress progress(heading(experiment, trials.size()), trials.size(), options.quiet || options.json);
+  Progress progress(heading(experiment, trials.left()), trials.left(), options.quiet || options.json);
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
                                    database.write(trial);
@@ -157,7 +152,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                                  },
                                  [&](const std::string& text) { progress.note("warning: " + text); },
                                  [&] { progress.refresh(); }};
-  const RunEnding ending = supervise(experiment, trials, settings, sinks);
+  const RunEnding ending = supervise(experiment, std::move(trials), settings, sinks);
   progress.finish();
   const RunResults results = read_results(std::move(database), layout);
   write_tables(results, files.directory());
@@ -165,7 +160,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   if (options.json)
     print_results_as_json(results, layout, files.directory());
   else if (!options.quiet)
-    print_results(results, layout, files.directory(), reported, facts_of(experiment, options.shard, count).scenarios);
+    print_results(results, layout, files.directory(), reported, facts_of(experiment, shard, count).scenarios);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
                files.directory().string());

@@ -14,7 +14,7 @@
 
 namespace dmrp::host {
 
-// The whole database.
+// The whole database, but events of other metrics than the layout's `arrived`.
 struct RunResults {
   std::vector<MetricColumn> metrics;
   std::vector<TrialRecord> trials;

@@ -9,6 +9,7 @@
 #include "host/report/data/report_data.hpp"
 #include "host/report/replay/replays.hpp"
 #include "host/report/report_page.hpp"
+#include "host/results/database.hpp"
 
 namespace dmrp::host {
 
@@ -24,13 +25,15 @@ void check_replayed(const std::vector<std::uint64_t>& replayed, const ReportRun&
 }  // namespace
 
 void write_report(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed) {
-  const ReportRun run = read_report_run(run_directory);
+  const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
+  const ReportRun run = read_report_run(run_directory, layouts.summary.arrived);
   if (run.trials.empty()) throw InputError(run_directory.string() + ": no trial is finished, so there is no report");
   check_replayed(replayed, run, run_directory.string());
-  const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
   ReplayPolicy policy = layouts.report.replays;
   policy.asked = replayed;
-  const Replays chosen = encode_replays(run_directory, run.trials, run.metrics, policy);
+  const ResultsDatabase database = ResultsDatabase::open_read_only(run_directory / "results.sqlite");
+  const Replays chosen = encode_replays(run_directory, run.trials, run.metrics, policy,
+                                        [&](std::uint64_t trial) { return database.events(trial); });
   ReplayIndex index{{}, chosen.omitted};
   std::vector<EmbeddedReplay> embedded;
   for (const Replay& replay : chosen.replays) {

@@ -86,12 +86,10 @@ ALTER TABLE event ADD COLUMN x_m REAL;
 ALTER TABLE event ADD COLUMN y_m REAL;
 PRAGMA user_version = 2;
 )sql";
-constexpr const char* events_of_version_1 =
-    "SELECT trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL FROM event "
-    "ORDER BY trial_id, rowid";
-constexpr const char* events_of_version_2 =
-    "SELECT trial_id, metric, from_s, to_s, subjects, text, people, severity, x_m, y_m FROM event "
-    "ORDER BY trial_id, rowid";
+constexpr const char* event_columns_of_version_1 =
+    "trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL";
+constexpr const char* event_columns_of_version_2 =
+    "trial_id, metric, from_s, to_s, subjects, text, people, severity, x_m, y_m";
 
 constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};    // by DMRP_DIRECTION_*
 constexpr std::array<const char*, 3> severity_names{"info", "warning", "serious"};  // by DMRP_SEVERITY_*
@@ -192,9 +190,8 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
 
 // Calls `take` with every row of `select`, which is ordered by trial as the trials are, and its trial.
 template <class Take>
-void read_rows(const SqliteConnection& connection, std::string_view select_sql, std::vector<TrialRecord>& trials,
+void read_rows(const SqliteConnection& connection, SqliteStatement select, std::vector<TrialRecord>& trials,
                Take take) {
-  SqliteStatement select(connection, select_sql);
   auto trial = trials.begin();
   while (select.step()) {
     const std::uint64_t id = as_unsigned(select.column_integer(0));
@@ -216,8 +213,8 @@ void take_value(const SqliteStatement& row, TrialRecord& trial) {
   if (!row.column_is_null(5)) value.value = row.column_number(5);
 }
 
-void take_event(const SqliteStatement& row, TrialRecord& trial) {
-  MetricEvent& event = trial.events.emplace_back();
+MetricEvent event_of(const SqliteStatement& row) {
+  MetricEvent event;
   event.metric = row.column_text(1);
   event.from_ns = nanoseconds(row.column_number(2));
   event.to_ns = nanoseconds(row.column_number(3));
@@ -226,6 +223,11 @@ void take_event(const SqliteStatement& row, TrialRecord& trial) {
   event.people = nlohmann::json::parse(row.column_text(6)).get<std::vector<std::uint64_t>>();
   event.severity = index_of(severity_names, row.column_text(7));
   if (!row.column_is_null(8)) event.place = dmrp_vec2{row.column_number(8), row.column_number(9)};
+  return event;
+}
+
+void take_event(const SqliteStatement& row, TrialRecord& trial) {
+  trial.events.push_back(event_of(row));
 }
 
 void take_fault(const SqliteStatement& row, TrialRecord& trial) {
@@ -243,6 +245,28 @@ void take_fault(const SqliteStatement& row, TrialRecord& trial) {
 std::int64_t version_of(const SqliteConnection& connection) {
   SqliteStatement pragma(connection, "PRAGMA user_version");
   return pragma.step() ? pragma.column_integer(0) : 0;
+}
+
+SqliteStatement select_events(const SqliteConnection& connection, const std::string& rest) {
+  return SqliteStatement(connection,
+                         std::string("SELECT ") +
+                             (version_of(connection) == 1 ? event_columns_of_version_1 : event_columns_of_version_2) +
+                             " FROM event " + rest);
+}
+
+// Without events.
+std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
+  std::vector<TrialRecord> trials = read_trials(connection);
+  const auto select = [&](const char* sql) { return SqliteStatement(connection, sql); };
+  read_rows(
+      connection,
+      select("SELECT trial_id, metric, subject_kind, subject, coordinate, value FROM value ORDER BY trial_id, rowid"),
+      trials, take_value);
+  read_rows(connection,
+            select("SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
+                   "ORDER BY trial_id, rowid"),
+            trials, take_fault);
+  return trials;
 }
 
 void check_file(const SqliteConnection& connection, const std::filesystem::path& path) {
@@ -354,16 +378,26 @@ std::vector<MetricColumn> ResultsDatabase::metrics() const {
 }
 
 std::vector<TrialRecord> ResultsDatabase::trials() const {
-  std::vector<TrialRecord> trials = read_trials(connection_);
-  read_rows(connection_,
-            "SELECT trial_id, metric, subject_kind, subject, coordinate, value FROM value ORDER BY trial_id, rowid",
-            trials, take_value);
-  read_rows(connection_, version_of(connection_) == 1 ? events_of_version_1 : events_of_version_2, trials, take_event);
-  read_rows(connection_,
-            "SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
-            "ORDER BY trial_id, rowid",
-            trials, take_fault);
+  std::vector<TrialRecord> trials = read_results(connection_);
+  read_rows(connection_, select_events(connection_, "ORDER BY trial_id, rowid"), trials, take_event);
   return trials;
+}
+
+std::vector<TrialRecord> ResultsDatabase::trials_with_events_of(const std::string& metric) const {
+  std::vector<TrialRecord> trials = read_results(connection_);
+  if (metric.empty()) return trials;
+  SqliteStatement select = select_events(connection_, "WHERE metric = ? ORDER BY trial_id, rowid");
+  select.bind(std::string_view(metric));
+  read_rows(connection_, std::move(select), trials, take_event);
+  return trials;
+}
+
+std::vector<MetricEvent> ResultsDatabase::events(std::uint64_t trial) const {
+  SqliteStatement select = select_events(connection_, "WHERE trial_id = ? ORDER BY rowid");
+  select.bind(as_signed(trial));
+  std::vector<MetricEvent> events;
+  while (select.step()) events.push_back(event_of(select));
+  return events;
 }
 
 }  // namespace dmrp::host

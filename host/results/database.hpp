@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/results/sqlite.hpp"
@@ -35,6 +36,11 @@ class ResultsDatabase {
 
   std::vector<MetricColumn> metrics() const;  // in the order of declaration
   std::vector<TrialRecord> trials() const;    // complete, by id
+
+  // The same with the events of this metric alone ("": with none): there can be millions of events.
+  std::vector<TrialRecord> trials_with_events_of(const std::string& metric) const;
+
+  std::vector<MetricEvent> events(std::uint64_t trial) const;
 
  private:
   explicit ResultsDatabase(SqliteConnection connection);

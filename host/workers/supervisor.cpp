@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <deque>
 #include <dmrp/toolkit/random.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -70,17 +69,20 @@ std::uint64_t new_stamp() {
 
 class Supervisor {
  public:
-  Supervisor(const Experiment& experiment, const std::vector<std::uint64_t>& trials, const SupervisorSettings& settings,
+  Supervisor(const Experiment& experiment, PlannedTrials trials, const SupervisorSettings& settings,
              const SupervisorSinks& sinks)
-      : experiment_(experiment), settings_(settings), sinks_(sinks), digest_(loaded_digest(experiment)) {
+      : experiment_(experiment),
+        settings_(settings),
+        sinks_(sinks),
+        digest_(loaded_digest(experiment)),
+        planned_(std::move(trials)),
+        open_trials_(planned_.left()) {
     const fs::path log = settings.run_directory / "log.txt";
     log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());
-    for (const std::uint64_t trial : trials) waiting_.emplace_back(experiment, blank_record(experiment, trial));
     delete_scratch_folders(settings.run_directory);  // of a supervisor that was killed
     adopt_orphans();
-    open_trials_ = trials.size();
-    slots_.resize(std::min<std::size_t>(settings.jobs, trials.size()));
+    slots_.resize(std::min<std::uint64_t>(settings.jobs, open_trials_));
   }
 
   ~Supervisor() {
@@ -109,7 +111,7 @@ class Supervisor {
  private:
   // Starts a worker if the slot has none, and gives an idle worker a trial.
   void assign_work(Slot& slot) {
-    if (slot.trial || waiting_.empty()) return;
+    if (slot.trial || (again_.empty() && planned_.left() == 0)) return;
     if (!slot.worker) {
       slot = Slot();
       slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
@@ -118,8 +120,7 @@ class Supervisor {
       allow_cpu(slot);
     }
     if (!slot.ready) return;
-    slot.trial = std::move(waiting_.front());
-    waiting_.pop_front();
+    slot.trial = next_trial();
     slot.trial->started_ns = monotonic_ns();
     // a worker that has died is noticed by its end
     slot.scratch->restore();
@@ -128,6 +129,13 @@ class Supervisor {
     if (experiment_.traces != RecordTraces::none) job.trace_file = scratch_trace(slot, job.trial).string();
     job.scratch_file = (slot.scratch->path() / "samples").string();
     slot.worker->channel().send(job);
+  }
+
+  OpenTrial next_trial() {
+    if (again_.empty()) return OpenTrial(experiment_, blank_record(experiment_, *planned_.next()));
+    OpenTrial trial = std::move(again_.back());
+    again_.pop_back();
+    return trial;
   }
 
   // For one trial.
@@ -288,7 +296,7 @@ class Supervisor {
   }
 
   void run_again(Slot& slot) {
-    waiting_.push_front(std::move(*slot.trial));
+    again_.push_back(std::move(*slot.trial));
     slot.trial.reset();
   }
 
@@ -418,18 +426,19 @@ class Supervisor {
   const bool watches_memory_ = experiment_.limits.memory_mb > 0 && counts_resident_memory(experiment_);
   Descriptor log_;
   Watchdog watchdog_;
-  std::deque<OpenTrial> waiting_;
+  PlannedTrials planned_;
+  std::vector<OpenTrial> again_;  // trials that have begun and lost their worker
   std::vector<Slot> slots_;
-  std::size_t open_trials_ = 0;
+  std::uint64_t open_trials_;
   int failed_starts_ = 0;
   int kills_between_trials_ = 0;
 };
 
 }  // namespace
 
-RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_t>& trials,
-                    const SupervisorSettings& settings, const SupervisorSinks& sinks) {
-  return Supervisor(experiment, trials, settings, sinks).run();
+RunEnding supervise(const Experiment& experiment, PlannedTrials trials, const SupervisorSettings& settings,
+                    const SupervisorSinks& sinks) {
+  return Supervisor(experiment, std::move(trials), settings, sinks).run();
 }
 
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {

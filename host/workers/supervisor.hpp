@@ -15,6 +15,7 @@
 
 #include "host/experiment/experiment.hpp"
 #include "host/results/trial_record.hpp"
+#include "host/workers/planned_trials.hpp"
 
 namespace dmrp::host {
 
@@ -34,9 +35,9 @@ struct SupervisorSinks {
 
 enum class RunEnding { done, interrupted };
 
-// Runs the trials with these numbers. Throws InputError if the experiment's files change during the run, and MachineError.
-RunEnding supervise(const Experiment& experiment, const std::vector<std::uint64_t>& trials,
-                    const SupervisorSettings& settings, const SupervisorSinks& sinks);
+// Runs these trials. Throws InputError if the experiment's files change during the run, and MachineError.
+RunEnding supervise(const Experiment& experiment, PlannedTrials trials, const SupervisorSettings& settings,
+                    const SupervisorSinks& sinks);
 
 // The record of a trial that has not run: its place in the experiment.
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial);

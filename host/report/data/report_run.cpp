@@ -7,7 +7,7 @@
 
 namespace dmrp::host {
 
-ReportRun read_report_run(const std::filesystem::path& directory) {
+ReportRun read_report_run(const std::filesystem::path& directory, const std::string& event_metric) {
   for (const char* file : {"results.sqlite", "manifest.json", "effective.toml"})
     if (std::error_code ignored; !std::filesystem::is_regular_file(directory / file, ignored))
       throw InputError(directory.string() + ": is no run directory (no " + file + ")");
@@ -18,7 +18,7 @@ ReportRun read_report_run(const std::filesystem::path& directory) {
   run.effective_toml = read_file(directory / "effective.toml", (directory / "effective.toml").string());
   const ResultsDatabase database = ResultsDatabase::open_read_only(directory / "results.sqlite");
   run.metrics = database.metrics();
-  run.trials = database.trials();
+  run.trials = database.trials_with_events_of(event_metric);
   return run;
 }
 

@@ -19,7 +19,7 @@ struct ReportRun {
   std::vector<TrialRecord> trials;  // by id; an interrupted run lacks some
 };
 
-// Throws InputError if it is no run directory, SqliteError or std::runtime_error if a file is damaged.
-ReportRun read_report_run(const std::filesystem::path& directory);
+// `event_metric`: trials have the events of this metric alone. Throws InputError if it is no run directory, SqliteError or std::runtime_error if a file is damaged.
+ReportRun read_report_run(const std::filesystem::path& directory, const std::string& event_metric = "");
 
 }  // namespace dmrp::host

@@ -66,14 +66,16 @@ void count(std::vector<OmittedReplays>& omitted, const std::string& why, const s
 }  // namespace
 
 Replays encode_replays(const fs::path& run_directory, std::span<const TrialRecord> trials,
-                       std::span<const MetricColumn> metrics, const ReplayPolicy& policy) {
+                       std::span<const MetricColumn> metrics, const ReplayPolicy& policy,
+                       const std::function<std::vector<MetricEvent>(std::uint64_t)>& events_of) {
   Replays chosen;
   ReplayPacker packer(run_directory, policy.budget_bytes);
   std::map<std::uint64_t, Replay> packed;         // by id
   std::map<std::uint64_t, std::string> failures;  // by id, with the reason
   for (const ReplayCandidate& candidate : replay_candidates(trials, metrics, policy.rank_by, policy.asked)) {
-    const TrialRecord& trial = trials[candidate.trial];
+    TrialRecord trial = trials[candidate.trial];
     if (!packed.contains(trial.id) && !failures.contains(trial.id)) {
+      if (events_of) trial.events = events_of(trial.id);
       Replay replay{trial.id, {}, {}};
       const std::string reason = packer.pack(trial, replay.packed);
       if (reason.empty())

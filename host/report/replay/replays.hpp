@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,8 +38,9 @@ struct Replays {
 };
 
 // Reads RUN_DIRECTORY/traces/trial_000000.mcap and so on. Omits and counts trials whose trace is missing or damaged or
-// whose replay exceeds the budget. `trials` are ordered by id.
+// whose replay exceeds the budget. `trials` are ordered by id. `events_of`: the events of a trial, if `trials` have not all.
 Replays encode_replays(const std::filesystem::path& run_directory, std::span<const TrialRecord> trials,
-                       std::span<const MetricColumn> metrics, const ReplayPolicy& policy);
+                       std::span<const MetricColumn> metrics, const ReplayPolicy& policy,
+                       const std::function<std::vector<MetricEvent>(std::uint64_t trial)>& events_of = {});
 
 }  // namespace dmrp::host
