@@ -33,6 +33,7 @@ namespace dmrp::host {
 namespace fs = std::filesystem;
 
 RunResults read_results(ResultsDatabase database, const SummaryLayout& layout) {
+  database.finish();
   RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}};
   results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
   return results;

@@ -20,6 +20,7 @@ struct RunResults {
   std::vector<TrialRecord> trials;
   std::vector<CombinationSummary> summaries;
 };
+// The database is finished and closed.
 RunResults read_results(ResultsDatabase database, const SummaryLayout& layout);
 
 // trials.csv and summary.csv.

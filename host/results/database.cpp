@@ -308,6 +308,7 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
 ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
   check_file(database.connection_, path);
+  database.connection_.execute("PRAGMA journal_mode = WAL");
   if (version_of(database.connection_) == 1) {
     SqliteTransaction transaction(database.connection_);
     database.connection_.execute(upgrade_from_version_1);
@@ -336,6 +337,10 @@ void ResultsDatabase::write(const TrialRecord& trial) {
   transaction.commit();
   if (connection_.has_moved())
     throw MachineError(connection_.file() + ": was deleted or replaced while results were written to it");
+}
+
+void ResultsDatabase::finish() {
+  connection_.execute("PRAGMA journal_mode = DELETE");
 }
 
 void ResultsDatabase::add_fault(std::uint64_t trial, const FaultRecord& fault) {

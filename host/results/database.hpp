@@ -27,6 +27,9 @@ class ResultsDatabase {
   // Writes the whole trial or nothing; replaces a trial with the same id.
   void write(const TrialRecord& trial);
 
+  // Nothing more is written: from then on it is one file, beside which those who read it leave none.
+  void finish();
+
   // Adds a fault to a trial that has been written.
   void add_fault(std::uint64_t trial, const FaultRecord& fault);
 

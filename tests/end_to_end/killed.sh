@@ -46,6 +46,7 @@ wait "$host_process" || status=$?
 ((moment > moments / 2)) || fail "the run was over after $moment of $moments moments"
 [[ $(query "$run" "SELECT count(*) FROM fault") == 0 ]] || fail "to be killed is no fault: $(query "$run" "SELECT * FROM fault")"
 cmp -s <(values_of "$run") <(values_of "$scratch/whole") || fail "values differ from an undisturbed run"
+! compgen -G "$run/results.sqlite-*" >/dev/null || fail "files are left beside the database: $(ls "$run")"
 # each trial has its trace, whole
 expect_status 0 "$host" evaluate "$run" --metric dmrp.metric.path_length --csv "$scratch/measured.csv"
 ! compgen -G "$run/*scratch*" >/dev/null || fail "scratch files are left: $(ls "$run")"

@@ -104,14 +104,12 @@ inline void use_threads() {
 #endif
 }
 
-// Slowly, up to 800 MB, in memory that no limit on data counts.
+// 200 MB, in memory that no limit on data counts, held until somebody has noticed it.
 inline void fill_memory() {
-  constexpr std::size_t step = 16u << 20;
-  for (int i = 0; i < 50; ++i) {
-    void* const shared = mmap(nullptr, step, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared != MAP_FAILED) std::memset(shared, 1, step);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  constexpr std::size_t size = 200u << 20;
+  void* const shared = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared != MAP_FAILED) std::memset(shared, 1, size);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
 }
 
 inline void crash() {

@@ -364,6 +364,37 @@ TEST_CASE("one process reaches a database that is written to, without a shared f
   CHECK_NOTHROW(read());
 }
 
+TEST_CASE("a finished database is one file, and can be resumed") {
+  const ScratchFolder folder;
+  const auto files = [&] { return std::distance(std::filesystem::directory_iterator(folder.path()), {}); };
+  {
+    ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+    database.write(full_trial(1));
+    database.finish();
+  }
+  CHECK(ResultsDatabase::open_read_only(folder / "results.sqlite").trials().size() == 1);
+  CHECK(files() == 1);
+  ResultsDatabase database = ResultsDatabase::open(folder / "results.sqlite");
+  database.write(full_trial(2));
+  CHECK(std::filesystem::exists(folder / "results.sqlite-wal"));
+}
+
+TEST_CASE("events are read of one metric, or of one trial") {
+  const ScratchFolder folder;
+  ResultsDatabase database = ResultsDatabase::create(folder / "results.sqlite", example_metrics());
+  for (const std::uint64_t id : {1, 2}) database.write(full_trial(id));
+  const std::size_t all = full_trial(1).events.size();
+  CHECK(database.trials()[0].events.size() == all);
+  CHECK(database.trials_with_events_of("touches")[1].events.size() == all);
+  CHECK(database.trials_with_events_of("done")[1].events.empty());
+  CHECK(database.trials_with_events_of("")[1].events.empty());
+  CHECK(database.events(2).size() == all);
+  CHECK(database.events(3).empty());
+  TrialRecord whole = database.trials_with_events_of("")[0];
+  whole.events = database.events(1);
+  check_same(whole, full_trial(1));
+}
+
 TEST_CASE("a damaged file is refused") {
   const ScratchFolder folder;
   {
