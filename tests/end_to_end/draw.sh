@@ -43,7 +43,7 @@ expect_status 1 "$host" draw crossing --planner test.planner.faulty --plugin "$2
 [[ $(tail -n 1 "$scratch/stderr") == "crash: test.planner.faulty: plan(): crashed (signal 11, Segmentation fault)" ]] ||
   fail "$(cat "$scratch/stderr")"
 expect_status 1 "$host" draw crossing --planner test.planner.faulty --plugin "$2" --set fault=into_wall --svg "$scratch/none.svg"
-grep -q "^bad_output: test.planner.faulty: plan(): robot 0, waypoint 2 .* is not on a free cell" "$scratch/stderr" ||
+grep -q "^bad_output: test.planner.faulty: plan(): invalid plan: robot 0, waypoint 2 .* is not on a free cell" "$scratch/stderr" ||
   fail "$(cat "$scratch/stderr")"
 [[ ! -e $scratch/none.svg ]] || fail "a fault should leave no picture"
 

@@ -210,7 +210,7 @@ if $limited; then
   expect_fault resident "local_controller = 'fills' AND repetition = 0" \
     "out_of_memory|test.controller.resident|step|50|1|" "MB in use, more than memory_mb = 150; when this is noticed"
   expect_same resident
-  note box "fills memory slowly, watched" "fault, \`out_of_memory\`" yes
+  note box "fills memory, watched" "fault, \`out_of_memory\`" yes
 fi
 
 # what a library does while it is loaded
