@@ -60,7 +60,7 @@ const tests = {
     await look(browser, report, async ({page, verdict}) => {
       assert.match(verdict, /No robot arrived: all 24 failed/);
       assert.strictEqual(
-        await page.locator('.results td[title="defined in 0 of 3 trials"] .mean').first().textContent(),
+        await page.locator('.results td[data-about="defined in 0 of 3 trials"] .mean').first().textContent(),
         '—'
       );
     });
