@@ -21,7 +21,7 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::int64_t case_limit_s = is_sanitized ? 300 : 30;
+const std::int64_t case_limit_s = is_sanitized ? 300 : 30;
 constexpr std::int64_t memory_mb = 2048;
 constexpr std::int64_t file_mb = 16;  // what a plugin prints is kept in memory
 
