@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <exception>
+#include <latch>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -292,13 +293,16 @@ void concurrent_instances(Examination& it) {
   Outputs second_outputs;
   std::exception_ptr thrown;
   it.at("two instances at the same time");
+  std::latch both_run(2);
   std::thread thread([&] {
+    both_run.arrive_and_wait();
     try {
       second_outputs = rehearse(*second, it.plugin(), {}, it.seed() + 1);
     } catch (...) {
       thrown = std::current_exception();
     }
   });
+  both_run.arrive_and_wait();
   Outputs first_outputs;
   try {
     first_outputs = rehearse(*first, it.plugin(), {}, it.seed());
