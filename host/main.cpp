@@ -23,6 +23,8 @@
 #include "host/process/box.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
+#include "host/terminal/colors.hpp"
+#include "host/terminal/mistake_text.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "host/workers/worker.hpp"
 
@@ -457,7 +459,7 @@ int main(int argc, char** argv) {
     flush_output();
     return status;
   } catch (const InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fputs(mistake_text(error, has_colors(STDERR_FILENO)).c_str(), stderr);
     return exit_status::bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dmrp-host: %s\n", error_text(error).c_str());

@@ -47,8 +47,7 @@ class EvaluationPlanner {
 
   Evaluation take() {
     Experiment settings;
-    for (const auto& [key, read] : settings_readers(root_, settings))
-      if (const auto value = root_.find(key); value && (key == "record" || key == "limits")) read(*value);
+    read_run_settings(root_, settings);
     evaluation_.limits = settings.limits;
     evaluation_.traces = settings.traces;
 

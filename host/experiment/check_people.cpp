@@ -18,6 +18,7 @@
 #include "core/people/flow_routes.hpp"
 #include "core/people/population.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/errors/mistakes.hpp"
 
 namespace dmrp::host {
 
@@ -37,8 +38,12 @@ class PeopleCheck {
         experiment_(experiment) {}
 
   void run() {
-    if (core::walker_count(scenario_) > 0) check_flows();
-    check_tracks();
+    Mistakes mistakes;
+    mistakes.attempt([&] {
+      if (core::walker_count(scenario_) > 0) check_flows();
+    });
+    mistakes.attempt([&] { check_tracks(); });
+    mistakes.end();
     for (const RecordingPlace& recording : file_.recordings) check_seen(recording);
   }
 
@@ -49,11 +54,14 @@ class PeopleCheck {
 
   void check_flows() const {
     const core::PlanningGrid walking = core::build_walking_grid(*geometry_, scenario_.people.radius_m);
+    Mistakes mistakes;
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
-      if (scenario_.flows[i].people > 0) check_flow(walking, i);
+      if (scenario_.flows[i].people > 0) mistakes.attempt([&] { check_flow(walking, i); });
+    mistakes.end();
     const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
-    check_room(routes);
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) check_groups(routes, i);
+    mistakes.attempt([&] { check_room(routes); });
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) mistakes.attempt([&] { check_groups(routes, i); });
+    mistakes.end();
   }
 
   // The free cells of the walking grid that touch a region.

@@ -21,6 +21,7 @@
 #include "core/scene/static_geometry.hpp"
 #include "core/scene/step_overlaps.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/errors/mistakes.hpp"
 #include "host/experiment/check_people.hpp"
 
 namespace dmrp::host {
@@ -66,10 +67,14 @@ class WorldCheck {
   const core::StaticGeometry& geometry() const { return *geometry_; }
 
   void run() {
-    for (std::size_t i = 0; i < scenario_.robots.size(); ++i) check_robot(i);
-    for (std::size_t a = 0; a < scenario_.robots.size(); ++a)
-      for (std::size_t b = a + 1; b < scenario_.robots.size(); ++b) check_pair(a, b);
-    check_people(file_, geometry_, planning_, drawn_, experiment_);
+    Mistakes mistakes;
+    std::vector<std::size_t> placed;  // robots without a mistake of their own
+    for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+      if (mistakes.attempt([&] { check_robot(i); })) placed.push_back(i);
+    for (std::size_t a = 0; a < placed.size(); ++a)
+      for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
+    mistakes.attempt([&] { check_people(file_, geometry_, planning_, drawn_, experiment_); });
+    mistakes.end();
     check_cell_size();
   }
 
@@ -182,14 +187,17 @@ class WorldCheck {
   void check_robot(std::size_t robot) {
     const core::RobotTask& task = scenario_.robots[robot];
     const dmrp_vec2 start = {task.start.x, task.start.y};
-    check_place(robot, "starts", "start", core::start_of(task));
+    Mistakes mistakes;
+    mistakes.attempt([&] { check_place(robot, "starts", "start", core::start_of(task)); });
+    for (const dmrp_pose& goal : task.goals)
+      mistakes.attempt([&] { check_place(robot, "has its goal", "goal", goal); });
+    mistakes.end();
     const core::PlanningGrid& planning = planning_.of(task.type);
     const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
     const auto seen = core::reachable_cells(planning, grid.index(grid.cell_of(start)));
     for (const dmrp_pose& goal : task.goals) {
       const dmrp_vec2 point = {goal.x, goal.y};
-      check_place(robot, "has its goal", "goal", goal);
       if (!seen[grid.index(grid.cell_of(point))])
         fail_robot(robot,
                    fmt::format("cannot reach its goal ({}, {}) from its start ({}, {}) on the planning grid{}{}",

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/errors/input_error.hpp"
+#include "host/errors/mistakes.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/experiment_keys.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t max_trials = 1'000'000;
 const std::vector<std::string> header_keys = {"name", "seed", "trials", "plugins"};
 
 // The lists of the experiment by plugin kind.
@@ -35,40 +37,51 @@ std::vector<std::pair<std::uint32_t, std::vector<PluginUse>*>> lists_by_kind(Exp
 // `trials` > 0 replaces the file's number.
 void read_header(const TomlDocument& document, std::uint32_t trials, const PluginSource& source,
                  Experiment& experiment) {
-  const TomlTable root = document.root();
-  const auto header = root.find_table("experiment");
-  if (!header) {
-    for (const TomlValue& entry : root.entries())
-      if (const std::string meant = did_you_mean(entry.key(), {"experiment"}); !meant.empty())
-        entry.fail_at_key(fmt::format("unknown key '{}'{}", entry.key(), meant));
-    root.fail("the file needs [experiment]");
-  }
-  header->allow_only(header_keys);
-  experiment.name = experiment.file.stem().string();
-  if (const auto name = header->find("name")) {
-    experiment.name = name->line();
+  const TomlTable header = document.root().need("experiment").table("[experiment]");
+  const auto read_name = [&experiment](const TomlValue& name) {
+    experiment.name = name.line();
     if (experiment.name.find('/') != std::string::npos || experiment.name.front() == '.')
-      name->fail("'name' is the name of the run directory: it must not contain '/' or begin with '.'");
-  }
-  if (const auto seed = header->find("seed")) experiment.seed = static_cast<std::uint64_t>(seed->integer(0));
-  if (const auto count = header->find("trials"))
-    experiment.trials = static_cast<std::uint32_t>(count->integer(1, 1'000'000));
+      name.fail("'name' is the name of the run directory: it must not contain '/' or begin with '.'");
+  };
+  experiment.name = experiment.file.stem().string();
+  Mistakes mistakes;
+  mistakes.attempt([&] {
+    header.read(
+        {{"name", read_name},
+         {"seed", [&](const TomlValue& at) { experiment.seed = static_cast<std::uint64_t>(at.integer(0)); }},
+         {"trials",
+          [&](const TomlValue& at) { experiment.trials = static_cast<std::uint32_t>(at.integer(1, max_trials)); }},
+         {"plugins", [&](const TomlValue& at) { read_libraries(document, at, source, experiment); }}});
+  });
+  mistakes.attempt([&] { header.need("plugins"); });
+  mistakes.end();
   if (trials > 0) experiment.trials = trials;
-  read_libraries(document, header->need("plugins"), source, experiment);
 }
 
 // `uses`: the [[scenario]] of experiment.scenarios.
 void check_complete(const TomlTable& root, const Experiment& experiment, const std::vector<ScenarioUse>& uses) {
-  if (experiment.scenarios.empty()) root.fail("the experiment needs a [[scenario]]");
   const bool robots = std::any_of(experiment.scenarios.begin(), experiment.scenarios.end(),
                                   [](const ScenarioVariant& variant) { return robot_count(variant) > 0; });
-  if (robots && experiment.global_planners.empty()) root.fail("the experiment needs a [[global_planner]]");
-  if (robots && experiment.local_controllers.empty()) root.fail("the experiment needs a [[local_controller]]");
-  if (!experiment.pedestrian_models.empty()) return;
+  std::vector<std::string> needed = {"scenario"};
+  if (robots) needed.insert(needed.end(), {kind_name(DMRP_KIND_GLOBAL_PLANNER), kind_name(DMRP_KIND_LOCAL_CONTROLLER)});
+  Mistakes mistakes;
+  for (const std::string& table : needed)
+    if (!root.find(table))
+      mistakes.attempt([&] { root.fail_missing(table, fmt::format("the experiment needs a [[{}]]", table)); });
+  const bool has_model = root.find(kind_name(DMRP_KIND_PEDESTRIAN_MODEL)).has_value();
   for (const ScenarioUse& use : uses)
-    if (const auto count = core::walker_count(use.file.scenario); count > 0)
-      use.use.fail(fmt::format("scenario '{}' has {} {}: the experiment needs a [[pedestrian_model]]",
-                               use.file.scenario.name, count, count == 1 ? "person" : "people"));
+    if (const auto count = core::walker_count(use.file.scenario); count > 0 && !has_model)
+      mistakes.attempt([&] {
+        use.use.fail(fmt::format("scenario '{}' has {} {}: the experiment needs a [[pedestrian_model]]",
+                                 use.file.scenario.name, count, count == 1 ? "person" : "people"));
+      });
+  mistakes.end();
+}
+
+void resolve_types(std::vector<ScenarioUse>& uses, Experiment& experiment) {
+  Mistakes mistakes;
+  for (std::size_t i = 0; i < uses.size(); ++i) mistakes.attempt([&] { resolve_robot_types(uses[i], i, experiment); });
+  mistakes.end();
 }
 
 // The controllers must be able to drive the robots of every scenario.
@@ -116,9 +129,13 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 
 std::vector<TomlKeys> experiment_keys() {
   std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys}};
+  TomlKeys root = {"", {"experiment", "scenario", "simulation", "robot", "robot_type", "record", "limits"}};
   Experiment unused;
-  for (const auto& [kind, uses] : lists_by_kind(unused))
+  for (const auto& [kind, uses] : lists_by_kind(unused)) {
     tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
+    root.keys.push_back(kind_name(kind));
+  }
+  tables.push_back(std::move(root));
   for (TomlKeys& table : settings_keys()) tables.push_back(std::move(table));
   return tables;
 }
@@ -133,25 +150,29 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   const TomlTable root = document.root();
   document.know(experiment_keys());
 
-  read_header(document, trials, source, experiment);
+  Mistakes mistakes;
+  mistakes.attempt([&] { root.allow_only(document.keys_of("")->keys); });
+  mistakes.attempt([&] { read_header(document, trials, source, experiment); });
+  const bool has_settings = mistakes.attempt([&] { read_world_settings(root, experiment); });
+  mistakes.attempt([&] { read_run_settings(root, experiment); });
   std::vector<ScenarioUse> scenario_uses;
-  std::vector<TomlTable::KeyReader> readers = settings_readers(root, experiment);
-  readers.emplace_back("experiment", [](const TomlValue&) {});
-  readers.emplace_back("scenario", [&](const TomlValue&) { scenario_uses = read_scenario_uses(root, experiment); });
-  for (const auto& [kind, uses] : lists_by_kind(experiment))
-    readers.emplace_back(kind_name(kind), [&experiment, &root, kind = kind, uses = uses](const TomlValue&) {
-      read_plugin_uses(root, kind, experiment, *uses);
-    });
-  root.read(readers);
-  experiment.robot_types = read_robot_types(root, experiment.robot);
-  for (std::size_t i = 0; i < scenario_uses.size(); ++i) resolve_robot_types(scenario_uses[i], i, experiment);
+  const bool has_scenarios = mistakes.attempt([&] { read_scenario_uses(root, experiment, scenario_uses); });
+  const bool all_libraries = has_all_libraries(root, experiment);
+  for (const auto& entry : lists_by_kind(experiment))
+    mistakes.attempt([&] { read_plugin_uses(root, entry.first, all_libraries, experiment, *entry.second); });
+  mistakes.attempt([&] { check_complete(root, experiment, scenario_uses); });
 
-  check_complete(root, experiment, scenario_uses);
-  check_drives(root, experiment);
-  check_ordered_execution(root, experiment);
-  check_processes(root, experiment);
-  if (experiment.metrics.empty()) use_every_metric(root.find_table("experiment")->need("plugins"), experiment);
-  for (const ScenarioUse& use : scenario_uses) check_world(use.file, use.robot_types, experiment, use.random);
+  // Checks of what belongs together, as far as it has been read.
+  const bool has_types = has_settings && mistakes.attempt([&] { resolve_types(scenario_uses, experiment); });
+  if (has_types && has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
+  if (has_settings) mistakes.attempt([&] { check_ordered_execution(root, experiment); });
+  mistakes.attempt([&] { check_processes(root, experiment); });
+  if (experiment.metrics.empty() && all_libraries)
+    mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
+  if (has_types)
+    for (const ScenarioUse& use : scenario_uses)
+      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random); });
+  mistakes.end();
   return experiment;
 }
 

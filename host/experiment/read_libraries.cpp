@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
 #include "host/toml/nearest_name.hpp"
 
@@ -61,24 +62,37 @@ void check_new_id(const TomlValue& value, const std::vector<LibraryUse>& librari
   }
 }
 
+void read_library(const TomlDocument& document, const TomlValue& value, const PluginSource& source,
+                  Experiment& experiment) {
+  const fs::path base = experiment.file.parent_path();
+  const std::string name = value.text();
+  const fs::path file = find_library(name, base);
+  if (file.empty()) fail_missing(value, name, base);
+  for (const LibraryUse& other : experiment.libraries)
+    if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
+  const Probe probe = probe_for(value, name, file, source);
+  for (const std::string& warning : probe.warnings)
+    experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
+  experiment.libraries.push_back({name, file, probe.plugins});
+  for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
+}
+
 }  // namespace
 
 void read_libraries(const TomlDocument& document, const TomlValue& plugins, const PluginSource& source,
                     Experiment& experiment) {
-  const fs::path base = experiment.file.parent_path();
-  for (const TomlValue& value : plugins.array()) {
-    const std::string name = value.text();
-    const fs::path file = find_library(name, base);
-    if (file.empty()) fail_missing(value, name, base);
-    for (const LibraryUse& other : experiment.libraries)
-      if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
-    const Probe probe = probe_for(value, name, file, source);
-    for (const std::string& warning : probe.warnings)
-      experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
-    experiment.libraries.push_back({name, file, probe.plugins});
-    for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
-  }
-  if (experiment.libraries.empty()) plugins.fail("'plugins' must name at least one library");
+  const std::vector<TomlValue> listed = plugins.array();
+  if (listed.empty()) plugins.fail("'plugins' must name at least one library");
+  Mistakes mistakes;
+  for (const TomlValue& value : listed) mistakes.attempt([&] { read_library(document, value, source, experiment); });
+  mistakes.end();
+}
+
+bool has_all_libraries(const TomlTable& root, const Experiment& experiment) {
+  const auto header = root.find("experiment");
+  const auto plugins = header && header->is_table() ? header->table().find("plugins") : std::nullopt;
+  return plugins && plugins->is_array() && !experiment.libraries.empty() &&
+         plugins->array().size() == experiment.libraries.size();
 }
 
 }  // namespace dmrp::host

@@ -11,4 +11,7 @@ namespace dmrp::host {
 void read_libraries(const TomlDocument& document, const TomlValue& plugins, const PluginSource& source,
                     Experiment& experiment);
 
+// Whether all libraries that the file names have been read. If not, nothing can be said about plugins that are missing.
+bool has_all_libraries(const TomlTable& root, const Experiment& experiment);
+
 }  // namespace dmrp::host

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
 #include "host/program/executable.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -92,15 +94,17 @@ ParameterValue read_value(const TomlValue& value, const ParameterSpec& spec, con
   return out;
 }
 
-// The entries of `params` or `sweep` in the order of the file, each with the index of its declared parameter.
-std::vector<std::pair<TomlValue, std::size_t>> declared_entries(const TomlTable& table, const PluginInfo& info) {
+// Reads the entries of `params` or `sweep` in the order of the file, each with the index of its declared parameter.
+void read_declared(const TomlTable& table, const PluginInfo& info,
+                   const std::function<void(const TomlValue&, std::size_t)>& read) {
   std::vector<std::string> known;
   for (const ParameterSpec& spec : info.parameters) known.push_back(spec.fallback.key);
-  table.allow_only(known, " for " + info.id);
-  std::vector<std::pair<TomlValue, std::size_t>> out;
+  Mistakes mistakes;
+  mistakes.attempt([&] { table.allow_only(known, " for " + info.id); });
   for (const TomlValue& entry : table.entries())
-    out.emplace_back(entry, std::find(known.begin(), known.end(), entry.key()) - known.begin());
-  return out;
+    if (const auto found = std::find(known.begin(), known.end(), entry.key()); found != known.end())
+      mistakes.attempt([&] { read(entry, static_cast<std::size_t>(found - known.begin())); });
+  mistakes.end();
 }
 
 std::string label_of(const ParameterValue& value) {
@@ -181,26 +185,35 @@ std::vector<ParameterVariant> read_parameters(const TomlTable& use, const Plugin
                                               const fs::path& file) {
   std::vector<ParameterVariant> variants(1);
   for (const ParameterSpec& spec : info.parameters) variants[0].values.push_back(spec.fallback);
-  if (!file.empty()) {
+  Mistakes mistakes;
+  mistakes.attempt([&] {
+    if (file.empty()) return;
     const TomlDocument document(shown(file), read_file(file, shown(file)));
-    for (const auto& [entry, index] : declared_entries(document.root(), info))
+    read_declared(document.root(), info, [&](const TomlValue& entry, std::size_t index) {
       variants[0].values[index] = read_value(entry, info.parameters[index], file.parent_path());
-  }
-
+    });
+  });
   std::vector<bool> set(info.parameters.size());
-  if (const auto params = use.find_table("params"))
-    for (const auto& [entry, index] : declared_entries(*params, info)) {
-      variants[0].values[index] = read_value(entry, info.parameters[index], base);
+  mistakes.attempt([&] {
+    const auto params = use.find_table("params");
+    if (!params) return;
+    read_declared(*params, info, [&](const TomlValue& entry, std::size_t index) {
       set[index] = true;
-    }
-  if (const auto sweep = use.find_table("sweep"))
-    for (const auto& [entry, index] : declared_entries(*sweep, info)) {
+      variants[0].values[index] = read_value(entry, info.parameters[index], base);
+    });
+  });
+  mistakes.attempt([&] {
+    const auto sweep = use.find_table("sweep");
+    if (!sweep) return;
+    read_declared(*sweep, info, [&](const TomlValue& entry, std::size_t index) {
       if (set[index]) entry.fail_at_key(fmt::format("'{}' is already set in 'params'", entry.key()));
       const auto values = read_sweep(entry, info.parameters[index], base);
       if (variants.size() * values.size() > max_variants)
         entry.fail(fmt::format("the sweep has more than {} variants", max_variants));
       variants = multiply(variants, index, values);
-    }
+    });
+  });
+  mistakes.end();
   return variants;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/errors/mistakes.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -30,18 +31,24 @@ void check_value_names(const TomlValue& at, const std::vector<PluginUse>& others
                               other.info.id == metric.info.id ? metric.label : metric.info.id));
 }
 
-// The library and the plugin of that id.
-std::pair<std::uint32_t, const PluginInfo*> find_plugin(const TomlValue& use, std::uint32_t kind,
-                                                        const std::vector<LibraryUse>& libraries) {
+struct FoundPlugin {
+  std::uint32_t library;
+  const PluginInfo* info;
+};
+
+// The plugin of that id; none if it may be in a library that could not be read.
+std::optional<FoundPlugin> find_plugin(const TomlValue& use, std::uint32_t kind, bool all_libraries,
+                                       const std::vector<LibraryUse>& libraries) {
   const std::string id = use.text();
   std::vector<std::string> same_kind;
   for (std::uint32_t i = 0; i < libraries.size(); ++i)
     for (const PluginInfo& info : libraries[i].plugins) {
       if (info.id == id && info.kind != kind)
         use.fail(fmt::format("{} is a {}, not a {}", id, kind_name(info.kind), kind_name(kind)));
-      if (info.id == id) return {i, &info};
+      if (info.id == id) return FoundPlugin{i, &info};
       if (info.kind == kind) same_kind.push_back(info.id);
     }
+  if (!all_libraries) return std::nullopt;
   use.fail(fmt::format("no {} '{}' in the loaded libraries (there: {}){}", kind_name(kind), id, join_names(same_kind),
                        did_you_mean(id, same_kind)));
 }
@@ -59,6 +66,27 @@ std::optional<std::int64_t> read_control_latency(const TomlTable& table) {
   return latency_ns;
 }
 
+// The variants of a use; sets its parameter file.
+std::vector<ParameterVariant> read_variants(const TomlTable& table, const PluginInfo& info,
+                                            const std::filesystem::path& base, std::filesystem::path& parameter_file) {
+  std::vector<ParameterVariant> variants;
+  Mistakes mistakes;
+  mistakes.attempt([&] { parameter_file = find_parameter_file(table, base); });
+  mistakes.attempt([&] { variants = read_parameters(table, info, base, parameter_file); });
+  mistakes.end();
+  return variants;
+}
+
+// Tables and results name a use by its label, and a value by its name.
+void check_names(const TomlTable& table, std::uint32_t kind, const std::vector<PluginUse>& others,
+                 const PluginUse& made) {
+  const TomlValue use = table.need("use");
+  if (label_taken(others, made.label))
+    table.find("label").value_or(use).fail(
+        fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));
+  if (kind == DMRP_KIND_METRIC) check_value_names(use, others, made);
+}
+
 }  // namespace
 
 std::vector<std::string> plugin_use_keys(std::uint32_t kind) {
@@ -67,32 +95,37 @@ std::vector<std::string> plugin_use_keys(std::uint32_t kind) {
   return keys;
 }
 
-void read_plugin_uses(const TomlTable& root, std::uint32_t kind, const Experiment& experiment,
+void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, const Experiment& experiment,
                       std::vector<PluginUse>& uses) {
-  const std::filesystem::path base = experiment.file.parent_path();
-  for (const TomlTable& table : root.tables(kind_name(kind))) {
-    table.allow_only(plugin_use_keys(kind));
-    const TomlValue use = table.need("use");
-    const auto [library, info] = find_plugin(use, kind, experiment.libraries);
-    check_extensions(use, *info);
-    const auto label = table.find("label");
-    const std::string name = label ? label->line() : info->name;
-    const std::filesystem::path file = find_parameter_file(table, base);
-    for (ParameterVariant& variant : read_parameters(table, *info, base, file)) {
-      PluginUse made;
-      made.library = library;
-      made.info = *info;
+  root.read_tables(kind_name(kind), [&](const TomlTable& table) {
+    Mistakes mistakes;
+    PluginUse common;
+    std::string name;
+    std::vector<ParameterVariant> variants;
+    mistakes.attempt([&] { table.allow_only(plugin_use_keys(kind)); });
+    mistakes.attempt([&] {
+      if (const auto label = table.find("label")) name = label->line();
+    });
+    mistakes.attempt([&] { common.control_latency_ns = read_control_latency(table); });
+    mistakes.attempt([&] {
+      const TomlValue use = table.need("use");
+      const auto found = find_plugin(use, kind, all_libraries, experiment.libraries);
+      if (!found) return;
+      check_extensions(use, *found->info);
+      common.library = found->library;
+      common.info = *found->info;
+      variants = read_variants(table, *found->info, experiment.file.parent_path(), common.parameter_file);
+    });
+    mistakes.end();
+    if (name.empty()) name = common.info.name;
+    for (ParameterVariant& variant : variants) {
+      PluginUse made = common;
       made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
       made.parameters = std::move(variant.values);
-      made.parameter_file = file;
-      made.control_latency_ns = read_control_latency(table);
-      if (label_taken(uses, made.label))
-        (label ? *label : use)
-            .fail(fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));
-      if (kind == DMRP_KIND_METRIC) check_value_names(use, uses, made);
+      check_names(table, kind, uses, made);
       uses.push_back(std::move(made));
     }
-  }
+  });
 }
 
 void use_every_metric(const TomlValue& at, Experiment& experiment) {

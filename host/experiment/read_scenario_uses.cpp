@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/scenario/robot_tables.hpp"
@@ -201,12 +202,17 @@ double scale_people(const TomlTable& table, core::Scenario& scenario) {
 // One [[scenario]] at one level.
 ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::path& file, std::optional<double> level,
                      std::size_t entry, Experiment& experiment) {
-  ScenarioUse use = {name, read_scenario_file(file, shown(file), level), {}, table.find("types")};
-  use.people_times = scale_people(table, use.file.scenario);
-  const TasksKey tasks = read_tasks_key(table);
-  const std::vector<RobotCount> counts = robot_counts(table, name, use.file.scenario, tasks);
+  ScenarioUse use = {name, {}, {}, table.find("types")};
+  TasksKey tasks;
+  std::vector<RobotCount> counts;
+  Mistakes mistakes;
+  mistakes.attempt([&] { use.jitter = read_jitter(table); });
+  const bool has_tasks = mistakes.attempt([&] { tasks = read_tasks_key(table); });
+  const bool has_file = mistakes.attempt([&] { use.file = read_scenario_file(file, shown(file), level); });
+  if (has_file) mistakes.attempt([&] { use.people_times = scale_people(table, use.file.scenario); });
+  if (has_file && has_tasks) mistakes.attempt([&] { counts = robot_counts(table, name, use.file.scenario, tasks); });
+  mistakes.end();
   use.random.wishes = tasks.wishes;
-  use.jitter = read_jitter(table);
   warn_of_drawn_list(counts, tasks, use.file.scenario, experiment);
   std::size_t most_listed = 0;
   for (const RobotCount& count : counts) {
@@ -223,17 +229,19 @@ ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::pa
 
 }  // namespace
 
-std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& experiment) {
-  std::vector<ScenarioUse> uses;
-  for (const TomlTable& table : root.tables("scenario")) {
-    table.allow_only(scenario_use_keys);
-    const TomlValue name = table.need("use");
-    const fs::path file = find_scenario(name.text(), experiment.file.parent_path());
-    if (file.empty()) fail_missing(name);
-    for (const std::optional<double> level : levels_to_run(table, file))
-      uses.push_back(read_use(table, name, file, level, uses.size(), experiment));
-  }
-  return uses;
+void read_scenario_uses(const TomlTable& root, Experiment& experiment, std::vector<ScenarioUse>& uses) {
+  root.read_tables("scenario", [&](const TomlTable& table) {
+    Mistakes mistakes;
+    mistakes.attempt([&] { table.allow_only(scenario_use_keys); });
+    mistakes.attempt([&] {
+      const TomlValue name = table.need("use");
+      const fs::path file = find_scenario(name.text(), experiment.file.parent_path());
+      if (file.empty()) fail_missing(name);
+      for (const std::optional<double> level : levels_to_run(table, file))
+        mistakes.attempt([&] { uses.push_back(read_use(table, name, file, level, uses.size(), experiment)); });
+    });
+    mistakes.end();
+  });
 }
 
 void resolve_robot_types(ScenarioUse& use, std::size_t entry, Experiment& experiment) {

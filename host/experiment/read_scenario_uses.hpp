@@ -27,8 +27,9 @@ struct ScenarioUse {
   core::RobotTypes robot_types{};  // after resolve_robot_types()
 };
 
-// Reads all [[scenario]]; adds a variant to the experiment for each number of robots. Throws InputError.
-std::vector<ScenarioUse> read_scenario_uses(const TomlTable& root, Experiment& experiment);
+// Reads all [[scenario]] into `uses`, also those beside one with a mistake; adds a variant to the experiment for each
+// number of robots. Throws InputError.
+void read_scenario_uses(const TomlTable& root, Experiment& experiment, std::vector<ScenarioUse>& uses);
 
 // Sets the types of robot of a [[scenario]] and of its variants; `entry`: its position among them. The experiment's own types must
 // have been read. Throws InputError.

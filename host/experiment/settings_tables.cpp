@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/errors/mistakes.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/toml/setting.hpp"
 
@@ -81,16 +82,27 @@ Settings limits_settings(RunLimits& to) {
 
 }  // namespace
 
-std::vector<TomlTable::KeyReader> settings_readers(const TomlTable& root, Experiment& experiment) {
-  const auto reader_of = [&root](const std::string& key, const std::function<Settings()>& settings) {
-    return TomlTable::KeyReader(
-        key, [&root, key, settings](const TomlValue&) { root.find_table(key)->read(readers_of(settings())); });
-  };
-  return {{"simulation", [&](const TomlValue&) { read_simulation(*root.find_table("simulation"), experiment); }},
-          {"robot", [&](const TomlValue&) { read_robot_table(*root.find_table("robot"), experiment.robot); }},
-          {"robot_type", [](const TomlValue&) {}},  // after [robot], which it refers to
-          reader_of("record", [&experiment] { return record_settings(experiment); }),
-          reader_of("limits", [&experiment] { return limits_settings(experiment.limits); })};
+void read_world_settings(const TomlTable& root, Experiment& experiment) {
+  Mistakes mistakes;
+  mistakes.attempt([&] {
+    if (const auto table = root.find_table("simulation")) read_simulation(*table, experiment);
+  });
+  mistakes.attempt([&] {
+    if (const auto table = root.find_table("robot")) read_robot_table(*table, experiment.robot);
+  });
+  mistakes.attempt([&] { experiment.robot_types = read_robot_types(root, experiment.robot); });
+  mistakes.end();
+}
+
+void read_run_settings(const TomlTable& root, Experiment& experiment) {
+  Mistakes mistakes;
+  mistakes.attempt([&] {
+    if (const auto table = root.find_table("record")) table->read(readers_of(record_settings(experiment)));
+  });
+  mistakes.attempt([&] {
+    if (const auto table = root.find_table("limits")) table->read(readers_of(limits_settings(experiment.limits)));
+  });
+  mistakes.end();
 }
 
 std::vector<TomlKeys> settings_keys() {

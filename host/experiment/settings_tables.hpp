@@ -11,8 +11,11 @@
 
 namespace dmrp::host {
 
-// The readers of these tables for root.read(). Both arguments must outlive the readers.
-std::vector<TomlTable::KeyReader> settings_readers(const TomlTable& root, Experiment& experiment);
+// Reads [simulation], [robot] and [robot_type.NAME]. Throws InputError.
+void read_world_settings(const TomlTable& root, Experiment& experiment);
+
+// Reads [record] and [limits]. Throws InputError.
+void read_run_settings(const TomlTable& root, Experiment& experiment);
 
 // The keys of these tables and of their subtables.
 std::vector<TomlKeys> settings_keys();

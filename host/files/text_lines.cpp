@@ -22,7 +22,8 @@ TextLines::TextLines(std::string text, std::string shown_path)
 }
 
 void TextLines::fail(std::size_t line, std::size_t column, const std::string& text) const {
-  throw InputError(fmt::format("{}:{}:{}: {}", shown_path_, line, column, text));
+  throw InputError(fmt::format("{}:{}:{}: {}", shown_path_, line, column, text),
+                   {shown_path_, line, column, std::string(this->line(line))});
 }
 
 }  // namespace dmrp::host

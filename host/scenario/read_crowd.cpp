@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/errors/mistakes.hpp"
 #include "host/scenario/scenario_values.hpp"
 #include "host/toml/nearest_name.hpp"
 
@@ -33,23 +34,26 @@ void read_people(const TomlTable& root, core::PeopleSettings& people) {
                             people.speed_mean, people.speed_max));
 }
 
-std::vector<std::string> read_regions(const TomlTable& root, ScenarioFile& out) {
-  std::vector<std::string> names;
-  for (const TomlTable& table : root.tables("region")) {
-    table.allow_only(region_keys);
+// `names`: of the regions that can be named in flows, also of those with other mistakes.
+void read_regions(const TomlTable& root, std::vector<std::string>& names, ScenarioFile& out) {
+  root.read_tables("region", [&](const TomlTable& table) {
     core::Region region;
-    const TomlValue name = table.need("name");
-    region.name = name.line();
-    refuse_twice(name, "regions", names);
-    region.lower = point(table.need("lower_m"));
-    region.upper = point(table.need("upper_m"));
+    Mistakes mistakes;
+    mistakes.attempt([&] { table.allow_only(region_keys); });
+    mistakes.attempt([&] {
+      const TomlValue name = table.need("name");
+      region.name = name.line();
+      refuse_twice(name, "regions", names);
+      names.push_back(region.name);
+    });
+    mistakes.attempt([&] { region.lower = point(table.need("lower_m")); });
+    mistakes.attempt([&] { region.upper = point(table.need("upper_m")); });
+    mistakes.end();
     if (region.lower.x > region.upper.x || region.lower.y > region.upper.y)
       table.fail(fmt::format("region '{}' needs lower_m <= upper_m", region.name));
-    names.push_back(region.name);
     out.scenario.regions.push_back(region);
     out.regions.push_back(table.position());
-  }
-  return names;
+  });
 }
 
 std::uint32_t region_index(const TomlValue& value, const std::vector<std::string>& names) {
@@ -68,36 +72,56 @@ std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
   return size;
 }
 
+// The regions that a flow leads through, in this order. `regions`: all names; `first_own`: the index of the first.
+std::vector<std::uint32_t> read_way(const TomlTable& table, const std::string& flow,
+                                    const std::vector<std::string>& regions, std::uint32_t first_own) {
+  std::vector<std::uint32_t> way;
+  Mistakes mistakes;
+  const auto add = [&](const TomlValue& region) {
+    const std::uint32_t next = first_own + region_index(region, regions);
+    if (!way.empty() && next == way.back())
+      region.fail(fmt::format("flow '{}' leads from region '{}' to itself: nobody would walk", flow, region.text()));
+    way.push_back(next);
+  };
+  mistakes.attempt([&] { add(table.need("from")); });
+  mistakes.attempt([&] {
+    if (const auto via = table.find("via"))
+      for (const TomlValue& region : via->array()) add(region);
+  });
+  mistakes.attempt([&] { add(table.need("to")); });
+  mistakes.end();
+  return way;
+}
+
 void read_flows(const TomlTable& root, const std::vector<std::string>& regions, ScenarioFile& out) {
   const auto first_own = static_cast<std::uint32_t>(out.scenario.regions.size() - regions.size());  // after tiles'
-  const auto region_of = [&](const TomlValue& value) { return first_own + region_index(value, regions); };
   std::vector<std::string> names;
-  for (const TomlTable& table : root.tables("flow")) {
-    table.allow_only(flow_keys);
+  root.read_tables("flow", [&](const TomlTable& table) {
     core::Flow flow;
-    const TomlValue name = table.need("name");
-    flow.name = name.line();
-    refuse_twice(name, "flows", names);
-    names.push_back(flow.name);
-    flow.regions.push_back(region_of(table.need("from")));
-    const auto lead_to = [&](const TomlValue& region) {
-      const std::uint32_t next = region_of(region);
-      if (next == flow.regions.back())
-        region.fail(
-            fmt::format("flow '{}' leads from region '{}' to itself: nobody would walk", flow.name, region.text()));
-      flow.regions.push_back(next);
-    };
-    if (const auto via = table.find("via"))
-      for (const TomlValue& region : via->array()) lead_to(region);
-    lead_to(table.need("to"));
-    flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, max_people));
-    if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
-      flow.start = core::FlowStart::from;
-    if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
-    if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
+    Mistakes mistakes;
+    mistakes.attempt([&] { table.allow_only(flow_keys); });
+    mistakes.attempt([&] {
+      const TomlValue name = table.need("name");
+      flow.name = name.line();
+      refuse_twice(name, "flows", names);
+      names.push_back(flow.name);
+    });
+    mistakes.attempt([&] { flow.regions = read_way(table, flow.name, regions, first_own); });
+    mistakes.attempt([&] {
+      flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, max_people));
+      if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
+    });
+    mistakes.attempt([&] {
+      if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
+        flow.start = core::FlowStart::from;
+    });
+    mistakes.attempt([&] {
+      if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
+    });
+    mistakes.end();
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
-  }
+  });
 }
 
 }  // namespace
@@ -108,9 +132,15 @@ std::vector<std::string> people_keys() {
 }
 
 void read_crowd(const TomlTable& root, ScenarioFile& out) {
-  read_people(root, out.scenario.people);
-  const auto regions = read_regions(root, out);
-  read_flows(root, regions, out);
+  Mistakes mistakes;
+  mistakes.attempt([&] { read_people(root, out.scenario.people); });
+  std::vector<std::string> regions;
+  mistakes.attempt([&] { read_regions(root, regions, out); });
+  mistakes.attempt([&] {
+    const bool has_all_names = regions.size() == root.tables("region").size();
+    if (has_all_names) read_flows(root, regions, out);
+  });
+  mistakes.end();
 }
 
 }  // namespace dmrp::host

@@ -131,14 +131,14 @@ class Recording {
 }  // namespace
 
 void read_recordings(const TomlTable& root, const fs::path& file, const std::string& shown_path, ScenarioFile& out) {
-  for (const TomlTable& table : root.tables("recording")) {
+  root.read_tables("recording", [&](const TomlTable& table) {
     table.allow_only(recording_keys);
     const TomlValue name = table.need("file");
     const NamedFile recording = named_file(name, file, shown_path, out);
     const std::size_t first = out.scenario.tracks.size();
     Recording(read_file(recording.path, recording.shown_path), recording.shown_path).read(out);
     out.recordings.push_back({name.position(), recording.shown_path, first, out.scenario.tracks.size()});
-  }
+  });
 }
 
 }  // namespace dmrp::host

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/read_crowd.hpp"
 #include "host/scenario/read_map.hpp"
@@ -64,66 +65,108 @@ std::vector<dmrp_pose> read_goals(const TomlTable& robot) {
 
 void read_robots(const TomlTable& root, ScenarioFile& out) {
   std::vector<std::string> names;
-  for (const TomlTable& table : root.tables("robot")) {
-    table.allow_only(robot_keys);
+  root.read_tables("robot", [&](const TomlTable& table) {
     core::RobotTask task;
-    if (const auto name = table.find("name")) {
+    task.name = fmt::format("robot {}", out.scenario.robots.size());
+    Mistakes mistakes;
+    mistakes.attempt([&] { table.allow_only(robot_keys); });
+    mistakes.attempt([&] {
+      const auto name = table.find("name");
+      if (!name) return;
       task.name = name->line();
       refuse_twice(*name, "robots", names);
-    } else {
-      task.name = fmt::format("robot {}", out.scenario.robots.size());
-    }
-    if (const auto type = table.find("type")) task.type = type->line();
-    task.start = pose(table.need("start"));
-    task.goals = read_goals(table);
+    });
+    mistakes.attempt([&] {
+      if (const auto type = table.find("type")) task.type = type->line();
+    });
+    mistakes.attempt([&] { task.start = pose(table.need("start")); });
+    mistakes.attempt([&] { task.goals = read_goals(table); });
+    mistakes.end();
     names.push_back(task.name);
     out.scenario.robots.push_back(std::move(task));
     out.robots.push_back(table.position());
+  });
+}
+
+void read_name(const TomlTable& header, const std::filesystem::path& file, ScenarioFile& out) {
+  const TomlValue name = header.need("name");
+  out.scenario.name = name.line();
+  const std::string folder = file.parent_path().filename().string();
+  if (file.filename() == "scenario.toml" && out.scenario.name != folder)
+    name.fail(fmt::format("'name' must be that of the folder, '{}', not '{}'", folder, out.scenario.name));
+}
+
+void read_extent(const TomlTable& root, const TomlTable& header, ScenarioFile& out) {
+  core::Scenario& scenario = out.scenario;
+  if (const auto origin = header.find("origin_m")) scenario.lower = point(*origin);
+  const bool tiled = root.find("tiles").has_value();
+  if (tiled || root.find("map")) {
+    if (const auto size_value = header.find("size_m"))
+      size_value->fail_at_key(
+          fmt::format("a scenario has either 'size_m' or {}, which gives its size", tiled ? "[tiles]" : "a [map]"));
+    return;
   }
+  const TomlValue size_value = header.need("size_m");
+  const dmrp_vec2 extent = size(size_value);
+  if (extent.x > max_side_m || extent.y > max_side_m)
+    size_value.fail(fmt::format("'size_m' must be at most [{0}, {0}]", max_side_m));
+  scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
+  out.size = size_value.position();
 }
 
 void read_header(const TomlTable& root, const std::filesystem::path& file, ScenarioFile& out) {
   core::Scenario& scenario = out.scenario;
-  const auto header = root.find_table("scenario");
-  if (!header) root.fail("the file needs [scenario]");
-  header->allow_only(header_keys);
-  const TomlValue name = header->need("name");
-  scenario.name = name.line();
-  const std::string folder = file.parent_path().filename().string();
-  if (file.filename() == "scenario.toml" && scenario.name != folder)
-    name.fail(fmt::format("'name' must be that of the folder, '{}', not '{}'", folder, scenario.name));
-  scenario.title = header->need("title").line();
-  scenario.description = header->need("description").line();
-  if (const auto origin = header->find("origin_m")) scenario.lower = point(*origin);
-  if (const auto inside = header->find("inside_m")) {
+  const TomlTable header = root.need("scenario").table("[scenario]");
+  Mistakes mistakes;
+  mistakes.attempt([&] { header.allow_only(header_keys); });
+  mistakes.attempt([&] { read_name(header, file, out); });
+  mistakes.attempt([&] { scenario.title = header.need("title").line(); });
+  mistakes.attempt([&] { scenario.description = header.need("description").line(); });
+  mistakes.attempt([&] {
+    const auto inside = header.find("inside_m");
+    if (!inside) return;
     scenario.inside = {point(*inside)};
     out.inside = inside->position();
-  }
-  const bool tiled = root.find_table("tiles").has_value();
-  if (tiled || root.find_table("map")) {
-    if (const auto size_value = header->find("size_m"))
-      size_value->fail_at_key(
-          fmt::format("a scenario has either 'size_m' or {}, which gives its size", tiled ? "[tiles]" : "a [map]"));
-  } else {
-    const TomlValue size_value = header->need("size_m");
-    const dmrp_vec2 extent = size(size_value);
-    if (extent.x > max_side_m || extent.y > max_side_m)
-      size_value.fail(fmt::format("'size_m' must be at most [{0}, {0}]", max_side_m));
-    scenario.upper = {scenario.lower.x + extent.x, scenario.lower.y + extent.y};
-    out.size = size_value.position();
-  }
-  if (const auto limit = header->find("time_limit_s")) scenario.time_limit_s = positive(*limit, max_time_s);
+  });
+  mistakes.attempt([&] { read_extent(root, header, out); });
+  mistakes.attempt([&] {
+    if (const auto limit = header.find("time_limit_s")) scenario.time_limit_s = positive(*limit, max_time_s);
+  });
+  mistakes.end();
+}
+
+// The tasks that are listed, in this file or in one of MovingAI.
+void read_listed_tasks(const TomlTable& root, const std::optional<TaskMap>& map, const std::filesystem::path& file,
+                       const std::string& shown_path, ScenarioFile& out) {
+  const auto tasks = root.find_table("robots");
+  if (!tasks) return read_robots(root, out);
+  if (const auto listed = root.find("robot")) listed->fail_at_key("a scenario has either [[robot]] or [robots]");
+  read_tasks(*tasks, map, file, shown_path, out);
+}
+
+// The level that the file is read at, by default its first.
+void set_level(const TomlTable& grade, std::optional<double> level, TomlDocument& document) {
+  grade.allow_only(grade_keys);
+  document.set_level(level ? *level : levels_of(grade).front());
 }
 
 }  // namespace
 
 std::vector<TomlKeys> scenario_keys() {
-  std::vector<TomlKeys> tables = {
-      {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
-      {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
-      {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    {"[people]", people_keys()},
-      {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys},
-      {"[grade]", grade_keys}};
+  std::vector<TomlKeys> tables = {{"", root_keys},
+                                  {"[scenario]", header_keys},
+                                  {"[map]", map_keys},
+                                  {"[tiles]", tiles_keys},
+                                  {"[[box]]", box_keys},
+                                  {"[[circle]]", circle_keys},
+                                  {"[[polygon]]", polygon_keys},
+                                  {"[[robot]]", robot_keys},
+                                  {"[robots]", tasks_keys},
+                                  {"[people]", people_keys()},
+                                  {"[[region]]", region_keys},
+                                  {"[[flow]]", flow_keys},
+                                  {"[[recording]]", recording_keys},
+                                  {"[grade]", grade_keys}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }
@@ -146,29 +189,25 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   document->know(scenario_keys());
   out.document = document;
   const TomlTable root = out.document->root();
-  root.allow_only(root_keys);
   const auto grade = root.find_table("grade");
-  if (grade) {
-    grade->allow_only(grade_keys);
-    if (!level) level = levels_of(*grade).front();
-    document->set_level(*level);
-  }
-  read_header(root, file, out);
-  if (grade) read_grade(*grade, *level, out);
-  const auto map = read_map(root, file, shown_path, out);
-  read_tiles(root, file, out);
-  read_shapes(root, out);
-  if (const auto tasks = root.find_table("robots")) {
-    if (const auto listed = root.find("robot")) listed->fail_at_key("a scenario has either [[robot]] or [robots]");
-    read_tasks(*tasks, map, file, shown_path, out);
-  } else {
-    read_robots(root, out);
-  }
-  if (grade) keep_graded(*grade, out);
+  if (grade) set_level(*grade, level, *document);
+  Mistakes mistakes;
+  mistakes.attempt([&] { root.allow_only(root_keys); });
+  const bool has_header = mistakes.attempt([&] { read_header(root, file, out); });
+  if (grade) mistakes.attempt([&] { read_grade(*grade, *document->level(), out); });
+  std::optional<TaskMap> map;
+  const bool has_map = has_header && mistakes.attempt([&] { map = read_map(root, file, shown_path, out); });
+  if (has_map) mistakes.attempt([&] { read_tiles(root, file, out); });
+  mistakes.attempt([&] { read_shapes(root, out); });
+  const bool may_need_map = root.find("robots").has_value();
+  const bool has_robots =
+      (has_map || !may_need_map) && mistakes.attempt([&] { read_listed_tasks(root, map, file, shown_path, out); });
+  if (grade && has_robots) mistakes.attempt([&] { keep_graded(*grade, out); });
+  mistakes.attempt([&] { read_crowd(root, out); });
+  mistakes.attempt([&] { read_recordings(root, file, shown_path, out); });
+  mistakes.end();
   if (!out.inside)
     for (const core::RobotTask& task : out.scenario.robots) out.scenario.inside.push_back({task.start.x, task.start.y});
-  read_crowd(root, out);
-  read_recordings(root, file, shown_path, out);
   return out;
 }
 

@@ -8,18 +8,25 @@
 #include <dmrp/toolkit/polygon.hpp>
 #include <utility>
 
+#include "host/errors/mistakes.hpp"
 #include "host/scenario/scenario_values.hpp"
 
 namespace dmrp::host {
 namespace {
 
 core::Shape read_box(const TomlTable& table) {
-  table.allow_only(box_keys);
+  Mistakes mistakes;
+  mistakes.attempt([&] { table.allow_only(box_keys); });
   core::Shape shape;
-  const dmrp_vec2 center = point(table.need("center_m"));
-  const dmrp_vec2 extent = size(table.need("size_m"));
-  const auto angle = table.find("angle_rad");
-  const double theta = angle ? angle->number(-max_length_m, max_length_m) : 0.0;
+  dmrp_vec2 center = {};
+  mistakes.attempt([&] { center = point(table.need("center_m")); });
+  dmrp_vec2 extent = {};
+  mistakes.attempt([&] { extent = size(table.need("size_m")); });
+  double theta = 0.0;
+  mistakes.attempt([&] {
+    if (const auto angle = table.find("angle_rad")) theta = angle->number(-max_length_m, max_length_m);
+  });
+  mistakes.end();
   const double c = std::cos(theta);
   const double s = std::sin(theta);
   for (const auto& [i, j] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
@@ -29,44 +36,62 @@ core::Shape read_box(const TomlTable& table) {
 }
 
 core::Shape read_circle(const TomlTable& table) {
-  table.allow_only(circle_keys);
+  Mistakes mistakes;
+  mistakes.attempt([&] { table.allow_only(circle_keys); });
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
-  shape.center = point(table.need("center_m"));
-  shape.radius_m = positive(table.need("radius_m"), max_length_m);
+  mistakes.attempt([&] { shape.center = point(table.need("center_m")); });
+  mistakes.attempt([&] { shape.radius_m = positive(table.need("radius_m"), max_length_m); });
+  mistakes.end();
   return shape;
 }
 
+std::vector<dmrp_vec2> read_vertices(const TomlValue& value) {
+  std::vector<dmrp_vec2> vertices;
+  for (const TomlValue& vertex : value.array()) vertices.push_back(point(vertex));
+  if (vertices.size() < 3) value.fail("'vertices_m' must have at least 3 points");
+  if (toolkit::signed_area(vertices) < 0.0) std::reverse(vertices.begin(), vertices.end());
+  if (!toolkit::is_convex_ccw(vertices)) value.fail("'vertices_m' must go round a convex polygon");
+  return vertices;
+}
+
 core::Shape read_polygon(const TomlTable& table) {
-  table.allow_only(polygon_keys);
+  Mistakes mistakes;
+  mistakes.attempt([&] { table.allow_only(polygon_keys); });
   core::Shape shape;
-  const TomlValue vertices = table.need("vertices_m");
-  for (const TomlValue& vertex : vertices.array()) shape.vertices.push_back(point(vertex));
-  if (shape.vertices.size() < 3) vertices.fail("'vertices_m' must have at least 3 points");
-  if (toolkit::signed_area(shape.vertices) < 0.0) std::reverse(shape.vertices.begin(), shape.vertices.end());
-  if (!toolkit::is_convex_ccw(shape.vertices)) vertices.fail("'vertices_m' must go round a convex polygon");
+  mistakes.attempt([&] { shape.vertices = read_vertices(table.need("vertices_m")); });
+  mistakes.end();
   return shape;
 }
 
 template <class Read>
 void read_kind(const TomlTable& root, const std::string& kind, Read&& read, ScenarioFile& out) {
-  for (const TomlTable& table : root.tables(kind)) {
-    core::Shape shape = read(table);
-    const TomlValue name = table.need("name");
-    shape.name = name.line();
-    for (const core::Shape& other : out.scenario.shapes)
-      if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
-    if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_length_m);
+  root.read_tables(kind, [&](const TomlTable& table) {
+    Mistakes mistakes;
+    core::Shape shape;
+    mistakes.attempt([&] { shape = read(table); });
+    mistakes.attempt([&] {
+      const TomlValue name = table.need("name");
+      shape.name = name.line();
+      for (const core::Shape& other : out.scenario.shapes)
+        if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
+    });
+    mistakes.attempt([&] {
+      if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_length_m);
+    });
+    mistakes.end();
     out.scenario.shapes.push_back(std::move(shape));
-  }
+  });
 }
 
 }  // namespace
 
 void read_shapes(const TomlTable& root, ScenarioFile& out) {
-  read_kind(root, "box", read_box, out);
-  read_kind(root, "circle", read_circle, out);
-  read_kind(root, "polygon", read_polygon, out);
+  Mistakes mistakes;
+  mistakes.attempt([&] { read_kind(root, "box", read_box, out); });
+  mistakes.attempt([&] { read_kind(root, "circle", read_circle, out); });
+  mistakes.attempt([&] { read_kind(root, "polygon", read_polygon, out); });
+  mistakes.end();
 }
 
 }  // namespace dmrp::host

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -61,13 +62,21 @@ ScenarioFile read_tile(const TomlValue& of, const fs::path& file) {
 void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) {
   const auto table = root.find_table("tiles");
   if (!table) return;
-  table->allow_only(tiles_keys);
-  if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
+  Mistakes mistakes;
+  mistakes.attempt([&] { table->allow_only(tiles_keys); });
+  mistakes.attempt([&] {
+    if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
+  });
+  std::int64_t columns = 1;
+  mistakes.attempt([&] { columns = table->need("columns").integer(1, max_tiles); });
+  std::int64_t rows = 1;
+  mistakes.attempt([&] {
+    if (const auto asked = table->find("rows")) rows = asked->integer(1, max_tiles);
+  });
+  ScenarioFile tile;
+  mistakes.attempt([&] { tile = read_tile(table->need("of"), file); });
+  mistakes.end();
   const TomlValue of = table->need("of");
-  const auto columns = table->need("columns").integer(1, max_tiles);
-  const auto asked_rows = table->find("rows");
-  const auto rows = asked_rows ? asked_rows->integer(1, max_tiles) : 1;
-  const ScenarioFile tile = read_tile(of, file);
   out.size = of.position();
   out.files.insert(out.files.end(), tile.files.begin(), tile.files.end());
 

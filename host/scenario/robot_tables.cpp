@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/scene/footprint.hpp"
+#include "host/errors/mistakes.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "host/toml/setting.hpp"
 
@@ -176,13 +177,16 @@ template <class Put>
 void read_types(const TomlTable& root, const core::RobotSettings& standard, const Put& put) {
   const auto types = root.find_table("robot_type");
   if (!types) return;
-  for (const TomlValue& entry : types->entries()) {
-    core::RobotSettings type = standard;
-    read_robot_table(entry.table(fmt::format("[robot_type.{}]", entry.key())), type);
-    type.type = entry.key();
-    if (type.type == default_type_name) entry.fail_at_key("[robot] is the type 'default'");
-    put(std::move(type));
-  }
+  Mistakes mistakes;
+  for (const TomlValue& entry : types->entries())
+    mistakes.attempt([&] {
+      core::RobotSettings type = standard;
+      read_robot_table(entry.table(fmt::format("[robot_type.{}]", entry.key())), type);
+      type.type = entry.key();
+      if (type.type == default_type_name) entry.fail_at_key("[robot] is the type 'default'");
+      put(std::move(type));
+    });
+  mistakes.end();
 }
 
 std::string unknown_type(const std::string& name, const core::RobotTypes& types) {
@@ -211,11 +215,13 @@ core::RobotTypes robot_types_of(const ScenarioFile& file, const core::RobotSetti
   core::RobotTypes types(standard);
   read_types(file.document->root(), standard, [&](core::RobotSettings type) { types.put(std::move(type)); });
   for (const core::RobotSettings& type : of_experiment) types.put(type);
-  for (std::size_t i = 0; i < file.scenario.robots.size(); ++i) {
-    const std::string& name = file.scenario.robots[i].type;
-    if (!types.find(name))
-      file.document->fail(file.robots[i], fmt::format("robot {} has the {}", i, unknown_type(name, types)));
-  }
+  Mistakes mistakes;
+  for (std::size_t i = 0; i < file.scenario.robots.size(); ++i)
+    if (const std::string& name = file.scenario.robots[i].type; !types.find(name))
+      mistakes.attempt([&] {
+        file.document->fail(file.robots[i], fmt::format("robot {} has the {}", i, unknown_type(name, types)));
+      });
+  mistakes.end();
   return types;
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "host/errors/input_error.hpp"
+#include "host/errors/mistakes.hpp"
 #include "host/toml/expression.hpp"
 #include "host/toml/nearest_name.hpp"
 
@@ -32,7 +33,8 @@ bool is_control(char c) {
 
 }  // namespace
 
-TomlDocument::TomlDocument(std::string shown_path, std::string_view text) : shown_path_(std::move(shown_path)) {
+TomlDocument::TomlDocument(std::string shown_path, std::string_view text)
+    : shown_path_(std::move(shown_path)), text_(text) {
   refuse_long_key(text);
   try {
     table_ = std::make_unique<const toml::table>(toml::parse(text, shown_path_));
@@ -46,8 +48,15 @@ TomlDocument::~TomlDocument() = default;
 std::vector<std::string> TomlDocument::tables_with(const std::string& key) const {
   std::vector<std::string> titles;
   for (const TomlKeys& table : tables_)
-    if (std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end()) titles.push_back(table.title);
+    if (!table.title.empty() && std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end())
+      titles.push_back(table.title);
   return titles;
+}
+
+const TomlKeys* TomlDocument::keys_of(const std::string& title) const {
+  const auto found =
+      std::find_if(tables_.begin(), tables_.end(), [&](const TomlKeys& table) { return table.title == title; });
+  return found == tables_.end() ? nullptr : &*found;
 }
 
 TomlTable TomlDocument::root() const {
@@ -60,7 +69,14 @@ std::string TomlDocument::place(SourcePosition at) const {
 
 void TomlDocument::fail(SourcePosition at, const std::string& text) const {
   const bool is_long = text.size() > longest_message;
-  throw InputError(place(at) + ": " + text.substr(0, longest_message) + (is_long ? "..." : ""));
+  throw InputError(place(at) + ": " + text.substr(0, longest_message) + (is_long ? "..." : ""),
+                   {shown_path_, at.line, at.column, std::string(line(at.line))});
+}
+
+std::string_view TomlDocument::line(std::size_t number) const {
+  std::string_view rest = text_;
+  for (std::size_t i = 1; i < number; ++i) rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+  return rest.substr(0, rest.find('\n'));
 }
 
 // The parser makes a table in a table for each part, and its stack has an end.
@@ -233,16 +249,22 @@ std::vector<std::string> TomlTable::keys_of(const std::vector<KeyReader>& reader
 
 void TomlTable::read(const std::vector<KeyReader>& readers) const {
   const std::vector<std::string> known = keys_of(readers);
-  for (const TomlValue& entry : entries()) {
-    const auto found = std::find(known.begin(), known.end(), entry.key());
-    if (found == known.end()) refuse_key(entry, known, "");
-    readers[static_cast<std::size_t>(found - known.begin())].second(entry);
-  }
+  Mistakes mistakes;
+  for (const TomlValue& entry : entries())
+    mistakes.attempt([&] {
+      const auto found = std::find(known.begin(), known.end(), entry.key());
+      if (found == known.end()) refuse_key(entry, known, "");
+      readers[static_cast<std::size_t>(found - known.begin())].second(entry);
+    });
+  mistakes.end();
 }
 
 void TomlTable::allow_only(const std::vector<std::string>& keys, const std::string& whose) const {
+  Mistakes mistakes;
   for (const TomlValue& entry : entries())
-    if (std::find(keys.begin(), keys.end(), entry.key()) == keys.end()) refuse_key(entry, keys, whose);
+    if (std::find(keys.begin(), keys.end(), entry.key()) == keys.end())
+      mistakes.attempt([&] { refuse_key(entry, keys, whose); });
+  mistakes.end();
 }
 
 std::optional<TomlValue> TomlTable::find(const std::string& key) const {
@@ -253,7 +275,17 @@ std::optional<TomlValue> TomlTable::find(const std::string& key) const {
 
 TomlValue TomlTable::need(const std::string& key) const {
   if (const auto value = find(key)) return *value;
-  fail(title_.empty() ? fmt::format("the file needs [{}]", key) : fmt::format("{} needs '{}'", title_, key));
+  fail_missing(key,
+               title_.empty() ? fmt::format("the file needs [{}]", key) : fmt::format("{} needs '{}'", title_, key));
+}
+
+void TomlTable::fail_missing(const std::string& key, const std::string& text) const {
+  if (const TomlKeys* const known = document_->keys_of(title_))
+    for (const TomlValue& entry : entries())
+      if (std::find(known->keys.begin(), known->keys.end(), entry.key()) == known->keys.end() &&
+          nearest_name(entry.key(), known->keys) == key)
+        refuse_key(entry, known->keys, "");
+  fail(text);
 }
 
 std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
@@ -275,6 +307,12 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
     out.push_back(std::move(table));
   }
   return out;
+}
+
+void TomlTable::read_tables(const std::string& key, const std::function<void(const TomlTable&)>& read) const {
+  Mistakes mistakes;
+  for (const TomlTable& table : tables(key)) mistakes.attempt([&] { read(table); });
+  mistakes.end();
 }
 
 std::vector<TomlValue> TomlTable::entries() const {

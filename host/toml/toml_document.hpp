@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // toml_document.hpp: reads a TOML file; every mistake is an InputError in one line, `file:line:column: what was
-// expected`.
+// expected`. What reads several keys or tables goes on behind a mistake, and throws all in one InputErrors.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,8 @@ class TomlDocument {
 
   // Sets all tables of the format, so that messages about an unknown key can name the table to which it belongs.
   void know(std::vector<TomlKeys> tables) { tables_ = std::move(tables); }
-  std::vector<std::string> tables_with(const std::string& key) const;  // their titles
+  std::vector<std::string> tables_with(const std::string& key) const;  // their titles, without the root's
+  const TomlKeys* keys_of(const std::string& title) const;             // nullptr: not known
 
   // With a level, numbers may be written as formulas of it (expression.hpp): "5 - level / 2".
   void set_level(double level) { level_ = level; }
@@ -58,7 +59,10 @@ class TomlDocument {
   std::string place(SourcePosition at) const;  // "file:line:column"
 
  private:
+  std::string_view line(std::size_t number) const;
+
   std::string shown_path_;
+  std::string text_;
   std::unique_ptr<const toml::v3::table> table_;
   std::vector<TomlKeys> tables_;
   std::optional<double> level_;
@@ -112,18 +116,22 @@ class TomlTable {
   [[noreturn]] void fail(const std::string& text) const;
   const std::string& title() const { return title_; }
 
-  // Reads every key in the order of the file, so that the first mistake is reported; refuses other keys.
+  // Reads every key in the order of the file; refuses other keys.
   using KeyReader = std::pair<std::string, std::function<void(const TomlValue&)>>;
   void read(const std::vector<KeyReader>& readers) const;
   static std::vector<std::string> keys_of(const std::vector<KeyReader>& readers);
 
-  // Refuses the first key that is not in the list. `whose`: "" or " for org.example.planner", for the message.
+  // Refuses every key that is not in the list. `whose`: "" or " for org.example.planner", for the message.
   void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;
 
   std::optional<TomlValue> find(const std::string& key) const;
   TomlValue need(const std::string& key) const;
   std::optional<TomlTable> find_table(const std::string& key) const;
   std::vector<TomlTable> tables(const std::string& key) const;  // [[key]]; empty if there are none
+  void read_tables(const std::string& key, const std::function<void(const TomlTable&)>& read) const;  // each [[key]]
+
+  // Fails because there is no `key`. If one of the keys is `key` misspelt, that is the mistake.
+  [[noreturn]] void fail_missing(const std::string& key, const std::string& text) const;
 
   // All keys, in the order of the file.
   std::vector<TomlValue> entries() const;

@@ -8,7 +8,7 @@ planted=$2
 # expect_refusal PATTERN COMMAND...: one line, and status 2
 expect_refusal() {
   expect_status 2 "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 

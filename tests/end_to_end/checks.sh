@@ -2,7 +2,7 @@
 # shellcheck shell=bash disable=SC2034  # its variables are for the scripts that source it
 # Sourced by the end-to-end tests, which are called as: TEST.sh DMRP_HOST. Gives them
 #   host, here, scratch   the executable, this folder, a folder that is deleted when the test ends
-#   fail, expect_status, query, values_of
+#   fail, expect_status, messages, query, values_of
 set -uo pipefail
 
 host=$1
@@ -24,6 +24,11 @@ expect_status() {
   ((status == expected)) && return
   cat "$scratch/stdout" "$scratch/stderr"
   fail "exit status $status, not $expected: $*"
+}
+
+# The number of messages on standard error: its lines, without those that quote a line of a file for a mistake.
+messages() {
+  grep -cv '^ *[0-9]* | ' "$scratch/stderr"
 }
 
 # query RUN_DIR SQL

@@ -25,7 +25,7 @@ expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 
 refused() {
   expect_status 2 "$host" compare "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 refused "did you mean 'success'" "$before" "$after" --fail-if "sucess < 0"

@@ -7,7 +7,7 @@ experiment=$here/crossing.toml
 # expect_refusal PATTERN COMMAND...: status 2 and one line, no longer than a screen
 expect_refusal() {
   expect_status 2 "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(head -c 2000 "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line but: $(head -c 2000 "$scratch/stderr")"
   (($(wc -c <"$scratch/stderr") < 2200)) || fail "a line of $(wc -c <"$scratch/stderr") bytes"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }

@@ -8,7 +8,7 @@ run=$scratch/run all=$scratch/all.csv some=$scratch/some.csv
 
 # expect_line PATTERN: on standard error, which has LINES lines (1 unless said)
 expect_line() {
-  [[ $(wc -l <"$scratch/stderr") == "${2:-1}" ]] || fail "not ${2:-one} line(s): $(cat "$scratch/stderr")"
+  [[ $(messages) == "${2:-1}" ]] || fail "not ${2:-one} line(s): $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 evaluate() {

@@ -37,7 +37,7 @@ grep -q 'pfd (m)' "$scratch/pfd.svg" || fail "the figure names no metric"
 
 refused() {
   expect_status 2 "$host" export "$run" "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 refused "did you mean 'success'" --latex --metric sucess

@@ -28,7 +28,7 @@ done
 kept=$(query "$run" "SELECT count(*) FROM trial")
 ((kept >= 3 && kept < 400)) || fail "$kept trials were kept of 400"
 [[ $(query "$run" "SELECT count(*) FROM fault") == 0 ]] || fail "an interruption is no fault"
-[[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "one line should say how to go on: $(cat "$scratch/stderr")"
+[[ $(messages) == 1 ]] || fail "one line should say how to go on: $(cat "$scratch/stderr")"
 [[ -s $run/trials.csv && -s $run/summary.csv ]] || fail "the tables of what was finished are missing"
 
 expect_status 2 "$host" "$here/crossing.toml" --quiet --resume --trials 99 --out "$run"

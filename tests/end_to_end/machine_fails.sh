@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 # expect_failure PATTERN COMMAND...: status 3, and one line on standard error
 expect_failure() {
   expect_status 3 "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
   echo "$(cat "$scratch/stderr")"
 }

@@ -10,7 +10,7 @@ run() {
 # expect_refusal PATTERN ARGUMENT...: of merge, which then leaves nothing behind
 expect_refusal() {
   expect_status 2 "$host" merge "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
   [[ ! -e $scratch/none ]] || fail "something was written"
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A mistake in the input gives one line with its place, exit status 2, and no file.
+# A mistake in the input gives one line with its place, below it the line of the file and a caret, exit status 2, and no
+# file.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 work=$scratch/work
@@ -24,7 +25,7 @@ expect_mistake() {
   for call in "experiment.toml --out out" "validate experiment.toml" "experiment.toml"; do
     # shellcheck disable=SC2086
     expect_status 2 "$host" $call
-    [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "$name: not one line but: $(cat "$scratch/stderr")"
+    [[ $(messages) == 1 ]] || fail "$name: not one line but: $(cat "$scratch/stderr")"
     [[ ! -s $scratch/stdout ]] || fail "$name: wrote to standard output: $(cat "$scratch/stdout")"
     grep -Eq "$pattern" "$scratch/stderr" || fail "$name: '$(cat "$scratch/stderr")' does not match '$pattern'"
     [[ $(contents) == "$before" && ! -e out && ! -e runs ]] || fail "$name: something was written"
@@ -71,9 +72,19 @@ expect_mistake "a flow that leads nowhere" '' 's/^to = .*/to = "lower right"/' "
 expect_mistake "a key of another table" '$a[simulation]\nactuation_latency_s = 0.1' '' "$line.*unknown key 'actuation_latency_s' in \[simulation\] \(it is a key of \[robot\]\)"
 expect_mistake "latency out of range" '$a[robot]\nactuation_latency_s = -1' '' "$line'actuation_latency_s' must be at least 0"
 
+# All mistakes of the experiment and its scenario in one go, each with its line and a caret under the place.
+sed 's/^trials .*/trials = "three"/;s/controller.dwa/controller.dwo/' "$here/crossing.toml" >experiment.toml
+sed 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$here/worlds/crossing/scenario.toml" >worlds/crossing/scenario.toml
+expect_status 2 "$host" validate experiment.toml
+[[ $(grep -cE '^[^ ]+:[0-9]+:[0-9]+: ' "$scratch/stderr") == 3 && $(tail -1 "$scratch/stderr") == "3 mistakes" ]] ||
+  fail "not three mistakes: $(cat "$scratch/stderr")"
+grep -A2 "'trials' must be an integer" "$scratch/stderr" | grep -Eq '^ *\|          \^$' ||
+  fail "no caret under the value of trials: $(cat "$scratch/stderr")"
+grep -q "robot 0 starts inside 'pillar'" "$scratch/stderr" || fail "the scenario's mistake is missing"
+
 rm experiment.toml
 expect_status 2 "$host" experiment.toml
-[[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "a missing experiment file gets one line"
+[[ $(messages) == 1 ]] || fail "a missing experiment file gets one line"
 
 # the same for evaluate
 cp "$here/crossing.toml" experiment.toml
@@ -84,7 +95,7 @@ expect_evaluate_mistake() {
   local pattern=$1
   shift
   expect_status 2 "$host" evaluate "$@"
-  [[ $(wc -l <"$scratch/stderr") == 1 && ! -s $scratch/stdout ]] ||
+  [[ $(messages) == 1 && ! -s $scratch/stdout ]] ||
     fail "evaluate $*: not one line but: $(cat "$scratch/stderr" "$scratch/stdout")"
   grep -Eq -- "$pattern" "$scratch/stderr" || fail "evaluate $*: '$(cat "$scratch/stderr")' does not match '$pattern'"
   echo "evaluate: $(cat "$scratch/stderr")"

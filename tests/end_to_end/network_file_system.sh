@@ -10,7 +10,7 @@ mkdir "$nfs"
 on_nfs() { PRETENDED_FOLDER=$nfs LD_PRELOAD=$library "$@"; }
 expect_refusal() {
   expect_status 2 on_nfs "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line but: $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 

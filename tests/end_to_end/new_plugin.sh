@@ -10,7 +10,7 @@ refuses() {
   local pattern=$1
   shift
   expect_status 2 "$host" new "$@" mine
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "more than a line: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "more than a line: $(cat "$scratch/stderr")"
   grep -Eq -- "$pattern" "$scratch/stderr" || fail "$* should be refused with '$pattern': $(cat "$scratch/stderr")"
 }
 refuses "no kind of plugin 'plannr' \(did you mean 'planner'\?\): .*controller, metric, pedestrian-model, planner" plannr --id org.example.mine

@@ -15,7 +15,7 @@ expect_plain() {
 
 # a plugin of unknown kind is left out with a note
 expect_status 0 "$host" plugins "$library"
-[[ $(grep -c "$note" "$scratch/stderr") == 1 && $(wc -l <"$scratch/stderr") == 1 ]] ||
+[[ $(grep -c "$note" "$scratch/stderr") == 1 && $(messages) == 1 ]] ||
   fail "there should be one note: $(cat "$scratch/stderr")"
 grep -q test.odd.controller "$scratch/stdout" || fail "the other plugins should be listed"
 ! grep -q stranger "$scratch/stdout" || fail "the unknown plugin should not be listed"

@@ -137,7 +137,7 @@ cp "$maps"/*.map "$maps"/*.scen .
 # expect_mistake PATTERN ARGUMENT...
 expect_mistake() {
   expect_status 2 "$host" plan "${@:2}"
-  [[ $(wc -l <"$scratch/stderr") == 1 && ! -s $scratch/stdout ]] || fail "not one line: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 && ! -s $scratch/stdout ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 on_map() { expect_mistake "$1" --map "$2" --scen "$3" --agents "${4:-1}" --planner dmrp.planner.cbs "${@:5}"; }

@@ -38,6 +38,6 @@ data | grep -q '"trials_planned":12,"trials_finished":5' || fail "missing trials
 query "$run" "PRAGMA foreign_keys = ON; DELETE FROM trial;"
 for error in "$run: no trial is finished" "$scratch: is no run directory \(no results.sqlite\)" "$scratch/none: is no run"; do
   expect_status 2 "$host" report "${error%%:*}"
-  [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
+  [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq "$error" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$error'"
 done

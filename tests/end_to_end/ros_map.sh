@@ -36,7 +36,7 @@ expect_mistake() {
   for call in "ros_map.toml --out out" "validate ros_map.toml" "ros_map.toml"; do
     # shellcheck disable=SC2086
     expect_status 2 "$host" $call
-    [[ $(wc -l <"$scratch/stderr") == 1 ]] || fail "$change: not one line but: $(cat "$scratch/stderr")"
+    [[ $(messages) == 1 ]] || fail "$change: not one line but: $(cat "$scratch/stderr")"
     grep -Eq "^$pattern" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$pattern'"
     [[ $(contents) == "$before" && ! -e out && ! -e runs ]] || fail "$change: something was written"
   done

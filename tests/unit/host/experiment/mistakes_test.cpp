@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every mistake is told in one line, at its place, and says what to do.
+// Every mistake is told in one line, at its place, and says what to do; all of a file: all_mistakes_test.
+#include "host/errors/mistakes.hpp"
+
 #include <catch2/catch.hpp>
 
-#include "host/errors/input_error.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
 namespace {
@@ -14,6 +15,10 @@ std::string message_of(const std::string& experiment, const std::string& scenari
   write_file("hall/scenario.toml", scenario);
   try {
     load(experiment);
+  } catch (const dmrp::host::InputErrors& errors) {
+    std::string all;  // a mistake is told once, and nothing that follows from it
+    for (const InputError& mistake : errors.mistakes()) all += std::string(mistake.what()) + "\n";
+    return all;
   } catch (const InputError& error) {
     return error.what();
   }
@@ -32,7 +37,12 @@ TEST_CASE("mistakes in an experiment file") {
   const ExperimentFolder folder;
   const Mistake mistakes[] = {
       // syntax and structure
-      {"[experiment]\n", "", "experiment.toml:1:1: the file needs [experiment]"},
+      {"[experiment]\n", "",
+       "experiment.toml:1:1: unknown key 'name' (it is a key of [experiment])\n"
+       "experiment.toml:1:1: the file needs [experiment]\n"
+       "experiment.toml:2:1: unknown key 'seed' (it is a key of [experiment])\n"
+       "experiment.toml:3:1: unknown key 'trials' (it is a key of [experiment])\n"
+       "experiment.toml:4:1: unknown key 'plugins' (it is a key of [experiment])\n"},
       {"[experiment]", "[experimant]", "experiment.toml:1:2: unknown key 'experimant' (did you mean 'experiment'?)"},
       {"seed", "sed", "experiment.toml:3:1: unknown key 'sed' in [experiment] (did you mean 'seed'?)"},
       {"seed = 7", "seed = 7\nseed = 8",
@@ -139,9 +149,11 @@ TEST_CASE("mistakes in an experiment file") {
        "experiment.toml:13:11: 'weight' is already set in 'params'"},
       {"params = { weight = 1.5 }", "sweep = { weigth = [2] }",
        "experiment.toml:12:11: unknown key 'weigth' for test.planner (did you mean 'weight'?)"},
-      // a mistake is the first of the file, whatever is read first
+      // in the order of the file, whatever is read first
       {"params = { weight = 1.5 }", "params = { zeal = 1, weight = 0, above = 2 }",
-       "experiment.toml:12:12: unknown key 'zeal' for test.planner"},
+       "experiment.toml:12:12: unknown key 'zeal' for test.planner\n"
+       "experiment.toml:12:31: 'weight' must be from 1 to 10 m, not 0\n"
+       "experiment.toml:12:34: unknown key 'above' for test.planner\n"},
   };
   for (const Mistake& mistake : mistakes) {
     INFO(mistake.to);
@@ -219,8 +231,6 @@ TEST_CASE("mistakes in an experiment's settings") {
        "'none'?)"},
       {"[limits]\nmemory_mb = -1", "20:13: 'memory_mb' must be at least 0, not -1"},
       {"[limits]\nplanner_time_s = 0", "20:18: 'planner_time_s' must be at least 0.001, not 0"},
-      // the first in the file
-      {"[robot]\nv_max = -1\na_max = -1\n[simulation]\nstep_s = -1", "20:9: 'v_max' must be positive, not -1"},
   };
   for (const auto& [text, message] : mistakes) {
     INFO(text);
@@ -248,8 +258,11 @@ TEST_CASE("mistakes in a scenario file") {
       {"radius_m = 0.3", "radius_m = 0", "15:12: 'radius_m' must be positive, not 0"},
       {"radius_m = 0.3", "radius = 0.3", "15:1: unknown key 'radius' in [[circle]] (did you mean 'radius_m'?)"},
       {"radius_m = 0.3", "size_m = [0.3, 0.3]",
-       "15:1: unknown key 'size_m' in [[circle]] (it is a key of [scenario], [[box]])"},
-      {"people = 2", "speed_mean = 1.4", "44:1: unknown key 'speed_mean' in [[flow]] (it is a key of [people])"},
+       "12:1: [[circle]] needs 'radius_m'\n"
+       "hall/scenario.toml:15:1: unknown key 'size_m' in [[circle]] (it is a key of [scenario], [[box]])\n"},
+      {"people = 2", "speed_mean = 1.4",
+       "40:1: [[flow]] needs 'people'\n"
+       "hall/scenario.toml:44:1: unknown key 'speed_mean' in [[flow]] (it is a key of [people])\n"},
       {"[[1.0, 6.0], [1.5, 7.0], [2.0, 6.0]]", "[[1.0, 6.0], [1.5, 7.0]]",
        "19:14: 'vertices_m' must have at least 3 points"},
       {"[[1.0, 6.0], [1.5, 7.0], [2.0, 6.0]]", "[[1.0, 6.0], [1.5, 7.0], [2.0, 8.0]]",
@@ -292,7 +305,9 @@ TEST_CASE("mistakes in a scenario file") {
        "[[box]]\nname = \"lid\"\ncenter_m = [0.75, 4.5]\nsize_m = [1.5, 0.1]\n"
        "[[box]]\nname = \"side\"\ncenter_m = [1.5, 3.5]\nsize_m = [0.1, 2.1]",
        "21:1: robot 0 cannot reach its goal (0.5, 3.6) from its start (0.5, 0.5) on the planning grid; "
-       "neither smaller cells nor a smaller planning_margin_m would do"},
+       "neither smaller cells nor a smaller planning_margin_m would do\n"
+       "hall/scenario.toml:37:1: robot 1 cannot reach its goal (9.5, 3.5) from its start (0.5, 3.5) on the planning "
+       "grid; neither smaller cells nor a smaller planning_margin_m would do\n"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.8, 0.5]",
        "25:1: robot 1 overlaps robot 0 at its start (distance 0.30 m, needs 0.50 m)"},
       {"start = [0.5, 3.5, 1.5]", "start = [0.7, 0.99]",
