@@ -2,6 +2,7 @@
 #include "host/commands/command_output.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/terminal/colors.hpp"
 
 namespace dmrp::host {
 
@@ -20,7 +22,7 @@ std::string plural(std::uint64_t n, const std::string& noun) {
 }
 
 void warn(const std::string& text) {
-  fmt::print(stderr, "warning: {}\n", text);
+  fmt::print(stderr, "{} {}\n", colored("warning:", TextColor::yellow, has_colors(STDERR_FILENO)), text);
 }
 
 void check_output_file(const char* option, const fs::path& file) {

@@ -2,6 +2,7 @@
 #include "host/commands/run_results.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -23,6 +24,7 @@
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/answer_block.hpp"
 #include "host/terminal/closing_line.hpp"
+#include "host/terminal/colors.hpp"
 #include "host/terminal/graded_table.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/terminal/summary_table.hpp"
@@ -79,7 +81,7 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   constexpr std::size_t text_width = 120;  // of sentences where no terminal limits them
   TableStyle style;
   style.width = terminal_width();
-  style.ansi = style.width > 0 && !std::getenv("NO_COLOR");
+  style.ansi = has_colors(STDOUT_FILENO);
   const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
   const std::size_t width = style.width > 0 ? style.width : text_width;
   if (!all_graded) {
@@ -88,7 +90,7 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   }
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
-    fmt::print("  {}\n\n", caution);
+    fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
   const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
   for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
     fmt::print("{}\n", wrapped_text(sentence, width, "  "));

@@ -50,13 +50,23 @@ std::string shown_size(const core::RobotSettings& type) {
                      2.0 * core::inscribed_radius(type));
 }
 
+// The footprint that the experiment file gives to robots of a type.
+std::optional<TomlValue> footprint_of(const TomlTable* root, const std::string& type) {
+  if (!root) return std::nullopt;
+  auto table = root->find(type.empty() ? "robot" : "robot_type");
+  if (table && !type.empty()) table = table->table().find(type);
+  return table ? table->table().find("footprint") : std::nullopt;
+}
+
 class WorldCheck {
  public:
-  WorldCheck(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment, const RandomRobots& drawn)
+  WorldCheck(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment, const RandomRobots& drawn,
+             const TomlTable* root)
       : file_(file),
         types_(types),
         experiment_(experiment),
         drawn_(drawn),
+        root_(root),
         scenario_(file.scenario),
         geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
         planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m) {
@@ -70,7 +80,7 @@ class WorldCheck {
     Mistakes mistakes;
     std::vector<std::size_t> placed;  // robots without a mistake of their own
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
-      if (mistakes.attempt([&] { check_robot(i); })) placed.push_back(i);
+      if (mistakes.attempt([&] { check_size_and_task(i); })) placed.push_back(i);
     for (std::size_t a = 0; a < placed.size(); ++a)
       for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
     mistakes.attempt([&] { check_people(file_, geometry_, planning_, drawn_, experiment_); });
@@ -111,10 +121,8 @@ class WorldCheck {
            });
   }
 
-  // Whether the robot could do its task on a grid of these cells and this margin.
-  bool would_do(std::size_t robot, double cell_m, double margin_m) const {
-    const core::RobotTask& task = scenario_.robots[robot];
-    const core::RobotSettings& type = types_.of(task);
+  // Whether a robot of this type could do the task on a grid of these cells and this margin.
+  bool would_do(const core::RobotTask& task, const core::RobotSettings& type, double cell_m, double margin_m) const {
     const core::PlanningGrid planning = core::build_planning_grid(*geometry_, cell_m, type, margin_m);
     const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
@@ -134,15 +142,17 @@ class WorldCheck {
   std::string shown_remedy(std::size_t robot) const {
     const core::SimulationSettings& now = experiment_.simulation;
     const double world_m2 = (scenario_.upper.x - scenario_.lower.x) * (scenario_.upper.y - scenario_.lower.y);
+    const core::RobotTask& task = scenario_.robots[robot];
+    const core::RobotSettings& type = types_.of(task);
     std::vector<std::string> found;
     for (const double cell_m : {0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1}) {
       if (cell_m >= now.grid_resolution_m || world_m2 / (cell_m * cell_m) > most_cells_tried) continue;
-      if (!would_do(robot, cell_m, now.planning_margin_m)) continue;
+      if (!would_do(task, type, cell_m, now.planning_margin_m)) continue;
       found.push_back(fmt::format("grid_resolution_m = {}", cell_m));
       break;
     }
     for (const double margin_m : {0.05, 0.02, 0.0}) {
-      if (margin_m >= now.planning_margin_m || !would_do(robot, now.grid_resolution_m, margin_m)) continue;
+      if (margin_m >= now.planning_margin_m || !would_do(task, type, now.grid_resolution_m, margin_m)) continue;
       found.push_back(fmt::format("planning_margin_m = {}", margin_m));
       break;
     }
@@ -182,6 +192,25 @@ class WorldCheck {
     if (!geometry_->sweep_is_free(center, point, radius_m))
       fail_robot(robot, fmt::format("cannot get from its {} ({}, {}) to the centre of its cell{}", noun, point.x,
                                     point.y, shown_remedy(robot)));
+  }
+
+  // Where a robot of the usual size could do the task, the experiment's footprint is the mistake, told once.
+  void check_size_and_task(std::size_t robot) {
+    const core::RobotTask& task = scenario_.robots[robot];
+    const core::RobotSettings& type = types_.of(task);
+    const core::RobotSettings usual;
+    const core::SimulationSettings& simulation = experiment_.simulation;
+    const auto footprint = footprint_of(root_, type.type);
+    try {
+      check_robot(robot);
+    } catch (const InputError& mistake) {
+      if (!footprint || type.radius_m <= usual.radius_m ||
+          !would_do(task, usual, simulation.grid_resolution_m, simulation.planning_margin_m))
+        throw;
+      const std::string& first = too_large_.try_emplace(type.type, mistake.what()).first->second;
+      footprint->fail(
+          fmt::format("robots of radius {} m do not fit into scenario '{}': {}", type.radius_m, scenario_.name, first));
+    }
   }
 
   void check_robot(std::size_t robot) {
@@ -249,10 +278,12 @@ class WorldCheck {
   const core::RobotTypes& types_;
   Experiment& experiment_;
   const RandomRobots& drawn_;
+  const TomlTable* root_;
   const core::Scenario& scenario_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   core::PlanningGrids planning_;
-  std::map<std::string, dmrp_grid> grids_;  // by type of robot
+  std::map<std::string, dmrp_grid> grids_;        // by type of robot
+  std::map<std::string, std::string> too_large_;  // by type of robot: the first mistake of one
 };
 
 // Around a building on a map there can be free cells, too.
@@ -322,10 +353,10 @@ core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& sc
 }
 
 void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
-                 const RandomRobots& drawn) {
+                 const RandomRobots& drawn, const TomlTable* root) {
   check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
   check_size(file, core::walking_resolution_m, "the grid for people");
-  WorldCheck check(file, types, experiment, drawn);
+  WorldCheck check(file, types, experiment, drawn, root);
   check.run();
   if (drawn.most > 0) check_inside(file, check.planning_grids().standard(), check.geometry(), experiment);
   check_drawn_tasks(file, check.planning_grids(), experiment, drawn);

@@ -22,8 +22,9 @@ struct RandomRobots {
 core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& scenario);
 
 // Checks starts, goals and flows against the walls and the robots of these types, and that every repetition has room for
-// the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
+// the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment. `root`: of
+// the experiment file, if there is one: a footprint that it makes too large for the world is a mistake of its own.
 void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
-                 const RandomRobots& drawn = {});
+                 const RandomRobots& drawn = {}, const TomlTable* root = nullptr);
 
 }  // namespace dmrp::host

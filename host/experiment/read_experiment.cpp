@@ -171,7 +171,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   if (has_types)
     for (const ScenarioUse& use : scenario_uses)
-      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random); });
+      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
   mistakes.end();
   return experiment;
 }

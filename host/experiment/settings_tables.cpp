@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <array>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "host/errors/mistakes.hpp"
@@ -80,6 +81,39 @@ Settings limits_settings(RunLimits& to) {
           integer("memory_mb", to.memory_mb, 0, 1 << 30), boolean("processes", to.processes)};
 }
 
+// A value that can be simulated, but is rarely meant.
+struct Implausible {
+  const char* key;
+  double above;
+  const char* unit;
+  const char* hint;
+};
+
+constexpr std::array implausible_simulation = {
+    Implausible{"control_period_s", 2.0, "s",
+                "a robot drives on blindly until its next command; usual are 0.05 to 0.2 s"},
+    Implausible{"step_s", 0.2, "s", "robots and people move so far between two looks at contacts; usual is 0.02 s"},
+    Implausible{"grid_resolution_m", 5.0, "m", "robots plan on cells of this size; usual are 0.5 to 1 m"}};
+constexpr std::array implausible_robot = {
+    Implausible{"v_max", 10.0, "m/s", "usual are 0.5 to 2 m/s"},
+    Implausible{"omega_max", 4.0 * std::numbers::pi, "rad/s", "are these degrees? 57.3 degrees are 1 rad"},
+    Implausible{"a_max", 20.0, "m/s2", "twice the acceleration of a fall; usual are 0.3 to 3 m/s2"},
+    Implausible{"alpha_max", 40.0 * std::numbers::pi, "rad/s2", "are these degrees? 57.3 degrees are 1 rad"}};
+
+void warn_of_implausible(const TomlTable& table, std::span<const Implausible> limits, Experiment& experiment) {
+  for (const Implausible& limit : limits)
+    if (const auto value = table.find(limit.key); value && value->number() > limit.above)
+      experiment.warnings.push_back(
+          fmt::format("{}: '{}' is {} {}: {}", value->place(), limit.key, value->number(), limit.unit, limit.hint));
+}
+
+void warn_of_implausible(const TomlTable& root, Experiment& experiment) {
+  if (const auto table = root.find_table("simulation")) warn_of_implausible(*table, implausible_simulation, experiment);
+  if (const auto table = root.find_table("robot")) warn_of_implausible(*table, implausible_robot, experiment);
+  if (const auto types = root.find_table("robot_type"))
+    for (const TomlValue& type : types->entries()) warn_of_implausible(type.table(), implausible_robot, experiment);
+}
+
 }  // namespace
 
 void read_world_settings(const TomlTable& root, Experiment& experiment) {
@@ -92,6 +126,7 @@ void read_world_settings(const TomlTable& root, Experiment& experiment) {
   });
   mistakes.attempt([&] { experiment.robot_types = read_robot_types(root, experiment.robot); });
   mistakes.end();
+  warn_of_implausible(root, experiment);
 }
 
 void read_run_settings(const TomlTable& root, Experiment& experiment) {

@@ -18,6 +18,7 @@ namespace dmrp::host {
 namespace {
 
 constexpr unsigned bar_cells = 16;
+constexpr std::size_t longest_times = 28;  // "  99.9 s, 999:59 min to go"
 constexpr std::int64_t redraw_ns = 200'000'000;
 
 // One that can overwrite a line: not an editor's, which says so.
@@ -46,9 +47,20 @@ unsigned terminal_width() {
   return size.ws_col;
 }
 
+// A line that wraps cannot be overwritten: one column stays free.
+std::size_t usable_width() {
+  const unsigned columns = terminal_width();  // 0 if unknown
+  return (columns > 0 ? columns : 80) - 1;
+}
+
 Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
     : heading_(std::move(heading)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
-  if (!quiet_ && !terminal_) show(heading_ + "\n");
+  const std::size_t longest_count = 2 * std::to_string(total_).size() + 2;
+  const bool has_room = display_width(heading_) + 2 + bar_cells + longest_count + longest_times <= usable_width();
+  if (!quiet_ && (!terminal_ || !has_room)) {
+    show(heading_ + "\n");
+    heading_.clear();
+  }
   std::fflush(stdout);
   refresh();
 }
@@ -73,16 +85,11 @@ void Progress::draw() const {
   if (done_ > 0 && done_ < total_)
     times +=
         fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
-  const unsigned columns = terminal_width();  // 0 if unknown
-  const std::size_t width = (columns > 0 ? columns : 80) - 1;
-  // A wrapped line cannot be overwritten: a narrow terminal gets the run's name alone, then no heading, then no bar.
+  const std::size_t width = usable_width();
   std::string line = fmt::format("{} {}{}", bar, count, times);
   const std::size_t used = display_width(heading_) + display_width(line);
-  const std::string name = heading_.substr(0, heading_.find(" · "));
-  if (used + 2 <= width)
+  if (!heading_.empty() && used + 2 <= width)
     line = heading_ + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
-  else if (display_width(name) + 2 + display_width(line) <= width)
-    line = name + "  " + line;
   else if (display_width(line) > width)
     line = count.size() + times.size() <= width ? count + times : count;
   show("\r\x1b[2K" + line);

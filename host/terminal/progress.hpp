@@ -9,7 +9,7 @@ namespace dmrp::host {
 
 class Progress {
  public:
-  // `heading`: the name of the run. Writes to standard output.
+  // `heading`: what the run is; a line of its own where the bar has no room beside it. Writes to standard output.
   Progress(std::string heading, std::uint64_t total, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -31,7 +31,7 @@ class Progress {
   void draw() const;
   double elapsed_s() const;
 
-  std::string heading_;
+  std::string heading_;  // beside the bar
   std::uint64_t total_;
   std::uint64_t done_ = 0;
   bool quiet_;

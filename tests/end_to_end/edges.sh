@@ -8,7 +8,7 @@ experiment=$here/crossing.toml
 expect_refusal() {
   expect_status 2 "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line but: $(head -c 2000 "$scratch/stderr")"
-  (($(wc -c <"$scratch/stderr") < 2200)) || fail "a line of $(wc -c <"$scratch/stderr") bytes"
+  (($(head -1 "$scratch/stderr" | wc -c) < 2200)) || fail "a line of $(head -1 "$scratch/stderr" | wc -c) bytes"
   grep -Eq -- "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
 cd "$scratch" || fail "no folder"

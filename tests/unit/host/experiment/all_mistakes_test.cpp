@@ -160,6 +160,33 @@ TEST_CASE("robots in walls and a misspelt key are told together") {
   CHECK(lines[3].find("robot 1 has its goal outside the world") != std::string::npos);
 }
 
+TEST_CASE("a footprint of the experiment that is too large is the mistake, not the scenario") {
+  const ExperimentFolder folder;
+  const std::string robot = "[robot]\nfootprint = { radius_m = 3.0 }\n";
+  const Lines lines = mistakes_of(experiment_text + robot);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].starts_with("experiment.toml:20:13: robots of radius 3 m do not fit into scenario 'hall': "));
+  CHECK(lines[0].find("hall/scenario.toml:21:1: robot 0 starts too near to ") != std::string::npos);
+  // a start in a wall stays the scenario's mistake
+  const std::string in_wall = with(scenario_text, "start = [0.5, 0.5]", "start = [5.0, 4.0]");
+  CHECK(mistakes_of(experiment_text + with(robot, "3.0", "0.3"), in_wall).front().find("starts inside 'wall'") !=
+        std::string::npos);
+}
+
+TEST_CASE("values that are rarely meant are warned about") {
+  const ExperimentFolder folder;
+  const auto warnings = [](const std::string& tables) {
+    return load(std::string(experiment_text) + tables + "\n").warnings;
+  };
+  CHECK(warnings("[simulation]\ncontrol_period_s = 0.2\n[robot]\nomega_max = 3.1\nv_max = 2.0").empty());
+  CHECK(warnings("[simulation]\ncontrol_period_s = 100") ==
+        Lines{"experiment.toml:20:20: 'control_period_s' is 100 s: a robot drives on blindly until its next command; "
+              "usual are 0.05 to 0.2 s"});
+  CHECK(warnings("[robot_type.tug]\nomega_max = 57.3") ==
+        Lines{"experiment.toml:20:13: 'omega_max' is 57.3 rad/s: are these degrees? 57.3 degrees are 1 rad"});
+  CHECK(warnings("[robot]\nv_max = 36\na_max = 981").size() == 2);
+}
+
 TEST_CASE("what follows from a mistake is not told") {
   const ExperimentFolder folder;
   // plugins of a library that could not be read, and the other libraries' mistakes
