@@ -14,6 +14,10 @@ std::vector<std::shared_ptr<RobotSensors>> sensors_of(Stage& stage, core::Lidar&
   return sensors;
 }
 
+bool requires_extension(const PluginInfo& info, std::string_view id) {
+  return std::find(info.needs.begin(), info.needs.end(), id) != info.needs.end();
+}
+
 }  // namespace
 
 StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Stage& stage, std::uint32_t robots)
@@ -24,12 +28,18 @@ StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Sta
       lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
       sensors_(sensors_of(stage, lidar_, robots)),
       sensor_extensions_(sensors_) {
+  if (requires_extension(info, DMRP_DRAFT_PEOPLE_FUTURE))
+    people_future_.emplace(stage.variant, 1, nullptr, stage_budget_ns);
   instance.offer([this](std::string_view id) { return find(id); });
 }
 
+void StageExtensions::foresee_people() {
+  if (people_future_) people_future_->advance(stage_.world.t_ns());
+}
+
 const void* StageExtensions::find(std::string_view id) {
-  const bool is_required = std::find(info_.needs.begin(), info_.needs.end(), id) != info_.needs.end();
-  if (!is_required && !stage_.settings.offers_extensions) return nullptr;
+  if (!requires_extension(info_, id) && !stage_.settings.offers_extensions) return nullptr;
+  if (id == DMRP_DRAFT_PEOPLE_FUTURE) return people_future_ ? people_future_->extension() : nullptr;
   if (id == DMRP_EXT_ANNOTATE) return info_.kind == DMRP_KIND_METRIC ? nullptr : annotations_.extension();
   if (id == DMRP_EXT_WALKING_GRID)
     return info_.kind == DMRP_KIND_PEDESTRIAN_MODEL || info_.kind == DMRP_KIND_METRIC

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "host/check/stage.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/trial/annotations.hpp"
+#include "host/trial/people_future.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
 
@@ -24,6 +26,9 @@ class StageExtensions {
   StageExtensions(const StageExtensions&) = delete;
   StageExtensions& operator=(const StageExtensions&) = delete;
 
+  // At the beginning of a control tick.
+  void foresee_people();
+
   RobotSensors& sensors(std::uint32_t robot) { return *sensors_[robot]; }
 
  private:
@@ -36,6 +41,7 @@ class StageExtensions {
   core::Lidar lidar_;
   std::vector<std::shared_ptr<RobotSensors>> sensors_;
   SensorExtensions sensor_extensions_;
+  std::optional<PeopleFuture> people_future_;  // of people who stand; if the instance requires it
 };
 
 }  // namespace dmrp::host

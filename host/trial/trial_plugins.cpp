@@ -15,9 +15,14 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
-
 constexpr const char* world_text = "the world (it, or another plugin of this trial)";
+
+bool asks_for(const PluginInfo& info, std::string_view id) {
+  const auto has = [id](const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  return has(info.needs) || has(info.uses);
+}
 
 std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32_t index) {
   return toolkit::Stream(seed, purpose, index).next_u64();
@@ -47,7 +52,7 @@ core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
 void TrialPlugins::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
   planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
   planner_ = &pool.get(*planner_use_, DMRP_NO_ROBOT);
-  offer(*planner_, DMRP_KIND_GLOBAL_PLANNER);
+  offer(*planner_, DMRP_KIND_GLOBAL_PLANNER, annotated_trace_);
   planner_->start(variant_.view.world(), instance_seed(seed, "global_planner", 0),
                   nanoseconds(experiment_.limits.planner_time_s));
 }
@@ -60,6 +65,7 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
                    nanoseconds(experiment_.limits.step_time_s));
   };
   central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
+  if (asks_for(use.info, DMRP_DRAFT_PEOPLE_FUTURE)) foresee_people(combination, pool, seed);
   for (std::uint32_t i = 0; i < robot_count; ++i) {
     Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
     controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed),
@@ -74,17 +80,30 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
 }
 
 void TrialPlugins::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  pedestrian_model_ =
-      &pool.get(experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)], DMRP_NO_ROBOT);
-  offer(*pedestrian_model_, DMRP_KIND_PEDESTRIAN_MODEL);
-  pedestrian_model_->start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
-                           nanoseconds(experiment_.limits.step_time_s));
-  pedestrian_table_ = pedestrian_model_->table<dmrp_pedestrian_model>();
+  pedestrian_model_ = &start_crowd(combination, pool, seed, annotated_trace_, 0);
+  crowd_.emplace(*pedestrian_model_, world_, nanoseconds(experiment_.limits.step_time_s));
+}
+
+// By another instance of the model, which starts as that of the trial does and annotates nothing.
+void TrialPlugins::foresee_people(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
+  if (combination.pedestrian_model >= 0) foreseeing_model_ = &start_crowd(combination, pool, seed, nullptr, 1);
+  people_future_ =
+      std::make_shared<PeopleFuture>(variant_, seed, foreseeing_model_, nanoseconds(experiment_.limits.step_time_s));
+}
+
+Instance& TrialPlugins::start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
+                                    core::TraceEncoder* annotated_trace, std::uint32_t copy) {
+  const PluginUse& use = experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)];
+  Instance& model = pool.get(use, DMRP_NO_ROBOT, copy);
+  offer(model, DMRP_KIND_PEDESTRIAN_MODEL, annotated_trace);
+  model.start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
+              nanoseconds(experiment_.limits.step_time_s));
+  return model;
 }
 
 // Instances outlive the trial, so they must not keep the extensions alive.
-void TrialPlugins::offer(Instance& instance, std::uint32_t kind) {
-  annotations_.push_back(std::make_shared<Annotations>(annotated_trace_, kind, 0, 0));
+void TrialPlugins::offer(Instance& instance, std::uint32_t kind, core::TraceEncoder* annotated_trace) {
+  annotations_.push_back(std::make_shared<Annotations>(annotated_trace, kind, 0, 0));
   const auto grids = kind == DMRP_KIND_PEDESTRIAN_MODEL ? variant_.walking_grids : nullptr;
   instance.offer([annotations = std::weak_ptr(annotations_.back()),
                   grids = std::weak_ptr(grids)](std::string_view id) -> const void* {
@@ -100,9 +119,10 @@ void TrialPlugins::offer_to_controller(Instance& instance, std::uint32_t first_r
   std::vector<std::shared_ptr<RobotSensors>> sensors(first_robot);
   for (std::uint32_t i = 0; i < robot_count; ++i) sensors.push_back(controllers_[first_robot + i].sensors);
   sensor_extensions_.push_back(std::make_shared<SensorExtensions>(std::move(sensors)));
-  instance.offer([annotations = std::weak_ptr(annotations_.back()),
-                  sensors = std::weak_ptr(sensor_extensions_.back())](std::string_view id) -> const void* {
+  instance.offer([annotations = std::weak_ptr(annotations_.back()), sensors = std::weak_ptr(sensor_extensions_.back()),
+                  future = std::weak_ptr(people_future_)](std::string_view id) -> const void* {
     if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
+    if (const auto here = future.lock(); here && id == DMRP_DRAFT_PEOPLE_FUTURE) return here->extension();
     const auto here = sensors.lock();
     return here ? here->extension(id) : nullptr;
   });
@@ -129,6 +149,7 @@ void TrialPlugins::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> 
 }
 
 void TrialPlugins::sense() {
+  if (people_future_) people_future_->advance(world_.t_ns());
   for (std::uint32_t i = 0; i < controllers_.size(); ++i)
     if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) {
       controllers_[i].sensors->tick();
@@ -218,34 +239,10 @@ std::span<const std::optional<dmrp_twist>> TrialPlugins::control_all(std::span<c
 }
 
 const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step) {
-  velocities_.assign(world_.people().size(), {0.0, 0.0});
-  if (!pedestrian_model_ || velocities_.empty()) return velocities_;
-  const auto people = world_.people();
-  const auto robots = world_.robot_agents();
-  const dmrp_crowd crowd = {sizeof(crowd),       static_cast<std::uint32_t>(people.size()),
-                            world_.t_ns(),       variant_.simulation.step_ns,
-                            people.data(),       robots.data(),
-                            sizeof(dmrp_person), static_cast<std::uint32_t>(robots.size()),
-                            sizeof(dmrp_agent),  0};
-  motions_.resize(people.size());
-  dmrp_motions motions = {sizeof(motions), crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
-  input_.clear();
-  input_.add(std::span(people.data(), people.size()));
-  input_.add(std::span(robots.data(), robots.size()));
-  const auto result =
-      pedestrian_model_->call("step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
-                              [&] { return pedestrian_table_.step(pedestrian_model_->self(), &crowd, &motions); });
-  motions_.check(pedestrian_model_->site("step", step), "the motions");
-  input_.check(pedestrian_model_->site("step", step), "the crowd");
-  note_call(DMRP_CALL_PEOPLE, 0, result);
-  for (std::size_t i = 0; i < velocities_.size(); ++i) {
-    velocities_[i] = motions_[i].velocity;
-    if (!(std::hypot(velocities_[i].x, velocities_[i].y) <= fastest_person_mps))
-      throw PluginFault(
-          fault_kind::bad_output, pedestrian_model_->site("step", step),
-          fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocities_[i].x, velocities_[i].y));
-  }
-  return velocities_;
+  at_rest_.assign(world_.people().size(), {0.0, 0.0});
+  if (!crowd_ || at_rest_.empty()) return at_rest_;
+  note_call(DMRP_CALL_PEOPLE, 0, crowd_->update(step));
+  return crowd_->velocities();
 }
 
 void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
@@ -258,6 +255,7 @@ void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
     if (central_) break;
   }
   end_of(pedestrian_model_);
+  end_of(foreseeing_model_);
   // found late: any plugin of the trial can have done it
   if (pedestrian_model_) return world_input_.check(pedestrian_model_->site("trial_end", step), world_text);
   if (planner_) world_input_.check(planner_->site("trial_end", step), world_text);

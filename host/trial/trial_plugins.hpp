@@ -4,7 +4,6 @@
 
 #include <dmrp/local_controller.h>
 #include <dmrp/metric.h>
-#include <dmrp/pedestrian_model.h>
 
 #include <cstdint>
 #include <map>
@@ -19,8 +18,10 @@
 #include "host/plugins/input_copy.hpp"
 #include "host/plugins/output.hpp"
 #include "host/trial/annotations.hpp"
+#include "host/trial/crowd_model.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
+#include "host/trial/people_future.hpp"
 #include "host/trial/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
@@ -77,11 +78,14 @@ class TrialPlugins {
   void start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+  void foresee_people(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+  Instance& start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
+                        core::TraceEncoder* annotated_trace, std::uint32_t copy);
 
   core::Lidar& lidar_of(std::uint32_t robot);
 
   // Offer an instance its extensions.
-  void offer(Instance& instance, std::uint32_t kind);
+  void offer(Instance& instance, std::uint32_t kind, core::TraceEncoder* annotated_trace);
   void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
   void copy_input(std::span<const dmrp_observation> observations);
   void copy_world();
@@ -113,9 +117,10 @@ class TrialPlugins {
   std::vector<dmrp_observation> observations_;  // of control_all(), as the next two
   OutputArray<dmrp_command> commands_;
   std::vector<std::optional<dmrp_twist>> twists_;
-  dmrp_pedestrian_model pedestrian_table_{};
-  OutputArray<dmrp_motion> motions_;
-  std::vector<dmrp_vec2> velocities_;  // parallel to world_.people()
+  std::optional<CrowdModel> crowd_;              // of pedestrian_model_
+  Instance* foreseeing_model_ = nullptr;         // of people_future_
+  std::shared_ptr<PeopleFuture> people_future_;  // nullptr if the controller does not ask for it
+  std::vector<dmrp_vec2> at_rest_;               // without a model; parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };
 

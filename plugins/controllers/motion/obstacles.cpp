@@ -166,14 +166,31 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
   }
 }
 
+Vec2 displacement(const Obstacle& obstacle, double ahead_s) {
+  if (!obstacle.way) return ahead_s * obstacle.velocity;
+  const double periods = ahead_s / obstacle.way_period_s;
+  const std::uint32_t last = obstacle.way_count - 1;
+  if (!(periods < last)) return obstacle.way[last] + (ahead_s - last * obstacle.way_period_s) * obstacle.velocity;
+  const auto before = static_cast<std::uint32_t>(periods);
+  return toolkit::lerp(obstacle.way[before], obstacle.way[before + 1], periods - before);
+}
+
+Vec2 velocity_at(const Obstacle& obstacle, double ahead_s) {
+  if (!obstacle.way) return obstacle.velocity;
+  const double periods = ahead_s / obstacle.way_period_s;
+  if (!(periods < obstacle.way_count - 1)) return obstacle.velocity;
+  const auto before = static_cast<std::uint32_t>(periods);
+  return (obstacle.way[before + 1] - obstacle.way[before]) / obstacle.way_period_s;
+}
+
 double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s) {
-  return toolkit::distance(robot, obstacle.center + ahead_s * obstacle.velocity) - obstacle.reach_m -
+  return toolkit::distance(robot, obstacle.center + displacement(obstacle, ahead_s)) - obstacle.reach_m -
          obstacle.radius_m - footprint.radius_m;
 }
 
 Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s) {
   // in the obstacle's moving frame
-  const Vec2 at = toolkit::position(robot) - ahead_s * obstacle.velocity;
+  const Vec2 at = toolkit::position(robot) - displacement(obstacle, ahead_s);
   if (counts_as_disc(footprint)) {
     const Witness witness = to_point(obstacle.vertices, obstacle.vertex_count, at);
     return {witness.distance_m - obstacle.radius_m - footprint.radius_m, witness.normal, 0.0};

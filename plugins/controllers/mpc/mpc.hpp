@@ -22,7 +22,7 @@
 
 namespace dmrp::controllers {
 
-class Mpc final : public LocalController {
+class Mpc : public LocalController {
  public:
   static Descriptor describe();
 
@@ -82,6 +82,11 @@ class Mpc final : public LocalController {
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
+
+ protected:
+  // Replaces the prediction of agents, and may add some. The agents of the observation are the last obstacles, in their
+  // order.
+  virtual void foresee(const Observation& /*now*/, std::vector<Obstacle>& /*obstacles*/) {}
 
  private:
   // Where this cycle's trajectory ends.
