@@ -27,9 +27,11 @@ const char* sequence_of(TextColor color) {
 }  // namespace
 
 bool has_colors(int descriptor) {
-  const char* const kind = std::getenv("TERM");
-  const char* const no_color = std::getenv("NO_COLOR");
-  return isatty(descriptor) && kind && std::string_view(kind) != "dumb" && !(no_color && *no_color);
+  return isatty(descriptor) && allows_colors(std::getenv("TERM"), std::getenv("NO_COLOR"));
+}
+
+bool allows_colors(const char* term, const char* no_color) {
+  return term && std::string_view(term) != "dumb" && !(no_color && *no_color);
 }
 
 std::string colored(std::string_view text, TextColor color, bool colors) {

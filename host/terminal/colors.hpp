@@ -13,6 +13,9 @@ enum class TextColor { plain, bold, red, green, yellow };
 // (https://no-color.org).
 bool has_colors(int descriptor);
 
+// The same for a terminal with these values of the variables TERM and NO_COLOR; nullptr: not set.
+bool allows_colors(const char* term, const char* no_color);
+
 // The text between its escape sequences; unchanged if `colors` is false.
 std::string colored(std::string_view text, TextColor color, bool colors);
 

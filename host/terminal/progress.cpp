@@ -53,11 +53,33 @@ std::size_t usable_width() {
   return (columns > 0 ? columns : 80) - 1;
 }
 
+bool has_room_beside_bar(const std::string& heading, std::uint64_t total, std::size_t width) {
+  const std::size_t longest_count = 2 * std::to_string(total).size() + 2;
+  return display_width(heading) + 2 + bar_cells + longest_count + longest_times <= width;
+}
+
+std::string progress_line(const std::string& heading, std::uint64_t done, std::uint64_t total, double elapsed_s,
+                          std::size_t width) {
+  const double share = total ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+  const auto full = static_cast<unsigned>(share * bar_cells + 0.5);
+  std::string bar;
+  for (unsigned i = 0; i < bar_cells; ++i) bar += i < full ? "█" : "░";
+  const std::string count = fmt::format("{}/{}", done, total);
+  std::string times = "  " + duration(elapsed_s);
+  if (done > 0 && done < total)
+    times +=
+        fmt::format(", {} to go", duration(elapsed_s / static_cast<double>(done) * static_cast<double>(total - done)));
+  const std::string line = fmt::format("{} {}{}", bar, count, times);
+  const std::size_t used = display_width(heading) + display_width(line);
+  if (!heading.empty() && used + 2 <= width)
+    return heading + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
+  if (display_width(line) <= width) return line;
+  return count.size() + times.size() <= width ? count + times : count;
+}
+
 Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
     : heading_(std::move(heading)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
-  const std::size_t longest_count = 2 * std::to_string(total_).size() + 2;
-  const bool has_room = display_width(heading_) + 2 + bar_cells + longest_count + longest_times <= usable_width();
-  if (!quiet_ && (!terminal_ || !has_room)) {
+  if (!quiet_ && (!terminal_ || !has_room_beside_bar(heading_, total_, usable_width()))) {
     show(heading_ + "\n");
     heading_.clear();
   }
@@ -75,24 +97,7 @@ double Progress::elapsed_s() const {
 }
 
 void Progress::draw() const {
-  const double share = total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
-  const auto full = static_cast<unsigned>(share * bar_cells + 0.5);
-  std::string bar;
-  for (unsigned i = 0; i < bar_cells; ++i) bar += i < full ? "█" : "░";
-  const double elapsed = elapsed_s();
-  const std::string count = fmt::format("{}/{}", done_, total_);
-  std::string times = "  " + duration(elapsed);
-  if (done_ > 0 && done_ < total_)
-    times +=
-        fmt::format(", {} to go", duration(elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_)));
-  const std::size_t width = usable_width();
-  std::string line = fmt::format("{} {}{}", bar, count, times);
-  const std::size_t used = display_width(heading_) + display_width(line);
-  if (!heading_.empty() && used + 2 <= width)
-    line = heading_ + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
-  else if (display_width(line) > width)
-    line = count.size() + times.size() <= width ? count + times : count;
-  show("\r\x1b[2K" + line);
+  show("\r\x1b[2K" + progress_line(heading_, done_, total_, elapsed_s(), usable_width()));
   std::fflush(stdout);
 }
 

@@ -2,6 +2,7 @@
 // progress.hpp: the progress of a run: a bar with the remaining time on a terminal, plain lines elsewhere.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -39,6 +40,14 @@ class Progress {
   std::int64_t start_ns_;
   std::int64_t drawn_ns_ = 0;  // 0: not drawn, or finished
 };
+
+// Whether the heading and the longest bar fit into one line of `width` columns.
+bool has_room_beside_bar(const std::string& heading, std::uint64_t total, std::size_t width);
+
+// The bar with its count and times, behind the heading if there is room, of at most `width` columns: a narrow terminal
+// gets no heading, then no bar.
+std::string progress_line(const std::string& heading, std::uint64_t done, std::uint64_t total, double elapsed_s,
+                          std::size_t width);
 
 // Columns of the terminal at standard output; 0 if it is no terminal.
 unsigned terminal_width();

@@ -2,110 +2,44 @@
 // The progress bar keeps its heading at every width, and no line of it wraps.
 #include "host/terminal/progress.hpp"
 
-#include <fcntl.h>
-#include <pty.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
-#include <vector>
 
 #include "host/terminal/colors.hpp"
 #include "host/terminal/display_width.hpp"
 
+using namespace dmrp::host;
+
 namespace {
 
-using dmrp::host::Progress;
-
-// Standard output is a terminal of so many columns as long as this lives.
-class Terminal {
- public:
-  explicit Terminal(unsigned short columns) : before_(dup(STDOUT_FILENO)) {
-    winsize size{};
-    size.ws_col = columns;
-    size.ws_row = 24;
-    int slave = -1;
-    if (openpty(&master_, &slave, nullptr, nullptr, &size) != 0) return;
-    fcntl(master_, F_SETFL, O_NONBLOCK);
-    dup2(slave, STDOUT_FILENO);
-    close(slave);
-    setenv("TERM", "xterm", 1);
-  }
-  ~Terminal() {
-    dup2(before_, STDOUT_FILENO);
-    close(before_);
-    if (master_ >= 0) close(master_);
-  }
-  Terminal(const Terminal&) = delete;
-  Terminal& operator=(const Terminal&) = delete;
-
-  bool is_open() const { return master_ >= 0; }
-
-  std::string written() const {
-    std::fflush(stdout);
-    std::string text(65536, '\0');
-    const ssize_t size = read(master_, text.data(), text.size());
-    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    return text;
-  }
-
- private:
-  int before_;
-  int master_ = -1;
-};
-
-// The lines, each as it was drawn last and before.
-std::vector<std::string> lines_of(std::string text) {
-  std::vector<std::string> lines(1);
-  for (const char* erase : {"\x1b[2K", "\r"})
-    for (std::size_t at = 0; (at = text.find(erase)) != std::string::npos;)
-      text.replace(at, std::string(erase).size(), "\n");
-  for (const char c : text)
-    if (c == '\n')
-      lines.emplace_back();
-    else
-      lines.back() += c;
-  std::erase(lines, "");
-  return lines;
-}
+const std::string heading = "quickstart · mall · 4 robots, 12 people · 3 trials";
 
 }  // namespace
 
-TEST_CASE("the progress bar keeps its heading and does not wrap") {
-  const std::string heading = "quickstart · mall · 4 robots, 12 people · 3 trials";
-  for (const unsigned short columns : {40, 80, 120, 200}) {
-    std::string text;
-    {
-      const Terminal terminal(columns);
-      if (!terminal.is_open()) return;  // no pseudoterminals here
-      Progress progress(heading, 3, false);
-      for (int i = 0; i < 3; ++i) progress.add("");
-      progress.finish();
-      text = terminal.written();
+TEST_CASE("where the heading has room beside the bar, every line shows both") {
+  REQUIRE(has_room_beside_bar(heading, 100, 119));
+  for (const double elapsed_s : {0.0, 12.3, 3599.0, 1e6})
+    for (std::uint64_t done = 0; done <= 100; ++done) {
+      const std::string line = progress_line(heading, done, 100, elapsed_s, 119);
+      INFO(line);
+      CHECK(line.starts_with(heading));
+      CHECK(display_width(line) <= 119);
+      CHECK(line.find("/100") != std::string::npos);
     }
-    INFO(columns << ": " << text);
-    CHECK(text.find(heading) != std::string::npos);
-    CHECK(text.find("3/3") != std::string::npos);
-    for (const std::string& line : lines_of(text))
-      if (line != heading) CHECK(dmrp::host::display_width(line) < columns);
-    CHECK(lines_of(text).front().starts_with(heading));
-  }
+}
+
+TEST_CASE("at 80 columns the heading has a line of its own, and the bar one that does not wrap") {
+  CHECK_FALSE(has_room_beside_bar(heading, 3, 79));
+  CHECK(has_room_beside_bar("short", 3, 79));
+  CHECK(progress_line("", 1, 3, 2.0, 79) == "█████░░░░░░░░░░░ 1/3  2.0 s, 4.0 s to go");
+  CHECK(progress_line("", 1, 3, 2.0, 30) == "1/3  2.0 s, 4.0 s to go");
+  CHECK(progress_line("", 1, 3, 2.0, 10) == "1/3");
 }
 
 TEST_CASE("a terminal has colours unless NO_COLOR is set or it is dumb") {
-  const Terminal terminal(80);
-  if (!terminal.is_open()) return;
-  unsetenv("NO_COLOR");
-  const bool plain = dmrp::host::has_colors(STDOUT_FILENO);
-  setenv("NO_COLOR", "1", 1);
-  const bool refused = dmrp::host::has_colors(STDOUT_FILENO);
-  unsetenv("NO_COLOR");
-  setenv("TERM", "dumb", 1);
-  const bool dumb = dmrp::host::has_colors(STDOUT_FILENO);
-  setenv("TERM", "xterm", 1);
-  CHECK(plain);
-  CHECK_FALSE(refused);
-  CHECK_FALSE(dumb);
+  CHECK(allows_colors("xterm", nullptr));
+  CHECK(allows_colors("xterm", ""));
+  CHECK_FALSE(allows_colors("xterm", "1"));
+  CHECK_FALSE(allows_colors("dumb", nullptr));
+  CHECK_FALSE(allows_colors(nullptr, nullptr));
 }
