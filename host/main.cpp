@@ -166,7 +166,9 @@ CLI::App* add_draw(CLI::App& app, DrawOptions& options) {
   command->add_option("--seed", options.seed, "seed of random robots and of randomised planners")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--svg", options.svg, "output file (default: standard output)")->type_name("FILE");
+  CLI::Option* svg = command->add_option("--svg", options.svg, "output file (default: standard output)");
+  svg->type_name("FILE");
+  command->add_option("--png", options.png, "output file, by rsvg-convert")->type_name("FILE.png")->excludes(svg);
   return command;
 }
 
@@ -221,6 +223,15 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
   CLI::Option* svg = format("--svg", ExportFormat::svg, "one --metric over --over, as lines with 95 % intervals");
   format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as an SVG figure");
+  formats
+      ->add_option_function<std::uint64_t>(
+          "--map",
+          [&options](const std::uint64_t& trial) {
+            options.format = ExportFormat::map;
+            options.trial = trial;
+          },
+          "the map of this trial with the robots' plans and ways, as an SVG figure")
+      ->type_name("TRIAL");
   formats->require_option(1);
   command->add_option("--rows", options.rows, "scenario, robots, planner, controller, people")->delimiter(',');
   command->add_option("--columns", options.columns, "the same, across")->delimiter(',');
@@ -229,7 +240,10 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->needs(svg)
       ->capture_default_str()
       ->type_name("NAME");
-  command->add_option("--out", options.out, "output file (default: standard output)")->type_name("FILE");
+  command
+      ->add_option("--out", options.out,
+                   "output file (default: standard output); figures also as .pdf and .png, by rsvg-convert")
+      ->type_name("FILE");
   return command;
 }
 

@@ -67,7 +67,8 @@ struct DrawOptions {
   std::string planner;                // id; empty: no plan
   std::vector<std::string> plugins;   // libraries, in addition to the plugin path
   std::vector<std::string> settings;  // key=value for the planner
-  std::filesystem::path svg;          // empty: standard output
+  std::filesystem::path svg;          // empty: standard output; also a .png or .pdf
+  std::filesystem::path png;          // instead of `svg`
 };
 int draw_command(const DrawOptions& options);
 
@@ -98,7 +99,7 @@ int plan_command(const PlanOptions& options);
 // Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
-enum class ExportFormat { latex, csv, svg, thresholds };
+enum class ExportFormat { latex, csv, svg, thresholds, map };
 struct ExportOptions {
   std::filesystem::path run_directory;
   ExportFormat format = ExportFormat::latex;
@@ -106,7 +107,8 @@ struct ExportOptions {
   std::vector<std::string> columns;  // labels
   std::vector<std::string> metrics;
   std::string over = "robots";  // svg: what the metric is drawn over
-  std::filesystem::path out;    // empty: standard output
+  std::uint64_t trial = 0;      // map: the trial
+  std::filesystem::path out;    // empty: standard output; figures also to a .png or .pdf
 };
 int export_command(const ExportOptions& options);
 

@@ -13,6 +13,7 @@
 #include "core/tasks/task_difficulty.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/figure_file.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/plan/plan_task.hpp"
@@ -25,7 +26,8 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double wall_height_m = 2.0;  // lower shapes are furniture
+constexpr double wall_height_m = 2.0;    // lower shapes are furniture
+constexpr double left_margin_px = 36.0;  // for the coordinates
 
 void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   for (const core::Shape& shape : scenario.shapes) {
@@ -37,9 +39,33 @@ void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   }
 }
 
-void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+dmrp_vec2 middle_of(const core::Region& region) {
+  return {0.5 * (region.lower.x + region.upper.x), 0.5 * (region.lower.y + region.upper.y)};
+}
+
+void draw_regions(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   for (const core::Region& region : scenario.regions)
     picture.rectangle({region.lower, region.upper}, {"region"}, region.name);
+}
+
+// Above the region; at the sides of the world, so that the name stays inside.
+void draw_name(toolkit::SvgPlan& picture, const core::Scenario& scenario, const core::Region& region) {
+  const double share = (middle_of(region).x - scenario.lower.x) / (scenario.upper.x - scenario.lower.x);
+  if (share < 0.15)
+    picture.text({region.lower.x, region.upper.y}, region.name, {"name begins"});
+  else if (share > 0.85)
+    picture.text({region.upper.x, region.upper.y}, region.name, {"name ends"});
+  else
+    picture.text({middle_of(region).x, region.upper.y}, region.name, {"name"});
+}
+
+// Arrows from region to region, on top of what is in between: people walk round it.
+void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+  for (const core::Flow& flow : scenario.flows)
+    for (std::size_t i = 1; i < flow.regions.size(); ++i)
+      picture.arrow(middle_of(scenario.regions[flow.regions[i - 1]]), middle_of(scenario.regions[flow.regions[i]]),
+                    {"flow"});
+  for (const core::Region& region : scenario.regions) draw_name(picture, scenario, region);
 }
 
 // The footprint at a pose; its circle where the heading is free.
@@ -69,6 +95,9 @@ void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const 
     picture.arrow({start.x, start.y}, {start.x + 0.6 * std::cos(start.theta), start.y + 0.6 * std::sin(start.theta)},
                   {"heading", color});
     picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i), {"label", color});
+    if (task.name != fmt::format("robot {}", i)) picture.text({start.x, start.y - 0.8}, task.name, {"name"});
+    for (const dmrp_pose& goal : task.goals)
+      picture.text({goal.x + 0.4, goal.y + 0.4}, std::to_string(i), {"label", color});
   }
 }
 
@@ -132,6 +161,10 @@ std::optional<PlannedPaths> plan_once(const Experiment& experiment) {
 }  // namespace
 
 int draw_command(const DrawOptions& options) {
+  check_output_file("--svg", options.svg);
+  check_output_file("--png", options.png);
+  if (!options.png.empty() && options.png.extension() != ".png")
+    throw InputError(fmt::format("--png {}: does not end in .png", options.png.string()));
   const bool is_planned = !options.planner.empty() || options.agents > 0;
   Experiment experiment = adhoc_experiment(options.scenario, is_planned);
   experiment.seed = options.seed;
@@ -142,9 +175,11 @@ int draw_command(const DrawOptions& options) {
   if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);
-  toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title);
-  draw_flows(picture, scenario);
+  toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title, 800.0, left_margin_px);
+  picture.axes();
+  draw_regions(picture, scenario);
   draw_shapes(picture, scenario);
+  draw_flows(picture, scenario);
   if (options.planner.empty()) {
     draw_robots(picture, experiment, nullptr);
   } else {
@@ -153,7 +188,8 @@ int draw_command(const DrawOptions& options) {
     draw_robots(picture, experiment, &*paths);
   }
   picture.scale_bar(5.0);
-  write_output("--svg", options.svg, picture.document());
+  write_figure(options.png.empty() ? "--svg" : "--png", options.png.empty() ? options.svg : options.png,
+               picture.document());
   return exit_status::done;
 }
 

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 
+#include "core/trace/trace_reader.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/figure_file.hpp"
+#include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/export/layout_tables.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
 #include "host/export/threshold_chart.hpp"
+#include "host/export/trial_map.hpp"
 #include "host/export/trials_table.hpp"
 #include "host/program/executable.hpp"
 #include "host/report/data/report_data.hpp"
@@ -78,10 +82,24 @@ std::vector<MetricColumn> chosen_metrics(const ExportOptions& options, std::span
   return chosen;
 }
 
+std::string map_of(const ExportOptions& options) {
+  core::TraceReader trace(core::TraceRecords(trace_of(options.run_directory, "--map", options.trial)),
+                          core::TraceExtent::samples);
+  return trial_map(trace, fmt::format("{}, trial {}", options.run_directory.filename().string(), options.trial));
+}
+
+bool is_figure(ExportFormat format) {
+  return format == ExportFormat::svg || format == ExportFormat::thresholds || format == ExportFormat::map;
+}
+
 }  // namespace
 
 int export_command(const ExportOptions& options) {
   check_output_file("--out", options.out);
+  if (options.format == ExportFormat::map) {
+    write_figure("--out", options.out, map_of(options));
+    return exit_status::done;
+  }
   const ReportRun run = read_report_run(options.run_directory);
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
   check_metrics(options.metrics, run.metrics);
@@ -96,7 +114,10 @@ int export_command(const ExportOptions& options) {
                ? trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings)
                : figure(options, run, layouts, settings);
   }
-  write_output("--out", options.out, text);
+  if (is_figure(options.format))
+    write_figure("--out", options.out, text);
+  else
+    write_output("--out", options.out, text);
   return exit_status::done;
 }
 

@@ -2,45 +2,26 @@
 // Makes a video of a trial from its trace.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "core/trace/trace_reader.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/results/database.hpp"
-#include "host/results/trace_path.hpp"
 #include "host/video/encoder.hpp"
 #include "host/video/trial_picture.hpp"
 
 namespace dmrp::host {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int width_px = 960;
 constexpr int height_px = 720;
 constexpr std::int64_t last_frame_ns = 1'000'000'000;  // how long the end is seen
 
-fs::path trace_of(const VideoOptions& options) {
-  const fs::path database = options.run_directory / "results.sqlite";
-  if (std::error_code ignored; !fs::is_regular_file(database, ignored))
-    throw InputError(
-        fmt::format("{}: is no run directory (there is no results.sqlite)", options.run_directory.string()));
-  const std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials();
-  if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& trial) { return trial.id == options.trial; }))
-    throw InputError(fmt::format("--trial {}: {} has {}, from {} to {}", options.trial, options.run_directory.string(),
-                                 plural(trials.size(), "finished trial"), trials.empty() ? 0 : trials.front().id,
-                                 trials.empty() ? 0 : trials.back().id));
-  const fs::path trace = trace_path(options.run_directory, options.trial);
-  if (std::error_code ignored; !fs::is_regular_file(trace, ignored))
-    throw InputError(fmt::format("--trial {}: no trace was recorded (traces = \"all\" in [record])", options.trial));
-  return trace;
-}
-
 // Shows each sample from its time until the next one.
-std::size_t encode(core::TraceReader& trace, const fs::path& out, VideoFormat format) {
+std::size_t encode(core::TraceReader& trace, const std::filesystem::path& out, VideoFormat format) {
   TrialPicture picture(trace.world(), width_px, height_px);
   const std::int64_t frame_ns = 1'000'000'000 / frames_a_second(format);
   std::unique_ptr<VideoEncoder> encoder;
@@ -66,7 +47,8 @@ int video_command(const VideoOptions& options) {
   const std::optional<VideoFormat> format = video_format(options.out);
   if (!format) throw InputError(fmt::format("--out {}: ends in none of .mp4, .gif, .webm", options.out.string()));
   check_output_file("--out", options.out);
-  core::TraceReader trace(core::TraceRecords(trace_of(options)), core::TraceExtent::samples);
+  core::TraceReader trace(core::TraceRecords(trace_of(options.run_directory, "--trial", options.trial)),
+                          core::TraceExtent::samples);
   if (trace.sample_count() == 0)
     throw InputError(fmt::format("--trial {}: nothing moved, since there was no plan", options.trial));
   const std::size_t frames = encode(trace, options.out, *format);

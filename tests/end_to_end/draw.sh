@@ -11,6 +11,31 @@ for robot in 0 1 2 3; do
 done
 grep -q 'class="label"[^>]*>4</text>' "$scratch/mall.svg" && fail "the four robots have the numbers 0 to 3"
 
+# for writing coordinates: axes in metres, a grid, regions with names, flows as arrows, names of robots
+for text in 'axis">40</text>' 'name">shoe shop</text>' 'name ends">east entrance, north</text>' \
+  'name">electronics shop to pharmacy</text>' 'class="flow"' 'class="major-grid"'; do
+  grep -q "$text" "$scratch/mall.svg" || fail "the picture should have $text"
+done
+
+# PNG and PDF by rsvg-convert, here by a stand-in
+mkdir "$scratch/tools" "$scratch/nothing"
+cat >"$scratch/tools/rsvg-convert" <<'END'
+#!/bin/sh
+printf '%s\n' "$*" >"${0%/*}/arguments"
+while [ "$1" != --output ]; do shift; done
+grep -q '^<svg' "$3" && echo picture >"$2"
+END
+chmod +x "$scratch/tools/rsvg-convert"
+PATH=$scratch/tools:$PATH expect_status 0 "$host" draw mall --png "$scratch/mall.png"
+[[ $(cat "$scratch/mall.png") == picture ]] || fail "no picture: $(cat "$scratch/tools/arguments")"
+PATH=$scratch/tools:$PATH expect_status 0 "$host" draw mall --svg "$scratch/mall.pdf"
+grep -q -e '--format pdf' "$scratch/tools/arguments" || fail "$(cat "$scratch/tools/arguments")"
+PATH=$scratch/nothing expect_status 3 "$host" draw mall --png "$scratch/other.png"
+grep -q 'there is no rsvg-convert on the path.*apt-get install librsvg2-bin' "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+compgen -G "$scratch/*.part" >/dev/null && fail "something was left behind: $(ls "$scratch")"
+[[ ! -e $scratch/other.png ]] || fail "something was left behind: $(ls "$scratch")"
+expect_status 2 "$host" draw mall --png "$scratch/mall.jpg"
+
 expect_status 0 "$host" draw mall
 grep -q '^<svg' "$scratch/stdout" || fail "no picture on standard output"
 

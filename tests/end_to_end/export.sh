@@ -35,6 +35,14 @@ found=$(sqlite3 :memory: ".import --csv $scratch/trials.csv t" 'SELECT DISTINCT 
 expect_status 0 "$host" export "$run" --svg --metric pfd --over local_controller.sim_time --out "$scratch/pfd.svg"
 grep -q 'pfd (m)' "$scratch/pfd.svg" || fail "the figure names no metric"
 
+# the map of a trial: world, plans and ways, with coordinates
+expect_status 0 "$host" export "$run" --map 1 --out "$scratch/map.svg"
+robots=$(query "$run" "SELECT robots FROM trial WHERE id = 1")
+for look in plan way robot; do
+  [[ $(grep -c "class=\"$look\"" "$scratch/map.svg") == "$robots" ]] || fail "the map should show $robots of $look"
+done
+grep -q '<text[^>]*class="axis">' "$scratch/map.svg" || fail "the map has no coordinates"
+
 refused() {
   expect_status 2 "$host" export "$run" "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
@@ -44,10 +52,13 @@ refused "did you mean 'success'" --latex --metric sucess
 refused "none of scenario, robots, planner" --latex --rows planet
 refused "did you mean 'simulation.step_s'" --svg --over simulation.step
 refused "do not differ in the number 'simulation.step_s'" --svg --over simulation.step_s
-refused "xactly 1 option from \[--latex,--csv,--svg,--thresholds\]" --latex --csv
+refused "^--map 99: .* has [0-9]+ finished trials, from 0 to" --map 99
+refused "xactly 1 option from \[--latex,--csv,--svg,--thresholds,--map\]" --latex --csv
 
 if command -v rsvg-convert >/dev/null; then
-  rsvg-convert -f pdf "$scratch/pfd.svg" -o "$scratch/pfd.pdf" || fail "rsvg-convert refuses the figure"
+  expect_status 0 "$host" export "$run" --svg --metric pfd --over local_controller.sim_time --out "$scratch/pfd.pdf"
+  expect_status 0 "$host" export "$run" --map 1 --out "$scratch/map.pdf"
+  [[ $(head -c 5 "$scratch/pfd.pdf") == %PDF- && $(head -c 5 "$scratch/map.pdf") == %PDF- ]] || fail "no PDF files"
 fi
 if command -v pdflatex >/dev/null; then
   printf '%s\n' '\documentclass[twocolumn]{article}' '\usepackage{booktabs}' '\begin{document}' '\input{tables}' \

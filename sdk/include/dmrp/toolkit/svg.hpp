@@ -11,7 +11,7 @@
 // every locale.
 //
 // Elements have a CSS class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
-// `label`, `heading`; the document has a style for each of these, and none for other names. Line widths and text sizes
+// `label`, `heading`, `flow`, `name`, `plan`, `way`, `contact`; the document has a style for each of these, and none for other names. Line widths and text sizes
 // are in pixels of the page, not in metres.
 #pragma once
 
@@ -81,16 +81,20 @@ struct SvgStyle {
 };
 
 class SvgPlan {
+  static constexpr double margin = 16.0;
+
  public:
-  // A page that shows the rectangle `world`, `page_width` pixels wide without the margin. `heading` may be empty.
-  explicit SvgPlan(const Rectangle& world, std::string_view heading = {}, double page_width = 800.0)
+  // A page that shows the rectangle `world`, `page_width` pixels wide without the margins. `heading` may be empty.
+  explicit SvgPlan(const Rectangle& world, std::string_view heading = {}, double page_width = 800.0,
+                   double left_margin = margin)
       : world_(world),
         scale_(page_width / (world.upper.x - world.lower.x)),
+        left_(left_margin),
         top_(heading.empty() ? margin : 3 * margin) {
-    width_ = page_width + 2.0 * margin;
+    width_ = left_ + page_width + margin;
     height_ = scale_ * (world.upper.y - world.lower.y) + top_ + 3.0 * margin;
     rectangle(world, {"free"});
-    if (!heading.empty()) page_text({margin, 2.0 * margin}, heading, "heading");
+    if (!heading.empty()) page_text({left_, 2.0 * margin}, heading, "heading");
   }
 
   // A browser shows `title` while the pointer rests on the figure.
@@ -134,6 +138,25 @@ class SvgPlan {
     page_text(page(at), words, style.name, style.color);
   }
 
+  // A grid with the coordinates of every fifth line in the margins; the left one should have 36 pixels. What is drawn
+  // later lies on it.
+  void axes() {
+    const double step = nice_step((world_.upper.x - world_.lower.x) / 50.0);
+    const auto first = [step](double from) { return std::llround(std::ceil(from / step - 1e-9)); };
+    const auto last = [step](double to) { return std::llround(std::floor(to / step + 1e-9)); };
+    for (std::int64_t i = first(world_.lower.x); i <= last(world_.upper.x); ++i) {
+      const double x = static_cast<double>(i) * step;
+      line({x, world_.lower.y}, {x, world_.upper.y}, {i % 5 == 0 ? "major-grid" : "grid"});
+      if (i % 5 == 0) page_text(page({x, world_.lower.y}) + dmrp_vec2{0.0, 9.0}, number(x), "axis");
+    }
+    for (std::int64_t i = first(world_.lower.y); i <= last(world_.upper.y); ++i) {
+      const double y = static_cast<double>(i) * step;
+      line({world_.lower.x, y}, {world_.upper.x, y}, {i % 5 == 0 ? "major-grid" : "grid"});
+      if (i % 5 == 0) page_text(page({world_.lower.x, y}) - dmrp_vec2{5.0, 0.0}, number(y), "axis ends");
+    }
+    page_text({width_ - margin, height_ - margin}, "x and y in m", "axis ends");
+  }
+
   // A scale bar of this length, below the plan.
   void scale_bar(double length_m) {
     const dmrp_vec2 from = page(world_.lower) + dmrp_vec2{0.0, 1.2 * margin};
@@ -153,8 +176,6 @@ class SvgPlan {
   }
 
  private:
-  static constexpr double margin = 16.0;
-
   static constexpr std::string_view style_sheet =
       "  text { font: 12px system-ui, 'DejaVu Sans', sans-serif; fill: #333; text-anchor: middle;"
       " dominant-baseline: central; }\n"
@@ -165,6 +186,15 @@ class SvgPlan {
       "  .furniture { fill: #b9b4a8; stroke: #8c877b; stroke-width: 0.75; }\n"
       "  .region { fill: #56b4e9; fill-opacity: 0.15; stroke: #56b4e9; stroke-dasharray: 4 3; }\n"
       "  .grid { stroke: #ddd; stroke-width: 0.5; }\n"
+      "  .major-grid { stroke: #bbb; stroke-width: 0.75; }\n"
+      "  text.axis { font-size: 10px; fill: #666; }\n"
+      "  text.begins { text-anchor: start; }\n"
+      "  text.ends { text-anchor: end; }\n"
+      "  .flow { stroke: #2a7aa8; stroke-width: 1.5; stroke-opacity: 0.7; }\n"
+      "  text.name { font-size: 10px; fill: #1f5f85; }\n"
+      "  .plan { stroke-width: 1; stroke-opacity: 0.6; stroke-dasharray: 4 3; }\n"
+      "  .way { stroke-width: 2; }\n"
+      "  .contact { fill: #a63c00; }\n"
       "  .path { stroke-width: 2.5; stroke-opacity: 0.8; }\n"
       "  .robot { fill: #0072b2; stroke: #fff; stroke-width: 1; }\n"
       "  .person { fill: #e69f00; fill-opacity: 0.8; stroke: #fff; stroke-width: 1; }\n"
@@ -176,6 +206,14 @@ class SvgPlan {
       "  text.scale-label { text-anchor: start; dominant-baseline: auto; }\n";
 
   static std::string number(double value) { return format_svg_number(value); }
+
+  // 1, 2 or 5 times a power of ten, at least `step`.
+  static double nice_step(double step) {
+    const double power = std::pow(10.0, std::floor(std::log10(step)));
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (factor * power >= step * (1.0 - 1e-9)) return factor * power;
+    return 10.0 * power;
+  }
 
   // Written out because gcc 12 falsely warns of overlapping memory in `"text" + std::string` (its bug 105651).
   static std::string joined(std::initializer_list<std::string_view> parts) {
@@ -196,7 +234,7 @@ class SvgPlan {
   }
 
   dmrp_vec2 page(dmrp_vec2 at) const {
-    return {margin + scale_ * (at.x - world_.lower.x), top_ + scale_ * (world_.upper.y - at.y)};
+    return {left_ + scale_ * (at.x - world_.lower.x), top_ + scale_ * (world_.upper.y - at.y)};
   }
 
   template <class Path>
@@ -226,6 +264,7 @@ class SvgPlan {
 
   Rectangle world_;
   double scale_;  // pixels a metre
+  double left_;
   double top_;
   double width_ = 0.0;
   double height_ = 0.0;

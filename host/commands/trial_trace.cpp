@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "host/commands/trial_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "host/commands/command_output.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/results/database.hpp"
+#include "host/results/trace_path.hpp"
+
+namespace dmrp::host {
+
+namespace fs = std::filesystem;
+
+fs::path trace_of(const fs::path& run_directory, const char* option, std::uint64_t trial) {
+  const fs::path database = run_directory / "results.sqlite";
+  if (std::error_code ignored; !fs::is_regular_file(database, ignored))
+    throw InputError(fmt::format("{}: is no run directory (there is no results.sqlite)", run_directory.string()));
+  const std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials();
+  if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& known) { return known.id == trial; }))
+    throw InputError(fmt::format("{} {}: {} has {}, from {} to {}", option, trial, run_directory.string(),
+                                 plural(trials.size(), "finished trial"), trials.empty() ? 0 : trials.front().id,
+                                 trials.empty() ? 0 : trials.back().id));
+  const fs::path trace = trace_path(run_directory, trial);
+  if (std::error_code ignored; !fs::is_regular_file(trace, ignored))
+    throw InputError(fmt::format("{} {}: no trace was recorded (traces = \"all\" in [record])", option, trial));
+  return trace;
+}
+
+}  // namespace dmrp::host

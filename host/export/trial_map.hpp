@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// trial_map.hpp: the map of a trial as a figure: the world, the plans, and the ways that the robots drove.
+#pragma once
+
+#include <string>
+
+#include "core/trace/trace_reader.hpp"
+
+namespace dmrp::host {
+
+// Reads the samples of `trace`. `title`: above the map; may be empty.
+std::string trial_map(core::TraceReader& trace, const std::string& title);
+
+}  // namespace dmrp::host
