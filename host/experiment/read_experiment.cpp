@@ -125,17 +125,20 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
             .fail(fmt::format("{} starts processes: '[limits] processes = true' allows that", use.info.id));
 }
 
+TomlKeys root_keys() {
+  TomlKeys root = {"", {"experiment", "scenario", "simulation", "robot", "robot_type", "record", "limits"}};
+  Experiment unused;
+  for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back(kind_name(kind));
+  return root;
+}
+
 }  // namespace
 
 std::vector<TomlKeys> experiment_keys() {
   std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys}};
-  TomlKeys root = {"", {"experiment", "scenario", "simulation", "robot", "robot_type", "record", "limits"}};
   Experiment unused;
-  for (const auto& [kind, uses] : lists_by_kind(unused)) {
+  for (const auto& [kind, uses] : lists_by_kind(unused))
     tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
-    root.keys.push_back(kind_name(kind));
-  }
-  tables.push_back(std::move(root));
   for (TomlKeys& table : settings_keys()) tables.push_back(std::move(table));
   return tables;
 }
@@ -148,7 +151,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   experiment.text = read_file(file, file.string());
   TomlDocument document(file.string(), experiment.text);
   const TomlTable root = document.root();
-  document.know(experiment_keys());
+  std::vector<TomlKeys> tables = experiment_keys();
+  tables.push_back(root_keys());
+  document.know(std::move(tables));
 
   Mistakes mistakes;
   mistakes.attempt([&] { root.allow_only(document.keys_of("")->keys); });

@@ -153,20 +153,12 @@ void set_level(const TomlTable& grade, std::optional<double> level, TomlDocument
 }  // namespace
 
 std::vector<TomlKeys> scenario_keys() {
-  std::vector<TomlKeys> tables = {{"", root_keys},
-                                  {"[scenario]", header_keys},
-                                  {"[map]", map_keys},
-                                  {"[tiles]", tiles_keys},
-                                  {"[[box]]", box_keys},
-                                  {"[[circle]]", circle_keys},
-                                  {"[[polygon]]", polygon_keys},
-                                  {"[[robot]]", robot_keys},
-                                  {"[robots]", tasks_keys},
-                                  {"[people]", people_keys()},
-                                  {"[[region]]", region_keys},
-                                  {"[[flow]]", flow_keys},
-                                  {"[[recording]]", recording_keys},
-                                  {"[grade]", grade_keys}};
+  std::vector<TomlKeys> tables = {
+      {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
+      {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
+      {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    {"[people]", people_keys()},
+      {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys},
+      {"[grade]", grade_keys}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }
@@ -186,7 +178,9 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
                                 std::optional<double> level) {
   ScenarioFile out;
   const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
-  document->know(scenario_keys());
+  std::vector<TomlKeys> tables = scenario_keys();
+  tables.push_back({"", root_keys});
+  document->know(std::move(tables));
   out.document = document;
   const TomlTable root = out.document->root();
   const auto grade = root.find_table("grade");
