@@ -171,6 +171,12 @@ std::vector<std::string> shipped_parameter_sets() {
   return names;
 }
 
+std::string shipped_set_of(const fs::path& file) {
+  if (file.empty()) return "";
+  const fs::path within = file.lexically_relative(fs::weakly_canonical(parameter_set_folder()));
+  return within.empty() || *within.begin() == ".." ? "" : file.parent_path().filename().string();
+}
+
 fs::path find_parameter_file(const TomlTable& use, const fs::path& base) {
   const auto value = use.find("params_file");
   if (!value) return {};

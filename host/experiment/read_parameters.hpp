@@ -22,6 +22,10 @@ struct ParameterVariant {
 std::filesystem::path parameter_set(const std::string& name, const std::filesystem::path& base);
 std::vector<std::string> shipped_parameter_sets();
 
+// The name of the shipped set that a parameter file belongs to: "tuned" of "controllers/tuned/dwa.toml". Empty for files
+// that are not shipped.
+std::string shipped_set_of(const std::filesystem::path& file);
+
 // The parameter file of the key `params_file` of a plugin's table; empty without that key. Throws InputError.
 std::filesystem::path find_parameter_file(const TomlTable& use, const std::filesystem::path& base);
 

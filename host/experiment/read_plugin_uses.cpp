@@ -77,6 +77,12 @@ std::vector<ParameterVariant> read_variants(const TomlTable& table, const Plugin
   return variants;
 }
 
+// Results of two shipped sets do not share a label.
+std::string default_label(const PluginUse& use) {
+  const std::string set = shipped_set_of(use.parameter_file);
+  return set.empty() ? use.info.name : fmt::format("{} ({})", use.info.name, set);
+}
+
 // Tables and results name a use by its label, and a value by its name.
 void check_names(const TomlTable& table, std::uint32_t kind, const std::vector<PluginUse>& others,
                  const PluginUse& made) {
@@ -117,7 +123,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
       variants = read_variants(table, *found->info, experiment.file.parent_path(), common.parameter_file);
     });
     mistakes.end();
-    if (name.empty()) name = common.info.name;
+    if (name.empty()) name = default_label(common);
     for (ParameterVariant& variant : variants) {
       PluginUse made = common;
       made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);

@@ -43,9 +43,11 @@ use = "./hall.toml"
 use = "dmrp.planner.cbs"
 [[local_controller]]
 use = "dmrp.controller.mpc"
+label = "MPC"
 params_file = "controllers/tuned/mpc.toml"
 [[local_controller]]
 use = "dmrp.controller.oracle"
+label = "Oracle"
 params_file = "controllers/tuned/oracle.toml"
 TOML
 expect_status 0 "$host" "$scratch/oracle.toml" --quiet --jobs 1 --out "$scratch/people"

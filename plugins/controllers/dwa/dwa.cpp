@@ -95,8 +95,12 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   sample_window(now);
   const Vec2 robot = toolkit::position(now.pose);
   const dwa::FrontSettings settings = {now.footprint.inscribed_radius_m + footprint_padding,
-                                       max_global_plan_lookahead_dist, forward_point_distance, enforce_path_inversion,
-                                       return_to_path};
+                                       max_global_plan_lookahead_dist,
+                                       forward_point_distance,
+                                       enforce_path_inversion,
+                                       return_to_path,
+                                       extend_path,
+                                       lead_around};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
@@ -105,7 +109,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   update_oscillation(now, stalled);
   const std::optional<FootprintCheck> room = room_to_leave_for(now, map, stalled && !goal.is_cut);
   // paths are not replanned around people: past an obstacle on the path, the goal critics alone guide the robot
-  const bool follow = goal.path_is_free;
+  const bool follow = goal.path_is_free || !lead_around;
   const bool align = to_goal_m > forward_point_distance;
   const dwa::Ramp ramp = {
       {now.velocity.v_x, now.velocity.omega, now.velocity.v_y}, now.limits.a_max, now.limits.alpha_max};
@@ -133,7 +137,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
       command = at_goal_.command(tracker_.stop(), now);
       return Status::ok;
     }
-    turn_to_ = better_heading(scene, footprint);
+    if (turn_to_better_heading) turn_to_ = better_heading(scene, footprint);
     if (turn_to_) {
       command = turn(now, *turn_to_, footprint);
       return Status::ok;
@@ -187,7 +191,7 @@ std::array<dwa::Box, 2> Dwa::reachable_boxes(const Observation& now) const {
 // may be the only way on; upstream, the oscillation recovery of move_base clears it.
 void Dwa::update_oscillation(const Observation& now, bool stalled) {
   oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
-  if (stalled) oscillation_.reset();
+  if (stalled && release_stalled) oscillation_.reset();
 }
 
 // A footprint with a cell more of padding, while the robot leaves an obstacle: from a stall beside it until it is

@@ -69,11 +69,22 @@ class Dwa final : public LocalController {
                                                      .range(0.5, 100.0)
                                                      .doc("length of the path considered, inside the window");
   Param<bool> enforce_path_inversion =
-      param("enforce_path_inversion", false).doc("consider the path only up to where it turns back");
-  Param<bool> return_to_path =
-      param("return_to_path", false).doc("drive straight to a path that lies outside the window; off: stand");
-  Param<bool> leave_padding =
-      param("leave_padding", false).doc("after standing beside an obstacle for 2 s, drive clear of it first");
+      param("enforce_path_inversion", false).doc("departure: consider the path only up to where it turns back");
+  Param<bool> return_to_path = param("return_to_path", false)
+                                   .doc("departure: drive straight to a path that lies outside the window; off: stand");
+  Param<bool> leave_padding = param("leave_padding", false)
+                                  .doc("departure: after standing beside an obstacle for 2 s, drive clear of it first");
+  Param<bool> lead_around =
+      param("lead_around", true)
+          .doc(
+              "departure: past an obstacle on the path, the goal critics alone count, and cells close to it cost more");
+  Param<bool> turn_to_better_heading =
+      param("turn_to_better_heading", true)
+          .doc("departure: if standing still scores best, turn in place to a heading that scores better");
+  Param<bool> release_stalled =
+      param("release_stalled", true).doc("departure: after standing for 2 s, the robot may reverse again");
+  Param<bool> extend_path =
+      param("extend_path", true).doc("departure: the path goes straight on beyond its end, by the nose's length");
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;

@@ -27,7 +27,8 @@ void PathFronts::reserve() {
 
 LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
                              const std::array<Box, 2>& boxes, const FrontSettings& settings) {
-  terrain_.read(map, map.highest_cost_at(settings.needed_m), map.highest_cost_at(settings.needed_m + easy_m));
+  const double beyond_m = settings.avoids_close_cells ? easy_m : 0.0;
+  terrain_.read(map, map.highest_cost_at(settings.needed_m), map.highest_cost_at(settings.needed_m + beyond_m));
   request(map, robot, boxes);
   lay_out_plan(tracker, robot, map, settings);
   const std::int32_t home = terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);
@@ -102,7 +103,8 @@ void PathFronts::spread_path(const PathTracker& tracker, const CostmapView& map,
                              const FrontSettings& settings) {
   path_.begin(terrain_);
   for (const PlanPoint& point : plan_) path_.seed(point.index);
-  if (tracker.remaining_m() <= settings.look_ahead_m) seed_beyond_end(tracker, map, settings.nose_m);
+  if (settings.extends_path && tracker.remaining_m() <= settings.look_ahead_m)
+    seed_beyond_end(tracker, map, settings.nose_m);
   path_.spread();
   // cut off from the whole path: the robot stays about its position
   if (home >= 0 && !path_.reached(home)) {

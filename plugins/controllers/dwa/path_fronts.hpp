@@ -16,6 +16,8 @@ struct FrontSettings {
   double nose_m = 0.0;             // from the robot's centre to its nose
   bool ends_at_inversion = false;  // the path considered ends where it turns back
   bool returns_to_path = false;    // a path outside the window is considered from the robot's position on
+  bool extends_path = true;        // straight on beyond its end, by the nose's length
+  bool avoids_close_cells = true;  // cells close to obstacles cost more
 };
 
 // An axis-aligned rectangle.

@@ -52,10 +52,11 @@ class E3mop final : public LocalController {
       param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
-  Param<double> prediction_time = param("prediction_time", 1.0)
-                                      .unit("s")
-                                      .range(0.0, 10.0)
-                                      .doc("time for which the predicted motion of visible agents counts as occupied");
+  Param<double> prediction_time =
+      param("prediction_time", 1.0)
+          .unit("s")
+          .range(0.0, 10.0)
+          .doc("departure: time for which the predicted motion of visible agents counts as occupied");
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;

@@ -31,7 +31,7 @@ bool is_free(const Pose& pose, double ahead_s, const Surroundings& around) {
   bool beside_agent = false;
   for (const Obstacle& obstacle : around.obstacles) {
     const double needed_m = needed_from(obstacle);
-    const bool evades_too = obstacle.is_robot && obstacle.velocity != Vec2{0.0, 0.0} &&
+    const bool evades_too = around.robots_evade && obstacle.is_robot && obstacle.velocity != Vec2{0.0, 0.0} &&
                             ahead_s > around.now.velocity.v_x / around.now.limits.a_max + shared_evasion_s;
     if (!evades_too && least_distance(footprint, robot, obstacle, ahead_s) < needed_m) {
       const double distance_m = separation(footprint, pose, obstacle, ahead_s).distance_m;

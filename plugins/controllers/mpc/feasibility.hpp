@@ -17,6 +17,7 @@ struct Surroundings {
   const Observation& now;
   const std::vector<Obstacle>& obstacles;
   FootprintCheck& footprint;  // on the costmap
+  bool robots_evade = true;   // moving robots evade too: contacts with them count only for a while
 };
 
 // Whether the states 1 to `most_states` after `first` are free, state first + k at the time k dt_s.

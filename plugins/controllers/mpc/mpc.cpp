@@ -124,7 +124,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   }
   if (is_standing && begins_facing(now) && turns(now, footprint, command)) return Status::ok;
   pose_problem(now, *target);
-  const Cycle cycle = {{now, obstacles, footprint}, map};
+  const Cycle cycle = {{now, obstacles, footprint, share_evasion}, map};
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
@@ -134,7 +134,7 @@ Status Mpc::step(const Observation& now, Command& command) {
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
-  if (is_standing) skip_waiting(cycle.around);
+  if (is_standing && drop_waiting) skip_waiting(cycle.around);
   command = first_command(now);
   annotate(*solver_iterations);
   return Status::ok;

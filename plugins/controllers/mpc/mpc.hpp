@@ -32,10 +32,17 @@ class Mpc : public LocalController {
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
   Param<bool> bound_step_length =
-      param("bound_step_length", true).doc("no time step in which the robot can drive farther than its own width");
+      param("bound_step_length", true)
+          .doc("departure: no time step in which the robot can drive farther than its own width");
   Param<bool> turn_if_stuck =
       param("turn_if_stuck", true)
-          .doc("a robot that stands too close to an obstacle for any trajectory turns toward its way");
+          .doc("departure: a robot that stands too close to an obstacle for any trajectory turns toward its way");
+  Param<bool> drop_waiting =
+      param("drop_waiting", true)
+          .doc("departure: drops states at rest at the start, unless somebody has to pass first");
+  Param<bool> share_evasion =
+      param("share_evasion", true)
+          .doc("departure: a contact with a moving robot counts within the braking time and a second: it evades too");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -63,7 +70,7 @@ class Mpc : public LocalController {
                                   .range(0.0, 100.0)
                                   .doc("beyond force_inclusion_dist and up to this, the closest obstacle on each side");
   Param<bool> enable_dynamic_obstacles =
-      param("enable_dynamic_obstacles", true).doc("predicts the motion of agents at constant velocity");
+      param("enable_dynamic_obstacles", true).doc("departure: predicts the motion of agents at constant velocity");
   Param<int> collision_check_no_poses = param("collision_check_no_poses", -1)
                                             .unit("1")
                                             .range(-1, 200)

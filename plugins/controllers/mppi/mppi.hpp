@@ -53,8 +53,8 @@ class Mppi final : public LocalController {
       param("prune_distance", 1.7).unit("m").range(0.1, 20.0).doc("length of the path considered");
   Param<bool> enforce_path_inversion =
       param("enforce_path_inversion", false).doc("consider the path only up to where it turns back");
-  Param<bool> detour =
-      param("detour", false).doc("where the path is blocked, follow the shortest way round over the costmap");
+  Param<bool> detour = param("detour", false)
+                           .doc("departure: where the path is blocked, follow the shortest way round over the costmap");
   Param<double> inversion_xy_tolerance = param("inversion_xy_tolerance", 0.2)
                                              .unit("m")
                                              .range(0.0, 5.0)
@@ -211,7 +211,7 @@ class Mppi final : public LocalController {
       param("footprint_padding", 0.01).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<bool> include_dynamic_obstacles =
       param("include_dynamic_obstacles", false)
-          .doc("tracked agents continue at their velocity; off: they stay where they are");
+          .doc("departure: tracked agents continue at their velocity; off: they stay where they are");
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;

@@ -40,7 +40,7 @@ void ObstacleLinker::link(const TimedElasticBand& band, bool stops_at_goal, cons
   const double wanted_m = parameters.min_obstacle_dist + parameters.penalty_epsilon;
   start_m_.assign(obstacles.size(), ignored_m);
   goal_m_.assign(obstacles.size(), ignored_m);
-  measure_from(band.pose(0), footprint, obstacles, wanted_m, start_m_);
+  if (parameters.ease_from_start) measure_from(band.pose(0), footprint, obstacles, wanted_m, start_m_);
   if (stops_at_goal && parameters.ease_to_goal)
     measure_from(band.pose(band.size() - 1), footprint, obstacles, wanted_m, goal_m_);
   const double forced_m = parameters.min_obstacle_dist * parameters.obstacle_association_force_inclusion_factor;

@@ -152,6 +152,7 @@ Status Teb::drive(const Observation& now, const CostmapView& map, Command& comma
 // returns true then.
 bool Teb::look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
   path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
+  if (!parameters_.end_before_obstacles) return false;
   const std::size_t whole = path_.points().size();
   path_.retreat(footprint);
   const std::size_t free = std::min(path_.points().size(), reachable_points(now, map, footprint));
@@ -248,6 +249,7 @@ bool Teb::stops_in_time(const Command& command, const Observation& now, Footprin
 
 // Lowers the speed until the robot can stop in time. False if not even braking is enough.
 bool Teb::slow_down(Command& command, const Observation& now, FootprintCheck& footprint) const {
+  if (!parameters_.slow_down_to_stop) return true;
   const Command least = braking(now);
   const Command wanted = command;
   for (const double share : {1.0, 0.5, 0.0}) {

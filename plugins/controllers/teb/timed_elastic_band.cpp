@@ -133,9 +133,10 @@ void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const 
     first = point;
     break;
   }
-  if (is_car_like(limits))
+  if (parameters.begin_with_turn && is_car_like(limits))
     append_arc(band, first, limits);
-  else if (!is_holonomic(limits) && toolkit::distance(toolkit::position(start), first) > 1e-6)
+  else if (parameters.begin_with_turn && !is_holonomic(limits) &&
+           toolkit::distance(toolkit::position(start), first) > 1e-6)
     append_turn(band, toolkit::bearing(start, first), limits, parameters, turn);
   for (const Vec2 point : points) {
     const Vec2 last = band.position(band.size() - 1);
