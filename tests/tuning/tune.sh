@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: MIT
 # Tunes one controller by a random search, with the same budget and training set as every other. Called as
 #   tune.sh DMRP_HOST CONTROLLER OUT_DIR [CANDIDATES [TRIALS [SEED]]]
-# Candidate 0 is the shipped set tuned/, or the defaults; the others are drawn from spaces.txt. OUT_DIR gets the trace of
-# the search (search.csv), which continues where it was interrupted, and the best set (CONTROLLER.toml).
+# Candidate 0 is the shipped set tuned/; the others are drawn from spaces.txt. OUT_DIR gets the trace of the search
+# (search.csv), which continues where it was interrupted, and the best set (CONTROLLER.toml).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 host=$1 controller=$2 out=$3 candidates=${4:-24} trials=${5:-5} seed=${6:-41}
 
-# Tasks are drawn from the seed. Those of docs/controllers.md and of the controllers' README judge what was tuned here.
-held_out="160016 160711"
+# Tasks are drawn from the seed. Those of docs/controllers.md, of the controllers' README and of ablation.sh are for judging.
+held_out="160016 160711 160712"
 training_scenarios="mall library"
 training_robots=8
 
@@ -33,14 +33,14 @@ candidate() {
     { printf "%s = %.4g\n", $2, $3 + ($4 - $3) * uniform() }' "$here/spaces.txt"
 }
 
-# experiment PARAMETER_FILE: on the training set; an empty name takes the defaults
+# experiment PARAMETER_FILE: on the training set
 experiment() {
   printf '[experiment]\nname = "tuning"\nseed = %s\ntrials = %s\n' "$seed" "$trials"
   printf 'plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians.so", "libdmrp_metrics.so"]\n'
   printf '[[scenario]]\nuse = "%s"\nrobots = '"$training_robots"'\ntasks = "drawn"\n' $training_scenarios
   printf '[[global_planner]]\nuse = "dmrp.planner.cbs"\n[[pedestrian_model]]\nuse = "dmrp.pedestrian.social_force"\n'
   printf '[[local_controller]]\nuse = "dmrp.controller.%s"\nlabel = "tuned"\n' "$controller"
-  [[ -z $1 ]] || printf 'params_file = "%s"\n' "$1"
+  printf 'params_file = "%s"\n' "$1"
   printf '[record]\ntraces = "none"\n'
 }
 
@@ -72,7 +72,7 @@ if [[ ${best%%,*} == 0 ]]; then
 else
   {
     echo "# SPDX-License-Identifier: MIT"
-    echo "# $controller: candidate ${best%%,*} of $candidates of tests/tuning/tune.sh, seed $seed, $trials trials a world"
+    echo "# $controller by tests/tuning/tune.sh: candidate ${best%%,*} of $candidates, seed $seed, $trials trials a world"
     candidate "${best%%,*}"
   } >"$out/$controller.toml"
   echo "better than the shipped set: $best"
