@@ -109,7 +109,7 @@ int export_command(const ExportOptions& options) {
   } else if (options.format == ExportFormat::thresholds) {
     text = thresholds(options, run, layouts);
   } else {
-    const RunSettings settings(run.effective_toml);
+    const RunSettings settings(run.effective_toml, run.trials);
     text = options.format == ExportFormat::csv
                ? trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings)
                : figure(options, run, layouts, settings);

@@ -55,6 +55,21 @@ std::string tasks_text(const core::TaskWishes& wishes) {
   return out + fmt::format(", crossing = \"{}\" }}", wishes.crossing == core::Crossing::any ? "any" : "corridor");
 }
 
+void write_people(std::string& out, const PeopleChange& people) {
+  if (!people.key) return;
+  const std::string value = fmt::format("{}", people.value);
+  out += fmt::format("{} = {}\n", people.key, people.listed ? "[" + value + "]" : value);
+}
+
+// Without those that differ from the one before in swept settings alone: a file's sweep makes them anew.
+std::vector<ScenarioVariant> without_settings_sweep(const Experiment& experiment) {
+  std::size_t points = 1;
+  for (const SettingsSweep& sweep : experiment.sweeps) points *= sweep.values.size();
+  std::vector<ScenarioVariant> out;
+  for (std::size_t i = 0; i < experiment.scenarios.size(); i += points) out.push_back(experiment.scenarios[i]);
+  return out;
+}
+
 // The random tasks for one number of robots depend on the other numbers of the same [[scenario]].
 void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scenarios, const FileName& name) {
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -72,7 +87,7 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
     if (const StartJitter& jitter = variant.jitter; jitter.position_m > 0.0 || jitter.heading_rad > 0.0)
       out += fmt::format("start_jitter = {{ position_m = {}, heading_rad = {} }}\n", toml_text(jitter.position_m),
                          toml_text(jitter.heading_rad));
-    if (variant.people_times != 1.0) out += fmt::format("people_times = {}\n", toml_text(variant.people_times));
+    write_people(out, variant.people);
   }
 }
 
@@ -89,7 +104,7 @@ std::string effective_toml(const Experiment& experiment, const FileName& name) {
   std::vector<std::string> libraries;
   for (const LibraryUse& library : experiment.libraries) libraries.push_back(name(library.file));
   out += "plugins = " + toml_text(libraries) + "\n";
-  write_scenarios(out, experiment.scenarios, name);
+  write_scenarios(out, without_settings_sweep(experiment), name);
   write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners, name);
   write_uses(out, DMRP_KIND_LOCAL_CONTROLLER, experiment.local_controllers, name);
   write_uses(out, DMRP_KIND_PEDESTRIAN_MODEL, experiment.pedestrian_models, name);

@@ -26,6 +26,13 @@ struct RunLimits {
   bool processes = false;         // plugins that declare it may start processes
 };
 
+// A key of [simulation] or [robot] that has a list of values; the scenario variants have them.
+struct SettingsSweep {
+  std::string table;
+  std::string key;                  // "tracking", "lidar.beams"
+  std::vector<std::string> values;  // as TOML
+};
+
 struct Experiment {
   std::filesystem::path file;  // of experiment.toml, absolute
   std::string text;            // its content
@@ -42,12 +49,17 @@ struct Experiment {
   core::SimulationSettings simulation;
   core::RobotSettings robot;                     // the default type
   std::vector<core::RobotSettings> robot_types;  // [robot_type.NAME] of this file
+  std::vector<SettingsSweep> sweeps{};
   RecordTraces traces = RecordTraces::all;
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
   std::vector<std::string> warnings;  // one line each
 };
+
+inline const core::SimulationSettings& simulation_of(const Experiment& experiment, const ScenarioVariant& variant) {
+  return variant.simulation ? *variant.simulation : experiment.simulation;
+}
 
 // One combination of scenario and plugins: indices into the experiment's lists.
 struct Combination {

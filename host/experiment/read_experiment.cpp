@@ -11,6 +11,7 @@
 #include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_plugin_uses.hpp"
 #include "host/experiment/read_scenario_uses.hpp"
+#include "host/experiment/settings_sweep.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
 #include "host/scenario/robot_tables.hpp"
@@ -103,7 +104,10 @@ void check_drives(const TomlTable& root, const Experiment& experiment) {
 // Ordered execution needs plans that keep robots apart, cell by cell.
 void check_ordered_execution(const TomlTable& root, const Experiment& experiment) {
   if (experiment.simulation.execution != core::Execution::ordered) return;
-  const TomlValue execution = root.find_table("simulation")->need("execution");
+  const TomlTable simulation = *root.find_table("simulation");
+  const auto sweep = simulation.find_table("sweep");
+  const auto swept = sweep ? sweep->find("execution") : std::nullopt;
+  const TomlValue execution = swept ? *swept : simulation.need("execution");
   for (const PluginUse& planner : experiment.global_planners) {
     if (planner.info.has_flag(DMRP_FLAG_UNCOORDINATED))
       execution.fail(fmt::format("'execution' = 'ordered' needs plans without conflicts, which {} does not make",
@@ -130,6 +134,48 @@ TomlKeys root_keys() {
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back(kind_name(kind));
   return root;
+}
+
+void keep_first_of_equals(std::vector<std::string>& lines) {
+  std::vector<std::string> kept;
+  for (std::string& line : lines)
+    if (std::find(kept.begin(), kept.end(), line) == kept.end()) kept.push_back(std::move(line));
+  lines = std::move(kept);
+}
+
+// Checks the scenarios with the experiment's settings, and with each combination of swept ones: then each variant
+// becomes one for each combination. `has_scenarios`: all could be read.
+void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool has_scenarios, Experiment& experiment) {
+  const core::SimulationSettings simulation = experiment.simulation;
+  const core::RobotSettings robot = experiment.robot;
+  const std::vector<SettingsPoint> points = read_settings_sweep(root, experiment);
+  const std::size_t variants = experiment.scenarios.size();
+  std::vector<ScenarioVariant> all(variants * points.size());
+  Mistakes mistakes;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    experiment.simulation = points[p].simulation;
+    experiment.robot = points[p].robot;
+    mistakes.attempt([&] { check_ordered_execution(root, experiment); });
+    const bool has_types = mistakes.attempt([&] {
+      experiment.robot_types = read_robot_types(root, experiment.robot);
+      resolve_types(uses, experiment);
+    });
+    if (!has_types) continue;
+    if (has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
+    for (const ScenarioUse& use : uses)
+      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+    for (std::size_t i = 0; i < variants; ++i) {
+      ScenarioVariant& variant = all[i * points.size() + p] = experiment.scenarios[i];
+      if (!experiment.sweeps.empty()) variant.simulation = points[p].simulation;
+      variant.swept.insert(variant.swept.end(), points[p].swept.begin(), points[p].swept.end());
+    }
+  }
+  mistakes.end();
+  experiment.scenarios = std::move(all);
+  experiment.simulation = simulation;
+  experiment.robot = robot;
+  experiment.robot_types = read_robot_types(root, robot);
+  keep_first_of_equals(experiment.warnings);
 }
 
 }  // namespace
@@ -168,15 +214,10 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   mistakes.attempt([&] { check_complete(root, experiment, scenario_uses); });
 
   // Checks of what belongs together, as far as it has been read.
-  const bool has_types = has_settings && mistakes.attempt([&] { resolve_types(scenario_uses, experiment); });
-  if (has_types && has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
-  if (has_settings) mistakes.attempt([&] { check_ordered_execution(root, experiment); });
   mistakes.attempt([&] { check_processes(root, experiment); });
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
-  if (has_types)
-    for (const ScenarioUse& use : scenario_uses)
-      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+  if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   mistakes.end();
   return experiment;
 }

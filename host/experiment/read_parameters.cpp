@@ -107,34 +107,34 @@ void read_declared(const TomlTable& table, const PluginInfo& info,
   mistakes.end();
 }
 
-std::string label_of(const ParameterValue& value) {
+std::string text_of(const ParameterValue& value) {
   switch (value.type) {
     case DMRP_PARAM_BOOL:
-      return fmt::format("{} {}", value.key, value.integer ? "on" : "off");
+      return value.integer ? "on" : "off";
     case DMRP_PARAM_INT:
-      return fmt::format("{} {}", value.key, value.integer);
+      return fmt::format("{}", value.integer);
     case DMRP_PARAM_DOUBLE:
-      return fmt::format("{} {}", value.key, value.number);
+      return fmt::format("{}", value.number);
     case DMRP_PARAM_PATH:
-      return fmt::format("{} {}", value.key, fs::path(value.text).filename().string());
+      return fs::path(value.text).filename().string();
     case DMRP_PARAM_DOUBLE_ARRAY:
-      return fmt::format("{} [{}]", value.key, fmt::join(value.numbers, ", "));
+      return fmt::format("[{}]", fmt::join(value.numbers, ", "));
     case DMRP_PARAM_STRING_ARRAY:
-      return fmt::format("{} [{}]", value.key, fmt::join(value.texts, ", "));
+      return fmt::format("[{}]", fmt::join(value.texts, ", "));
     default:
-      return fmt::format("{} {}", value.key, value.text);
+      return value.text;
   }
 }
 
 // The product of the variants with the values of another swept key.
 std::vector<ParameterVariant> multiply(const std::vector<ParameterVariant>& variants, std::size_t index,
-                                       const std::vector<ParameterValue>& values) {
+                                       const std::vector<ParameterValue>& values, const std::string& table) {
   std::vector<ParameterVariant> out;
   for (const ParameterVariant& variant : variants)
     for (const ParameterValue& value : values) {
       ParameterVariant next = variant;
       next.values[index] = value;
-      next.label += (next.label.empty() ? "" : ", ") + label_of(value);
+      next.swept.push_back({table, value.key, text_of(value)});
       out.push_back(std::move(next));
     }
   return out;
@@ -146,7 +146,8 @@ std::vector<ParameterValue> read_sweep(const TomlValue& entry, const ParameterSp
   for (const TomlValue& element : entry.array()) {
     ParameterValue value = read_value(element, spec, base);
     for (const ParameterValue& other : values)
-      if (label_of(other) == label_of(value)) element.fail(fmt::format("'{}' twice in a sweep", label_of(value)));
+      if (text_of(other) == text_of(value))
+        element.fail(fmt::format("'{} {}' twice in a sweep", value.key, text_of(value)));
     values.push_back(std::move(value));
   }
   if (values.empty()) entry.fail(fmt::format("'{}' sweeps over no values", entry.key()));
@@ -216,7 +217,7 @@ std::vector<ParameterVariant> read_parameters(const TomlTable& use, const Plugin
       const auto values = read_sweep(entry, info.parameters[index], base);
       if (variants.size() * values.size() > max_variants)
         entry.fail(fmt::format("the sweep has more than {} variants", max_variants));
-      variants = multiply(variants, index, values);
+      variants = multiply(variants, index, values, kind_name(info.kind));
     });
   });
   mistakes.end();

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
+#include "host/toml/swept_value.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 
-// One complete table of values. `label`: the difference from the other variants of the sweep, "" or "suboptimality
-// 1.2".
+// One complete table of values.
 struct ParameterVariant {
   std::vector<ParameterValue> values;
-  std::string label;
+  std::vector<SweptValue> swept{};  // the difference from the other variants of a sweep
 };
 
 // The absolute path of a parameter file: relative to `base`, or a shipped one ("controllers/tuned/dwa.toml"). Empty if

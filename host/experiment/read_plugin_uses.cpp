@@ -126,7 +126,8 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     if (name.empty()) name = default_label(common);
     for (ParameterVariant& variant : variants) {
       PluginUse made = common;
-      made.label = variant.label.empty() ? name : fmt::format("{} ({})", name, variant.label);
+      made.label = with_swept(name, variant.swept);
+      made.swept = std::move(variant.swept);
       made.parameters = std::move(variant.values);
       check_names(table, kind, uses, made);
       uses.push_back(std::move(made));

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
@@ -23,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t max_robots = 10'000;
 constexpr std::int64_t max_tasks = 1'000'000;
 constexpr double max_people_times = 100.0;
+constexpr std::int64_t max_people = 100'000;
 
 // A number of robots that a [[scenario]] asks for.
 struct RobotCount {
@@ -142,10 +145,11 @@ void add_variant(const ScenarioUse& use, const fs::path& file, const RobotCount&
   variant.wishes = use.random.wishes;
   variant.grade = use.file.grade;
   variant.jitter = use.jitter;
-  variant.people_times = use.people_times;
+  variant.people = use.people;
+  if (use.people.listed) variant.swept.push_back({"", use.people.key, fmt::format("{}", use.people.value)});
   for (const ScenarioVariant& other : experiment.scenarios)
-    if (other.scenario.name == variant.scenario.name && robot_count(other) == count.robots)
-      count.value.fail(fmt::format("scenario '{}' occurs twice", variant.label));
+    if (result_name(other) == result_name(variant) && robot_count(other) == count.robots)
+      count.value.fail(fmt::format("scenario '{}' occurs twice", with_swept(variant.label, variant.swept)));
   experiment.scenarios.push_back(std::move(variant));
 }
 
@@ -186,22 +190,53 @@ StartJitter read_jitter(const TomlTable& table) {
   return jitter;
 }
 
-// The flows with so many times their people, rounded; groups are at most as large as their flow.
-double scale_people(const TomlTable& table, core::Scenario& scenario) {
-  const auto value = table.find("people_times");
-  if (!value) return 1.0;
-  const double times = value->number(0.0, max_people_times);
-  if (scenario.flows.empty()) value->fail_at_key(fmt::format("scenario '{}' has no flows of people", scenario.name));
-  for (core::Flow& flow : scenario.flows) {
-    flow.people = static_cast<std::uint32_t>(std::lround(times * flow.people));
-    flow.group_size = std::max(1U, std::min(flow.group_size, flow.people));
-  }
-  return times;
+// The changes of the number of people that the [[scenario]] asks for; one without a key if it asks for none.
+std::vector<PeopleChange> people_to_run(const TomlTable& table) {
+  const auto total = table.find("people");
+  const auto times = table.find("people_times");
+  if (!total && !times) return {PeopleChange{}};
+  if (total && times) times->fail_at_key("'people' and 'people_times' exclude each other");
+  const TomlValue& given = total ? *total : *times;
+  std::vector<PeopleChange> changes;
+  for (const TomlValue& one : given.is_array() ? given.array() : std::vector<TomlValue>{given})
+    changes.push_back({total ? "people" : "people_times",
+                       total ? static_cast<double>(one.integer(0, max_people)) : one.number(0.0, max_people_times),
+                       given.is_array()});
+  if (changes.empty()) given.fail(fmt::format("'{}' must have at least one number", given.key()));
+  return changes;
 }
 
-// One [[scenario]] at one level.
+// So many people in all, in the proportions of the flows; the largest remainders are rounded up.
+void share_people(std::uint64_t total, std::vector<core::Flow>& flows) {
+  std::uint64_t listed = 0;
+  for (const core::Flow& flow : flows) listed += flow.people;
+  std::vector<std::pair<std::uint64_t, std::size_t>> remainders;
+  std::uint64_t left = total;
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    remainders.emplace_back(total * flows[i].people % listed, i);
+    flows[i].people = static_cast<std::uint32_t>(total * flows[i].people / listed);
+    left -= flows[i].people;
+  }
+  std::stable_sort(remainders.begin(), remainders.end(), [](auto a, auto b) { return a.first > b.first; });
+  for (std::size_t i = 0; i < left; ++i) ++flows[remainders[i].second].people;
+}
+
+// Groups are at most as large as their flow.
+void change_people(const TomlTable& table, const PeopleChange& change, core::Scenario& scenario) {
+  if (!change.key) return;
+  const bool walk = std::any_of(scenario.flows.begin(), scenario.flows.end(), [](const auto& f) { return f.people; });
+  if (!walk) table.need(change.key).fail_at_key(fmt::format("scenario '{}' has no flows of people", scenario.name));
+  if (change.key == std::string_view("people"))
+    share_people(static_cast<std::uint64_t>(change.value), scenario.flows);
+  else
+    for (core::Flow& flow : scenario.flows)
+      flow.people = static_cast<std::uint32_t>(std::lround(change.value * flow.people));
+  for (core::Flow& flow : scenario.flows) flow.group_size = std::max(1U, std::min(flow.group_size, flow.people));
+}
+
+// One [[scenario]] at one level, with one number of people.
 ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::path& file, std::optional<double> level,
-                     std::size_t entry, Experiment& experiment) {
+                     const PeopleChange& people, std::size_t entry, Experiment& experiment) {
   ScenarioUse use = {name, {}, {}, table.find("types")};
   TasksKey tasks;
   std::vector<RobotCount> counts;
@@ -209,9 +244,10 @@ ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::pa
   mistakes.attempt([&] { use.jitter = read_jitter(table); });
   const bool has_tasks = mistakes.attempt([&] { tasks = read_tasks_key(table); });
   const bool has_file = mistakes.attempt([&] { use.file = read_scenario_file(file, shown(file), level); });
-  if (has_file) mistakes.attempt([&] { use.people_times = scale_people(table, use.file.scenario); });
+  if (has_file) mistakes.attempt([&] { change_people(table, people, use.file.scenario); });
   if (has_file && has_tasks) mistakes.attempt([&] { counts = robot_counts(table, name, use.file.scenario, tasks); });
   mistakes.end();
+  use.people = people;
   use.random.wishes = tasks.wishes;
   warn_of_drawn_list(counts, tasks, use.file.scenario, experiment);
   std::size_t most_listed = 0;
@@ -238,7 +274,9 @@ void read_scenario_uses(const TomlTable& root, Experiment& experiment, std::vect
       const fs::path file = find_scenario(name.text(), experiment.file.parent_path());
       if (file.empty()) fail_missing(name);
       for (const std::optional<double> level : levels_to_run(table, file))
-        mistakes.attempt([&] { uses.push_back(read_use(table, name, file, level, uses.size(), experiment)); });
+        for (const PeopleChange& people : people_to_run(table))
+          mistakes.attempt(
+              [&] { uses.push_back(read_use(table, name, file, level, people, uses.size(), experiment)); });
     });
     mistakes.end();
   });

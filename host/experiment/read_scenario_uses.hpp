@@ -14,7 +14,7 @@
 namespace dmrp::host {
 
 inline const std::vector<std::string> scenario_use_keys = {
-    "use", "robots", "tasks", "types", "levels", "start_jitter", "people_times"};  // of [[scenario]]
+    "use", "robots", "tasks", "types", "levels", "start_jitter", "people", "people_times"};  // of [[scenario]]
 
 // A [[scenario]] with its scenario file.
 struct ScenarioUse {
@@ -23,7 +23,7 @@ struct ScenarioUse {
   RandomRobots random;
   std::optional<TomlValue> types{};  // the value of its key `types`: shares of drawn robots
   StartJitter jitter{};
-  double people_times = 1.0;
+  PeopleChange people{};
   core::RobotTypes robot_types{};  // after resolve_robot_types()
 };
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
 #include <numbers>
 #include <span>
 #include <vector>
 
 #include "host/errors/mistakes.hpp"
 #include "host/scenario/robot_tables.hpp"
-#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -18,14 +18,20 @@ namespace {
 
 constexpr double max_length_m = 1e4;
 
+// At the first of these keys that the table has, or at the table.
+[[noreturn]] void fail_at_one(const TomlTable& table, std::initializer_list<const char*> keys,
+                              const std::string& text) {
+  for (const char* key : keys)
+    if (const auto value = table.find(key)) value->fail(text);
+  table.fail(text);
+}
+
 void check_control_period(const TomlTable& table, const core::SimulationSettings& simulation) {
   if (simulation.control_period_ns % simulation.step_ns == 0) return;
-  const auto period = table.find("control_period_s");
-  const auto step = table.find("step_s");
-  (period ? *period : *step)
-      .fail(fmt::format("'control_period_s' must be a multiple of 'step_s': {} s is none of {} s",
-                        static_cast<double>(simulation.control_period_ns) / 1e9,
-                        static_cast<double>(simulation.step_ns) / 1e9));
+  fail_at_one(table, {"control_period_s", "step_s"},
+              fmt::format("'control_period_s' must be a multiple of 'step_s': {} s is none of {} s",
+                          static_cast<double>(simulation.control_period_ns) / 1e9,
+                          static_cast<double>(simulation.step_ns) / 1e9));
 }
 
 // Robots change to a new plan at control ticks.
@@ -33,8 +39,16 @@ void check_replanning(const TomlTable& table, const core::SimulationSettings& si
   for (const auto& [key, ns] : {std::pair("replan_period_s", simulation.replan.period_ns),
                                 std::pair("replan_stall_s", simulation.replan.stall_ns)})
     if (ns > 0 && ns < simulation.control_period_ns)
-      table.need(key).fail(fmt::format("'{}' must be 0 (never) or at least 'control_period_s', {} s", key,
-                                       static_cast<double>(simulation.control_period_ns) / 1e9));
+      fail_at_one(table, {key, "control_period_s"},
+                  fmt::format("'{}' must be 0 (never) or at least 'control_period_s', {} s", key,
+                              static_cast<double>(simulation.control_period_ns) / 1e9));
+}
+
+}  // namespace
+
+void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation) {
+  check_control_period(table, simulation);
+  check_replanning(table, simulation);
 }
 
 Settings simulation_settings(core::SimulationSettings& to) {
@@ -61,12 +75,15 @@ Settings simulation_settings(core::SimulationSettings& to) {
           seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns)};
 }
 
+namespace {
+
 void read_simulation(const TomlTable& table, Experiment& experiment) {
   core::SimulationSettings& simulation = experiment.simulation;
-  table.read(readers_of(simulation_settings(simulation)));
+  std::vector<TomlTable::KeyReader> readers = readers_of(simulation_settings(simulation));
+  readers.emplace_back("sweep", [](const TomlValue& sweep) { sweep.table(); });  // read_settings_sweep() reads it
+  table.read(readers);
   experiment.time_limit_set = table.find("time_limit_s").has_value();
-  check_control_period(table, simulation);
-  check_replanning(table, simulation);
+  check_simulation(table, simulation);
 }
 
 Settings record_settings(Experiment& experiment) {
@@ -122,7 +139,7 @@ void read_world_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("simulation")) read_simulation(*table, experiment);
   });
   mistakes.attempt([&] {
-    if (const auto table = root.find_table("robot")) read_robot_table(*table, experiment.robot);
+    if (const auto table = root.find_table("robot")) read_robot_table(*table, experiment.robot, {"sweep"});
   });
   mistakes.attempt([&] { experiment.robot_types = read_robot_types(root, experiment.robot); });
   mistakes.end();
@@ -146,7 +163,21 @@ std::vector<TomlKeys> settings_keys() {
                                 keys_of("[record]", record_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
+  for (TomlKeys& table : keys)
+    if (table.title == "[simulation]" || table.title == "[robot]") {
+      table.keys.push_back("sweep");
+      table.defaults.push_back("{}");
+    }
   return keys;
+}
+
+// The line `sweep = { ... }` of a table; none if it has no sweep.
+static std::string sweep_text(const Experiment& experiment, const std::string& table) {
+  std::string lists;
+  for (const SettingsSweep& sweep : experiment.sweeps)
+    if (sweep.table == table)
+      lists += fmt::format("{}{} = [{}]", lists.empty() ? "" : ", ", sweep.key, fmt::join(sweep.values, ", "));
+  return lists.empty() ? "" : fmt::format("sweep = {{ {} }}\n", lists);
 }
 
 std::string settings_text(const Experiment& experiment) {
@@ -159,11 +190,12 @@ std::string settings_text(const Experiment& experiment) {
   Settings simulation = simulation_settings(copy.simulation);
   if (!experiment.time_limit_set)
     std::erase_if(simulation, [](const Setting& setting) { return setting.key == "time_limit_s"; });
-  std::string robots = "\n[robot]\n" + robot_text(experiment.robot);
+  std::string robots = "\n[robot]\n" + robot_text(experiment.robot) + sweep_text(experiment, "robot");
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
-  return "\n[simulation]\n" + lines_of(simulation, 26) + robots + "\n[record]\n" + lines_of(record_settings(copy), 11) +
-         "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
+  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + robots +
+         "\n[record]\n" + lines_of(record_settings(copy), 11) + "\n[limits]\n" +
+         lines_of(limits_settings(copy.limits), 17);
 }
 
 }  // namespace dmrp::host

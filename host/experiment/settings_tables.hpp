@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
+#include "host/toml/setting.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
@@ -16,6 +17,11 @@ void read_world_settings(const TomlTable& root, Experiment& experiment);
 
 // Reads [record] and [limits]. Throws InputError.
 void read_run_settings(const TomlTable& root, Experiment& experiment);
+
+Settings simulation_settings(core::SimulationSettings& to);
+
+// Refuses settings that do not fit together, at their keys in `table`. Throws InputError.
+void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation);
 
 // The keys of these tables and of their subtables.
 std::vector<TomlKeys> settings_keys();

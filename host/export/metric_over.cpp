@@ -11,6 +11,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/results/system_values.hpp"
+#include "host/results/world_name.hpp"
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
@@ -24,16 +25,23 @@ std::optional<double> number_of(const std::string& text) {
 
 std::optional<double> x_of(const TrialRecord& trial, const std::string& over, const RunSettings& settings) {
   if (over == "robots") return trial.robots;
-  return number_of(settings.value(over, combination_of(trial)));
+  return number_of(settings.value(over, trial));
+}
+
+// The scenario's name without this swept value.
+std::string scenario_without(const std::string& over, const TrialRecord& trial) {
+  std::vector<SweptValue> others = swept_of_scenario(trial);
+  std::erase_if(others, [&](const SweptValue& one) { return column_of(one) == over; });
+  return with_swept(world_name(trial), others);
 }
 
 // What stays of a combination's name on a line: for a swept parameter, its plugin's id instead of its label.
 std::vector<std::string> name_parts(const TrialRecord& trial, const std::string& over, const RunSettings& settings) {
   const CombinationLabels labels = combination_of(trial);
   const auto part = [&](const std::string& kind, const std::string& label) {
-    return over.starts_with(kind + ".") ? settings.value(kind + ".id", labels) : label;
+    return over.starts_with(kind + ".") ? settings.value(kind + ".id", trial) : label;
   };
-  return {labels.scenario, over == "robots" ? "" : fmt::format("{} robots", labels.robots),
+  return {scenario_without(over, trial), over == "robots" ? "" : fmt::format("{} robots", labels.robots),
           part("global_planner", labels.global_planner), part("local_controller", labels.local_controller),
           part("pedestrian_model", labels.pedestrian_model)};
 }

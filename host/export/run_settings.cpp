@@ -42,7 +42,7 @@ void flatten(const std::string& prefix, const toml::table& table,
 
 }  // namespace
 
-RunSettings::RunSettings(std::string_view effective_toml) {
+RunSettings::RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials) {
   const toml::table root = toml::parse(effective_toml);
   for (const std::string kind : kinds) {
     const toml::array* uses = root[kind].as_array();
@@ -62,13 +62,17 @@ RunSettings::RunSettings(std::string_view effective_toml) {
   for (const std::string table : settings_tables)
     if (const toml::table* settings = root[table].as_table())
       flatten(table, *settings, [&](const std::string& name, const std::string& value) {
+        if (name.starts_with(table + ".sweep.")) return;
         settings_[name] = value;
         add_name(name);
       });
+  for (const std::string& name : swept_columns(trials)) add_name(name);
 }
 
-const std::string& RunSettings::value(const std::string& name, const CombinationLabels& combination) const {
-  static const std::string none;
+std::string RunSettings::value(const std::string& name, const TrialRecord& trial) const {
+  if (std::string swept = swept_value(trial.swept, name); !swept.empty()) return swept;
+  const std::string none;
+  const CombinationLabels combination = combination_of(trial);
   for (const auto& [kind, of_label] : plugins_)
     if (name.starts_with(kind + ".")) {
       const auto plugin = of_label.find(label_of(combination, kind));

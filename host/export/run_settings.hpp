@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,17 +12,19 @@
 
 namespace dmrp::host {
 
-// Names are those of the file: "local_controller.sim_time", "simulation.step_s", "robot.lidar.beams".
+// Names are those of the file: "local_controller.sim_time", "simulation.step_s", "robot.lidar.beams"; swept
+// keys of [[scenario]] have their own: "people".
 class RunSettings {
  public:
   // Throws InputError or std::runtime_error if the text is damaged.
-  explicit RunSettings(std::string_view effective_toml);
+  RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials);
 
   // All names: plugins of trials with their ids and parameters first, then settings.
   const std::vector<std::string>& names() const { return names_; }
 
-  // The value as text, numbers in their shortest exact form; "" if the trial's plugins have no such parameter.
-  const std::string& value(const std::string& name, const CombinationLabels& combination) const;
+  // The value as text, numbers in their shortest exact form; "" if the trial's plugins have no such parameter. Swept
+  // values come from the trial.
+  std::string value(const std::string& name, const TrialRecord& trial) const;
 
  private:
   using Values = std::map<std::string, std::string>;

@@ -23,8 +23,7 @@ std::string trials_table_csv(std::span<const MetricColumn> metrics, std::span<co
     csv.field(trial.id).field(trial.scenario).field(trial.robots);
     csv.field(trial.global_planner).field(trial.local_controller).field(trial.pedestrian_model);
     csv.field(trial.repetition).field(trial.seed).field(trial.outcome).field(trial.repeatable ? 1 : 0);
-    const CombinationLabels combination = combination_of(trial);
-    for (const std::string& name : settings.names()) csv.field(settings.value(name, combination));
+    for (const std::string& name : settings.names()) csv.field(settings.value(name, trial));
     for (const std::optional<double>& value : values[i]) csv.field(value);
     csv.end_line();
   }

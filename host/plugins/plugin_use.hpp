@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/plugins/plugin_info.hpp"
+#include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
 
@@ -27,6 +28,7 @@ struct PluginUse {
   std::vector<ParameterValue> parameters;            // complete, in the declared order; paths absolute
   std::filesystem::path parameter_file{};            // the source of some of them; absolute, empty if there is none
   std::optional<std::int64_t> control_latency_ns{};  // of a controller: in place of [simulation]'s
+  std::vector<SweptValue> swept{};                   // parameters that `sweep` lists
 };
 
 }  // namespace dmrp::host

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
+#include "host/results/world_name.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -37,6 +38,7 @@ class Situations {
     const auto [found, added] = index_.try_emplace({cell, trial.seed}, contest_.situations.size());
     if (added) {
       contest_.situations.push_back({cell, trial.seed, 0});
+      worlds_.push_back(world_name(trial));
       ways_.emplace_back();
     }
     std::vector<double>& known = ways_[found->second];
@@ -50,8 +52,7 @@ class Situations {
     std::map<std::pair<std::string, std::vector<double>>, std::size_t> tasks;
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       if (!ways_[i].empty()) contest_.tasks_known = true;
-      const CombinationLabels& cell = contest_.cells[contest_.situations[i].cell];
-      contest_.situations[i].task = tasks.try_emplace({cell.scenario, ways_[i]}, tasks.size()).first->second;
+      contest_.situations[i].task = tasks.try_emplace({worlds_[i], ways_[i]}, tasks.size()).first->second;
     }
     contest_.tasks = tasks.size();
   }
@@ -59,6 +60,7 @@ class Situations {
  private:
   Contest& contest_;
   std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> index_;
+  std::vector<std::string> worlds_;  // by situation, as the next
   std::vector<std::vector<double>> ways_;
 };
 

@@ -34,7 +34,8 @@ bool varies(std::span<const TrialRecord> trials, const ScenarioFacts& facts, std
 
 // Whether it was tested, but never passed with so few robots and people.
 bool is_for_sanity(std::span<const TestedWorld> tested, const ScenarioFacts& facts, const std::string& factor) {
-  const auto is_row = [&](const TestedWorld& row) { return row.scenario == facts.name && row.factor == factor; };
+  const std::string& world = facts.world.empty() ? facts.name : facts.world;
+  const auto is_row = [&](const TestedWorld& row) { return row.scenario == world && row.factor == factor; };
   return std::any_of(tested.begin(), tested.end(), is_row) &&
          std::none_of(tested.begin(), tested.end(), [&](const TestedWorld& row) {
            return is_row(row) && row.passes && row.robots <= facts.robots && row.people <= facts.people;

@@ -78,6 +78,17 @@ CREATE TABLE fault(
 CREATE INDEX fault_of_trial ON fault(trial_id);
 )sql";
 
+// Added later: results of earlier hosts lack it.
+constexpr const char* swept_schema = R"sql(
+CREATE TABLE IF NOT EXISTS swept(
+  trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
+  "table" TEXT NOT NULL,
+  "key" TEXT NOT NULL,
+  value TEXT NOT NULL
+);
+CREATE INDEX IF NOT EXISTS swept_of_trial ON swept(trial_id);
+)sql";
+
 // Version 1 had no people, severity and place of an event.
 constexpr const char* upgrade_from_version_1 = R"sql(
 ALTER TABLE event ADD COLUMN people TEXT NOT NULL DEFAULT '[]';
@@ -123,6 +134,12 @@ void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
   insert.bind(std::int64_t{trial.repetition}).bind(as_signed(trial.seed));
   insert.bind(trial.outcome).bind(std::int64_t{trial.repeatable}).bind(trial.sim_time_s).bind(trial.wall_time_s);
   insert.run();
+}
+
+void write_swept(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO swept VALUES (?, ?, ?, ?)");
+  for (const SweptValue& swept : trial.swept)
+    insert.bind(as_signed(trial.id)).bind(swept.table).bind(swept.key).bind(swept.value).run();
 }
 
 void write_values(const SqliteConnection& connection, const TrialRecord& trial) {
@@ -204,6 +221,10 @@ void read_rows(const SqliteConnection& connection, SqliteStatement select, std::
   }
 }
 
+void take_swept(const SqliteStatement& row, TrialRecord& trial) {
+  trial.swept.push_back({row.column_text(1), row.column_text(2), row.column_text(3)});
+}
+
 void take_value(const SqliteStatement& row, TrialRecord& trial) {
   MetricValue& value = trial.values.emplace_back();
   value.metric = row.column_text(1);
@@ -242,6 +263,12 @@ void take_fault(const SqliteStatement& row, TrialRecord& trial) {
   fault.rerun = row.column_text(8);
 }
 
+bool has_table(const SqliteConnection& connection, const char* name) {
+  SqliteStatement table(connection, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
+  table.bind(std::string_view(name));
+  return table.step();
+}
+
 std::int64_t version_of(const SqliteConnection& connection) {
   SqliteStatement pragma(connection, "PRAGMA user_version");
   return pragma.step() ? pragma.column_integer(0) : 0;
@@ -266,6 +293,9 @@ std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
             select("SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
                    "ORDER BY trial_id, rowid"),
             trials, take_fault);
+  if (has_table(connection, "swept"))
+    read_rows(connection, select("SELECT trial_id, \"table\", \"key\", value FROM swept ORDER BY trial_id, rowid"),
+              trials, take_swept);
   return trials;
 }
 
@@ -291,6 +321,7 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
   connection.execute("PRAGMA journal_mode = WAL");
   SqliteTransaction transaction(connection);
   connection.execute(schema);
+  connection.execute(swept_schema);
   connection.execute(create_value_views(metrics));
   connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
   SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
@@ -314,6 +345,7 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
     database.connection_.execute(upgrade_from_version_1);
     transaction.commit();
   }
+  database.connection_.execute(swept_schema);
   return database;
 }
 
@@ -328,9 +360,10 @@ void ResultsDatabase::write(const TrialRecord& trial) {
   SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
   // and what another program left of it when it deleted the trial alone
   for (const char* rest : {"DELETE FROM value WHERE trial_id = ?", "DELETE FROM event WHERE trial_id = ?",
-                           "DELETE FROM fault WHERE trial_id = ?"})
+                           "DELETE FROM fault WHERE trial_id = ?", "DELETE FROM swept WHERE trial_id = ?"})
     SqliteStatement(connection_, rest).bind(as_signed(trial.id)).run();
   write_trial(connection_, trial);
+  write_swept(connection_, trial);
   write_values(connection_, trial);
   write_events(connection_, trial);
   write_faults(connection_, trial.id, trial.faults);
@@ -372,9 +405,7 @@ std::vector<MetricColumn> ResultsDatabase::metrics() const {
     metric.wall_clock = select.column_integer(3) != 0;
     metric.description = select.column_text(4);
   }
-  // results of earlier hosts have no such table
-  SqliteStatement table(connection_, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'added_metric'");
-  if (!table.step()) return metrics;
+  if (!has_table(connection_, "added_metric")) return metrics;  // results of earlier hosts
   SqliteStatement added(connection_, "SELECT name FROM added_metric");
   while (added.step())
     for (MetricColumn& metric : metrics)

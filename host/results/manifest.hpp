@@ -36,6 +36,7 @@ struct ScenarioFacts {
   std::string unit{};
   bool harder_when_higher = true;
   double level = 0.0;
+  std::string world{};  // its own name, without swept values; empty: `name`
 };
 
 // Trials k with k % count == index.

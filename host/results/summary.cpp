@@ -84,7 +84,7 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
                                     [&](const CombinationSummary& summary) { return summary.combination == labels; });
     const auto index = static_cast<std::size_t>(found - summaries.begin());
     if (found == summaries.end()) {
-      summaries.push_back({labels, 0, {}});
+      summaries.push_back({labels, 0, {}, trial.swept});
       groups.emplace_back();
     }
     ++summaries[index].trials;
@@ -104,9 +104,12 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
 
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries) {
   CsvWriter csv;
-  for (const char* name :
-       {"scenario", "robots", "global_planner", "local_controller", "pedestrian_model", "metric", "unit", "n",
-        "n_defined", "mean", "sd", "median", "ci_low", "ci_high", "paper_mean", "paper_n", "paper_trimmed_all_nonzero"})
+  for (const char* name : {"scenario", "robots", "global_planner", "local_controller", "pedestrian_model"})
+    csv.field(name);
+  const std::vector<std::string> swept = swept_columns(summaries);
+  for (const std::string& name : swept) csv.field(name);
+  for (const char* name : {"metric", "unit", "n", "n_defined", "mean", "sd", "median", "ci_low", "ci_high",
+                           "paper_mean", "paper_n", "paper_trimmed_all_nonzero"})
     csv.field(name);
   csv.end_line();
 
@@ -116,6 +119,7 @@ std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const C
       const MetricSummary& metric = summary.metrics[i];
       csv.field(combination.scenario).field(combination.robots).field(combination.global_planner);
       csv.field(combination.local_controller).field(combination.pedestrian_model);
+      for (const std::string& name : swept) csv.field(swept_value(summary.swept, name));
       csv.field(metrics[i].name).field(metrics[i].unit).field(summary.trials).field(metric.defined);
       csv.field(metric.mean).field(metric.sd).field(metric.median);
       csv.field(metric.interval.low).field(metric.interval.high);

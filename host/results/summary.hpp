@@ -38,6 +38,7 @@ struct CombinationSummary {
   CombinationLabels combination;
   std::uint32_t trials = 0;            // without skipped ones
   std::vector<MetricSummary> metrics;  // in the order of the metrics
+  std::vector<SweptValue> swept{};     // of its trials
 };
 
 CombinationLabels combination_of(const TrialRecord& trial);

@@ -4,12 +4,16 @@
 
 #include <dmrp/metric.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
 
@@ -83,10 +87,29 @@ struct TrialRecord {
   bool repeatable = true;
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
+  std::vector<SweptValue> swept{};
   std::vector<MetricValue> values;
   std::vector<MetricEvent> events;
   std::vector<FaultRecord> faults;
 };
+
+// The columns of all swept values of trials or summaries, in order of appearance.
+template <class Swept>
+std::vector<std::string> swept_columns(std::span<const Swept> all) {
+  std::vector<std::string> columns;
+  for (const Swept& one : all)
+    for (const SweptValue& swept : one.swept)
+      if (std::find(columns.begin(), columns.end(), column_of(swept)) == columns.end())
+        columns.push_back(column_of(swept));
+  return columns;
+}
+
+// "" if this column is none of them.
+inline std::string swept_value(std::span<const SweptValue> swept, const std::string& column) {
+  for (const SweptValue& one : swept)
+    if (column_of(one) == column) return one.value;
+  return "";
+}
 
 // The system's value of a metric without a coordinate; none if undefined or not measured.
 inline std::optional<double> system_value(const TrialRecord& trial, std::string_view metric) {

@@ -11,6 +11,8 @@ std::string trials_csv(std::span<const MetricColumn> metrics, std::span<const Tr
   for (const char* name : {"trial", "scenario", "robots", "global_planner", "local_controller", "pedestrian_model",
                            "repetition", "seed", "outcome", "repeatable", "sim_time_s", "wall_time_s"})
     csv.field(name);
+  const std::vector<std::string> swept = swept_columns(trials);
+  for (const std::string& name : swept) csv.field(name);
   for (const MetricColumn& metric : metrics) csv.field(metric.name);
   csv.end_line();
 
@@ -21,6 +23,7 @@ std::string trials_csv(std::span<const MetricColumn> metrics, std::span<const Tr
     csv.field(trial.global_planner).field(trial.local_controller).field(trial.pedestrian_model);
     csv.field(trial.repetition).field(trial.seed).field(trial.outcome).field(trial.repeatable ? 1 : 0);
     csv.field(trial.sim_time_s).field(trial.wall_time_s);
+    for (const std::string& name : swept) csv.field(swept_value(trial.swept, name));
     for (const std::optional<double>& value : values[i]) csv.field(value);
     csv.end_line();
   }

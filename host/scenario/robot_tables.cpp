@@ -12,7 +12,6 @@
 #include "core/scene/footprint.hpp"
 #include "host/errors/mistakes.hpp"
 #include "host/toml/nearest_name.hpp"
-#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -199,8 +198,29 @@ std::string unknown_type(const std::string& name, const core::RobotTypes& types)
 
 }  // namespace
 
-void read_robot_table(const TomlTable& table, core::RobotSettings& robot) {
-  table.read(readers_of(robot_settings(robot)));
+void read_robot_table(const TomlTable& table, core::RobotSettings& robot, const std::vector<std::string>& others) {
+  std::vector<TomlTable::KeyReader> readers = readers_of(robot_settings(robot));
+  for (const std::string& other : others) readers.emplace_back(other, [](const TomlValue& value) { value.table(); });
+  table.read(readers);
+  check_drive(table, robot);
+}
+
+Settings robot_values(core::RobotSettings& to) {
+  const std::pair<const char*, Settings> subtables[] = {{"odometry", odometry_settings(to.odometry)},
+                                                        {"lidar", lidar_settings(to.lidar)},
+                                                        {"costmap", costmap_settings(to.costmap)}};
+  Settings values = robot_settings(to);
+  for (const auto& [name, inner] : subtables) {
+    std::erase_if(values, [&](const Setting& setting) { return setting.key == name; });
+    for (const Setting& setting : inner)
+      values.push_back({fmt::format("{}.{}", name, setting.key), setting.read, setting.write});
+  }
+  return values;
+}
+
+void check_robot(const TomlTable& table, core::RobotSettings& robot) {
+  check_lidar(table, robot.lidar);
+  check_costmap(table, robot.costmap);
   check_drive(table, robot);
 }
 

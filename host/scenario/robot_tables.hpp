@@ -8,14 +8,21 @@
 
 #include "core/scene/robot_types.hpp"
 #include "host/scenario/read_scenario.hpp"
+#include "host/toml/setting.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 
 inline constexpr const char* default_type_name = "default";  // of [robot], in a [[scenario]]'s `types`
 
-// Reads [robot] or a [robot_type.NAME]; keys that are not given keep their values.
-void read_robot_table(const TomlTable& table, core::RobotSettings& robot);
+// Reads [robot] or a [robot_type.NAME]; keys that are not given keep their values. `others`: tables that others read.
+void read_robot_table(const TomlTable& table, core::RobotSettings& robot, const std::vector<std::string>& others = {});
+
+// Every value of such a table, those of subtables as "lidar.beams".
+Settings robot_values(core::RobotSettings& to);
+
+// Refuses settings that do not fit together, at `table`. Throws InputError.
+void check_robot(const TomlTable& table, core::RobotSettings& robot);
 
 // The types of the experiment file; keys that are not given are those of [robot].
 std::vector<core::RobotSettings> read_robot_types(const TomlTable& root, const core::RobotSettings& standard);

@@ -4,13 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/scene/random_tasks.hpp"
 #include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
+#include "core/scene/settings.hpp"
 #include "core/tasks/task_generator.hpp"
+#include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
 
@@ -29,6 +32,13 @@ struct StartJitter {
   double heading_rad = 0.0;
 };
 
+// Another number of people than the flows of the file have.
+struct PeopleChange {
+  const char* key = nullptr;  // of [[scenario]]: "people" or "people_times"; null: none
+  double value = 0.0;
+  bool listed = false;  // one of a list
+};
+
 // A scenario with a number of robots: either the first of the listed ones, or robots with random tasks for each trial.
 struct ScenarioVariant {
   core::Scenario scenario;     // with exactly the listed robots that take part
@@ -43,8 +53,15 @@ struct ScenarioVariant {
   core::TaskWishes wishes{};                   // for the drawn tasks
   Grade grade{};
   StartJitter jitter{};
-  double people_times = 1.0;  // applied: how many times the people that the file lists
+  PeopleChange people{};  // applied
+  std::vector<SweptValue> swept{};
+  std::optional<core::SimulationSettings> simulation{};  // if [simulation] has a sweep: in place of the experiment's
 };
+
+// Its name in results, with swept values.
+inline std::string result_name(const ScenarioVariant& variant) {
+  return with_swept(variant.scenario.name, variant.swept);
+}
 
 // Whether each trial has robots of its own.
 inline bool is_drawn(const ScenarioVariant& variant) {

@@ -16,9 +16,9 @@ namespace dmrp::host {
 
 namespace {
 
-core::SimulationSettings with_time_limit(const Experiment& experiment, const core::Scenario& scenario) {
-  core::SimulationSettings settings = experiment.simulation;
-  if (!experiment.time_limit_set) settings.time_limit_ns = nanoseconds(scenario.time_limit_s);
+core::SimulationSettings with_time_limit(const Experiment& experiment, const ScenarioVariant& variant) {
+  core::SimulationSettings settings = simulation_of(experiment, variant);
+  if (!experiment.time_limit_set) settings.time_limit_ns = nanoseconds(variant.scenario.time_limit_s);
   return settings;
 }
 
@@ -80,7 +80,7 @@ core::Scenario scenario_of_trial(const ScenarioVariant& variant, const VariantWo
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant)
     : scenario(variant.scenario),
-      simulation(with_time_limit(experiment, scenario)),
+      simulation(with_time_limit(experiment, variant)),
       geometry(std::make_shared<core::StaticGeometry>(scenario)),
       types(variant.types),
       planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation.grid_resolution_m,

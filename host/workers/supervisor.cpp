@@ -448,10 +448,14 @@ TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
   const ScenarioVariant& variant = experiment.scenarios[combination.scenario];
   TrialRecord record;
   record.id = trial;
-  record.scenario = variant.scenario.name;
+  record.scenario = result_name(variant);
   record.robots = robot_count(variant);
-  const auto label = [](const std::vector<PluginUse>& uses, std::int32_t index) {
-    return index < 0 ? std::string() : uses[static_cast<std::size_t>(index)].label;
+  record.swept = variant.swept;
+  const auto label = [&record](const std::vector<PluginUse>& uses, std::int32_t index) {
+    if (index < 0) return std::string();
+    const PluginUse& use = uses[static_cast<std::size_t>(index)];
+    record.swept.insert(record.swept.end(), use.swept.begin(), use.swept.end());
+    return use.label;
   };
   record.global_planner = label(experiment.global_planners, combination.global_planner);
   record.local_controller = label(experiment.local_controllers, combination.local_controller);

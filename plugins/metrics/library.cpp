@@ -7,6 +7,8 @@
 #include "metrics/interaction/blocked_time.hpp"
 #include "metrics/interaction/deadlock.hpp"
 #include "metrics/interaction/neighbours.hpp"
+#include "metrics/interaction/open_standstill.hpp"
+#include "metrics/interaction/person_standoff.hpp"
 #include "metrics/outcome/arrivals.hpp"
 #include "metrics/outcome/completion_time.hpp"
 #include "metrics/outcome/path_length.hpp"
@@ -36,7 +38,8 @@ DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::P
              dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
              dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::RootConflicts,
              dmrp::metrics::Collisions, dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision,
-             dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock, dmrp::metrics::Neighbours,
-             dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion,
-             dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness,
-             dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands, dmrp::metrics::ComputeTime)
+             dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock, dmrp::metrics::PersonStandoff,
+             dmrp::metrics::OpenStandstill, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby,
+             dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork,
+             dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness, dmrp::metrics::IdleTime,
+             dmrp::metrics::ClippedCommands, dmrp::metrics::ComputeTime)

@@ -43,6 +43,24 @@ for look in plan way robot; do
 done
 grep -q '<text[^>]*class="axis">' "$scratch/map.svg" || fail "the map has no coordinates"
 
+# a run over people and a setting: columns, an axis, and the same when its effective.toml is run
+cat >"$scratch/crowd.toml" <<EOF
+$(sed '/^use = "crossing"/a people = [1, 4]' "$here/crossing.toml")
+[simulation]
+sweep = { tracking = ["none", "visible"] }
+EOF
+expect_status 0 "$host" "$scratch/crowd.toml" --quiet --trials 1 --out "$scratch/crowd"
+found=$(sqlite3 :memory: ".import --csv $scratch/crowd/trials.csv t" \
+  'SELECT DISTINCT people, "simulation.tracking", scenario FROM t ORDER BY 1, 2')
+[[ $found == $'1|none|crossing (people 1, tracking none)\n1|visible|crossing (people 1, tracking visible)
+4|none|crossing (people 4, tracking none)\n4|visible|crossing (people 4, tracking visible)' ]] ||
+  fail "trials.csv has the columns $found"
+expect_status 0 "$host" export "$scratch/crowd" --svg --metric pfd --over people --out "$scratch/people.svg"
+grep -q 'tracking none' "$scratch/people.svg" || fail "the figure has no line for each tracking"
+expect_status 0 "$host" "$scratch/crowd/effective.toml" --quiet --out "$scratch/again"
+swept="SELECT trial_id, key, value FROM swept ORDER BY 1, 2"
+[[ $(query "$scratch/again" "$swept") == "$(query "$scratch/crowd" "$swept")" ]] || fail "effective.toml has another sweep"
+
 refused() {
   expect_status 2 "$host" export "$run" "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dmrp/toolkit/polyline.hpp>
+#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -13,22 +13,12 @@
 #include "metrics/measure/in_seconds.hpp"
 #include "metrics/measure/per_robot.hpp"
 #include "metrics/measure/time_span.hpp"
+#include "metrics/measure/way_ahead.hpp"
 
 namespace dmrp::metrics {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-// The polyline from `position` to the path at progress_m and along the path for look_ahead_m.
-std::vector<Vec2> way_ahead(const Path& path, Vec2 position, double progress_m, double look_ahead_m) {
-  const std::vector<double> arcs = toolkit::arc_lengths(path);
-  const double end_m = std::min(progress_m + look_ahead_m, arcs.back());
-  std::vector<Vec2> way = {position, toolkit::point_at(path, arcs, progress_m)};
-  for (std::size_t i = 0; i < path.size(); ++i)
-    if (arcs[i] > progress_m && arcs[i] < end_m) way.push_back(toolkit::position(path[i]));
-  way.push_back(toolkit::point_at(path, arcs, end_m));
-  return way;
-}
 
 // The arc length at which the way first comes within reach_m of a point; infinity if it never does.
 double first_within(const std::vector<Vec2>& way, Vec2 point, double reach_m) {

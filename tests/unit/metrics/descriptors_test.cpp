@@ -126,6 +126,8 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"blocked_time", "s"},
                                                        {"deadlocks", "1"},
                                                        {"deadlock_time", "s"},
+                                                       {"person_standoff", "1"},
+                                                       {"open_standstills", "1"},
                                                        {"neighbours", "1"},
                                                        {"proxemics_intimate", "%"},
                                                        {"proxemics_personal", "%"},

@@ -58,12 +58,16 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("each trial has the parameters of its plugins and the settings", "[export]") {
-  const RunSettings settings{effective};
-  const CombinationLabels fast{"mall", 2, "P", "fast", "crowd"};
+  const RunSettings settings(effective, {});
+  TrialRecord fast;
+  fast.global_planner = "P";
+  fast.local_controller = "fast";
+  TrialRecord other = fast;
+  other.local_controller = "other";
   CHECK(settings.value("local_controller.speed", fast) == "1");
   CHECK(settings.value("local_controller.id", fast) == "org.dwa");
   CHECK(settings.value("robot.lidar.beams", fast) == "360");
-  CHECK(settings.value("local_controller.speed", {"mall", 2, "P", "other", "crowd"}).empty());
+  CHECK(settings.value("local_controller.speed", other).empty());
 
   const std::string csv = trials_table_csv(ranking_metrics(), example(), settings);
   CHECK_THAT(csv, Contains("local_controller.mode"));
@@ -104,7 +108,7 @@ TEST_CASE("names are escaped for LaTeX", "[export]") {
 }
 
 TEST_CASE("a metric is drawn over the number of robots and over a swept parameter", "[export]") {
-  const RunSettings settings{effective};
+  const RunSettings settings(effective, {});
   const auto trials = example();
   const LineChart robots = metric_over("done", "robots", ranking_layout(), ranking_metrics(), trials, settings);
   REQUIRE(robots.lines.size() == 2);
@@ -126,5 +130,30 @@ TEST_CASE("a metric is drawn over the number of robots and over a swept paramete
   CHECK(count_of(svg, "<circle") == 3);
   CHECK_THAT(svg, Contains("local_controller.speed"));
   CHECK_THROWS_AS(metric_over("done", "simulation.step_s", ranking_layout(), ranking_metrics(), trials, settings),
+                  InputError);
+}
+
+TEST_CASE("swept values of scenarios are columns and axes", "[export]") {
+  std::vector<TrialRecord> trials;
+  for (const char* people : {"6", "12"})
+    for (const char* tracking : {"none", "visible"}) {
+      const std::size_t first = trials.size();
+      add_trials(trials, "slow", 3, [](std::uint32_t) { return std::vector<RobotResult>{{}}; });
+      for (std::size_t i = first; i < trials.size(); ++i) {
+        trials[i].swept = {{"", "people", people}, {"simulation", "tracking", tracking}};
+        trials[i].scenario = with_swept("mall", trials[i].swept);
+      }
+    }
+  CHECK(trials.back().scenario == "mall (people 12, tracking visible)");
+  const RunSettings settings(effective, trials);
+  CHECK(settings.value("people", trials.front()) == "6");
+  CHECK(settings.value("simulation.tracking", trials.back()) == "visible");
+
+  const LineChart chart = metric_over("done", "people", ranking_layout(), ranking_metrics(), trials, settings);
+  REQUIRE(chart.lines.size() == 2);
+  CHECK(chart.lines[0].name == "mall (tracking none)");
+  REQUIRE(chart.lines[0].points.size() == 2);
+  CHECK(chart.lines[0].points[1].x == 12.0);
+  CHECK_THROWS_AS(metric_over("done", "simulation.tracking", ranking_layout(), ranking_metrics(), trials, settings),
                   InputError);
 }

@@ -260,3 +260,20 @@ TEST_CASE("one combination needs no answer", "[ranking]") {
   CHECK(answers_of(trials).empty());
   CHECK(answers_of({}).empty());
 }
+
+TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  for (const char* people : {"6", "12"}) {
+    const std::size_t first = trials.size();
+    add_trials(trials, "fast", 6, with_pace(2.0, true));
+    add_trials(trials, "slow", 6, with_pace(3.0, true));
+    for (std::size_t i = first; i < trials.size(); ++i) {
+      trials[i].swept = {{"", "people", people}};
+      trials[i].scenario = with_swept(trials[i].scenario, trials[i].swept);
+    }
+  }
+  const std::vector<Answer> found = answers_of(trials);
+  REQUIRE(found.size() == 3);  // over both, and for each
+  CHECK(found[0].cells.size() == 2);
+  CHECK(found[0].tasks == 6);
+}

@@ -40,6 +40,7 @@ void check_same(const TrialRecord& a, const TrialRecord& b) {
   CHECK(a.repeatable == b.repeatable);
   CHECK(same_bits(a.sim_time_s, b.sim_time_s));
   CHECK(same_bits(a.wall_time_s, b.wall_time_s));
+  CHECK(a.swept == b.swept);
   REQUIRE(a.values.size() == b.values.size());
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     CHECK(a.values[i].metric == b.values[i].metric);
@@ -81,6 +82,7 @@ TrialRecord full_trial(std::uint64_t id) {
   trial.outcome = trial_outcome::fault;
   trial.repeatable = false;
   trial.sim_time_s = 1.0 / 3.0;
+  trial.swept = {{"", "people", "6"}, {"simulation", "tracking", "it's"}};
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, -1.0 / 3.0});
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, 0.1, 5e-324});
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, 0.2, std::numeric_limits<double>::max()});

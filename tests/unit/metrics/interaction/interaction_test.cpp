@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Blocked time, deadlock and neighbours: cases computed by hand.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
@@ -174,4 +175,79 @@ TEST_CASE("neighbours is the time average of the count among all robots, while a
   CHECK(m.robot("neighbours", 1) == 1.75);  // (1 * 1 + 3 * 2) / 4
   CHECK(m.robot("neighbours", 2) == 0.0);
   CHECK(m.system("neighbours") == Approx(1.05));
+}
+
+TEST_CASE("a failed robot before which a person stood for ten seconds is a stand-off") {
+  const double standing_s = GENERATE(9.0, 11.0);
+  const double desired_speed = GENERATE(0.0, 1.2);
+  SyntheticTrial trial(3);
+  for (double t = 0.0; t <= 30.0; t += 0.5) {
+    trial.sample(t, {at(0, 0), at(5, 0), at(10, 0)});
+    dmrp_person waiting{};
+    waiting.id = 7;
+    waiting.desired_speed = desired_speed;
+    waiting.position = {t <= standing_s ? 1.2 + 0.01 * t : 9.0, 0.0};  // then near the robot that arrives
+    trial.crowd({waiting});
+  }
+  trial.end(30.0, {never, never, 30.0});
+  const Measurement m = measure("dmrp.metric.person_standoff", trial);
+  const bool is_standoff = standing_s > 10.0 && desired_speed > 0.0;
+  CHECK(m.robot("person_standoff", 0) == (is_standoff ? 1.0 : 0.0));
+  CHECK(m.robot("person_standoff", 1) == 0.0);
+  CHECK(std::isnan(m.robot("person_standoff", 2)));
+  CHECK(m.system("person_standoff") == (is_standoff ? 0.5 : 0.0));
+  if (!is_standoff) return;
+  REQUIRE(m.events.size() == 2);
+  CHECK(m.events[0].text == "robot 0 and person 7 stand before each other");
+  CHECK(m.events[0].to_s == 10.0);  // farther than 1.3 m then
+}
+
+TEST_CASE("a robot that stands in the open with its way free is counted") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}, {9, 0}}, {{0, 50}, {9, 50}}});
+  const auto stand = [&trial](double until_s) {
+    for (double t = 0.0; t <= until_s; t += 0.5) trial.sample(t, {at(0, 0), gained(at(t, 50, 1.0), t)});
+    trial.end(until_s, {never, until_s});
+    return measure("dmrp.metric.open_standstill", trial);
+  };
+  const auto of_first = [&](double until_s) { return stand(until_s).robot("open_standstills", 0); };
+  SECTION("for fifteen seconds and more") {
+    const Measurement m = stand(20.0);
+    CHECK(m.robot("open_standstills", 0) == 1.0);
+    CHECK(m.robot("open_standstills", 1) == 0.0);
+    CHECK(m.system("open_standstills") == 1.0);
+    REQUIRE(m.events.size() == 1);
+    CHECK(m.events[0].from_s == 1.0);
+    CHECK(m.events[0].to_s == 20.0);
+  }
+  SECTION("not for a shorter time") {
+    CHECK(of_first(15.0) == 0.0);
+  }
+  SECTION("not beside a wall") {
+    trial.box("wall", {-1, 0.7}, {1, 0.8});
+    CHECK(of_first(20.0) == 0.0);
+  }
+  SECTION("with a way past an obstacle on the path") {
+    trial.box("table", {1.5, -0.4}, {2.0, 0.4});
+    CHECK(of_first(20.0) == 1.0);
+  }
+  SECTION("not before a gap that is narrower than the robot") {
+    trial.box("left", {1.5, 0.2}, {2.0, 3.0}).box("right", {1.5, -3.0}, {2.0, -0.2});
+    CHECK(of_first(20.0) == 0.0);
+  }
+}
+
+TEST_CASE("a person in the way or nearby is a reason to stand") {
+  for (const dmrp_vec2 place : {dmrp_vec2{3.0, 0.0}, dmrp_vec2{0.0, 0.9}}) {
+    SyntheticTrial trial(1);
+    trial.plan({{{0, 0}, {9, 0}}});
+    for (double t = 0.0; t <= 20.0; t += 0.5) {
+      dmrp_person person{};
+      person.position = place;
+      person.radius_m = 0.3;
+      trial.sample(t, {at(0, 0)}).crowd({person});
+    }
+    trial.end(20.0, {never});
+    CHECK(measure("dmrp.metric.open_standstill", trial).system("open_standstills") == 0.0);
+  }
 }
