@@ -50,7 +50,7 @@ Status CollisionFreeSpeed::start(const Start& start) {
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   side_preference_.start(start.seed);
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid());
+  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
@@ -79,10 +79,11 @@ void CollisionFreeSpeed::find_neighbors(const Walker& walker, const Span<Person>
   const double largest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + largest_radius_m + largest_gap_m;
   for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
-    if (other->slot == walker.slot || !(squared_distance > 0.0)) continue;
+    const double weight = walker.weight_of(*other);
+    if (other->slot == walker.slot || !(squared_distance > 0.0) || !(weight > 0.0)) continue;
     const double sum_of_radii_m = person.radius_m + other->radius_m;
     near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     other->weight, walkers_.right_of_way().ignores(walker.slot, *other, people)});
+                     weight, walkers_.right_of_way().ignores(walker.slot, *other, people)});
   }
   walls_.nearest_points(person.position, wall_points_);
 }

@@ -38,6 +38,15 @@ class CollisionFreeSpeed final : public PedestrianModel {
   Param<double> robot_awareness = param("robot_awareness", 1.0)
                                       .range(0.0, 1.0)
                                       .doc("how much people react to robots: 1 as to people, 0 not at all");
+  Param<double> surprised_share = param("surprised_share", 0.0)
+                                      .range(0.0, 1.0)
+                                      .doc("share of people who stop and look at a robot when they see it");
+  Param<double> curious_share =
+      param("curious_share", 0.0).range(0.0, 1.0).doc("share of people who walk up to a robot when they see it");
+  Param<double> scared_share =
+      param("scared_share", 0.0).range(0.0, 1.0).doc("share of people who walk away from a robot when they see it");
+  Param<double> threatening_share =
+      param("threatening_share", 0.0).range(0.0, 1.0).doc("share of people who get in a robot's way when they see it");
 
   Status start(const Start& start) override;
   Status step(const Crowd& crowd, Motions& motions) override;

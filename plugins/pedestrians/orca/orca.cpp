@@ -45,7 +45,7 @@ Status Orca::start(const Start& start) {
   const World& world = start.world;
   side_preference_.start(start.seed);
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid());
+  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
@@ -58,17 +58,18 @@ Status Orca::step(const Crowd& crowd, Motions& motions) {
   });
 
   const double step_s = seconds(crowd.dt_ns);
-  for (const auto& [person, way, slot] : walkers_.by_place()) {
+  for (const Walker& walker : walkers_.by_place()) {
+    const auto& [person, way, slot, robot_weight] = walker;
     const double max_speed = speed_cap_factor * person.desired_speed;
     planes_.clear();
     walls_.append_half_planes(person.position, person.velocity, person.radius_m, max_speed, time_horizon_obst, planes_);
     const std::size_t wall_planes = planes_.size();
 
-    const std::size_t neighbor_count = find_neighbors(slot, person.position, crowd.people);
+    const std::size_t neighbor_count = find_neighbors(walker, crowd.people);
     for (std::size_t i = 0; i < neighbor_count; ++i) {
       const Body& other = *neighbors_[i].body;
       if (walkers_.right_of_way().ignores(slot, other, crowd.people)) continue;
-      const HalfPlane plane = permitted_by(other, person, step_s);
+      const HalfPlane plane = permitted_by(other, walker, step_s);
       // most planes contain every velocity up to the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
@@ -77,14 +78,16 @@ Status Orca::step(const Crowd& crowd, Motions& motions) {
   return Status::ok;
 }
 
-HalfPlane Orca::permitted_by(const Body& other, const Person& person, double step_s) const {
+HalfPlane Orca::permitted_by(const Body& other, const Walker& walker, double step_s) const {
+  const Person& person = walker.person;
+  const double weight = walker.weight_of(other);
   const reciprocal::Encounter encounter = {other.position - person.position, person.velocity - other.velocity,
                                            person.radius_m + other.radius_m};
-  const double horizon_s = std::max(other.weight * time_horizon, step_s);
-  return give_way(reciprocal::escape(encounter, horizon_s, step_s), person.velocity, even_share * other.weight);
+  const double horizon_s = std::max(weight * time_horizon, step_s);
+  return give_way(reciprocal::escape(encounter, horizon_s, step_s), person.velocity, even_share * weight);
 }
 
-std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people) {
+std::size_t Orca::find_neighbors(const Walker& walker, const Span<Person>& people) {
   const auto most = static_cast<std::size_t>(max_neighbors);
   const auto id = [&](const Body* body) {
     return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
@@ -95,8 +98,9 @@ std::size_t Orca::find_neighbors(std::uint32_t slot, Vec2 position, const Span<P
   };
 
   std::size_t count = 0;
-  for (const NearBody& found : grid_.near(position, neighbor_distance)) {
-    if (found.body->slot == slot || !(found.squared_distance > 0.0)) continue;
+  for (const NearBody& found : grid_.near(walker.person.position, neighbor_distance)) {
+    if (found.body->slot == walker.slot || !(found.squared_distance > 0.0)) continue;
+    if (!(walker.weight_of(*found.body) > 0.0)) continue;
     if (count < most) {
       ++count;
     } else if (!comes_before(found, neighbors_[most - 1])) {

@@ -37,14 +37,23 @@ class Orca final : public PedestrianModel {
   Param<double> robot_awareness = param("robot_awareness", 1.0)
                                       .range(0.0, 1.0)
                                       .doc("how much people react to robots: 1 as to people, 0 not at all");
+  Param<double> surprised_share = param("surprised_share", 0.0)
+                                      .range(0.0, 1.0)
+                                      .doc("share of people who stop and look at a robot when they see it");
+  Param<double> curious_share =
+      param("curious_share", 0.0).range(0.0, 1.0).doc("share of people who walk up to a robot when they see it");
+  Param<double> scared_share =
+      param("scared_share", 0.0).range(0.0, 1.0).doc("share of people who walk away from a robot when they see it");
+  Param<double> threatening_share =
+      param("threatening_share", 0.0).range(0.0, 1.0).doc("share of people who get in a robot's way when they see it");
 
   Status start(const Start& start) override;
   Status step(const Crowd& crowd, Motions& motions) override;
 
  private:
   // Fills neighbors_ and returns their number.
-  std::size_t find_neighbors(std::uint32_t slot, Vec2 position, const Span<Person>& people);
-  reciprocal::HalfPlane permitted_by(const Body& other, const Person& person, double step_s) const;
+  std::size_t find_neighbors(const Walker& walker, const Span<Person>& people);
+  reciprocal::HalfPlane permitted_by(const Body& other, const Walker& walker, double step_s) const;
   static Vec2 preferred_velocity(Vec2 way, const Person& person, double step_s);
 
   WayFinder ways_;

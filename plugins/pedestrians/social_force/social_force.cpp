@@ -52,7 +52,7 @@ Status SocialForce::start(const Start& start) {
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = start.seed;
   ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid());
+  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
   groups_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
@@ -82,7 +82,7 @@ Status SocialForce::step(const Crowd& crowd, Motions& motions) {
 }
 
 Vec2 SocialForce::acceleration(const Walker& walker, const Span<Person>& people) {
-  const auto& [person, way, slot] = walker;
+  const auto& [person, way, slot, robot_weight] = walker;
   double speed = person.desired_speed;
   const Vec2 neighbors = force_of_neighbors(walker, people, speed);
   const Vec2 desired = speed * way;
@@ -98,11 +98,12 @@ double SocialForce::repulsion(double gap_m) const {
 
 // Also reduces `speed` to the value that the bodies ahead permit.
 Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& people, double& speed) {
-  const auto& [person, way, slot] = walker;
+  const auto& [person, way, slot, robot_weight] = walker;
   Vec2 sum = {0.0, 0.0};
   for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
     const Body& other = *body;
-    if (other.slot == slot || !(squared_distance > 0.0)) continue;
+    const double weight = walker.weight_of(other);
+    if (other.slot == slot || !(squared_distance > 0.0) || !(weight > 0.0)) continue;
     const double distance_m = std::sqrt(squared_distance);
     const Vec2 apart = other.position - person.position;
     const Vec2 toward = apart / distance_m;
@@ -111,9 +112,9 @@ Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& p
     const double model_distance_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
     const Vec2 force = interaction(shape_, toward, model_distance_m, person.velocity - other.velocity);
     if (!walkers_.right_of_way().ignores(slot, other, people))
-      sum += other.weight * (social_weight * force - repulsion(gap_m) * toward);
+      sum += weight * (social_weight * force - repulsion(gap_m) * toward);
 
-    const double following_s = other.weight * time_gap;
+    const double following_s = weight * time_gap;
     if (gap_m < speed * following_s)
       speed = std::min(speed, headway(way, apart, reach_m, other.velocity) / following_s);
   }
@@ -123,7 +124,7 @@ Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& p
 // Members of a group slow down for members out of sight behind, approach a group that has spread out, and keep a gap to
 // each other.
 Vec2 SocialForce::force_of_group(const Walker& walker, const Span<Person>& people, Vec2 desired) const {
-  const auto& [person, way, slot] = walker;
+  const auto& [person, way, slot, robot_weight] = walker;
   if (person.group == 0) return {0.0, 0.0};
   const Span<std::uint32_t> members = groups_.members(slot);
   if (members.size() < 2) return {0.0, 0.0};

@@ -165,11 +165,12 @@ TEST_CASE("walkers are the people in the order of the grid, with their direction
   auto walker = walkers.by_place().begin();
   for (const Body& body : grid.by_place()) {
     if (body.slot == no_slot) {
-      CHECK(body.weight == awareness);
+      CHECK(body.weight == 1.0);
       continue;
     }
     REQUIRE(walker->slot == body.slot);
     CHECK(walker->person.id == body.slot);
+    CHECK(walker->robot_weight == awareness);
     CHECK(walker->way == dmrp_vec2{static_cast<double>(body.slot), body.position.x});
     ++walker;
   }
