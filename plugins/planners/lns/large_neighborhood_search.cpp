@@ -7,12 +7,6 @@
 
 namespace dmrp::planners {
 
-namespace {
-
-constexpr std::size_t neighborhood_size = 8;
-
-}  // namespace
-
 LargeNeighborhoodSearch::LargeNeighborhoodSearch(const Problem& problem, const std::vector<TourTable>& tables,
                                                  std::vector<std::vector<Location>> paths, std::uint64_t seed,
                                                  StopSignal& stop)
@@ -23,7 +17,7 @@ LargeNeighborhoodSearch::LargeNeighborhoodSearch(const Problem& problem, const s
       plan_{SafeIntervals(problem.graph), std::move(paths)},
       low_level_(problem.graph, plan_.occupied, SippSearch::Preference::near),
       neighborhoods_(problem, tables, plan_, random_),
-      kept_(neighborhood_size) {
+      kept_(Neighborhoods::most_robots) {
   for (std::size_t i = 0; i < plan_.paths.size(); ++i) {
     plan_.occupied.add(static_cast<std::int32_t>(i), plan_.paths[i]);
     cost_ += cost_of(plan_.paths[i]);
@@ -39,7 +33,7 @@ void LargeNeighborhoodSearch::run(std::int64_t iterations) {
   std::vector<std::int32_t> agents;
   while (cost_ > least_cost_ && iterations_ != iterations && !stop_.poll_now()) {
     ++iterations_;
-    neighborhoods_.draw(neighborhood_size, agents);
+    neighborhoods_.draw(agents);
     const std::int64_t before = cost_;
     const std::int64_t expanded = low_level_.expanded();
     replan(agents);

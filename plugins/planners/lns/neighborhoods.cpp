@@ -7,9 +7,8 @@ namespace dmrp::planners {
 
 namespace {
 
-constexpr double reaction = 0.01;     // of the weights to one result
-constexpr double least_share = 0.05;  // of the weights for each rule, so that none dies out
-constexpr int walks_a_robot = 10;     // random ways of one robot
+constexpr int walks_a_robot = 10;        // random ways of one robot
+constexpr std::size_t ways_a_robot = 4;  // shortest ways looked at for each robot of a set
 
 }  // namespace
 
@@ -21,8 +20,10 @@ Neighborhoods::Neighborhoods(const Problem& problem, const std::vector<TourTable
       random_(random),
       is_tabu_(problem.agents.size(), false),
       is_in_(problem.agents.size(), false),
-      is_seen_(static_cast<std::size_t>(problem.graph.location_count()), false) {
-  weights_.fill(1.0);
+      is_seen_(static_cast<std::size_t>(problem.graph.location_count()), false),
+      resting_(static_cast<std::size_t>(problem.graph.location_count()), -1) {
+  for (std::size_t i = 0; i < problem.agents.size(); ++i)
+    resting_[static_cast<std::size_t>(problem.agents[i].last_goal())] = static_cast<std::int32_t>(i);
   for (Location location = 0; location < problem.graph.location_count(); ++location) {
     int neighbors = 0;
     for (Direction d = 0; d < GridGraph::direction_count; ++d)
@@ -38,11 +39,13 @@ std::int32_t Neighborhoods::lost(std::int32_t agent) const {
   return cost_of(plan_.paths[i]) - tables_[i].distance(0, problem_.agents[i].start);
 }
 
-void Neighborhoods::draw(std::size_t size, std::vector<std::int32_t>& agents) {
+void Neighborhoods::draw(std::vector<std::int32_t>& agents) {
   agents.clear();
-  size = std::min(size, problem_.agents.size());
-  rule_ = draw_rule();
-  switch (rule_) {
+  std::int32_t last = -1;
+  const Rule rule = static_cast<Rule>(rule_.draw(random_));
+  const std::size_t size =
+      std::min(rule == Rule::goal ? robots_around_goal : sizes[size_.draw(random_)], problem_.agents.size());
+  switch (rule) {
     case Rule::agent:
       add_around_agent(size, agents);
       break;
@@ -55,26 +58,18 @@ void Neighborhoods::draw(std::size_t size, std::vector<std::int32_t>& agents) {
     case Rule::delay:
       add_by_delay(size, agents);
       break;
+    case Rule::goal:
+      last = add_around_goal(size, agents);
+      break;
   }
   for (const std::int32_t agent : agents) is_in_[static_cast<std::size_t>(agent)] = false;
   random_.shuffle(agents);
+  if (last >= 0) std::iter_swap(std::find(agents.begin(), agents.end(), last), agents.end() - 1);
 }
 
 void Neighborhoods::learn(std::int64_t gain, std::int64_t work) {
-  double& weight = weights_[static_cast<std::size_t>(rule_)];
-  const double result = static_cast<double>(gain) / static_cast<double>(std::max<std::int64_t>(work, 1));
-  weight += reaction * (result - weight);
-}
-
-Neighborhoods::Rule Neighborhoods::draw_rule() {
-  double sum = 0;
-  for (const double weight : weights_) sum += weight;
-  double at = random_.uniform() * (1.0 + least_share * rule_count);
-  for (std::size_t rule = 0; rule + 1 < rule_count; ++rule) {
-    at -= least_share + (sum > 0 ? weights_[rule] / sum : 1.0 / rule_count);
-    if (at < 0) return static_cast<Rule>(rule);
-  }
-  return static_cast<Rule>(rule_count - 1);
+  rule_.learn(gain, work);
+  if (static_cast<Rule>(rule_.drawn()) != Rule::goal) size_.learn(gain, work);
 }
 
 void Neighborhoods::add(std::int32_t agent, std::vector<std::int32_t>& agents) {
@@ -165,7 +160,8 @@ void Neighborhoods::add_any(std::size_t size, std::vector<std::int32_t>& agents)
 
 void Neighborhoods::add_by_delay(std::size_t size, std::vector<std::int32_t>& agents) {
   std::int64_t sum = 0;
-  for (std::size_t i = 0; i < problem_.agents.size(); ++i) sum += lost(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < problem_.agents.size(); ++i)
+    if (!is_in_[i]) sum += lost(static_cast<std::int32_t>(i));
   while (agents.size() < size && sum > 0) {
     auto at = static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(sum)));
     for (std::int32_t agent = 0;; ++agent) {
@@ -178,6 +174,52 @@ void Neighborhoods::add_by_delay(std::size_t size, std::vector<std::int32_t>& ag
     }
   }
   add_any(size, agents);
+}
+
+// The robot that rests in the way of the others; -1 if there is none.
+std::int32_t Neighborhoods::add_around_goal(std::size_t size, std::vector<std::int32_t>& agents) {
+  add_by_delay(1, agents);
+  const std::int32_t first = agents[0];
+  follow_shortest_way(first);
+  std::vector<std::int32_t> resting;
+  for (const Location location : way_)
+    if (const std::int32_t other = resting_[static_cast<std::size_t>(location)]; other >= 0 && other != first)
+      resting.push_back(other);
+  if (resting.empty()) {
+    add_by_delay(size, agents);
+    return -1;
+  }
+  const std::int32_t last = resting[random_.below(resting.size())];
+  const Location goal = problem_.agents[static_cast<std::size_t>(last)].last_goal();
+  add(last, agents);
+  const std::size_t count = problem_.agents.size();
+  const auto from = static_cast<std::size_t>(random_.below(count));
+  for (std::size_t i = 0; i < std::min(count, ways_a_robot * size) && agents.size() < size; ++i) {
+    const auto agent = static_cast<std::int32_t>((from + i) % count);
+    if (lost(agent) == 0) continue;
+    follow_shortest_way(agent);
+    if (std::find(way_.begin(), way_.end(), goal) != way_.end()) add(agent, agents);
+  }
+  return last;
+}
+
+// One of the robot's shortest ways, alone, at random.
+void Neighborhoods::follow_shortest_way(std::int32_t agent) {
+  const Agent& robot = problem_.agents[static_cast<std::size_t>(agent)];
+  const TourTable& table = tables_[static_cast<std::size_t>(agent)];
+  way_.assign(1, robot.start);
+  std::int32_t leg = 0;
+  for (std::int32_t left = table.distance(0, robot.start); left > 0; --left) {
+    const Location here = way_.back();
+    leg = robot.leg_after(leg, here);
+    Location next = here;  // two equal goals in a row cost a wait
+    std::uint64_t found = 0;
+    for (Direction d = 0; d < GridGraph::direction_count; ++d) {
+      const Location to = problem_.graph.neighbor(here, d);
+      if (to != nowhere && table.distance(leg, to) == left - 1 && random_.below(++found) == 0) next = to;
+    }
+    way_.push_back(next);
+  }
 }
 
 }  // namespace dmrp::planners
