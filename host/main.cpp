@@ -35,14 +35,15 @@ using namespace dmrp::host;
 // The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "probe") == 0) run_probe(argv[2], std::atoi(argv[3]));
-  if (argc == 10 && std::strcmp(argv[1], "worker") == 0)
+  if (argc >= 10 && std::strcmp(argv[1], "worker") == 0)
     return run_worker({argv[2],
                        static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
                        {std::atoll(argv[4]), std::strcmp(argv[5], "processes") == 0},
                        argv[6],
                        std::atoi(argv[7]),
                        std::atoi(argv[8]),
-                       std::atoi(argv[9])});
+                       std::atoi(argv[9]),
+                       {argv + 10, argv + argc}});
   return std::nullopt;
 }
 

@@ -99,7 +99,7 @@ class DebuggedTrial {
 }  // namespace
 
 int debug_command(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
-  const Experiment experiment = load_experiment(file, trials, &load_here);
+  const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   if (trial >= count)
     throw InputError(fmt::format("--debug {}: {} has the trials 0 to {}", trial, file.string(), count - 1));

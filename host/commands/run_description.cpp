@@ -78,6 +78,7 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
   manifest.identity = identity_of(experiment);
   manifest.digest = digest_of(manifest.identity);
   manifest.plugin_limits = limits_of(experiment);
+  manifest.left_out = experiment.left_out;
   for (const LibraryUse& library : experiment.libraries) {
     manifest.files.push_back(hashed_file("plugin library", library.file));
     manifest.files.back().code = code_digest(library.file);

@@ -40,6 +40,9 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::uint32_t trials = 1;  // repetitions of each combination
   std::vector<LibraryUse> libraries;
+  bool skips_unloadable = false;                  // libraries that cannot be loaded are left out
+  std::vector<std::filesystem::path> unloadable;  // those that were
+  std::vector<std::string> left_out;              // they, and the uses of plugins that may be in them; one line each
   std::vector<ScenarioVariant> scenarios;
   std::vector<PluginUse> global_planners;    // may be empty if no scenario has robots
   std::vector<PluginUse> local_controllers;  // may be empty if no scenario has robots
@@ -94,8 +97,10 @@ std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);  //
 using PluginSource = std::function<Probe(const std::filesystem::path&)>;
 
 // Reads and checks an experiment. Every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
+// `tried_by`: for a source that loads libraries into this process. If the experiment leaves out what cannot be loaded, it
+// is called before the source, and fails in its place.
 Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials,
-                           const PluginSource& source = &probe_library);
+                           const PluginSource& source = &probe_library, const PluginSource& tried_by = {});
 
 // How effective_toml() writes the path of a library, of a scenario.toml or of a file that a parameter names.
 using FileName = std::function<std::string(const std::filesystem::path&)>;

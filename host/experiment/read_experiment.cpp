@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_trials = 1'000'000;
-const std::vector<std::string> header_keys = {"name", "seed", "trials", "plugins"};
+const std::vector<std::string> header_keys = {"name", "seed", "trials", "plugins", "skip_unloadable"};
 
 // The lists of the experiment by plugin kind.
 std::vector<std::pair<std::uint32_t, std::vector<PluginUse>*>> lists_by_kind(Experiment& experiment) {
@@ -37,7 +37,7 @@ std::vector<std::pair<std::uint32_t, std::vector<PluginUse>*>> lists_by_kind(Exp
 
 // `trials` > 0 replaces the file's number.
 void read_header(const TomlDocument& document, std::uint32_t trials, const PluginSource& source,
-                 Experiment& experiment) {
+                 const PluginSource& tried_by, Experiment& experiment) {
   const TomlTable header = document.root().need("experiment").table("[experiment]");
   const auto read_name = [&experiment](const TomlValue& name) {
     experiment.name = name.line();
@@ -46,13 +46,17 @@ void read_header(const TomlDocument& document, std::uint32_t trials, const Plugi
   };
   experiment.name = experiment.file.stem().string();
   Mistakes mistakes;
+  mistakes.attempt([&] {  // before the libraries, wherever it stands
+    if (const auto skips = header.find("skip_unloadable")) experiment.skips_unloadable = skips->boolean();
+  });
   mistakes.attempt([&] {
     header.read(
         {{"name", read_name},
          {"seed", [&](const TomlValue& at) { experiment.seed = static_cast<std::uint64_t>(at.integer(0)); }},
          {"trials",
           [&](const TomlValue& at) { experiment.trials = static_cast<std::uint32_t>(at.integer(1, max_trials)); }},
-         {"plugins", [&](const TomlValue& at) { read_libraries(document, at, source, experiment); }}});
+         {"plugins", [&](const TomlValue& at) { read_libraries(document, at, source, tried_by, experiment); }},
+         {"skip_unloadable", [](const TomlValue&) {}}});
   });
   mistakes.attempt([&] { header.need("plugins"); });
   mistakes.end();
@@ -82,6 +86,16 @@ void check_complete(const TomlTable& root, const Experiment& experiment, const s
 void resolve_types(std::vector<ScenarioUse>& uses, Experiment& experiment) {
   Mistakes mistakes;
   for (std::size_t i = 0; i < uses.size(); ++i) mistakes.attempt([&] { resolve_robot_types(uses[i], i, experiment); });
+  mistakes.end();
+}
+
+// Something must be left of what the experiment compares.
+void check_left(const TomlTable& root, Experiment& experiment) {
+  if (experiment.unloadable.empty()) return;
+  Mistakes mistakes;
+  for (const auto& entry : lists_by_kind(experiment))
+    if (const std::string table = kind_name(entry.first); entry.second->empty() && root.find(table))
+      mistakes.attempt([&] { root.fail(fmt::format("no [[{}]] is in a library that can be loaded", table)); });
   mistakes.end();
 }
 
@@ -189,7 +203,8 @@ std::vector<TomlKeys> experiment_keys() {
   return tables;
 }
 
-Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source) {
+Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source,
+                           const PluginSource& tried_by) {
   if (std::error_code ignored; !fs::is_regular_file(file, ignored))
     throw InputError(file.string() + ": there is no such experiment file");
   Experiment experiment;
@@ -203,7 +218,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   Mistakes mistakes;
   mistakes.attempt([&] { root.allow_only(document.keys_of("")->keys); });
-  mistakes.attempt([&] { read_header(document, trials, source, experiment); });
+  mistakes.attempt([&] { read_header(document, trials, source, tried_by, experiment); });
   const bool has_settings = mistakes.attempt([&] { read_world_settings(root, experiment); });
   mistakes.attempt([&] { read_run_settings(root, experiment); });
   std::vector<ScenarioUse> scenario_uses;
@@ -212,10 +227,11 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   for (const auto& entry : lists_by_kind(experiment))
     mistakes.attempt([&] { read_plugin_uses(root, entry.first, all_libraries, experiment, *entry.second); });
   mistakes.attempt([&] { check_complete(root, experiment, scenario_uses); });
+  if (all_libraries) mistakes.attempt([&] { check_left(root, experiment); });
 
   // Checks of what belongs together, as far as it has been read.
   mistakes.attempt([&] { check_processes(root, experiment); });
-  if (experiment.metrics.empty() && all_libraries)
+  if (!root.find(kind_name(DMRP_KIND_METRIC)) && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   mistakes.end();

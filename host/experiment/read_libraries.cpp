@@ -38,15 +38,13 @@ namespace fs = std::filesystem;
   value.fail(fmt::format("no library '{}' (searched: {}){}", name, folders, did_you_mean(name, known)));
 }
 
-Probe probe_for(const TomlValue& value, const std::string& name, const fs::path& file, const PluginSource& source) {
-  Probe probe;
+// Describes the library, or says in `init_error` why it cannot be loaded.
+Probe try_source(const PluginSource& source, const fs::path& file) {
   try {
-    probe = source(file);
+    return source(file);
   } catch (const std::runtime_error& error) {  // a failure of the machine is none
-    value.fail(fmt::format("{}: {}", name, error.what()));
+    return {{}, {}, error.what()};
   }
-  if (!probe.init_error.empty()) value.fail(fmt::format("{}: {}", name, probe.init_error));
-  return probe;
 }
 
 // Fails if the plugin `index` of the last library is not the first with its id.
@@ -63,14 +61,22 @@ void check_new_id(const TomlValue& value, const std::vector<LibraryUse>& librari
 }
 
 void read_library(const TomlDocument& document, const TomlValue& value, const PluginSource& source,
-                  Experiment& experiment) {
+                  const PluginSource& tried_by, Experiment& experiment) {
   const fs::path base = experiment.file.parent_path();
   const std::string name = value.text();
   const fs::path file = find_library(name, base);
   if (file.empty()) fail_missing(value, name, base);
   for (const LibraryUse& other : experiment.libraries)
     if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
-  const Probe probe = probe_for(value, name, file, source);
+  Probe probe;
+  if (experiment.skips_unloadable && tried_by) probe = try_source(tried_by, file);
+  if (probe.init_error.empty()) probe = try_source(source, file);
+  if (!probe.init_error.empty()) {
+    const std::string why = fmt::format("{}: {}", name, probe.init_error);
+    if (!experiment.skips_unloadable) value.fail(why);
+    experiment.unloadable.push_back(file);
+    return leave_out(value, why, experiment);
+  }
   for (const std::string& warning : probe.warnings)
     experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
   experiment.libraries.push_back({name, file, probe.plugins});
@@ -80,19 +86,26 @@ void read_library(const TomlDocument& document, const TomlValue& value, const Pl
 }  // namespace
 
 void read_libraries(const TomlDocument& document, const TomlValue& plugins, const PluginSource& source,
-                    Experiment& experiment) {
+                    const PluginSource& tried_by, Experiment& experiment) {
   const std::vector<TomlValue> listed = plugins.array();
   if (listed.empty()) plugins.fail("'plugins' must name at least one library");
   Mistakes mistakes;
-  for (const TomlValue& value : listed) mistakes.attempt([&] { read_library(document, value, source, experiment); });
+  for (const TomlValue& value : listed)
+    mistakes.attempt([&] { read_library(document, value, source, tried_by, experiment); });
   mistakes.end();
+  if (experiment.libraries.empty()) plugins.fail("none of 'plugins' can be loaded");
 }
 
 bool has_all_libraries(const TomlTable& root, const Experiment& experiment) {
   const auto header = root.find("experiment");
   const auto plugins = header && header->is_table() ? header->table().find("plugins") : std::nullopt;
   return plugins && plugins->is_array() && !experiment.libraries.empty() &&
-         plugins->array().size() == experiment.libraries.size();
+         plugins->array().size() == experiment.libraries.size() + experiment.unloadable.size();
+}
+
+void leave_out(const TomlValue& value, const std::string& text, Experiment& experiment) {
+  experiment.left_out.push_back(text);
+  experiment.warnings.push_back(fmt::format("{}: left out: {}", value.place(), text));
 }
 
 }  // namespace dmrp::host

@@ -7,11 +7,15 @@
 
 namespace dmrp::host {
 
-// Adds the libraries to the experiment, and their warnings. `plugins`: the value of the key. Throws InputError.
+// Adds the libraries to the experiment, and their warnings. `plugins`: the value of the key. `source`, `tried_by`: as
+// load_experiment() has them. Throws InputError.
 void read_libraries(const TomlDocument& document, const TomlValue& plugins, const PluginSource& source,
-                    Experiment& experiment);
+                    const PluginSource& tried_by, Experiment& experiment);
 
-// Whether all libraries that the file names have been read. If not, nothing can be said about plugins that are missing.
+// Notes that a library, or a use of a plugin that may be in it, is left out.
+void leave_out(const TomlValue& value, const std::string& text, Experiment& experiment);
+
+// Whether all libraries that the file names have been read, or left out. If not, nothing can be said about plugins that are missing.
 bool has_all_libraries(const TomlTable& root, const Experiment& experiment);
 
 }  // namespace dmrp::host

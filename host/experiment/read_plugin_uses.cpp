@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/errors/mistakes.hpp"
+#include "host/experiment/read_libraries.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -38,7 +39,8 @@ struct FoundPlugin {
 
 // The plugin of that id; none if it may be in a library that could not be read.
 std::optional<FoundPlugin> find_plugin(const TomlValue& use, std::uint32_t kind, bool all_libraries,
-                                       const std::vector<LibraryUse>& libraries) {
+                                       Experiment& experiment) {
+  const std::vector<LibraryUse>& libraries = experiment.libraries;
   const std::string id = use.text();
   std::vector<std::string> same_kind;
   for (std::uint32_t i = 0; i < libraries.size(); ++i)
@@ -49,8 +51,11 @@ std::optional<FoundPlugin> find_plugin(const TomlValue& use, std::uint32_t kind,
       if (info.kind == kind) same_kind.push_back(info.id);
     }
   if (!all_libraries) return std::nullopt;
-  use.fail(fmt::format("no {} '{}' in the loaded libraries (there: {}){}", kind_name(kind), id, join_names(same_kind),
-                       did_you_mean(id, same_kind)));
+  const std::string why = fmt::format("no {} '{}' in the loaded libraries (there: {}){}", kind_name(kind), id,
+                                      join_names(same_kind), did_you_mean(id, same_kind));
+  if (experiment.unloadable.empty()) use.fail(why);
+  leave_out(use, why, experiment);
+  return std::nullopt;
 }
 
 void check_extensions(const TomlValue& use, const PluginInfo& info) {
@@ -101,7 +106,7 @@ std::vector<std::string> plugin_use_keys(std::uint32_t kind) {
   return keys;
 }
 
-void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, const Experiment& experiment,
+void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, Experiment& experiment,
                       std::vector<PluginUse>& uses) {
   root.read_tables(kind_name(kind), [&](const TomlTable& table) {
     Mistakes mistakes;
@@ -115,7 +120,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     mistakes.attempt([&] { common.control_latency_ns = read_control_latency(table); });
     mistakes.attempt([&] {
       const TomlValue use = table.need("use");
-      const auto found = find_plugin(use, kind, all_libraries, experiment.libraries);
+      const auto found = find_plugin(use, kind, all_libraries, experiment);
       if (!found) return;
       check_extensions(use, *found->info);
       common.library = found->library;

@@ -16,9 +16,9 @@ namespace dmrp::host {
 std::vector<std::string> plugin_use_keys(std::uint32_t kind);
 
 // Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment: one use for each variant of a sweep.
-// `all_libraries`: every library has been read; if not, plugins that are in none of them are passed over. Throws
-// InputError.
-void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, const Experiment& experiment,
+// `all_libraries`: every library has been read; if not, plugins that are in none of them are passed over. If one was left
+// out, so are they. Throws InputError.
+void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, Experiment& experiment,
                       std::vector<PluginUse>& uses);
 
 // Uses every metric of the experiment's libraries with its defaults. `at`: the place for errors. Throws InputError.

@@ -106,6 +106,7 @@ Manifest parse(const Json& json) {
   if (const auto limits = json.find("plugin_limits"); limits != json.end())
     manifest.plugin_limits = {limits->at("box"), limits->at("memory"), limits->at("processes"),
                               limits->at("plugins_with_processes")};
+  manifest.left_out = json.value("left_out", manifest.left_out);
   const Json& machine = json.at("machine");
   machine.at("libc").get_to(manifest.machine.libc);
   machine.at("cpu_level").get_to(manifest.machine.cpu_level);
@@ -217,6 +218,7 @@ std::string to_json_text(const Manifest& manifest) {
                      {"cpu_level", manifest.machine.cpu_level},
                      {"cpu_features", manifest.machine.cpu_features},
                      {"compiler", manifest.machine.compiler}};
+  if (!manifest.left_out.empty()) json["left_out"] = manifest.left_out;
   json["files"] = Json::array();
   for (const HashedFile& file : manifest.files) {
     Json& written = json["files"].emplace_back(Json{{"role", file.role}, {"path", file.path}, {"sha256", file.sha256}});

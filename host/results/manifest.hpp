@@ -80,7 +80,8 @@ struct Manifest {
   ExperimentFacts experiment;
   Identity identity;
   std::string digest;          // of the identity
-  PluginLimits plugin_limits;  // empty texts in manifests of older versions
+  PluginLimits plugin_limits;         // empty texts in manifests of older versions
+  std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;
   std::vector<HashedFile> files;
 };

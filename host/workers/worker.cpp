@@ -226,7 +226,11 @@ int run_worker(const WorkerTask& task) {
     const SharedCallNote shared{Descriptor(task.note)};
     set_resource_limits(task.limits.memory_mb);
     box::enter(task.limits.processes, &shared.note().refused, task.scratch);
-    const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors);
+    const auto refuse_unloadable = [&](const std::filesystem::path& file) -> Probe {
+      const auto& all = task.unloadable;
+      return {{}, {}, std::find(all.begin(), all.end(), file) == all.end() ? "" : "the supervisor has left it out"};
+    };
+    const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors, refuse_unloadable);
     Worker(experiment, channel, sender, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {

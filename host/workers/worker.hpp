@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "host/process/resource_limits.hpp"
 
@@ -17,6 +18,7 @@ struct WorkerTask {
   int read_end = -1;              // of the channel
   int write_end = -1;
   int note = -1;  // the shared call note
+  std::vector<std::filesystem::path> unloadable;  // libraries that the supervisor has left out
 };
 
 // Returns the exit status.

@@ -19,6 +19,7 @@ ChildProcess start(const Experiment& experiment, const std::filesystem::path& sc
                        scratch.string()};
   program.inherited = inherited;
   for (const int descriptor : program.inherited) program.arguments.push_back(std::to_string(descriptor));
+  for (const std::filesystem::path& library : experiment.unloadable) program.arguments.push_back(library.string());
   program.output = log;
   program.ignores_terminal = true;  // the supervisor ends its workers
   return ChildProcess::execute(program);
