@@ -28,7 +28,11 @@ void copy_results(const fs::path& run, const fs::path& folder) {
   const fs::path file = folder / "results.sqlite";
   {
     ResultsDatabase to = ResultsDatabase::create(file, from.metrics());
-    for (const TrialRecord& trial : from.trials()) to.write(trial);
+    for (TrialRecord& trial : from.trials_with_events_of("")) {
+      trial.events = from.events(trial.id);  // of one trial at a time
+      to.write(trial);
+      trial.events = std::vector<MetricEvent>();  // {} would keep the room
+    }
   }
   SqliteConnection(file, SqliteMode::read_write).execute("PRAGMA journal_mode = DELETE");
   write_digests(StoredDigests(run), from.finished_trials(), folder);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include "host/commands/commands.hpp"
@@ -35,7 +36,8 @@ struct Part {
   std::string effective{};   // and of effective.toml
   Manifest manifest{};
   std::vector<MetricColumn> metrics{};
-  std::vector<TrialRecord> trials{};  // without skipped ones
+  std::optional<ResultsDatabase> database{};
+  std::vector<TrialRecord> trials{};  // without skipped ones, and without events
 };
 
 Part read_part(const fs::path& path) {
@@ -43,9 +45,9 @@ Part read_part(const fs::path& path) {
   part.experiment = read_file(path / "experiment.toml", (path / "experiment.toml").string());
   part.effective = read_file(path / "effective.toml", (path / "effective.toml").string());
   part.manifest = read_manifest(path / "manifest.json");
-  const ResultsDatabase database = ResultsDatabase::open_read_only(path / "results.sqlite");
-  part.metrics = database.metrics();
-  part.trials = database.trials();
+  part.database = ResultsDatabase::open_read_only(path / "results.sqlite");
+  part.metrics = part.database->metrics();
+  part.trials = part.database->trials_with_events_of("");
   std::erase_if(part.trials, [](const TrialRecord& trial) { return trial.outcome == trial_outcome::skipped; });
   return part;
 }
@@ -124,6 +126,19 @@ void copy_traces(const Part& part, const fs::path& out) {
   }
 }
 
+// By number. The events of one trial are in memory at a time.
+void copy_results(std::vector<Part>& parts, ResultsDatabase& to) {
+  std::map<std::uint64_t, std::pair<TrialRecord*, const ResultsDatabase*>> all;
+  for (Part& part : parts)
+    for (TrialRecord& trial : part.trials) all[trial.id] = {&trial, &*part.database};
+  for (const auto& [id, place] : all) {
+    const auto& [trial, from] = place;
+    trial->events = from->events(id);
+    to.write(*trial);
+    trial->events = std::vector<MetricEvent>();  // {} would keep the room
+  }
+}
+
 void append_log(const Part& part, const fs::path& out) {
   std::ifstream from(part.directory.path() / "log.txt", std::ios::binary);
   if (!from || from.peek() == std::ifstream::traits_type::eof()) return;
@@ -149,11 +164,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   write_file_atomically(out / "effective.toml", parts.front().effective);
   write_file_atomically(out / "manifest.json", to_json_text(manifest));
   ResultsDatabase database = ResultsDatabase::create(out / "results.sqlite", parts.front().metrics);
-  std::vector<const TrialRecord*> trials;
-  for (const Part& part : parts)
-    for (const TrialRecord& trial : part.trials) trials.push_back(&trial);
-  std::sort(trials.begin(), trials.end(), [](const auto* a, const auto* b) { return a->id < b->id; });
-  for (const TrialRecord* trial : trials) database.write(*trial);
+  copy_results(parts, database);
   for (const Part& part : parts) {
     copy_traces(part, out);
     append_log(part, out);
@@ -163,8 +174,8 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   const RunResults results = read_results(std::move(database), layout);
   write_tables(results, out);
   print_results(results, layout, out, try_to_report(results, out));
-  if (trials.size() < manifest.experiment.trials_planned)
-    fmt::print(stderr, "{} of {} trials are finished: continue with --resume --out {}\n", trials.size(),
+  if (results.trials.size() < manifest.experiment.trials_planned)
+    fmt::print(stderr, "{} of {} trials are finished: continue with --resume --out {}\n", results.trials.size(),
                manifest.experiment.trials_planned, out.string());
   return exit_status::done;
 }

@@ -20,7 +20,7 @@ fs::path trace_of(const fs::path& run_directory, const char* option, std::uint64
   const fs::path database = run_directory / "results.sqlite";
   if (std::error_code ignored; !fs::is_regular_file(database, ignored))
     throw InputError(fmt::format("{}: is no run directory (there is no results.sqlite)", run_directory.string()));
-  const std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials();
+  const std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials_with_events_of("");
   if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& known) { return known.id == trial; }))
     throw InputError(fmt::format("{} {}: {} has {}, from {} to {}", option, trial, run_directory.string(),
                                  plural(trials.size(), "finished trial"), trials.empty() ? 0 : trials.front().id,

@@ -117,11 +117,12 @@ int verify_command(const VerifyOptions& options) {
   const Experiment experiment = load_experiment(directory / "effective.toml", 0);
   if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}), directory)) return exit_status::different;
 
-  std::vector<TrialRecord> trials = database.trials();
+  std::vector<TrialRecord> trials = database.trials_with_events_of("");
   const std::size_t others = std::erase_if(trials, [](const TrialRecord& trial) { return !is_comparable(trial); });
   if (others > 0) warn(plural(others, "trial") + " with faults or stopped by a clock cannot be compared");
   if (trials.empty()) throw InputError(fmt::format("{}: has no trial to compare", directory.string()));
   trials = chosen(std::move(trials), options.trials, options.seed);
+  for (TrialRecord& trial : trials) trial.events = database.events(trial.id);
   Rerun rerun(experiment, options.jobs);
   if (rerun.run(trials) == RunEnding::interrupted) return exit_status::interrupted;
 

@@ -231,7 +231,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   // Checks of what belongs together, as far as it has been read.
   mistakes.attempt([&] { check_processes(root, experiment); });
-  if (!root.find(kind_name(DMRP_KIND_METRIC)) && all_libraries)
+  if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   mistakes.end();

@@ -15,7 +15,8 @@ void read_libraries(const TomlDocument& document, const TomlValue& plugins, cons
 // Notes that a library, or a use of a plugin that may be in it, is left out.
 void leave_out(const TomlValue& value, const std::string& text, Experiment& experiment);
 
-// Whether all libraries that the file names have been read, or left out. If not, nothing can be said about plugins that are missing.
+// Whether all libraries that the file names have been read, or left out. If not, nothing can be said about plugins that
+// are missing.
 bool has_all_libraries(const TomlTable& root, const Experiment& experiment);
 
 }  // namespace dmrp::host

@@ -41,7 +41,7 @@ class LineChannel {
   std::optional<nlohmann::json> take();
 
  private:
-  static constexpr std::size_t most_bytes = std::size_t{1} << 28;
+  static constexpr std::size_t most_bytes = std::size_t{1} << 22;  // more than any piece of a result
 
   Descriptor read_end_;
   Descriptor write_end_;

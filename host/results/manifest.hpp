@@ -79,7 +79,7 @@ struct Manifest {
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;
   Identity identity;
-  std::string digest;          // of the identity
+  std::string digest;                 // of the identity
   PluginLimits plugin_limits;         // empty texts in manifests of older versions
   std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;

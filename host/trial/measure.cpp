@@ -15,6 +15,7 @@
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/host_callback.hpp"
 #include "host/plugins/v1_sizes.hpp"
+#include "host/results/result_bytes.hpp"
 
 namespace dmrp::host {
 
@@ -29,12 +30,21 @@ struct Collected {
   MetricResult result;
   std::set<Key> given;
   std::string refused{};  // why the last value or event was
+  std::size_t bytes = 0;  // of the result
 };
 
 std::int32_t refuse(Collected& collected, const char* what, const char* name, const std::string& why) {
   collected.refused = fmt::format(" (the host refused the {} '{}': {})", what, escaped(name), why);
   return DMRP_ERROR;
 }
+
+// Whether the result has room for it.
+template <class Given>
+bool has_room(Collected& collected, const Given& given) {
+  collected.bytes += bytes_of(given);
+  return collected.bytes <= most_result_bytes;
+}
+constexpr const char* no_room = "the values and events of a metric in one trial take more than 32 MB";
 
 std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
@@ -68,7 +78,9 @@ std::int32_t collect_value(Collected& collected, const dmrp_metric_result& their
   const auto index = static_cast<std::size_t>(spec - specs.begin());
   if (!collected.given.emplace(index, c.subject_kind, subject, or_none(c.coordinate)).second)
     return refuse(collected, "value", c.name, "it was given before");
-  collected.result.values.push_back({spec->name, c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)});
+  MetricValue value = {spec->name, c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)};
+  if (!has_room(collected, value)) return refuse(collected, "value", c.name, no_room);
+  collected.result.values.push_back(std::move(value));
   return DMRP_OK;
 }
 
@@ -91,6 +103,8 @@ std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
   }
   if (event.severity > DMRP_SEVERITY_SERIOUS) event.severity = DMRP_SEVERITY_INFO;
   if (std::isfinite(c.place.x) && std::isfinite(c.place.y)) event.place = c.place;
+  if (bytes_of(event) > most_event_bytes) return refuse(collected, "event", c.name, "it takes more than 1 MB");
+  if (!has_room(collected, event)) return refuse(collected, "event", c.name, no_room);
   collected.result.events.push_back(std::move(event));
   return DMRP_OK;
 }
@@ -108,8 +122,9 @@ dmrp_metric_sink sink_into(Collected& collected) {
   return sink;
 }
 
-// A missing value would look as if the metric had crashed.
+// A missing value would look as if the metric had crashed. A metric need not look at what the host answers.
 void check_complete(const Collected& collected, const CallSite& site) {
+  if (collected.bytes > most_result_bytes) throw PluginFault(fault_kind::bad_output, site, no_room);
   for (const MetricValueSpec& spec : collected.info.values) {
     const auto& values = collected.result.values;
     const bool given = std::any_of(values.begin(), values.end(), [&](const MetricValue& v) {

@@ -3,11 +3,23 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/results/result_bytes.hpp"
 #include "host/workers/whole_number.hpp"
 
 namespace dmrp::host {
 
 namespace {
+
+constexpr std::size_t piece_bytes = 256 * 1024;  // reached by the last value or event of a piece
+
+// Moves `from` on by as many elements as the piece has room for.
+template <class T>
+void fill(std::vector<T>& piece, std::size_t& bytes, const std::vector<T>& all, std::size_t& from) {
+  for (; from < all.size() && bytes < piece_bytes; ++from) {
+    bytes += bytes_of(all[from]);
+    piece.push_back(all[from]);
+  }
+}
 
 template <class T>
 nlohmann::json or_null(const std::optional<T>& value) {
@@ -51,7 +63,7 @@ void from_json(const nlohmann::json& json, MetricEvent& e) {
   e.place = place.is_null() ? std::nullopt : std::optional(dmrp_vec2{place.at(0), place.at(1)});
 }
 
-DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics, known_events)
+DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics)
 DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
 
 void to_json(nlohmann::json& json, const FaultRecord& f) {
@@ -88,6 +100,19 @@ void from_json(const nlohmann::json& json, MetricResult& result) {
   result.index = whole_number<std::uint32_t>(json.at("index"));
   json.at("values").get_to(result.values);
   json.at("events").get_to(result.events);
+}
+
+void send_in_pieces(const MetricResult& result, const std::function<void(const MetricResult& piece, bool last)>& send) {
+  std::size_t value = 0;
+  std::size_t event = 0;
+  for (bool last = false; !last;) {
+    MetricResult piece{result.index, {}, {}};
+    std::size_t bytes = 0;
+    fill(piece.values, bytes, result.values, value);
+    fill(piece.events, bytes, result.events, event);
+    last = value == result.values.size() && event == result.events.size();
+    send(piece, last);
+  }
 }
 
 }  // namespace dmrp::host

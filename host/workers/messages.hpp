@@ -5,7 +5,8 @@
 //   supervisor -> Job                                one trial
 //   worker     -> {"type": "began"}                  the worker begins it
 //   worker     -> {"type": "measuring", "index"}     a metric begins
-//   worker     -> {"type": "metric"} + MetricResult  a metric has finished
+//   worker     -> {"type": "metric", "last"} + MetricResult  a piece of what a metric has given; with the last, the
+//                                                    metric has finished
 //   worker     -> {"type": "fault", "fatal"} + FaultRecord   a plugin broke its contract. The worker continues unless the
 //                                                    fault is fatal: no function of the library may be called again
 //   worker     -> {"type": "done"} + TrialDone       the trial is over
@@ -20,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
@@ -40,9 +42,11 @@ struct Job {
   std::uint64_t stamp = 0;                  // another one for each attempt, not 0
   std::string trace_file;                   // in the worker's scratch folder; "" for none
   std::string scratch_file;                 // where a large trace goes until it has been measured
-  std::vector<std::uint32_t> skip_metrics;  // measured in an earlier attempt, or killed the worker in one
-  std::vector<MetricEvent> known_events;    // of the measured ones, for the trace
+  std::vector<std::uint32_t> skip_metrics;  // ended in a fault in an earlier attempt
 };
+
+// Calls `send` with the pieces of a result, in order: each side holds one as text at a time.
+void send_in_pieces(const MetricResult& result, const std::function<void(const MetricResult& piece, bool last)>& send);
 
 // The result of a trial, without the values of its metrics.
 struct TrialDone {

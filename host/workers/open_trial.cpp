@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "host/process/fault_kind.hpp"
+#include "host/results/result_bytes.hpp"
 #include "host/workers/whole_number.hpp"
 
 namespace dmrp::host {
@@ -69,7 +70,6 @@ Job OpenTrial::begin(std::uint64_t stamp) {
   job.trial = record_.id;
   job.stamp = stamp;
   job.skip_metrics = skip_metrics_;
-  job.known_events = record_.events;
   return job;
 }
 
@@ -105,13 +105,25 @@ OpenTrial::State OpenTrial::take(const nlohmann::json& message) {
 }
 
 void OpenTrial::take_metric(const nlohmann::json& message) {
-  auto result = message.get<MetricResult>();
-  expect(measuring_ == result.index, "values of a metric that does not run");
-  if (const auto breach = breach_of(result, experiment_->metrics[result.index].info, record_.robots))
+  auto piece = message.get<MetricResult>();
+  expect(measuring_ == piece.index, "values of a metric that does not run");
+  take_all(piece.values, given_.values);
+  take_all(piece.events, given_.events);
+  expect(given_bytes_ <= most_result_bytes, "more than a metric may give");
+  if (!message.at("last").get<bool>()) return;
+  if (const auto breach = breach_of(given_, experiment_->metrics[piece.index].info, record_.robots))
     throw UnbelievableMessage(*breach);
-  std::move(result.values.begin(), result.values.end(), std::back_inserter(record_.values));
-  std::move(result.events.begin(), result.events.end(), std::back_inserter(record_.events));
-  skip(result.index);
+  std::move(given_.values.begin(), given_.values.end(), std::back_inserter(record_.values));
+  std::move(given_.events.begin(), given_.events.end(), std::back_inserter(record_.events));
+  skip(piece.index);
+}
+
+template <class T>
+void OpenTrial::take_all(std::vector<T>& piece, std::vector<T>& given) {
+  for (T& one : piece) {
+    given_bytes_ += bytes_of(one);
+    given.push_back(std::move(one));
+  }
 }
 
 OpenTrial::State OpenTrial::take_fault(const nlohmann::json& message) {
@@ -147,7 +159,7 @@ OpenTrial::State OpenTrial::end_attempt(FaultRecord fault) {
   record_.faults.push_back(std::move(fault));
   if (measuring_) {
     faulty_metrics_.push_back(*measuring_);
-    skip(*measuring_);
+    restart();
     return State::ended_by_fault;
   }
   record_.outcome = trial_outcome::fault;
@@ -159,6 +171,8 @@ OpenTrial::State OpenTrial::end_attempt(FaultRecord fault) {
 void OpenTrial::restart() {
   if (failed_) record_.faults.pop_back();
   failed_ = false;
+  measuring_.reset();
+  forget_given();
   record_.values.clear();
   record_.events.clear();
   skip_metrics_ = faulty_metrics_;
@@ -167,6 +181,12 @@ void OpenTrial::restart() {
 void OpenTrial::skip(std::uint32_t metric) {
   skip_metrics_.push_back(metric);
   measuring_.reset();
+  forget_given();
+}
+
+void OpenTrial::forget_given() {
+  given_ = {};
+  given_bytes_ = 0;
 }
 
 bool OpenTrial::is_skipped(std::uint32_t metric) const {

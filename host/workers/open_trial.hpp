@@ -49,6 +49,9 @@ class OpenTrial {
 
  private:
   void take_metric(const nlohmann::json& message);
+  template <class T>
+  void take_all(std::vector<T>& piece, std::vector<T>& given);
+  void forget_given();
   State take_fault(const nlohmann::json& message);
   void take_done(const nlohmann::json& message);
   void skip(std::uint32_t metric);
@@ -58,10 +61,12 @@ class OpenTrial {
   TrialRecord record_;
   std::uint64_t stamp_ = 0;
   bool begun_ = false;
-  bool failed_ = false;                        // a fault of a plugin that is no metric ended the trial
-  std::uint32_t next_metric_ = 0;              // metrics are measured in order
-  std::optional<std::uint32_t> measuring_;     // the metric that runs
-  std::vector<std::uint32_t> skip_metrics_;    // that are measured, or ended in a fault
+  bool failed_ = false;                     // a fault of a plugin that is no metric ended the trial
+  std::uint32_t next_metric_ = 0;           // metrics are measured in order
+  std::optional<std::uint32_t> measuring_;  // the metric that runs
+  MetricResult given_;                      // what it has given so far
+  std::size_t given_bytes_ = 0;
+  std::vector<std::uint32_t> skip_metrics_;    // measured in this attempt, or ended in a fault
   std::vector<std::uint32_t> faulty_metrics_;  // that ended in a fault
 };
 

@@ -142,7 +142,7 @@ class Worker {
       pool_.clear();
     }
     if (done.outcome != trial_outcome::fault) {
-      std::vector<MetricEvent> events = job.known_events;
+      std::vector<MetricEvent> events;
       measure_all(kept, world, seed, job, events);
       finish(kept, std::move(events));
     }
@@ -176,11 +176,15 @@ class Worker {
       sender_.send({{"type", "measuring"}, {"index", i}});
       const PluginUse& use = experiment_.metrics[i];
       try {
-        const MetricResult result = measure(reader, world.walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i,
-                                            seed, static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
+        MetricResult result = measure(reader, world.walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i, seed,
+                                      static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
         guard_.check_no_children();
-        sender_.send(typed("metric", result));
-        events.insert(events.end(), result.events.begin(), result.events.end());
+        send_in_pieces(result, [&](const MetricResult& piece, bool last) {
+          nlohmann::json message = typed("metric", piece);
+          message["last"] = last;
+          sender_.send(std::move(message));
+        });
+        std::move(result.events.begin(), result.events.end(), std::back_inserter(events));
       } catch (const PluginFault& fault) {
         report(fault);
       }

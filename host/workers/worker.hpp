@@ -17,7 +17,7 @@ struct WorkerTask {
   std::filesystem::path scratch;  // where it writes its files
   int read_end = -1;              // of the channel
   int write_end = -1;
-  int note = -1;  // the shared call note
+  int note = -1;                                  // the shared call note
   std::vector<std::filesystem::path> unloadable;  // libraries that the supervisor has left out
 };
 

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 built_in=(success path_length completion_time sto ibtr ldf pfd collisions speed)
 begin_experiment faults global_planner
 use faults global_planner dmrp.planner.cbs
-faults=(crash exit rounding silent infinite undeclared throw_in_begin)
+faults=(crash exit rounding silent infinite undeclared throw_in_begin flood)
 $limited && faults+=(memory)
 # faulty ones before, between and after the others
 use faults metric test.metric.none
@@ -47,6 +47,7 @@ if $limited; then expect memory out_of_memory "observe|9" "."; fi
 for trial in 0 1; do
   steps=$(query "$scratch/faults" "SELECT CAST(value AS INTEGER) FROM value WHERE metric = 'test_none' AND trial_id = $trial")
   for fault in "silent|bad_output|gave no system value of test_silent" \
+    "flood|bad_output|the values and events of a metric in one trial take more than 32 MB" \
     "infinite|error_status|refused a value of test_infinite" "undeclared|error_status|refused a value of test_other"; do
     IFS='|' read -r name kind detail <<<"$fault"
     expect_fault faults "trial.id = $trial AND plugin = 'test.metric.$name'" \

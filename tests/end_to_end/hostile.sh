@@ -45,6 +45,11 @@ expect_same() {
   [[ $(values "$scratch/$1") == "$(values "$scratch/alone")" ]] || fail "$1: attacks change the values of others"
 }
 
+# takes the 20 s that a library may take to load; what comes of it is looked at further below
+cp "$library" "$scratch/waits.so"
+DMRP_TEST_AT_LOAD=wait "$host" plugins "$scratch/waits.so" >"$scratch/waits.stdout" 2>"$scratch/waits.stderr" &
+waiting=$!
+
 begin alone
 run_with_faults alone 0
 [[ -n $(values "$scratch/alone") ]] || fail "there should be values to compare"
@@ -57,6 +62,7 @@ attacks=(
   'forged end|abi_breach|.*|a plugin of this trial wrote to the channel|late'
   'forged error|abi_breach|.*|a plugin of this trial wrote to the channel|late'
   'no message|abi_breach|.*|a plugin of this trial wrote to the channel|late'
+  'oversized message|abi_breach|step|wrote to the channel of its worker: a message longer than any'
   'closed channel|abi_breach|.*|channel .* was closed|late'
   'closed trace|worker_error|.*|Bad file descriptor|late'
   'deletes its files|worker_error|.*|trace was deleted or replaced|late'
@@ -70,6 +76,8 @@ attacks=(
   'late thread|crash|.*|Segmentation fault|late'
   'burns processors|hang|step|'
 )
+# the sanitizers' memory is not reused, so nothing happens
+if $limited; then attacks+=('quiet heap corruption|crash|.*||late'); fi
 # expect_faults NAME ROW...
 expect_faults() {
   local row attack kind function detail late is_late found
@@ -223,6 +231,11 @@ done
 expect_status 2 env DMRP_TEST_AT_LOAD=close timeout 120 "$host" plugins "$scratch/at_load.so"
 grep -q "closes its channel to the host while it is loaded" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 note probe "while loaded: closes its channel, blocks all signals" "refused before the run" "the library"
+status=0
+wait "$waiting" || status=$?
+((status == 2)) || fail "exit status $status, not 2: $(cat "$scratch/waits.stderr")"
+grep -q "waits.so: hangs while it is loaded, in dlopen" "$scratch/waits.stderr" || fail "$(cat "$scratch/waits.stderr")"
+note probe "while loaded: waits" "refused before the run" "the library"
 expect_none_left "probe $scratch/"
 
 # attacks that do nothing, or leave no trace in the results

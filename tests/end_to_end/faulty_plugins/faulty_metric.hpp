@@ -3,16 +3,30 @@
 #pragma once
 
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 #include "tests/end_to_end/faulty_plugins/misbehave.hpp"
 
 namespace dmrp::test {
 
-enum class MetricFault { none, crash, exit, memory, rounding, silent, infinite, undeclared, throw_in_begin, recovers };
+enum class MetricFault {
+  none,
+  crash,
+  exit,
+  memory,
+  rounding,
+  silent,
+  infinite,
+  undeclared,
+  throw_in_begin,
+  flood,
+  recovers
+};
 
 constexpr const char* name_of(MetricFault fault) {
-  constexpr const char* names[] = {"none",   "crash",    "exit",       "memory",         "rounding",
-                                   "silent", "infinite", "undeclared", "throw_in_begin", "recovers"};
+  constexpr const char* names[] = {"none",     "crash",      "exit",           "memory", "rounding", "silent",
+                                   "infinite", "undeclared", "throw_in_begin", "flood",  "recovers"};
   return names[static_cast<int>(fault)];
 }
 
@@ -41,10 +55,21 @@ class FaultyMetric final : public dmrp::Metric {
     if (fault == MetricFault::silent) return;
     const std::string value = fault == MetricFault::undeclared ? "test_other" : "test_" + name();
     sink.system(value.c_str(), fault == MetricFault::infinite ? std::numeric_limits<double>::infinity() : samples_);
+    if (fault == MetricFault::flood) flood(sink);
   }
 
  private:
   static std::string name() { return name_of(fault); }
+
+  // 37 MB of events; it does not look at what the host answers.
+  static void flood(dmrp::MetricSink& sink) {
+    const std::vector<dmrp::Subject> subjects(45'000, dmrp::robot_subject(0));
+    for (int i = 0; i < 40; ++i) try {
+        sink.event({"flood", 0, 0, subjects, ""});
+      } catch (const std::logic_error&) {
+      }
+  }
+
   int samples_ = 0;
   bool failed_once_ = false;
 };

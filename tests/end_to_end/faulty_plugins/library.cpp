@@ -11,4 +11,5 @@ DMRP_PLUGINS(FaultyController, FaultyPlanner, FaultyPedestrians, FaultyMetric<Me
              FaultyMetric<MetricFault::crash>, FaultyMetric<MetricFault::exit>, FaultyMetric<MetricFault::memory>,
              FaultyMetric<MetricFault::rounding>, FaultyMetric<MetricFault::silent>,
              FaultyMetric<MetricFault::infinite>, FaultyMetric<MetricFault::undeclared>,
-             FaultyMetric<MetricFault::throw_in_begin>, FaultyMetric<MetricFault::recovers>)
+             FaultyMetric<MetricFault::throw_in_begin>, FaultyMetric<MetricFault::flood>,
+             FaultyMetric<MetricFault::recovers>)

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <dmrp/plugin.hpp>
 #include <list>
+#include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace dmrp::test {
 
@@ -28,7 +28,8 @@ inline dmrp::Status misbehave(const std::string& fault) {
     }
   if (fault == "memory") {
     constexpr std::size_t chunk = 16u << 20;
-    for (std::list<std::vector<char>> all;;) all.emplace_back(chunk);
+    // not written to: on a loaded machine, that could take longer than the call may
+    for (std::list<std::unique_ptr<char[]>> all;;) all.emplace_back(new char[chunk]);
   }
   return dmrp::Status::ok;
 }

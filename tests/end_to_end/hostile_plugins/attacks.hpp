@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -112,6 +113,18 @@ inline void fill_memory() {
   std::this_thread::sleep_for(std::chrono::seconds(4));
 }
 
+// What is given out next from the free memory of some sizes is no memory. Nothing happens until somebody asks for it.
+inline void corrupt_heap() {
+  for (const std::size_t size : {24, 40, 56, 72, 88, 104, 120}) {
+    void* const first = std::malloc(size);
+    void* const second = std::malloc(size);
+    volatile std::uintptr_t place = reinterpret_cast<std::uintptr_t>(second);  // compilers would warn
+    std::free(first);
+    std::free(second);
+    std::memset(reinterpret_cast<void*>(place), 0xff, 16);
+  }
+}
+
 inline void crash() {
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
@@ -127,6 +140,8 @@ inline void attack(const std::string& what) {
   if (what == "forged error")
     write_to_pipes("{\"type\":\"error\",\"text\":\"forged\",\"machine\":true,\"number\":28}\n");
   if (what == "no message") write_to_pipes("hello\n");
+  if (what == "oversized message") write_to_pipes(std::string(8u << 20, 'x'));
+  if (what == "quiet heap corruption") corrupt_heap();
   if (what == "closed channel") close_those("pipe:");
   if (what == "closed trace") close_those(".mcap");
   if (what == "deletes its files") delete_files("worker");

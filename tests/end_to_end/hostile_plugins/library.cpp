@@ -63,6 +63,8 @@ __attribute__((constructor)) static void at_load() {
   if (what == "fork") fork();
   if (what == "stay" && fork() == 0)
     for (;;) pause();
+  if (what == "wait")
+    for (;;) pause();
   if (what == "write") dmrp::test::write_elsewhere();
   if (what == "close") dmrp::test::close_those("pipe:");
   if (what == "close") {

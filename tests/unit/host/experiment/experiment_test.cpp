@@ -472,3 +472,46 @@ TEST_CASE("damaged files give an error of one line or an experiment") {
   CHECK(errors > rounds / 3);
   CHECK(errors < rounds);
 }
+
+TEST_CASE("what cannot be loaded is left out if the experiment says so") {
+  const ExperimentFolder folder;
+  const std::string two_bad = with(experiment_text, "plugins = [\"./libfake.so\"]",
+                                   "skip_unloadable = true\nplugins = [\"./libbad.so\", \"./libfake.so\", "
+                                   "\"./libsick.so\"]");
+  const Experiment plain = load(experiment_text);
+  const Experiment experiment = load(two_bad + "\n[[local_controller]]\nuse = \"of.libbad\"\n");
+  REQUIRE(experiment.libraries.size() == 1);
+  CHECK(experiment.libraries[0].written == "./libfake.so");
+  CHECK(experiment.unloadable == std::vector{folder.path() / "libbad.so", folder.path() / "libsick.so"});
+  CHECK(experiment.left_out ==
+        std::vector<std::string>{
+            "./libbad.so: not a dmrp v1 plugin", "./libsick.so: its init() failed: no licence",
+            "no local_controller 'of.libbad' in the loaded libraries (there: test.controller, test.psychic)"});
+  CHECK(experiment.warnings[0] == "experiment.toml:6:12: left out: ./libbad.so: not a dmrp v1 plugin");
+  CHECK(identity_digest(experiment) == identity_digest(plain));
+
+  // a source that loads into this process is not asked for a library that fails elsewhere
+  std::vector<std::string> asked;
+  const auto source = [&](const std::filesystem::path& file) {
+    asked.push_back(file.filename());
+    return fake_probe(file.filename() == "libfake.so" ? file : "libfake.so");
+  };
+  CHECK(load_experiment("experiment.toml", 0, source, &fake_probe).left_out == experiment.left_out);
+  CHECK(asked == std::vector<std::string>{"libfake.so"});
+
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      load(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(refusal(with(two_bad, "test.model", "of.libbad")),
+             Catch::EndsWith("no [[pedestrian_model]] is in a library that can be loaded"));
+  CHECK_THAT(refusal(two_bad + "\n[[metric]]\nuse = \"of.libbad\"\n"),
+             Catch::EndsWith("no [[metric]] is in a library that can be loaded"));
+  CHECK(refusal(with(two_bad, "\"./libfake.so\", ", "")) == "experiment.toml:6:11: none of 'plugins' can be loaded");
+  CHECK(refusal(with(two_bad, "libbad", "libbat")) ==
+        "experiment.toml:6:12: no library './libbat.so' (there is no file libbat.so)");
+}

@@ -20,19 +20,13 @@ T through_text(const T& value) {
 }  // namespace
 
 TEST_CASE("messages keep all their fields") {
-  const Job job = through_text(Job{1ull << 40,
-                                   0xFFFF'FFFF'FFFF'FFFFu,
-                                   "traces/trial_000007.mcap",
-                                   "trial_000007.scratch",
-                                   {2, 5},
-                                   {{"sto", 1, 2, {3}, {}, "near", 0, {}}}});
+  const Job job =
+      through_text(Job{1ull << 40, 0xFFFF'FFFF'FFFF'FFFFu, "traces/trial_000007.mcap", "trial_000007.scratch", {2, 5}});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.stamp == 0xFFFF'FFFF'FFFF'FFFFu);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
   CHECK(job.scratch_file == "trial_000007.scratch");
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
-  REQUIRE(job.known_events.size() == 1);
-  CHECK(job.known_events[0].robots == std::vector<std::uint32_t>{3});
 
   const TrialDone done = through_text(TrialDone{trial_outcome::failed, false, 0.1 + 0.2});
   CHECK(done.outcome == "failed");
@@ -90,4 +84,34 @@ TEST_CASE("metric values keep their bits, and what is undefined stays so") {
   CHECK(got.events[0].place->x == 0.1 + 0.2);
   CHECK(got.events[0].place->y == -1.0 / 3.0);
   CHECK_FALSE(got.events[1].place);
+}
+
+TEST_CASE("a result is sent in pieces, none of them large") {
+  MetricResult result;
+  result.index = 3;
+  for (int i = 0; i < 1000; ++i) result.values.push_back({"length", DMRP_SUBJECT_PEDESTRIAN, i, {}, 0.5 * i});
+  for (int i = 0; i < 10'000; ++i) result.events.push_back({"sto", i, i, {0}, {}, "near", DMRP_SEVERITY_INFO, {}});
+  MetricResult got;
+  int pieces = 0;
+  int last_pieces = 0;
+  send_in_pieces(result, [&](const MetricResult& piece, bool last) {
+    CHECK(piece.index == 3);
+    CHECK(json(piece).dump().size() < 600'000);
+    got.values.insert(got.values.end(), piece.values.begin(), piece.values.end());
+    got.events.insert(got.events.end(), piece.events.begin(), piece.events.end());
+    ++pieces;
+    if (last) ++last_pieces;
+  });
+  CHECK(json(got).at("values") == json(result).at("values"));
+  CHECK(json(got).at("events") == json(result).at("events"));
+  CHECK(pieces > 3);
+  CHECK(last_pieces == 1);
+
+  pieces = 0;
+  send_in_pieces({3, {}, {}}, [&](const MetricResult& piece, bool last) {
+    CHECK(piece.values.empty());
+    CHECK(last);
+    ++pieces;
+  });
+  CHECK(pieces == 1);
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/process/fault_kind.hpp"
+#include "host/results/result_bytes.hpp"
 
 namespace {
 
@@ -40,9 +41,11 @@ class Conversation {
   }
   State began() { return say({{"type", "began"}}); }
   State measuring(unsigned index) { return say({{"type", "measuring"}, {"index", index}}); }
-  State metric(unsigned index, std::vector<MetricValue> values) {
-    json message = MetricResult{index, std::move(values), {}};
+  State metric(unsigned index, std::vector<MetricValue> values) { return piece({index, std::move(values), {}}, true); }
+  State piece(const MetricResult& result, bool last) {
+    json message = result;
     message["type"] = "metric";
+    message["last"] = last;
     return say(message);
   }
   State fault(bool fatal, const char* kind = fault_kind::bad_output) {
@@ -132,6 +135,7 @@ TEST_CASE("numbers that an integer cannot hold are not taken for others") {
   }
   json metric = MetricResult{0, {Conversation::system("length")}, {{"length", 0, 1, {0}, {7}, "", 0, {}}}};
   metric["type"] = "metric";
+  metric["last"] = true;
   for (const char* place : {"/index", "/values/0/1", "/values/0/2", "/events/0/1", "/events/0/2", "/events/0/3/0",
                             "/events/0/4/0", "/events/0/6"}) {
     INFO(place);
@@ -170,6 +174,46 @@ TEST_CASE("a metric gives only what it declares, and that once") {
   CHECK_THROWS_AS(worker.metric(0, {good, bad}), UnbelievableMessage);
 }
 
+TEST_CASE("a metric gives its result in pieces, and has finished with the last") {
+  Conversation worker;
+  worker.began();
+  worker.measuring(0);
+  const MetricEvent event = {"length", 0, 1, {0}, {}, "", 0, {}};
+  CHECK(worker.piece({0, {Conversation::system("length")}, {event}}, false) == State::running);
+  CHECK(worker.trial().record().values.empty());
+  SECTION("whole") {
+    worker.piece({0, {}, {event, event}}, true);
+    CHECK(worker.trial().record().values.size() == 1);
+    CHECK(worker.trial().record().events.size() == 3);
+    CHECK_THROWS_AS(worker.piece({0, {}, {event}}, false), UnbelievableMessage);
+  }
+  SECTION("a value in two pieces") {
+    CHECK_THROWS_AS(worker.metric(0, {Conversation::system("length")}), UnbelievableMessage);
+  }
+  SECTION("the next metric begins before the last piece") {
+    CHECK_THROWS_AS(worker.measuring(1), UnbelievableMessage);
+  }
+  SECTION("a fault ends it") {
+    worker.fault(false);
+    worker.measuring(1);
+    worker.metric(1, {Conversation::system("speed")});
+    CHECK(worker.trial().record().values.size() == 1);
+    CHECK(worker.trial().record().events.empty());
+  }
+}
+
+TEST_CASE("pieces have an end") {
+  Conversation worker;
+  worker.began();
+  worker.measuring(0);
+  const MetricEvent long_event = {"length", 0, 1, {0}, {}, std::string(1 << 20, 'x'), 0, {}};
+  const auto flood = [&] {
+    for (std::size_t bytes = 0; bytes <= most_result_bytes; bytes += 1 << 20)
+      worker.piece({0, {}, {long_event}}, false);
+  };
+  CHECK_THROWS_AS(flood(), UnbelievableMessage);
+}
+
 TEST_CASE("a metric's fault loses its values alone, another's ends the trial") {
   Conversation worker;
   worker.began();
@@ -180,10 +224,13 @@ TEST_CASE("a metric's fault loses its values alone, another's ends the trial") {
     worker.metric(1, {Conversation::system("speed")});
     CHECK(worker.done(trial_outcome::succeeded) == State::done);
   }
-  SECTION("of a metric that ends the worker") {
+  SECTION("of a metric that ends the worker: the others are measured in the next attempt") {
     worker.measuring(0);
+    worker.metric(0, {Conversation::system("length")});
+    worker.measuring(1);
     CHECK(worker.fault(true) == State::ended_by_fault);
-    CHECK(worker.trial().begin(78).skip_metrics == std::vector<std::uint32_t>{0});
+    CHECK(worker.trial().record().values.empty());
+    CHECK(worker.trial().begin(78).skip_metrics == std::vector<std::uint32_t>{1});
   }
   SECTION("of a controller") {
     CHECK(worker.fault(false) == State::running);
