@@ -55,6 +55,7 @@ namespace determinism_cases {
 void same_seed(Examination& it);
 void after_another_trial(Examination& it);
 void in_another_place(Examination& it);
+void leaping_clocks(Examination& it);
 }  // namespace determinism_cases
 
 namespace number_cases {
@@ -68,11 +69,18 @@ void headings(Examination& it);
 
 namespace growth_cases {
 void longer_structs(Examination& it);
-}
+void longer_host(Examination& it);
+}  // namespace growth_cases
+
+namespace step_cases {
+void allocations(Examination& it);
+void waiting(Examination& it);
+}  // namespace step_cases
 
 namespace should_stop_cases {
 void first_ask(Examination& it);
 void later_ask(Examination& it);
+void often(Examination& it);
 }  // namespace should_stop_cases
 
 namespace thread_cases {

@@ -21,9 +21,12 @@ namespace dmrp::host {
 
 namespace {
 
-const std::int64_t case_limit_s = is_sanitized ? 300 : 30;
 constexpr std::int64_t memory_mb = 2048;
 constexpr std::int64_t file_mb = 16;  // what a plugin prints is kept in memory
+
+std::int64_t case_limit_s() {
+  return sanitizer_is_loaded() ? 300 : 30;
+}
 
 // A line of the answer. Texts of plugins need not be UTF-8: invalid bytes are replaced.
 void send(const MemoryFile& answer, const nlohmann::json& message) {
@@ -81,7 +84,7 @@ Answer read_answer(const std::string& text) {
 std::string explain(const ProcessEnding& ending, bool hung, bool too_large, const NotedCall& call,
                     const Answer& answer) {
   std::string text = too_large ? fmt::format("needs more than {} MB of memory", memory_mb)
-                     : hung    ? fmt::format("does not end within {} s", case_limit_s)
+                     : hung    ? fmt::format("does not end within {} s", case_limit_s())
                                : ending.explain(memory_mb);
   if (ending.signal == SIGSYS) text = "makes a system call that the box refuses: " + box::name_of(call.refused);
   if (call.inside) text = call_text(call.plugin, call.function, text);
@@ -101,12 +104,12 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   ChildProcess child = ChildProcess::fork({counts_resident ? 0 : memory_mb, false, file_mb},
                                           [&] { examine(check_case, file, plugin, seed, note.note(), answer_file); },
                                           {output.descriptor(), &note.note().refused});
-  child.allow_cpu(processor_time_s(case_limit_s));
+  child.allow_cpu(processor_time_s(case_limit_s()));
   Watchdog watchdog;
   bool too_large = false;
   const bool ended = watchdog.wait(child.ended().number(), [&] {
-    too_large = !is_sanitized && child.resident_mb() > static_cast<double>(memory_mb);
-    return too_large || watchdog.elapsed_ns(start_ns) > case_limit_s * 1'000'000'000;
+    too_large = !sanitizer_is_loaded() && child.resident_mb() > static_cast<double>(memory_mb);
+    return too_large || watchdog.elapsed_ns(start_ns) > case_limit_s() * 1'000'000'000;
   });
   child.kill();
   const ProcessEnding& ending = child.wait();

@@ -109,6 +109,11 @@ constexpr std::array cases = {
     CheckCase{"determinism/in_another_place", for_all, determinism_cases::in_another_place,
               "abi.h: results do not depend on addresses",
               "initialise all memory, and order nothing by address or hash"},
+    CheckCase{
+        "determinism/leaping_clocks", for_all, determinism_cases::leaping_clocks,
+        "abi.h: results do not depend on clocks",
+        "bound the work by counts, not by time; ask should_stop() for the limit of time; a plugin that cannot says so "
+        "with draft/timing.h"},
 
     CheckCase{"numbers/nobody_near", for_all, number_cases::nobody_near, "observation.h: agents may be none",
               "divide by no count that may be zero"},
@@ -130,6 +135,15 @@ constexpr std::array cases = {
     CheckCase{"growth/longer_structs", for_all, growth_cases::longer_structs,
               "abi.h: structs and array elements may be longer than the plugin knows",
               "access array elements with DMRP_AT, and compare no struct_size with =="},
+    CheckCase{"growth/longer_host", for_all, growth_cases::longer_host,
+              "abi.h: dmrp_host, parameters, sinks and extensions may be longer than the plugin knows",
+              "access params->values with DMRP_AT, copy none of these structs, and compare no struct_size with =="},
+
+    CheckCase{"steps/allocations", for_all, step_cases::allocations,
+              "local_controller.h: a step does not allocate without bound",
+              "forget what is no longer needed: a trial may take hours"},
+    CheckCase{"steps/waiting", for_controllers, step_cases::waiting, "local_controller.h: a step does not block",
+              "read files in start(), and neither sleep nor wait in a step"},
 
     CheckCase{
         "should_stop/first_ask", for_all, should_stop_cases::first_ask,
@@ -139,6 +153,9 @@ constexpr std::array cases = {
         "should_stop/later_ask", for_all, should_stop_cases::later_ask,
         "host.h: the call should return soon after should_stop() returned 1; status.h: DMRP_TIMEOUT is plan()'s alone",
         "return with what there is, and with a status that status.h allows"},
+
+    CheckCase{"should_stop/often", for_all, should_stop_cases::often,
+              "host.h: ask should_stop() at least every millisecond", "ask in the innermost loop that may take long"},
 
     CheckCase{"threads/moves_between_threads", for_all, thread_cases::moves_between_threads,
               "abi.h: an instance may move between threads from call to call",

@@ -8,7 +8,7 @@ namespace dmrp::host {
 
 Examination::Examination(std::filesystem::path file, const PluginInfo* plugin, std::uint64_t seed, CallNote& note,
                          std::function<void(const std::string&)> progress)
-    : file_(std::move(file)), plugin_(plugin), seed_(seed), note_(note), guard_(note), progress_(std::move(progress)) {}
+    : file_(std::move(file)), plugin_(plugin), seed_(seed), guard_(note), progress_(std::move(progress)) {}
 
 Examination::~Examination() {
   try {
@@ -54,7 +54,8 @@ std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>&
   return create(parameters, guard_);
 }
 
-std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>& parameters, CallGuard& guard) {
+std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>& parameters, CallGuard& guard,
+                                              std::uint32_t grown_bytes) {
   init();
   PluginUse use;
   use.info = *plugin_;
@@ -63,7 +64,7 @@ std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>&
   const bool drives_one = plugin_->kind == DMRP_KIND_LOCAL_CONTROLLER && !plugin_->has_flag(DMRP_FLAG_CENTRAL);
   return std::make_unique<Instance>(
       *library_, use, drives_one ? 0 : DMRP_NO_ROBOT, guard,
-      [this](std::int32_t level, const std::string&, const std::string& text) { log(level, text); });
+      [this](std::int32_t level, const std::string&, const std::string& text) { log(level, text); }, grown_bytes);
 }
 
 void Examination::at(const std::string& what) {

@@ -36,17 +36,17 @@ class Examination {
   const std::filesystem::path& file() const { return file_; }
   const PluginInfo& plugin() const { return *plugin_; }
   std::uint64_t seed() const { return seed_; }
-  CallNote& note() { return note_; }
   CallGuard& guard() { return guard_; }
 
   // Loads the library; from then on it is there, but init() has not been called.
   const Library& library();
 
   // An instance of the plugin, created after init(); with the declared defaults, or these parameters. `guard`: of the
-  // thread that calls it.
+  // thread that calls it. `grown_bytes`: by which what the host hands to the instance is longer than this host's.
   std::unique_ptr<Instance> create();
   std::unique_ptr<Instance> create(const std::vector<ParameterValue>& parameters);
-  std::unique_ptr<Instance> create(const std::vector<ParameterValue>& parameters, CallGuard& guard);
+  std::unique_ptr<Instance> create(const std::vector<ParameterValue>& parameters, CallGuard& guard,
+                                   std::uint32_t grown_bytes = 0);
   std::vector<ParameterValue> defaults() const;
 
   // Calls init(), and deinit().
@@ -58,6 +58,7 @@ class Examination {
 
   void fail(const std::string& text) { find(CheckResult::fail, text); }
   void warn(const std::string& text) { find(CheckResult::warn, text); }
+  void note(const std::string& text) { find(CheckResult::pass, text); }  // what was measured
 
   CheckResult result() const { return result_; }
   const std::string& text() const { return text_; }  // of all findings, in one line
@@ -72,7 +73,6 @@ class Examination {
   std::filesystem::path file_;
   const PluginInfo* plugin_;
   std::uint64_t seed_;
-  CallNote& note_;
   CallGuard guard_;
   std::function<void(const std::string&)> progress_;
   std::optional<Library> library_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <dmrp/toolkit/random.hpp>
 #include <optional>
 
@@ -39,6 +40,15 @@ bool is_excused(const PluginInfo& info, const std::string& key, const PluginFaul
   });
 }
 
+constexpr std::int64_t most_asks = 100;               // then should_stop() says stop
+constexpr std::int64_t work_time_ns = 1'000'000'000;  // of the processor; then values are only started
+
+std::int64_t cpu_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
 // Creates and starts an instance in which one parameter has another value, and lets it work for some calls.
 void try_value(Examination& it, std::size_t index, const ParameterValue& value, bool and_work) {
   it.at(fmt::format("{} = {}", value.key, toml_text(value)));
@@ -55,17 +65,24 @@ void try_value(Examination& it, std::size_t index, const ParameterValue& value, 
 }
 
 // Each parameter with the value that `choose` makes of its declaration.
-void try_all(Examination& it, bool and_work,
-             const std::function<std::optional<ParameterValue>(const ParameterSpec&)>& choose) {
+void try_all(Examination& it, const std::function<std::optional<ParameterValue>(const ParameterSpec&)>& choose) {
   const auto& specs = it.plugin().parameters;
   if (specs.empty()) throw Skipped{"it has no parameters"};
   std::size_t tried = 0;
+  std::size_t started = 0;
+  const std::int64_t begin_ns = cpu_ns();
+  it.guard().stop_after_asks(most_asks);
   for (std::size_t i = 0; i < specs.size(); ++i)
     if (const auto value = choose(specs[i])) {
+      const bool and_work = cpu_ns() - begin_ns < work_time_ns;
       try_value(it, i, *value, and_work);
       ++tried;
+      started += !and_work;
     }
   if (tried == 0) throw Skipped{"no parameter has such a value"};
+  it.at("");
+  if (started > 0)
+    it.note(fmt::format("{} of {} values were tried up to start() alone: the others took long", started, tried));
 }
 
 }  // namespace
@@ -76,15 +93,14 @@ void defaults(Examination& it) {
 }
 
 void minimum(Examination& it) {
-  try_all(it, true, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+  try_all(it, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
     if (!has_range(spec) || !std::isfinite(spec.minimum)) return std::nullopt;
     return with_number(spec.fallback, spec.minimum);
   });
 }
 
-// Started, but not put to work: that may take any time.
 void maximum(Examination& it) {
-  try_all(it, false, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+  try_all(it, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
     if (!has_range(spec) || !std::isfinite(spec.maximum)) return std::nullopt;
     return with_number(spec.fallback, spec.maximum);
   });
@@ -93,7 +109,7 @@ void maximum(Examination& it) {
 // Numbers between half of the default and twice as much, each choice, each truth.
 void drawn(Examination& it) {
   toolkit::Stream random(it.seed(), "check", 0);
-  try_all(it, true, [&](const ParameterSpec& spec) -> std::optional<ParameterValue> {
+  try_all(it, [&](const ParameterSpec& spec) -> std::optional<ParameterValue> {
     ParameterValue value = spec.fallback;
     if (value.type == DMRP_PARAM_BOOL) value.integer = 1 - value.integer;
     if (value.type == DMRP_PARAM_CHOICE) value.text = spec.choices[random.next_u64() % spec.choices.size()];

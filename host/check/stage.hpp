@@ -19,13 +19,14 @@ struct StageSettings {
   double corner_m = 0.0;  // both coordinates of the hall's lower left corner
   bool is_large = false;  // 60 x 50 m instead of 16 x 12 m
   bool goals_have_headings = false;
-  bool starts_at_goal = false;    // the first robot; its path is one waypoint
-  bool by_waypoint = false;       // controllers get one waypoint at a time
-  bool walled_off = false;        // a wall between the robots and their goals; nobody walks
-  bool offers_extensions = true;  // those that plugins use; required ones are there anyway
-  bool fails_to_plan = false;     // metrics: a trial without a plan
-  std::uint32_t grown_bytes = 0;  // by which structs and array elements are longer than this host's
-  std::uint32_t ticks = 25;       // control ticks of a trial
+  bool starts_at_goal = false;              // the first robot; its path is one waypoint
+  bool by_waypoint = false;                 // controllers get one waypoint at a time
+  bool walled_off = false;                  // a wall between the robots and their goals; nobody walks
+  bool offers_extensions = true;            // those that plugins use; required ones are there anyway
+  bool fails_to_plan = false;               // metrics: a trial without a plan
+  std::uint32_t grown_bytes = 0;            // by which structs and array elements are longer than this host's
+  std::uint32_t grown_extension_bytes = 0;  // and extensions, with what they return
+  std::uint32_t ticks = 25;                 // control ticks of a trial
 };
 
 class Stage {

@@ -27,7 +27,8 @@ StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Sta
       annotations_(&trace_, info.kind, 0, robots),
       lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
       sensors_(sensors_of(stage, lidar_, robots)),
-      sensor_extensions_(sensors_) {
+      sensor_extensions_(sensors_),
+      grown_(stage.settings.grown_extension_bytes) {
   if (requires_extension(info, DMRP_DRAFT_PEOPLE_FUTURE))
     people_future_.emplace(stage.variant, 1, nullptr, stage_budget_ns);
   instance.offer([this](std::string_view id) { return find(id); });
@@ -39,6 +40,10 @@ void StageExtensions::foresee_people() {
 
 const void* StageExtensions::find(std::string_view id) {
   if (!requires_extension(info_, id) && !stage_.settings.offers_extensions) return nullptr;
+  return stage_.settings.grown_extension_bytes > 0 ? grown_.grown(id, own(id)) : own(id);
+}
+
+const void* StageExtensions::own(std::string_view id) {
   if (id == DMRP_DRAFT_PEOPLE_FUTURE) return people_future_ ? people_future_->extension() : nullptr;
   if (id == DMRP_EXT_ANNOTATE) return info_.kind == DMRP_KIND_METRIC ? nullptr : annotations_.extension();
   if (id == DMRP_EXT_WALKING_GRID)

@@ -9,6 +9,7 @@
 
 #include "core/sensors/lidar.hpp"
 #include "core/trace/trace_encoder.hpp"
+#include "host/check/grown_extensions.hpp"
 #include "host/check/stage.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/trial/annotations.hpp"
@@ -33,6 +34,7 @@ class StageExtensions {
 
  private:
   const void* find(std::string_view id);
+  const void* own(std::string_view id);
 
   const PluginInfo& info_;
   Stage& stage_;
@@ -42,6 +44,7 @@ class StageExtensions {
   std::vector<std::shared_ptr<RobotSensors>> sensors_;
   SensorExtensions sensor_extensions_;
   std::optional<PeopleFuture> people_future_;  // of people who stand; if the instance requires it
+  GrownExtensions grown_;
 };
 
 }  // namespace dmrp::host

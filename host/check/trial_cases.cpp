@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <latch>
+#include <limits>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -12,6 +14,8 @@
 #include "host/check/case_functions.hpp"
 #include "host/check/process_state.hpp"
 #include "host/check/rehearsal.hpp"
+#include "host/check/symbol_hooks.hpp"
+#include "host/process/sanitized.hpp"
 
 namespace dmrp::host {
 
@@ -29,6 +33,8 @@ std::string difference(const Outputs& outputs, const Outputs& expected) {
 }
 
 void expect_same(Examination& it, const Outputs& outputs, const Outputs& expected) {
+  if (const auto timing = it.guard().timing(); !timing.empty())
+    throw Skipped{"it says that its results depend on timing: " + timing.front().text};
   if (const std::string text = difference(outputs, expected); !text.empty()) it.fail(text);
 }
 
@@ -173,7 +179,16 @@ void in_another_place(Examination& it) {
     std::memset(blocks.back().get(), 0x5a, bytes);
     if (blocks.size() % 2 == 0) blocks[blocks.size() - 2].reset();
   }
+  const auto in_the_place_of_the_first = it.create();
   it.at("in memory that was used before");
+  expect_same(it, alone(it, it.seed()), expected);
+}
+
+// A search that time ends does less then.
+void leaping_clocks(Examination& it) {
+  const Outputs expected = alone(it, it.seed());
+  it.at(fmt::format("clocks that leap {} ms between two looks", clock_leap_ns / 1'000'000));
+  let_clocks_leap();
   expect_same(it, alone(it, it.seed()), expected);
 }
 
@@ -224,12 +239,27 @@ void headings(Examination& it) {
 
 namespace growth_cases {
 
+namespace {
+
+constexpr std::uint32_t grown_bytes = 24;
+
+}  // namespace
+
 void longer_structs(Examination& it) {
   const Outputs expected = alone(it, it.seed());
   StageSettings settings;
-  settings.grown_bytes = 24;
+  settings.grown_bytes = grown_bytes;
   const auto instance = it.create();
-  it.at("with structs and strides that are 24 bytes longer");
+  it.at(fmt::format("with structs and strides that are {} bytes longer", grown_bytes));
+  expect_same(it, rehearse(*instance, it.plugin(), settings, it.seed()), expected);
+}
+
+void longer_host(Examination& it) {
+  const Outputs expected = alone(it, it.seed());
+  StageSettings settings;
+  settings.grown_extension_bytes = grown_bytes;
+  it.at(fmt::format("with a dmrp_host, parameters, sinks and extensions that are {} bytes longer", grown_bytes));
+  const auto instance = it.create(it.defaults(), it.guard(), grown_bytes);
   expect_same(it, rehearse(*instance, it.plugin(), settings, it.seed()), expected);
 }
 
@@ -241,19 +271,41 @@ namespace {
 
 constexpr std::int64_t most_asks_after = 10'000;  // in one call, once the host has said stop
 
-// A trial in which should_stop() says stop from an ask on, in each call.
-void stop_at(Examination& it, std::int64_t ask) {
+StageSettings with_much_to_do() {
+  StageSettings settings;
+  settings.is_large = true;
+  settings.robots = 16;
+  settings.people = 60;
+  settings.ticks = 4;
+  return settings;
+}
+
+// The most that calls at one time ask.
+std::int64_t most_asks(Examination& it, const StageSettings& settings) {
   const auto instance = it.create();
-  it.guard().stop_after_asks(ask);
-  it.at(ask == 0 ? "stopped at the first ask" : fmt::format("stopped after {} asks", ask));
   std::int64_t most = 0;
-  Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed());
+  Rehearsal rehearsal(*instance, it.plugin(), settings, it.seed());
   for (bool goes_on = true; goes_on;) {
     const std::int64_t before = it.guard().asks();
     goes_on = rehearsal.advance();
     most = std::max(most, it.guard().asks() - before);
   }
-  if (it.guard().asks() == 0) throw Skipped{"it does not ask should_stop() in so small a world"};
+  return most;
+}
+
+std::int64_t cpu_ns_of_this_thread() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+// A trial in which should_stop() says stop from an ask on, in each call.
+void stop_at(Examination& it, std::int64_t ask) {
+  it.guard().stop_after_asks(ask);
+  it.at(ask == 0 ? "stopped at the first ask" : fmt::format("stopped after {} asks", ask));
+  std::int64_t most = most_asks(it, {});
+  if (most == 0) most = most_asks(it, with_much_to_do());
+  if (most == 0) throw Skipped{"it does not ask should_stop(), neither here nor with 16 robots in a hall of 60 x 50 m"};
   if (most > ask + most_asks_after)
     it.fail(fmt::format("asks should_stop() {} times in a call after it was told to stop", most - ask));
 }
@@ -266,6 +318,27 @@ void first_ask(Examination& it) {
 
 void later_ask(Examination& it) {
   stop_at(it, 5);
+}
+
+// Finds plugins that ask rarely or never, not those that ask a little late: time of the processor, which other programs hardly change,
+// and two hundred times what the contract allows, since machines differ.
+void often(Examination& it) {
+  constexpr std::int64_t most_ns = 200'000'000;
+  if (sanitizer_is_loaded()) throw Skipped{"a sanitizer changes how long it computes"};
+  it.guard().stop_after_asks(std::numeric_limits<std::int64_t>::max());  // counts them
+  const auto instance = it.create();
+  Rehearsal rehearsal(*instance, it.plugin(), with_much_to_do(), it.seed());
+  std::int64_t longest_ns = 0;
+  for (bool goes_on = true; goes_on;) {
+    const std::int64_t asks_before = it.guard().asks();
+    const std::int64_t before_ns = cpu_ns_of_this_thread();
+    goes_on = rehearsal.advance();
+    const std::int64_t asks = it.guard().asks() - asks_before;
+    longest_ns = std::max(longest_ns, (cpu_ns_of_this_thread() - before_ns) / (asks + 1));
+  }
+  if (longest_ns > most_ns)
+    it.warn(fmt::format("computes for {} ms on average between two asks, with 16 robots in a hall of 60 x 50 m",
+                        longest_ns / 1'000'000));
 }
 
 }  // namespace should_stop_cases

@@ -24,17 +24,18 @@ std::string counts_text(const CheckCounts& counts) {
   return out;
 }
 
-// Findings in full, skipped cases by reason, no line for a case that passed.
+// Findings in full, skipped cases by reason; of cases that passed, what they have measured.
 class TextReport {
  public:
   void add(const CheckedCase& checked) {
     if (subject_ != checked.plugin) finish_subject();
     subject_ = checked.plugin;
     const CaseOutcome& outcome = checked.outcome;
-    if (outcome.result == CheckResult::pass) return;
+    if (outcome.result == CheckResult::pass && outcome.detail.empty()) return;
     if (outcome.result == CheckResult::skip) return skipped_[outcome.detail].push_back(checked.check_case->name);
     print_heading();
     fmt::print("  {:<6}{}: {}\n", result_name(outcome.result), checked.check_case->name, outcome.detail);
+    if (outcome.result == CheckResult::pass) return;
     fmt::print("        rule: {}\n        mend: {}\n", checked.check_case->rule, checked.check_case->mend);
     if (!outcome.printed.empty()) fmt::print("        it printed: {}\n", outcome.printed);
   }

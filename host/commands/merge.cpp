@@ -104,7 +104,9 @@ Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::
   Manifest manifest = parts.front().manifest;
   manifest.command_line = command_line;
   manifest.experiment.shard = {};
+  manifest.not_repeatable.clear();
   for (const Part& part : parts) {
+    count_unrepeatable(manifest.not_repeatable, part.trials);
     if (&part == &parts.front()) continue;
     manifest.experiment.trials_planned += part.manifest.experiment.trials_planned;
     manifest.started_at = std::min(manifest.started_at, part.manifest.started_at);  // ISO 8601 sorts by time

@@ -119,6 +119,14 @@ class RunFiles {
   RunDirectory directory_;
 };
 
+// The manifest of the first start, with what only the end of a run can tell.
+void complete_manifest(const fs::path& directory, std::span<const TrialRecord> trials) {
+  Manifest manifest = read_manifest(directory / "manifest.json");
+  manifest.not_repeatable.clear();
+  count_unrepeatable(manifest.not_repeatable, trials);
+  write_file_atomically(directory / "manifest.json", to_json_text(manifest));
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
@@ -156,6 +164,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   progress.finish();
   const RunResults results = read_results(std::move(database), layout);
   write_tables(results, files.directory());
+  complete_manifest(files.directory(), results.trials);
   const bool reported = try_to_report(results, files.directory());
   if (options.json)
     print_results_as_json(results, layout, files.directory());

@@ -55,7 +55,7 @@ void CallGuard::stop_after_asks(std::int64_t count) {
 }
 
 void CallGuard::set_error(const dmrp_host* caller, const char* text) noexcept {
-  const std::lock_guard lock(error_mutex_);
+  const std::lock_guard lock(text_mutex_);
   if (caller_ != caller) return;
   try {
     error_ = escaped(text);
@@ -63,8 +63,33 @@ void CallGuard::set_error(const dmrp_host* caller, const char* text) noexcept {
   }
 }
 
+void CallGuard::depends_on_timing(const dmrp_host* caller, const std::string& plugin, const char* text) noexcept {
+  const std::lock_guard lock(text_mutex_);
+  if (caller_ != caller) return;
+  try {
+    add_timing(plugin, escaped(text));
+  } catch (...) {  // out of memory: the reason is lost
+  }
+}
+
+std::vector<TimingReason> CallGuard::timing() const {
+  const std::lock_guard lock(text_mutex_);
+  return timing_;
+}
+
+void CallGuard::reset_timing() {
+  const std::lock_guard lock(text_mutex_);
+  timing_.clear();
+}
+
+void CallGuard::add_timing(const std::string& plugin, const std::string& text) {
+  const bool known =
+      std::any_of(timing_.begin(), timing_.end(), [&](const TimingReason& reason) { return reason.plugin == plugin; });
+  if (!known) timing_.push_back({plugin, text});
+}
+
 std::string CallGuard::error() const {
-  const std::lock_guard lock(error_mutex_);
+  const std::lock_guard lock(text_mutex_);
   return error_;
 }
 
@@ -77,7 +102,7 @@ void CallGuard::check_no_children() const {
 
 void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns) {
   {
-    const std::lock_guard lock(error_mutex_);
+    const std::lock_guard lock(text_mutex_);
     error_.clear();
   }
   copy_text(note_.plugin, site.plugin);
@@ -99,8 +124,10 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
   if (own_process::is_copy()) _exit(0);
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
   {
-    const std::lock_guard lock(error_mutex_);
+    const std::lock_guard lock(text_mutex_);
     caller_ = nullptr;
+    if (stopped_.exchange(false))
+      add_timing(std::string(site.plugin), fmt::format("{}() was stopped by its time budget", site.function));
   }
   const bool is_long = duration_ns > shortest_start_ns;
   // nothing can be reported any more: the supervisor reads the call note

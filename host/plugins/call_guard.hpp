@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "host/plugins/plugin_fault.hpp"
+#include "host/plugins/timing_reason.hpp"
 #include "host/process/call_note.hpp"
 
 namespace dmrp::host {
@@ -57,9 +59,16 @@ class CallGuard {
   void stop_after_asks(std::int64_t count);
   std::int64_t asks() const { return asks_; }
 
-  // Whether should_stop() has returned true in a call since reset_stopped().
-  bool stopped() const { return stopped_; }
-  void reset_stopped() { stopped_ = false; }
+  // The function of draft/timing.h, as set_error().
+  void depends_on_timing(const dmrp_host* caller, const std::string& plugin, const char* text) noexcept;
+
+  // Why results since reset_timing() depend on timing: calls in which should_stop() returned true, and what plugins say of
+  // themselves with depends_on_timing(). The first reason of each plugin.
+  std::vector<TimingReason> timing() const;
+  void reset_timing();
+
+  // Whether a call runs.
+  bool in_call() const { return caller_ != nullptr; }
 
   // Throws PluginFault, in the name of the last call, if a plugin has left a process behind.
   void check_no_children() const;
@@ -74,16 +83,19 @@ class CallGuard {
   void enter(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns);
   Result leave(const CallSite& site, Answers answers, std::int32_t status, bool threw);
 
+  void add_timing(const std::string& plugin, const std::string& text);
+
   CallNote& note_;
-  mutable std::mutex error_mutex_;
+  mutable std::mutex text_mutex_;
   std::string error_;
+  std::vector<TimingReason> timing_;
   std::int64_t start_ns_ = 0;
   std::atomic<const dmrp_host*> caller_ = nullptr;  // of the call that runs
   std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
   std::uint64_t copies_before_ = 0;
   bool processes_allowed_ = false;
-  std::atomic<bool> stopped_ = false;
+  std::atomic<bool> stopped_ = false;  // the call that runs
   std::atomic<std::int64_t> asks_ = 0;
   std::int64_t asks_before_ = 0;  // the call that runs
   std::int64_t most_asks_ = -1;   // -1: time alone counts

@@ -70,12 +70,14 @@ std::string missing_part(const dmrp_plugin& plugin, const PluginInfo& info) {
 
 }  // namespace
 
-Instance::Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log)
+Instance::Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log,
+                   std::uint32_t grown_bytes)
     : id_(use.info.id),
       robot_(robot),
       guard_(guard),
-      host_(id_, library.file().string(), declared_extensions(use.info), guard, std::move(log)) {
-  const ParameterTable parameters(use.parameters);
+      grown_bytes_(grown_bytes),
+      host_(id_, library.file().string(), declared_extensions(use.info), guard, std::move(log), grown_bytes) {
+  const ParameterTable parameters(use.parameters, grown_bytes);
   Output<dmrp_plugin> made;
   call("create", 0, create_budget_ns, Answers::no_other,
        [&] { return library.entry().create(host_.c(), id_.c_str(), &parameters.get(), &made.value); });

@@ -17,8 +17,10 @@ namespace dmrp::host {
 
 class Instance {
  public:
-  // Creates it. `robot` is the robot of a local controller, DMRP_NO_ROBOT otherwise. Throws PluginFault.
-  Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log);
+  // Creates it. `robot` is the robot of a local controller, DMRP_NO_ROBOT otherwise. `grown_bytes`, a multiple of 8: by
+  // which its dmrp_host, parameters and sinks are longer than this host's. Throws PluginFault.
+  Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log,
+           std::uint32_t grown_bytes = 0);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -43,6 +45,7 @@ class Instance {
   CallGuard& guard() const { return guard_; }
   CallSite site(const char* function, std::int64_t step) const { return {id_, function, step, robot_}; }
   const std::string& id() const { return id_; }
+  std::uint32_t grown_bytes() const { return grown_bytes_; }
 
   // Calls `function` of the plugin through the guard; logs the text of a DMRP_WARNING. `answers`: the statuses that
   // the function may return besides success and errors.
@@ -59,6 +62,7 @@ class Instance {
   std::string id_;
   std::int32_t robot_;
   CallGuard& guard_;
+  std::uint32_t grown_bytes_;
   PluginHost host_;
   dmrp_plugin plugin_{};
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "host/errors/escaped_text.hpp"
 #include "host/program/version.hpp"
@@ -12,13 +13,14 @@
 namespace dmrp::host {
 
 PluginHost::PluginHost(std::string id, const std::string& library_path, std::vector<std::string> declared,
-                       CallGuard& guard, LogSink log)
+                       CallGuard& guard, LogSink log, std::uint32_t grown_bytes)
     : id_(std::move(id)),
       library_path_(library_path),
       declared_(std::move(declared)),
       guard_(guard),
-      log_(std::move(log)) {
-  c_.struct_size = sizeof(c_);
+      log_(std::move(log)),
+      host_({}, grown_bytes),
+      timing_({}, grown_bytes) {
   c_.abi_minor = DMRP_ABI_MINOR;
   c_.context = this;
   c_.name = "dmrp-host";
@@ -41,11 +43,18 @@ PluginHost::PluginHost(std::string id, const std::string& library_path, std::vec
       return nullptr;
     }
   };
+  timing_.c.context = this;
+  timing_.c.not_repeatable = [](const dmrp_timing* timing, const char* reason) noexcept {
+    PluginHost& self = of(timing);
+    self.guard_.depends_on_timing(&self.c_, self.id_, reason);
+  };
 }
 
 const void* PluginHost::extension(const char* id) {
-  if (std::find(declared_.begin(), declared_.end(), id) != declared_.end())
+  if (std::find(declared_.begin(), declared_.end(), id) != declared_.end()) {
+    if (id == std::string_view(DMRP_DRAFT_TIMING)) return &timing_.c;
     return extensions_ ? extensions_(id) : nullptr;
+  }
   if (refused_.insert(id).second)
     log(DMRP_LOG_WARNING,
         fmt::format("asks for the extension '{}', which its descriptor does not declare: it gets none{}", escaped(id),

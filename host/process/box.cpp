@@ -247,7 +247,7 @@ void demand_sandbox() {
 }
 
 std::string gaps() {
-  if (is_sanitized || std::getenv(off_variable)) return "";
+  if (sanitizer_is_loaded() || std::getenv(off_variable)) return "";
   if (architecture == 0 || prctl(PR_GET_SECCOMP) < 0)
     return "plugins can start and reach other processes: the kernel has no seccomp filters for this processor";
   return "";
@@ -255,17 +255,17 @@ std::string gaps() {
 
 std::string sandbox_gaps() {
   if (!is_sandbox()) return "";
-  if (is_sanitized) return "plugins are in no sandbox: sanitizers exclude it";
+  if (sanitizer_is_loaded()) return "plugins are in no sandbox: sanitizers exclude it";
   return landlock::gap(landlock::version());
 }
 
 std::string kind() {
-  if (is_sanitized || std::getenv(off_variable)) return "none";
+  if (sanitizer_is_loaded() || std::getenv(off_variable)) return "none";
   return is_sandbox() ? "sandbox" : "box";
 }
 
 void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std::filesystem::path& scratch) {
-  if (is_sanitized || std::getenv(off_variable)) return;
+  if (sanitizer_is_loaded() || std::getenv(off_variable)) return;
   lower_limit(RLIMIT_NOFILE, most_descriptors);
   lower_limit(RLIMIT_FSIZE, most_file_bytes);
   refused_call = refused;

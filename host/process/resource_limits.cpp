@@ -13,7 +13,7 @@ namespace dmrp::host {
 void set_resource_limits(std::int64_t memory_mb) {
   const rlimit no_core = {0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  if (is_sanitized || memory_mb == 0) return;
+  if (sanitizer_is_loaded() || memory_mb == 0) return;
   rlimit memory{};
   getrlimit(RLIMIT_DATA, &memory);  // a tighter one stays
   memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
@@ -22,7 +22,7 @@ void set_resource_limits(std::int64_t memory_mb) {
 }
 
 const char* memory_limit_kind(std::int64_t memory_mb) {
-  return is_sanitized || memory_mb == 0 ? "none" : "RLIMIT_DATA";
+  return sanitizer_is_loaded() || memory_mb == 0 ? "none" : "RLIMIT_DATA";
 }
 
 double processor_time_s(double wall_s, unsigned sharers) {

@@ -89,6 +89,16 @@ CREATE TABLE IF NOT EXISTS swept(
 CREATE INDEX IF NOT EXISTS swept_of_trial ON swept(trial_id);
 )sql";
 
+// Why trials are not repeatable; results of earlier hosts have no such table.
+constexpr const char* timing_table = R"sql(
+CREATE TABLE IF NOT EXISTS timing(
+  trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
+  plugin TEXT NOT NULL,
+  reason TEXT NOT NULL
+);
+CREATE INDEX IF NOT EXISTS timing_of_trial ON timing(trial_id);
+)sql";
+
 // Version 1 had no people, severity and place of an event.
 constexpr const char* upgrade_from_version_1 = R"sql(
 ALTER TABLE event ADD COLUMN people TEXT NOT NULL DEFAULT '[]';
@@ -182,6 +192,12 @@ void write_faults(const SqliteConnection& connection, std::uint64_t trial, std::
   }
 }
 
+void write_timing(const SqliteConnection& connection, const TrialRecord& trial) {
+  SqliteStatement insert(connection, "INSERT INTO timing VALUES (?, ?, ?)");
+  for (const TimingReason& reason : trial.timing)
+    insert.bind(as_signed(trial.id)).bind(reason.plugin).bind(reason.text).run();
+}
+
 std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
   SqliteStatement select(connection,
                          "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, "
@@ -263,9 +279,13 @@ void take_fault(const SqliteStatement& row, TrialRecord& trial) {
   fault.rerun = row.column_text(8);
 }
 
-bool has_table(const SqliteConnection& connection, const char* name) {
+void take_timing(const SqliteStatement& row, TrialRecord& trial) {
+  trial.timing.push_back({row.column_text(1), row.column_text(2)});
+}
+
+bool has_table(const SqliteConnection& connection, std::string_view name) {
   SqliteStatement table(connection, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
-  table.bind(std::string_view(name));
+  table.bind(name);
   return table.step();
 }
 
@@ -296,6 +316,9 @@ std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
   if (has_table(connection, "swept"))
     read_rows(connection, select("SELECT trial_id, \"table\", \"key\", value FROM swept ORDER BY trial_id, rowid"),
               trials, take_swept);
+  if (has_table(connection, "timing"))
+    read_rows(connection, select("SELECT trial_id, plugin, reason FROM timing ORDER BY trial_id, rowid"), trials,
+              take_timing);
   return trials;
 }
 
@@ -322,6 +345,7 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
   SqliteTransaction transaction(connection);
   connection.execute(schema);
   connection.execute(swept_schema);
+  connection.execute(timing_table);
   connection.execute(create_value_views(metrics));
   connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
   SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
@@ -346,6 +370,7 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
     transaction.commit();
   }
   database.connection_.execute(swept_schema);
+  database.connection_.execute(timing_table);
   return database;
 }
 
@@ -360,13 +385,15 @@ void ResultsDatabase::write(const TrialRecord& trial) {
   SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
   // and what another program left of it when it deleted the trial alone
   for (const char* rest : {"DELETE FROM value WHERE trial_id = ?", "DELETE FROM event WHERE trial_id = ?",
-                           "DELETE FROM fault WHERE trial_id = ?", "DELETE FROM swept WHERE trial_id = ?"})
+                           "DELETE FROM fault WHERE trial_id = ?", "DELETE FROM swept WHERE trial_id = ?",
+                           "DELETE FROM timing WHERE trial_id = ?"})
     SqliteStatement(connection_, rest).bind(as_signed(trial.id)).run();
   write_trial(connection_, trial);
   write_swept(connection_, trial);
   write_values(connection_, trial);
   write_events(connection_, trial);
   write_faults(connection_, trial.id, trial.faults);
+  write_timing(connection_, trial);
   transaction.commit();
   if (connection_.has_moved())
     throw MachineError(connection_.file() + ": was deleted or replaced while results were written to it");

@@ -114,6 +114,9 @@ Manifest parse(const Json& json) {
   machine.at("compiler").get_to(manifest.machine.compiler);
   for (const Json& file : json.at("files"))
     manifest.files.push_back({file.at("role"), file.at("path"), file.at("sha256"), file.value("code", "")});
+  if (json.contains("not_repeatable"))
+    for (const Json& some : json.at("not_repeatable"))
+      manifest.not_repeatable.push_back({{some.at("plugin"), some.at("reason")}, some.at("trials")});
   return manifest;
 }
 
@@ -226,6 +229,9 @@ std::string to_json_text(const Manifest& manifest) {
   }
   json["digest"] = manifest.digest;
   json["identity"] = manifest.identity;
+  for (const UnrepeatableTrials& some : manifest.not_repeatable)
+    json["not_repeatable"].push_back(
+        {{"plugin", some.reason.plugin}, {"reason", some.reason.text}, {"trials", some.trials}});
   // a path need not be UTF-8
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -238,6 +244,16 @@ Manifest read_manifest(const std::filesystem::path& path) {
   } catch (const Json::exception& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
+}
+
+void count_unrepeatable(std::vector<UnrepeatableTrials>& counted, std::span<const TrialRecord> trials) {
+  for (const TrialRecord& trial : trials)
+    for (const TimingReason& reason : trial.timing) {
+      auto known =
+          std::find_if(counted.begin(), counted.end(), [&](const auto& some) { return some.reason == reason; });
+      if (known == counted.end()) known = counted.insert(counted.end(), {reason, 0});
+      ++known->trials;
+    }
 }
 
 std::vector<std::string> differences(const Manifest& before, const Manifest& now) {

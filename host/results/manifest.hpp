@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/results/machine.hpp"
+#include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
 
@@ -71,6 +73,12 @@ struct PluginLimits {
   std::vector<std::string> with_processes{};  // those of the experiment that declare it
 };
 
+// A reason for which trials are not repeatable.
+struct UnrepeatableTrials {
+  TimingReason reason;
+  std::uint64_t trials = 0;
+};
+
 struct Manifest {
   std::string dmrp_version;
   std::string commit;  // that the program was built from; empty in manifests of older versions
@@ -84,6 +92,7 @@ struct Manifest {
   std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;
   std::vector<HashedFile> files;
+  std::vector<UnrepeatableTrials> not_repeatable{};  // known once the run has ended
 };
 
 // Fills in the properties of the program and the machine.
@@ -94,6 +103,9 @@ HashedFile hashed_file(std::string role, const std::filesystem::path& path);  //
 
 std::string to_json_text(const Manifest& manifest);
 Manifest read_manifest(const std::filesystem::path& path);  // throws std::runtime_error
+
+// Counts those of the trials in `counted`, one entry for each plugin and reason.
+void count_unrepeatable(std::vector<UnrepeatableTrials>& counted, std::span<const TrialRecord> trials);
 
 // Why results of the same experiment can differ in their bits, one line each: another program, machine or plugin
 // library. Libraries are compared by name and code, wherever they lie.

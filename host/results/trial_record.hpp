@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/plugins/timing_reason.hpp"
 #include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
@@ -85,6 +86,7 @@ struct TrialRecord {
   std::uint64_t seed = 0;
   std::string outcome;
   bool repeatable = true;
+  std::vector<TimingReason> timing{};  // why it is not repeatable; results of earlier hosts do not say
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
   std::vector<SweptValue> swept{};

@@ -158,10 +158,10 @@ void Measurement::observe(const dmrp_sample& sample) {
 
 MetricResult Measurement::finish(const dmrp_trial_end& end) {
   Collected collected = {info_, robot_count_, {index_, {}, {}}, {}};
-  dmrp_metric_sink sink = sink_into(collected);
+  GrownStruct<dmrp_metric_sink> sink(sink_into(collected), metric_.grown_bytes());
   const auto call = [&] {
     return metric_.call("finish", step_, call_budget_ns_, Answers::no_other,
-                        [&] { return table_.finish(metric_.self(), &end, &sink); });
+                        [&] { return table_.finish(metric_.self(), &end, &sink.c); });
   };
   with_reason(call, collected.refused);
   check_complete(collected, metric_.site("finish", step_));

@@ -156,11 +156,11 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
   Collected collected;
   collected.paths.resize(problem.robot_count);
   collected.given.resize(problem.robot_count);
-  dmrp_plan_sink sink = sink_into(collected);
+  GrownStruct<dmrp_plan_sink> sink(sink_into(collected), planner.grown_bytes());
   const auto table = planner.table<dmrp_global_planner>();
   const auto call = [&] {
     return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout,
-                        [&] { return table.plan(planner.self(), &problem, &sink); });
+                        [&] { return table.plan(planner.self(), &problem, &sink.c); });
   };
   const auto result = with_reason(call, collected.refused);
   PlannerAnswer answer{result.status, result.duration_ns, planner.guard().error(), {}, std::move(collected.statistics)};

@@ -64,7 +64,15 @@ void from_json(const nlohmann::json& json, MetricEvent& e) {
 }
 
 DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics)
-DMRP_FIELDS(TrialDone, outcome, repeatable, sim_time_s)
+
+void to_json(nlohmann::json& json, const TimingReason& reason) {
+  json = nlohmann::json::array({reason.plugin, reason.text});
+}
+void from_json(const nlohmann::json& json, TimingReason& reason) {
+  json.at(0).get_to(reason.plugin);
+  json.at(1).get_to(reason.text);
+}
+DMRP_FIELDS(TrialDone, outcome, timing, sim_time_s)
 
 void to_json(nlohmann::json& json, const FaultRecord& f) {
   json = {{"kind", f.kind},   {"plugin", f.plugin}, {"function", f.function}, {"step", f.step},

@@ -51,7 +51,7 @@ void send_in_pieces(const MetricResult& result, const std::function<void(const M
 // The result of a trial, without the values of its metrics.
 struct TrialDone {
   std::string outcome;
-  bool repeatable = true;
+  std::vector<TimingReason> timing;  // none: repeatable
   double sim_time_s = 0.0;
 };
 

@@ -150,12 +150,20 @@ void OpenTrial::take_done(const nlohmann::json& message) {
          "an outcome that cannot be");
   expect(failed_ || (!measuring_ && skip_metrics_.size() == experiment_->metrics.size()), "the end before all metrics");
   record_.outcome = done.outcome;
-  record_.repeatable = record_.repeatable && done.repeatable;
+  add_timing(done.timing);
   record_.sim_time_s = done.sim_time_s;
 }
 
+void OpenTrial::add_timing(const std::vector<TimingReason>& reasons) {
+  for (const TimingReason& reason : reasons)
+    if (std::find(record_.timing.begin(), record_.timing.end(), reason) == record_.timing.end())
+      record_.timing.push_back(reason);
+  record_.repeatable = record_.timing.empty();
+}
+
 OpenTrial::State OpenTrial::end_attempt(FaultRecord fault) {
-  if (fault.kind == fault_kind::hang) record_.repeatable = false;
+  if (fault.kind == fault_kind::hang)
+    add_timing({{fault.plugin, fault.function + "() was stopped: it did not return"}});
   record_.faults.push_back(std::move(fault));
   if (measuring_) {
     faulty_metrics_.push_back(*measuring_);

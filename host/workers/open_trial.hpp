@@ -54,6 +54,7 @@ class OpenTrial {
   void forget_given();
   State take_fault(const nlohmann::json& message);
   void take_done(const nlohmann::json& message);
+  void add_timing(const std::vector<TimingReason>& reasons);
   void skip(std::uint32_t metric);
   bool is_skipped(std::uint32_t metric) const;
 

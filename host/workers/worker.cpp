@@ -127,7 +127,7 @@ class Worker {
         world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { kept.write(t_ns, record); },
         kept.foxglove());
 
-    guard_.reset_stopped();
+    guard_.reset_timing();
     logged_ = {job.trial, world.simulation.step_ns};
     TrialDone done;
     try {
@@ -146,7 +146,7 @@ class Worker {
       measure_all(kept, world, seed, job, events);
       finish(kept, std::move(events));
     }
-    done.repeatable = !guard_.stopped();
+    done.timing = guard_.timing();
     sender_.send(typed("done", done));
     if (own) pool_.clear();  // instances may keep pointers into their world
   }

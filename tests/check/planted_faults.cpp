@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <dmrp/cpp/timing.hpp>
 #include <dmrp/plugin.hpp>
 #include <thread>
 
@@ -45,6 +47,21 @@ std::atomic<int> instances = 0;
 std::atomic<int> running = 0;
 std::uint64_t calls_of_all = 0;
 thread_local std::uint64_t calls_of_thread = 0;
+
+// How often a loop turns that time ends, at most three times.
+int turns_in_time() {
+  const auto begin = std::chrono::steady_clock::now();
+  int turns = 0;
+  while (turns < 3 && std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(120)) ++turns;
+  return turns;
+}
+
+// Half a second of the processor.
+void compute_for_long() {
+  const std::clock_t begin = std::clock();
+  while (std::clock() - begin < CLOCKS_PER_SEC / 2) {
+  }
+}
 
 // What all four do alike.
 template <class Kind>
@@ -85,6 +102,11 @@ class Planted : public Kind {
     headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals->pose.theta);
     if (has("asks for the undeclared")) this->template find_extension<dmrp_lidar>();
     if (has("needs the optional") && !this->template find_extension<dmrp_annotate>()) crash();
+    if (has("compares the host") && this->host().c()->struct_size != sizeof(dmrp_host)) return Status::error;
+    if (has("says that it draws in a thread")) {
+      const auto* const timing = this->template find_extension<dmrp_timing>();
+      timing->not_repeatable(timing, "draws in a thread");
+    }
     return Status::ok;
   }
 
@@ -108,8 +130,14 @@ class Planted : public Kind {
       wait_for_the_other_instance();
       --running;
     }
+    if (has("keeps more and more")) kept_.emplace_back(10'000, 'x');
+    if (has("sleeps")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (has("never asks") && calls_ == 1) compute_for_long();
+    if (has("works long at the maximum") && *level == 10.0) crash();
+    if (has("stops by the clock")) return 1e-3 * turns_in_time();
     if (has("keeps the last trial")) return 1e-3 * static_cast<double>(calls_);
-    if (has("shares a variable")) return 1e-6 * static_cast<double>(calls_of_all);
+    if (has("shares a variable") || has("says that it draws in a thread"))
+      return 1e-6 * static_cast<double>(calls_of_all);
     if (has("is bound to its thread")) return 1e-3 * static_cast<double>(calls_of_thread);
     if (has("reads its address"))
       return 1e-12 * static_cast<double>(reinterpret_cast<std::uintptr_t>(this) >> 4 & 0xffff);
@@ -126,6 +154,7 @@ class Planted : public Kind {
   }
 
   char* leaked_ = nullptr;
+  std::vector<std::string> kept_;
   bool started_ = false;
   bool far_ = false;
   bool headed_ = false;
@@ -139,6 +168,7 @@ dmrp::Descriptor descriptor_of(const char* kind) {
   descriptor.license(has("odd licence") ? "GPL" : "MIT")
       .summary(has("no summary") ? "" : "Keeps its contract, but for one fault");
   if (has("needs the optional")) descriptor.uses(DMRP_EXT_ANNOTATE);
+  if (has("says that it draws in a thread")) descriptor.uses(DMRP_DRAFT_TIMING);
   if (has("misspelt extension")) descriptor.uses("dmrp.anotate/1");
   if (has("unknown flag")) descriptor.flags(1u << 20);
   return descriptor;

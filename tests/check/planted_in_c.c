@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 // Controllers in C that cannot be used: of another major version (PLANTED_MAJOR), with an undefined symbol
-// (PLANTED_UNDEFINED), or else with the part of dmrp_plugin left out that the environment variable DMRP_TEST_FAULT names.
+// (PLANTED_UNDEFINED), or else with the part of dmrp_plugin left out that the environment variable DMRP_TEST_FAULT names;
+// "reads freed memory" is for AddressSanitizer.
 #include <dmrp/dmrp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,10 +39,20 @@ static int32_t set_path(dmrp_instance* self, const dmrp_path_update* update) {
   (void)update;
   return DMRP_OK;
 }
+static int has(const char* fault) {
+  const char* const planted = getenv("DMRP_TEST_FAULT");
+  return planted && strcmp(planted, fault) == 0;
+}
+
 static int32_t step(dmrp_instance* self, const dmrp_observation* observation, dmrp_command* command) {
   (void)self;
   (void)observation;
-  (void)command;
+  if (has("reads freed memory")) {
+    double* volatile speed = malloc(sizeof(double));
+    *speed = 0.5;
+    free(speed);
+    command->v_x = *speed;
+  }
   return DMRP_OK;
 }
 static void destroy(dmrp_instance* self) {
@@ -64,19 +75,14 @@ static const dmrp_descriptor* descriptor(uint32_t index) {
   return index == 0 ? &descriptor_of_it : NULL;
 }
 
-static int lacks(const char* part) {
-  const char* const planted = getenv("DMRP_TEST_FAULT");
-  return planted && strcmp(planted, part) == 0;
-}
-
 static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
   (void)host;
   (void)id;
   (void)params;
-  if (!lacks("no self")) out->self = &instance;
-  if (!lacks("no interface")) out->interface_ = lacks("no step") ? &without_step : &whole;
-  if (!lacks("no start")) out->start = start;
-  if (!lacks("no destroy")) out->destroy = destroy;
+  if (!has("no self")) out->self = &instance;
+  if (!has("no interface")) out->interface_ = has("no step") ? &without_step : &whole;
+  if (!has("no start")) out->start = start;
+  if (!has("no destroy")) out->destroy = destroy;
   return DMRP_OK;
 }
 

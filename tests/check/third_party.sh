@@ -52,5 +52,17 @@ grep -q 'trial 1, robot 2, 0.10 s' logged || fail "log lines go to the terminal"
 status=0
 "$host" run experiment.toml --debug 2 >/dev/null 2>said || status=$?
 ((status == 2)) && grep -q 'has the trials 0 to 1' said || fail "there is no trial 2: $(cat said)"
+
+# a plugin says that its results depend on timing: the trials are not repeatable, and every place says why
+DMRP_TEST_FAULT='says that it draws in a thread' "$host" experiment.toml --out timing >printed 2>&1 ||
+  { cat printed; fail "what depends on timing is no fault"; }
+grep -q '2 trials not repeatable' printed || { cat printed; fail "the terminal should say so"; }
+reasons=$(sqlite3 timing/results.sqlite "SELECT count(*), min(reason), sum(repeatable) FROM timing JOIN trial ON id = trial_id
+  WHERE plugin = 'test.check.controller'")
+[[ $reasons == '2|draws in a thread|0' ]] || fail "the results should say why: $reasons"
+tr -d ' \n' <timing/manifest.json |
+  grep -q '{"plugin":"test.check.people","reason":"drawsinathread","trials":2}' || fail "the manifest should say why"
+grep -q '"reason":"draws in a thread"' timing/report.html || fail "the report should say why"
+
 DMRP_TEST_FAULT='odd status' "$host" run experiment.toml --debug 0 >debugged 2>/dev/null
 (($? == 1)) && grep -q 'abi_breach: test.check.controller: step().*42' debugged || fail "a fault: $(cat debugged)"

@@ -142,4 +142,18 @@ expect_status 0 "$host" warned.toml --quiet --jobs 1 --out warned
 grep -q "warned.yaml:.*nav2_mppi_controller::MPPIController does not read 'FollowPath.vx_maxx'" warned/log.txt ||
   fail "a key that nobody reads should be told of: $(cat warned/log.txt)"
 grep -q "regenerate_noises is true" warned/log.txt || fail "noise from a thread should be told of"
+[[ $(query warned "SELECT sum(repeatable) FROM trial") == 0 ]] || fail "noise from a thread does not repeat"
+[[ $(query warned "SELECT DISTINCT plugin, reason FROM timing") == "nav2.mppi|FollowPath.regenerate_noises is true"* ]] ||
+  fail "the results should say why"
+[[ $(query mppi "SELECT sum(repeatable) FROM trial") == 2 ]] || fail "other trials repeat"
+
+# --- what is published is in the traces, and no result depends on it ---
+for name in mppi dwb pure_pursuit graceful; do
+  { cat "$name.toml" && printf '[record]\nannotations = true\n'; } >"$name-shown.toml"
+  expect_status 0 "$host" "$name-shown.toml" --quiet --jobs 2 --out "$name-shown"
+  [[ $(values_of "$name") == "$(values_of "$name-shown")" ]] || fail "$name: annotations change the results"
+  bytes=$(stat -c %s "$name"/traces/trial_000000.mcap) shown=$(stat -c %s "$name-shown"/traces/trial_000000.mcap)
+  echo "$name: trace of $bytes bytes, $shown with annotations"
+  ((shown * 100 > bytes * 104)) || fail "$name annotates nothing"
+done
 echo "nav2: passed after $SECONDS s"

@@ -103,6 +103,7 @@ function sample() {
     replays: [],
     run: {trials_planned: 16},
     faults: [],
+    timing: [],
     combinations,
     trials,
     scenarios: ['mall', 'office'].map((name) => ({name, robots: 2, people: 3, title: name, description: ''})),
@@ -366,7 +367,9 @@ const tests = {
     );
     assert.match(lines[0].text, /^2 faults in 1 trial/);
     assert.match(lines[1].text, /^4 trials of 20 are missing/);
-    assert.match(lines[2].text, /^1 trial is not repeatable/);
+    assert.match(lines[2].text, /^1 trial is not repeatable bit by bit: a wall-clock limit/);
+    data.timing = [1, 2].map((trial) => ({trial, plugin: 'a.b', reason: 'draws in a thread'}));
+    assert.match(verdict.lines(data)[2].text, /bit by bit: a\.b: draws in a thread\.$/);
     data.values.arrived = data.trials.id.map(() => 0);
     assert.ok(verdict.lines(data).some((line) => line.text.startsWith('No robot arrived: all 32 failed')));
   },

@@ -81,12 +81,17 @@ dmrp::Descriptor describe(const char* id, const char* class_name) {
       .kinematics(1U << DMRP_KINEMATICS_DIFFERENTIAL | 1U << DMRP_KINEMATICS_HOLONOMIC |
                   1U << DMRP_KINEMATICS_ACKERMANN)
       .flags(DMRP_FLAG_BACKWARDS)
-      .needs(DMRP_EXT_LOCAL_COSTMAP);
+      .needs(DMRP_EXT_LOCAL_COSTMAP)
+      .uses(DMRP_EXT_ANNOTATE)
+      .uses(DMRP_DRAFT_TIMING);
 }
 
-dmrp::Status Controller::start(const dmrp::Start&) {
+dmrp::Status Controller::start(const dmrp::Start& start) {
   end();
   costmap_ = &extension<dmrp_local_costmap>();
+  annotate_ = find_extension<dmrp_annotate>();
+  timing_ = find_extension<dmrp_timing>();
+  robot_ = static_cast<std::uint32_t>(start.robot);
   log_sink_ = [this](bool is_error, const char* place, const std::string& line) {
     if (logged_places_.insert(place).second) log(is_error ? dmrp::LogLevel::error : dmrp::LogLevel::warning, line);
   };
@@ -160,6 +165,7 @@ std::vector<rclcpp::Parameter> Controller::parameters() {
   const rclcpp::Parameter frequency("controller_frequency", 1.0 / period_s);
   std::vector<rclcpp::Parameter> out = file_.parameters;
   if (nav2_params->empty()) out.emplace_back(section + ".model_dt", period_s);
+  if (annotate_ && annotate_->wanted(annotate_)) out.emplace_back(section + ".publish_optimal_trajectory", true);
   for (const rclcpp::Parameter& parameter : file_.parameters)
     if (parameter.get_name() == frequency.get_name() && !nav2_params->empty() &&
         std::to_string(parameter) != std::to_string(frequency))
@@ -183,6 +189,8 @@ void Controller::observe(const dmrp::Observation& now) {
 void Controller::configure() {
   auto controller = environment_->make(class_name_);
   const auto node = environment_->node();
+  if (annotate_ && annotate_->wanted(annotate_))
+    environment_->watch_trajectories([this](const auto& poses, std::int64_t step_ns) { annotate(poses, step_ns); });
   bool draws_in_thread = false;
   try {
     controller->configure(node, section, environment_->transforms(), environment_->costmap());
@@ -195,11 +203,20 @@ void Controller::configure() {
     throw std::runtime_error(with_place(error.what()));
   }
   controller_ = std::move(controller);
-  if (draws_in_thread)
-    log(dmrp::LogLevel::warning,
-        section +
-            ".regenerate_noises is true: nav2 draws its noise in a thread beside, and this trial does not repeat");
+  if (draws_in_thread) {
+    const std::string reason = section + ".regenerate_noises is true: nav2 draws its noise in a thread beside";
+    log(dmrp::LogLevel::warning, reason + ", and this trial does not repeat");
+    if (timing_) timing_->not_repeatable(timing_, reason.c_str());
+  }
   warn_of_unread_parameters();
+}
+
+void Controller::annotate(const std::vector<geometry_msgs::msg::Pose>& poses, std::int64_t step_ns) const {
+  std::vector<dmrp::Pose> way;
+  for (const auto& pose : poses) way.push_back({pose.position.x, pose.position.y, tf2::getYaw(pose.orientation)});
+  const dmrp_trajectory trajectory = {
+      sizeof(trajectory), DMRP_ANNOTATE_PREDICTED, robot_, static_cast<std::uint32_t>(way.size()), way.data(), step_ns};
+  annotate_->trajectory(annotate_, &trajectory);
 }
 
 // A parameter of the wrong type: its place in the file, if the text names one.

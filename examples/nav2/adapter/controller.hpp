@@ -6,6 +6,7 @@
 #include <adapter/goal_checker.hpp>
 #include <adapter/parameter_file.hpp>
 #include <adapter/plan.hpp>
+#include <dmrp/cpp/timing.hpp>
 #include <dmrp/plugin.hpp>
 #include <memory>
 #include <set>
@@ -46,12 +47,16 @@ class Controller : public dmrp::LocalController {
   void end();
   void follow_plan(const dmrp::Observation& now);
   bool at_end_of_plan(const dmrp::Observation& now);
+  void annotate(const std::vector<geometry_msgs::msg::Pose>& poses, std::int64_t step_ns) const;
   void warn_of_unread_parameters();
   std::string with_place(const std::string& error) const;
 
   const char* id_;
   const char* class_name_;
   const dmrp_local_costmap* costmap_ = nullptr;
+  const dmrp_annotate* annotate_ = nullptr;
+  const dmrp_timing* timing_ = nullptr;
+  std::uint32_t robot_ = 0;
   std::string path_;
   ParameterFile file_;
   std::unique_ptr<Environment> environment_;

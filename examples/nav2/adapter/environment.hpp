@@ -26,6 +26,9 @@ struct Costs {
   const std::uint8_t* cells;
 };
 
+// Receives the way that a controller is going to drive, as it publishes it: poses in the frame of the costmap.
+using TrajectorySink = std::function<void(const std::vector<geometry_msgs::msg::Pose>& poses, std::int64_t step_ns)>;
+
 class Environment {
  public:
   virtual ~Environment() = default;
@@ -40,6 +43,9 @@ class Environment {
   virtual void set_time(std::int64_t now_ns) = 0;
   virtual void set_robot_pose(double x, double y, double yaw) = 0;
   virtual void set_costs(const Costs& costs) = 0;
+
+  // From now on `sink` gets what controllers publish. Poses of messages without times are 0 ns apart.
+  virtual void watch_trajectories(const TrajectorySink& sink) = 0;
 
   // The parameters that have been declared; for telling which of the file's keys nobody reads.
   virtual std::vector<std::string> declared_parameters() = 0;

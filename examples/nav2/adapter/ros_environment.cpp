@@ -53,6 +53,8 @@ class RosEnvironment final : public Environment {
     costmap_->on_configure(rclcpp_lifecycle::State());
   }
 
+  void watch_trajectories(const TrajectorySink&) override {}  // ROS's own tools show them
+
   std::vector<std::string> declared_parameters() override { return node_->list_parameters({}, 0).names; }
 
  private:

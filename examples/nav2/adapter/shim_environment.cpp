@@ -40,6 +40,24 @@ class ShimEnvironment final : public Environment {
     std::copy_n(costs.cells, std::size_t{costs.width} * costs.height, layers.getCostmap()->getCharMap());
   }
 
+  void watch_trajectories(const TrajectorySink& sink) override {
+    const auto take_path = [this, sink](const nav_msgs::msg::Path& path) {
+      std::vector<geometry_msgs::msg::Pose> poses;
+      for (const auto& pose : path.poses) poses.push_back(in_costmap(pose, path.header.frame_id));
+      sink(poses, 0);
+    };
+    for (const char* topic : {"local_plan", "lookahead_collision_arc"})  // of DWB and Graceful, of RPP
+      node_->create_subscription<nav_msgs::msg::Path>(topic, 1, take_path);
+    const auto take_trajectory = [sink](const nav2_msgs::msg::Trajectory& trajectory) {
+      std::vector<geometry_msgs::msg::Pose> poses;
+      for (const auto& point : trajectory.points) poses.push_back(point.pose);
+      if (poses.size() < 2) return;
+      const auto& step = trajectory.points[1].time_from_start;
+      sink(poses, std::int64_t{step.sec} * 1'000'000'000 + step.nanosec);
+    };
+    node_->create_subscription<nav2_msgs::msg::Trajectory>("~/optimal_trajectory", 1, take_trajectory);  // of MPPI
+  }
+
   std::vector<std::string> declared_parameters() override {
     std::vector<std::string> names;
     for (const auto& [name, value] : node_->declared_parameters()) names.push_back(name);
@@ -47,6 +65,13 @@ class ShimEnvironment final : public Environment {
   }
 
  private:
+  geometry_msgs::msg::Pose in_costmap(const geometry_msgs::msg::PoseStamped& pose, const std::string& frame) {
+    if (frame != costmap_->getBaseFrameID()) return pose.pose;
+    geometry_msgs::msg::PoseStamped out;
+    tf2::doTransform(pose, out, transforms()->lookupTransform(costmap_->getGlobalFrameID(), frame, tf2::TimePointZero));
+    return out.pose;
+  }
+
   rclcpp_lifecycle::LifecycleNode::SharedPtr node_;
   std::shared_ptr<nav2_costmap_2d::Costmap2DROS> costmap_;
   pluginlib::ClassLoader<nav2_core::Controller> loader_{"nav2_core", "nav2_core::Controller"};

@@ -213,6 +213,14 @@ Json curves_json(const ReportFrame& frame, std::span<const MetricCurve> curves, 
   return json;
 }
 
+Json timing_json(std::span<const TrialRecord> trials) {
+  Json json = Json::array();
+  for (const TrialRecord& trial : trials)
+    for (const TimingReason& reason : trial.timing)
+      json.push_back({{"trial", trial.id}, {"plugin", reason.plugin}, {"reason", reason.text}});
+  return json;
+}
+
 Json faults_json(std::span<const TrialRecord> trials) {
   Json json = Json::array();
   for (const TrialRecord& trial : trials)
@@ -299,6 +307,7 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["graded"] = graded_json(run, layouts.summary);
   json["sanity_only"] = sanity_only(layouts.tested_worlds, run.manifest.experiment.scenarios, run.trials);
   json["arrivals_by_type"] = arrivals_by_type_json(frame, run.manifest.experiment, layouts.summary.arrived);
+  json["timing"] = timing_json(run.trials);
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)},
                      {"report", with_added_table(Json::parse(layouts.report.json), run.metrics)}};

@@ -19,6 +19,7 @@
 //   graded            [{name, title, quantity, unit, levels, scenarios, tells_apart, results: [{global_planner,
 //                     local_controller, pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
 //   sanity_only       [sentence]: worlds that are not known to tell this run's planners or controllers apart
+//   timing            [{trial, plugin, reason}]: why trials are not repeatable
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts
 //   replays           [{trial, why, element}] in the page; replays_left_out [{why, trials, reason}]

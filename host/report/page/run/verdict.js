@@ -42,6 +42,12 @@ function causes_words(data) {
   return data.failures_line.slice(data.failures_line.indexOf(': '));
 }
 
+// Why trials are not repeatable: the plugins' reasons, each once.
+function timing_words(data) {
+  const reasons = new Set(data.timing.map(({plugin, reason}) => `${plugin}: ${reason}`));
+  return reasons.size > 0 ? [...reasons].join('; ') : 'a wall-clock limit stopped a computation';
+}
+
 // [{kind: "bad"|"warning"|"note"|"good", text, section}], the worst first.
 export function lines(data) {
   const t = tally(data);
@@ -69,7 +75,7 @@ export function lines(data) {
       'warning',
       `${numbers.counted(t.not_repeatable, 'trial')} ${
         t.not_repeatable === 1 ? 'is' : 'are'
-      } not repeatable bit by bit: a wall-clock limit stopped a computation.`
+      } not repeatable bit by bit: ${timing_words(data)}.`
     );
   if (t.robots > 0 && t.arrived === 0)
     add('note', `No robot arrived: all ${t.robots} failed. Completion times are undefined.`, 'distributions');

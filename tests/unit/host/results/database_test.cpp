@@ -38,6 +38,7 @@ void check_same(const TrialRecord& a, const TrialRecord& b) {
   CHECK(a.seed == b.seed);
   CHECK(a.outcome == b.outcome);
   CHECK(a.repeatable == b.repeatable);
+  CHECK(a.timing == b.timing);
   CHECK(same_bits(a.sim_time_s, b.sim_time_s));
   CHECK(same_bits(a.wall_time_s, b.wall_time_s));
   CHECK(a.swept == b.swept);
@@ -81,6 +82,7 @@ TrialRecord full_trial(std::uint64_t id) {
   trial.seed = 0xFFFF'FFFF'FFFF'FFF0u;
   trial.outcome = trial_outcome::fault;
   trial.repeatable = false;
+  trial.timing = {{"org.example.x", "draws in a thread"}, {"org.example.y", "plan() was stopped by its time budget"}};
   trial.sim_time_s = 1.0 / 3.0;
   trial.swept = {{"", "people", "6"}, {"simulation", "tracking", "it's"}};
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, -1.0 / 3.0});
@@ -315,6 +317,32 @@ TEST_CASE("results of schema version 1 are read, and upgraded where they are wri
   const std::vector<TrialRecord> read = ResultsDatabase::open(path).trials();
   REQUIRE(read.size() == 2);
   check_old_trial(read[0]);
+  check_same(read[1], added);
+}
+
+TEST_CASE("results of a host that knew no added metrics and no reasons are read, and written to") {
+  const ScratchFolder folder;
+  const auto path = folder / "results.sqlite";
+  std::vector<MetricColumn> metrics = example_metrics();
+  metrics.front().added = true;
+  TrialRecord old = full_trial(2);
+  ResultsDatabase::create(path, metrics).write(old);
+  SqliteConnection(path, SqliteMode::read_write).execute("DROP TABLE added_metric; DROP TABLE timing");
+
+  old.timing.clear();
+  {
+    const ResultsDatabase reader = ResultsDatabase::open_read_only(path);
+    REQUIRE(reader.trials().size() == 1);
+    check_same(reader.trials()[0], old);
+    CHECK_FALSE(old.repeatable);
+    REQUIRE(reader.metrics().size() == metrics.size());
+    CHECK_FALSE(reader.metrics()[0].added);
+  }
+  const TrialRecord added = full_trial(7);
+  ResultsDatabase::open(path).write(added);
+  const std::vector<TrialRecord> read = ResultsDatabase::open_read_only(path).trials();
+  REQUIRE(read.size() == 2);
+  check_same(read[0], old);
   check_same(read[1], added);
 }
 

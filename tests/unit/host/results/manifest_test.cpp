@@ -19,6 +19,10 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   manifest.identity = {{"experiment.seed", "7"}};
   manifest.files.push_back(hashed_file("map", folder / "map.yaml"));
   manifest.plugin_limits = {"sandbox", "RLIMIT_DATA", true, {"org.example.helped"}};
+  std::vector<TrialRecord> trials(3);
+  trials[0].timing = {{"test.one", "reads a clock"}};
+  trials[2].timing = {{"test.one", "reads a clock"}, {"test.two", "draws in a thread"}};
+  count_unrepeatable(manifest.not_repeatable, trials);
   write_file_atomically(folder / "manifest.json", to_json_text(manifest));
   const Manifest read = read_manifest(folder / "manifest.json");
 
@@ -36,6 +40,10 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   CHECK(read.plugin_limits.memory == "RLIMIT_DATA");
   CHECK(read.plugin_limits.processes);
   CHECK(read.plugin_limits.with_processes == std::vector<std::string>{"org.example.helped"});
+  REQUIRE(read.not_repeatable.size() == 2);
+  CHECK(read.not_repeatable[0].reason == trials[0].timing[0]);
+  CHECK(read.not_repeatable[0].trials == 2);
+  CHECK(read.not_repeatable[1].trials == 1);
   CHECK(differences(manifest, read).empty());
 
   write_file_atomically(folder / "half.json", "{\"dmrp_version\": \"0.1.0\"");

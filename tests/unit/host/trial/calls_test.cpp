@@ -95,23 +95,40 @@ TEST_CASE("changed floating-point control bits are a fault, and are put back") {
                              [] { return std::feraiseexcept(FE_DIVBYZERO | FE_INEXACT), DMRP_OK; }));
 }
 
-TEST_CASE("should_stop says yes when the budget is used up, and that is remembered") {
+TEST_CASE("should_stop says yes when the budget is used up, which makes results depend on timing") {
   Guarded guarded;
   const CallSite site = {"test.plugin", "plan", 0, -1};
   bool says = true;
   guarded.call(site, 3600 * second_ns, Answers::no_other,
                [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK_FALSE(says);
-  CHECK_FALSE(guarded.guard.stopped());
+  CHECK(guarded.guard.timing().empty());
 
   guarded.call(site, 0, Answers::no_other, [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK(says);
   guarded.call(site, 3600 * second_ns, Answers::no_other,
                [&] { return says = guarded.guard.should_stop(&guarded.host), DMRP_OK; });
   CHECK_FALSE(says);
-  CHECK(guarded.guard.stopped());
-  guarded.guard.reset_stopped();
-  CHECK_FALSE(guarded.guard.stopped());
+  CHECK(guarded.guard.timing() == std::vector<TimingReason>{{"test.plugin", "plan() was stopped by its time budget"}});
+  guarded.guard.reset_timing();
+  CHECK(guarded.guard.timing().empty());
+}
+
+TEST_CASE("a plugin says why its results depend on timing, once and in its own calls") {
+  Guarded guarded;
+  const auto says = [&](const char* plugin, const char* text) {
+    guarded.call({plugin, "start", 0, -1}, second_ns, Answers::no_other,
+                 [&] { return guarded.guard.depends_on_timing(&guarded.host, plugin, text), DMRP_OK; });
+  };
+  says("test.one", "draws in\na thread");
+  says("test.one", "reads a clock");
+  says("test.two", "reads a clock");
+  guarded.guard.depends_on_timing(&guarded.host, "test.three", "outside of a call");
+  const dmrp_host other{};
+  guarded.call({"test.one", "start", 0, -1}, second_ns, Answers::no_other,
+               [&] { return guarded.guard.depends_on_timing(&other, "test.four", "in the call of another"), DMRP_OK; });
+  CHECK(guarded.guard.timing() ==
+        std::vector<TimingReason>{{"test.one", "draws in\\na thread"}, {"test.two", "reads a clock"}});
 }
 
 TEST_CASE("the note says who is being called") {

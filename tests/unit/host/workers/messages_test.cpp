@@ -28,9 +28,9 @@ TEST_CASE("messages keep all their fields") {
   CHECK(job.scratch_file == "trial_000007.scratch");
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
 
-  const TrialDone done = through_text(TrialDone{trial_outcome::failed, false, 0.1 + 0.2});
+  const TrialDone done = through_text(TrialDone{trial_outcome::failed, {{"org.x", "reads a \"clock\""}}, 0.1 + 0.2});
   CHECK(done.outcome == "failed");
-  CHECK_FALSE(done.repeatable);
+  CHECK(done.timing == std::vector<TimingReason>{{"org.x", "reads a \"clock\""}});
   CHECK(done.sim_time_s == 0.1 + 0.2);
 
   const FaultRecord fault = through_text(FaultRecord{"crash", "org.x", "step", -1, 3, 11, "a \"b\"\n", "dmrp-host x"});

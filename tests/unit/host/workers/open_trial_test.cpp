@@ -54,8 +54,10 @@ class Conversation {
     message["fatal"] = fatal;
     return say(message);
   }
-  State done(const char* outcome) {
-    return say({{"type", "done"}, {"outcome", outcome}, {"repeatable", true}, {"sim_time_s", 1.5}});
+  State done(const char* outcome, const std::vector<TimingReason>& timing = {}) {
+    json message = TrialDone{outcome, timing, 1.5};
+    message["type"] = "done";
+    return say(message);
   }
   void measure_both() {
     measuring(0);
@@ -90,6 +92,34 @@ TEST_CASE("a trial that goes as it should is believed") {
   CHECK(worker.trial().record().outcome == "failed");
   CHECK(worker.trial().record().values.size() == 2);
   CHECK(worker.trial().record().sim_time_s == 1.5);
+}
+
+TEST_CASE("a trial is repeatable if no plugin depends on timing, and otherwise says why") {
+  const std::vector<TimingReason> reasons = {{"test.one", "reads a clock"}};
+  SECTION("a plugin says so") {
+    Conversation worker;
+    worker.began();
+    worker.measure_both();
+    worker.done(trial_outcome::succeeded, reasons);
+    CHECK_FALSE(worker.trial().record().repeatable);
+    CHECK(worker.trial().record().timing == reasons);
+  }
+  SECTION("a plugin hangs") {
+    Conversation worker;
+    worker.began();
+    FaultRecord hang{fault_kind::hang, "test.one", "step", 7, -1, 0, "", ""};
+    worker.trial().end_attempt(hang);
+    CHECK_FALSE(worker.trial().record().repeatable);
+    CHECK(worker.trial().record().timing ==
+          std::vector<TimingReason>{{"test.one", "step() was stopped: it did not return"}});
+  }
+  SECTION("none does") {
+    Conversation worker;
+    worker.began();
+    worker.measure_both();
+    worker.done(trial_outcome::succeeded);
+    CHECK(worker.trial().record().repeatable);
+  }
 }
 
 TEST_CASE("messages of other processes and of earlier attempts are not believed") {

@@ -158,7 +158,10 @@ TEST_CASE("a report lists faults and counts skipped trials", "[report]") {
   trials.back().outcome = trial_outcome::skipped;
   trials.back().values.clear();
   trials[1].faults[0].detail = "\xff not UTF-8";
+  trials[1].timing = {{"org.example.x", "reads a clock"}};
   const json data = data_of(trials);
+  REQUIRE(data["timing"].size() == 1);
+  CHECK(data["timing"][0] == json{{"trial", 1}, {"plugin", "org.example.x"}, {"reason", "reads a clock"}});
   REQUIRE(data["faults"].size() == 1);
   CHECK(data["faults"][0]["trial"] == 1);
   CHECK(data["faults"][0]["robot"] == 1);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// symbol_hooks.hpp: functions of the C library, replaced in this process where libraries call them, to see what a plugin
+// does with clocks and memory. The host's own program keeps the originals.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace dmrp::host {
+
+class CallGuard;
+
+// From now on each look at a clock finds it this much later than it would be. Libraries that are loaded later keep true
+// clocks.
+inline constexpr std::int64_t clock_leap_ns = 50'000'000;
+void let_clocks_leap();
+
+// What calls of a plugin have allocated since count_allocations().
+struct Allocations {
+  std::int64_t count = 0;
+  std::int64_t bytes = 0;
+  std::int64_t kept_bytes = 0;  // less what calls have freed
+};
+
+// Counts from now on, in calls of this guard, which outlives the process.
+void count_allocations(const CallGuard& guard);
+Allocations allocations();
+
+}  // namespace dmrp::host
