@@ -13,11 +13,13 @@ FNR == NR {
   table = substr($0, 2, length($0) - 2)
   sub(/^robot_type.NAME/, "robot", table)
   if (table ~ /^\[(global_planner|local_controller|pedestrian_model|metric)\]$/) table = "plugin"
-  print "\n## `" $0 "`\n\n| key | default | meaning |\n| --- | --- | --- |"
+  print "\n## `" $0 "`\n\n| key | default | values | meaning |\n| --- | --- | --- | --- |"
   next
 }
 {
   key = table " " $1
+  values = index($0, "  # ") ? substr($0, index($0, "  # ") + 4) : ""
+  sub(/  # .*/, "")
   default_value = index($0, " = ") ? substr($0, index($0, " = ") + 3) : ""
   if (!(key in meaning)) {
     print "docs/site/keys.txt has no meaning of " key > "/dev/stderr"
@@ -25,6 +27,7 @@ FNR == NR {
   }
   print key >>used
   gsub(/\|/, "\\|", default_value)
-  print "| `" $1 "` | " (default_value == "" ? "" : "`" default_value "`") " | " meaning[key] " |"
+  gsub(/"[a-z_]+"/, "`&`", values)
+  print "| `" $1 "` | " (default_value == "" ? "" : "`" default_value "`") " | " values " | " meaning[key] " |"
 }
 END { exit failed }

@@ -8,27 +8,23 @@
 #include "host/errors/mistakes.hpp"
 #include "host/scenario/scenario_values.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 namespace {
 
 constexpr std::int64_t max_people = 10'000;  // of a flow
 
-std::vector<TomlTable::KeyReader> people_readers(core::PeopleSettings& people) {
-  const auto read_positive = [](double& to, double maximum) {
-    return [&to, maximum](const TomlValue& value) { to = positive(value, maximum); };
-  };
-  return {{"radius_m", read_positive(people.radius_m, 10.0)},
-          {"speed_mean", read_positive(people.speed_mean, 100.0)},
-          {"speed_sd", [&people](const TomlValue& value) { people.speed_sd = value.number(0.0, 100.0); }},
-          {"speed_min", read_positive(people.speed_min, 100.0)},
-          {"speed_max", read_positive(people.speed_max, 100.0)}};
+Settings people_settings(core::PeopleSettings& to) {
+  return {positive("radius_m", to.radius_m, 10.0), positive("speed_mean", to.speed_mean, 100.0),
+          number("speed_sd", to.speed_sd, 0.0, 100.0), positive("speed_min", to.speed_min, 100.0),
+          positive("speed_max", to.speed_max, 100.0)};
 }
 
 void read_people(const TomlTable& root, core::PeopleSettings& people) {
   const auto table = root.find_table("people");
   if (!table) return;
-  table->read(people_readers(people));
+  table->read(readers_of(people_settings(people)));
   if (people.speed_min > people.speed_mean || people.speed_mean > people.speed_max)
     table->fail(fmt::format("[people] needs speed_min <= speed_mean <= speed_max, not {}, {}, {}", people.speed_min,
                             people.speed_mean, people.speed_max));
@@ -126,9 +122,9 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
 
 }  // namespace
 
-std::vector<std::string> people_keys() {
-  core::PeopleSettings unused;
-  return TomlTable::keys_of(people_readers(unused));
+TomlKeys people_keys() {
+  core::PeopleSettings standard;
+  return keys_of("[people]", people_settings(standard));
 }
 
 void read_crowd(const TomlTable& root, ScenarioFile& out) {

@@ -12,7 +12,7 @@ namespace dmrp::host {
 inline const std::vector<std::string> region_keys = {"name", "lower_m", "upper_m"};
 inline const std::vector<std::string> flow_keys = {"name",   "from",  "via",     "to",
                                                    "people", "start", "respawn", "group_size"};
-std::vector<std::string> people_keys();
+TomlKeys people_keys();
 
 void read_crowd(const TomlTable& root, ScenarioFile& out);
 

@@ -156,7 +156,7 @@ std::vector<TomlKeys> scenario_keys() {
   std::vector<TomlKeys> tables = {
       {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
       {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
-      {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    {"[people]", people_keys()},
+      {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    people_keys(),
       {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys},
       {"[grade]", grade_keys}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));

@@ -11,12 +11,20 @@ namespace {
 
 constexpr double max_latency_s = 10.0;
 
+std::string number_text(double number) {
+  return fmt::format("{:.7g}", number);
+}
+
+std::string range_of(double minimum, double maximum) {
+  return fmt::format("{} to {}", number_text(minimum), number_text(maximum));
+}
+
 Setting time_setting(const std::string& key, std::int64_t& to_ns, double minimum_s, double maximum_s) {
   return {key,
           [&to_ns, minimum_s, maximum_s](const TomlValue& value) {
             to_ns = std::llround(value.number(minimum_s, maximum_s) * 1e9);
           },
-          [&to_ns] { return toml_text(static_cast<double>(to_ns) / 1e9); }};
+          [&to_ns] { return toml_text(static_cast<double>(to_ns) / 1e9); }, range_of(minimum_s, maximum_s)};
 }
 
 }  // namespace
@@ -29,7 +37,10 @@ std::vector<TomlTable::KeyReader> readers_of(const Settings& settings) {
 
 TomlKeys keys_of(const std::string& title, const Settings& settings) {
   TomlKeys keys = {title, TomlTable::keys_of(readers_of(settings))};
-  for (const Setting& setting : settings) keys.defaults.push_back(setting.write());
+  for (const Setting& setting : settings) {
+    keys.defaults.push_back(setting.write());
+    keys.ranges.push_back(setting.range);
+  }
   return keys;
 }
 
@@ -46,9 +57,19 @@ std::string inline_table(const Settings& settings) {
   return "{ " + text + " }";
 }
 
+std::string range_text(std::int64_t minimum, std::int64_t maximum) {
+  return fmt::format("{} to {}", minimum, maximum);
+}
+
+std::string choices_text(const std::vector<std::string>& choices) {
+  std::string text;
+  for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + toml_text(choice);
+  return text;
+}
+
 Setting number(const std::string& key, double& to, double minimum, double maximum) {
   return {key, [&to, minimum, maximum](const TomlValue& value) { to = value.number(minimum, maximum); },
-          [&to] { return toml_text(to); }};
+          [&to] { return toml_text(to); }, range_of(minimum, maximum)};
 }
 
 Setting positive(const std::string& key, double& to, double maximum) {
@@ -57,11 +78,12 @@ Setting positive(const std::string& key, double& to, double maximum) {
             value.positive();
             to = value.number(0.0, maximum);
           },
-          [&to] { return toml_text(to); }};
+          [&to] { return toml_text(to); }, "above 0, to " + number_text(maximum)};
 }
 
 Setting boolean(const std::string& key, bool& to) {
-  return {key, [&to](const TomlValue& value) { to = value.boolean(); }, [&to] { return to ? "true" : "false"; }};
+  return {key, [&to](const TomlValue& value) { to = value.boolean(); }, [&to] { return to ? "true" : "false"; },
+          "true, false"};
 }
 
 Setting seconds(const std::string& key, std::int64_t& to_ns) {

@@ -18,6 +18,7 @@ struct Setting {
   std::string key;
   std::function<void(const TomlValue&)> read;
   std::function<std::string()> write;
+  std::string range = {};  // the values that it takes, in words; empty where its page says it
 };
 using Settings = std::vector<Setting>;
 
@@ -28,6 +29,9 @@ TomlKeys keys_of(const std::string& title, const Settings& settings);
 std::string lines_of(const Settings& settings, std::size_t width);
 std::string inline_table(const Settings& settings);
 
+std::string range_text(std::int64_t minimum, std::int64_t maximum);
+std::string choices_text(const std::vector<std::string>& choices);
+
 Setting number(const std::string& key, double& to, double minimum, double maximum);
 Setting positive(const std::string& key, double& to, double maximum);
 Setting boolean(const std::string& key, bool& to);
@@ -37,7 +41,7 @@ Setting integer(const std::string& key, Integer& to, std::int64_t minimum, std::
   return {
       key,
       [&to, minimum, maximum](const TomlValue& value) { to = static_cast<Integer>(value.integer(minimum, maximum)); },
-      [&to] { return std::to_string(to); }};
+      [&to] { return std::to_string(to); }, range_text(minimum, maximum)};
 }
 
 // Seconds in the file, nanoseconds in memory.
@@ -59,7 +63,8 @@ Setting choice(const std::string& key, Enum& to, const std::vector<std::string>&
             const std::string chosen = value.choice(choices);
             to = static_cast<Enum>(std::find(choices.begin(), choices.end(), chosen) - choices.begin() + first);
           },
-          [&to, choices, first] { return toml_text(choices[static_cast<std::size_t>(static_cast<int>(to) - first)]); }};
+          [&to, choices, first] { return toml_text(choices[static_cast<std::size_t>(static_cast<int>(to) - first)]); },
+          choices_text(choices)};
 }
 
 }  // namespace dmrp::host

@@ -34,6 +34,7 @@ struct TomlKeys {
   std::string title;
   std::vector<std::string> keys;
   std::vector<std::string> defaults = {};  // one a key, as TOML; empty where the readers know none
+  std::vector<std::string> ranges = {};    // one a key, in words, or ""; empty as defaults
 };
 
 class TomlDocument {
