@@ -47,7 +47,7 @@ expect_same() {
 
 # takes the 20 s that a library may take to load; what comes of it is looked at further below
 cp "$library" "$scratch/waits.so"
-DMRP_TEST_AT_LOAD=wait "$host" plugins "$scratch/waits.so" >"$scratch/waits.stdout" 2>"$scratch/waits.stderr" &
+DMRP_TEST_AT_LOAD="wait" "$host" plugins "$scratch/waits.so" >"$scratch/waits.stdout" 2>"$scratch/waits.stderr" &
 waiting=$!
 
 begin alone
