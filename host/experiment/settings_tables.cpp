@@ -167,6 +167,7 @@ std::vector<TomlKeys> settings_keys() {
     if (table.title == "[simulation]" || table.title == "[robot]") {
       table.keys.push_back("sweep");
       table.defaults.push_back("{}");
+      table.ranges.push_back("");
     }
   return keys;
 }

@@ -18,8 +18,8 @@ run() { with_files_up_to "$1" "$host" "$scratch/$2.toml" --quiet --jobs 2 --tria
 # a trace, in a worker; then the database, in the host
 sed -n p "$here/crossing.toml" >"$scratch/traces.toml"
 sed '$a [record]\ntraces = "none"' "$here/crossing.toml" >"$scratch/database.toml"
-expect_failure "^dmrp-host: .*/trial_00000[0-9].mcap: File too large$" run 88 traces
-expect_failure "^dmrp-host: .*database/results.sqlite: .*: disk I/O error$" run 88 database
+expect_failure "^dmrp-host: .*/trial_00000[0-9].mcap: File too large$" run 128 traces
+expect_failure "^dmrp-host: .*database/results.sqlite: .*: disk I/O error$" run 128 database
 [[ $(query "$scratch/traces" "SELECT count(*) FROM fault") == 0 ]] || fail "the machine's failure is no fault of a plugin"
 
 # a folder that vanishes during the run
