@@ -210,10 +210,10 @@ Settings robot_values(core::RobotSettings& to) {
                                                         {"lidar", lidar_settings(to.lidar)},
                                                         {"costmap", costmap_settings(to.costmap)}};
   Settings values = robot_settings(to);
-  for (const auto& [name, inner] : subtables) {
-    std::erase_if(values, [&](const Setting& setting) { return setting.key == name; });
-    for (const Setting& setting : inner)
-      values.push_back({fmt::format("{}.{}", name, setting.key), setting.read, setting.write});
+  for (const auto& subtable : subtables) {
+    std::erase_if(values, [&](const Setting& setting) { return setting.key == subtable.first; });
+    for (const Setting& setting : subtable.second)
+      values.push_back({fmt::format("{}.{}", subtable.first, setting.key), setting.read, setting.write, setting.range});
   }
   return values;
 }
