@@ -6,6 +6,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <limits>
 
+#include "controllers/e3mop/guarded_motion.hpp"
 #include "controllers/e3mop/path_follower.hpp"
 #include "controllers/e3mop/velocity_profile.hpp"
 #include "controllers/motion/unicycle.hpp"
@@ -26,6 +27,11 @@ constexpr double turn_end_rad = 0.15;
 // The path's direction at its start is that to the point at this distance.
 constexpr double lead_m = 0.25;
 
+// A way that keeps the margin counts if it ends at the end of the path ahead; or at least so far away, and so few points
+// of the path before that of a way without it.
+constexpr double leads_on_m = 1.0;
+constexpr std::size_t points_short = 5;
+
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.2;
 
@@ -38,40 +44,8 @@ constexpr double kept_m = 0.2;
 constexpr double lost_m = 0.12;
 constexpr double lost_rad = 0.6;
 
-// The step of the collision check of a command.
-constexpr double check_step_m = 0.05;
-
 // At a turning point of the path, the robot has to come this close before the way back counts.
 constexpr double tip_reached_m = 0.25;
-
-// Brakes and turns in place, as far as the outline has room.
-Command turn(const Observation& now, double angle, const FreeSpace& free_space) {
-  Command command = braking(now);
-  const double omega = turning_rate(angle, now);
-  const double turned = omega * (seconds(now.dt_ns) + 0.5 * std::abs(omega) / now.limits.alpha_max);
-  for (const double share : {0.5, 1.0})
-    if (!free_space.is_free(directed(toolkit::position(now.pose), now.pose.theta + share * turned))) return command;
-  command.omega = omega;
-  return command;
-}
-
-// Brakes if the arc of the command collides within the braking distance.
-Command checked(const Observation& now, const Command& command, const FreeSpace& free_space) {
-  const double period_s = seconds(now.dt_ns);
-  const double braking_s = command.v_x / now.limits.a_max + period_s;
-  const int steps = 1 + static_cast<int>(command.v_x * braking_s / check_step_m);
-  DirectedPoint at = directed(now.pose);
-  // braking from v covers the same distance as driving at v for half the time
-  const ArcStepper stepper(command.v_x, command.omega, 0.5 * (braking_s + period_s) / steps);
-  for (int i = 0; i < steps; ++i) {
-    stepper.step(at);
-    if (free_space.is_free(at)) continue;
-    Command slower = braking(now);
-    slower.omega = command.omega;
-    return slower;
-  }
-  return command;
-}
 
 }  // namespace
 
@@ -97,6 +71,7 @@ Status E3mop::start(const Start& start) {
   at_goal_.reset();
   limits_ = {};
   turning_ = false;
+  way_out_.reset();
   path_.clear();
   return Status::ok;
 }
@@ -142,44 +117,61 @@ void E3mop::prepare(const Observation& now) {
 Command E3mop::drive(const Observation& now) {
   const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
-  const auto space_of = [&](const ClearanceField& field) {
-    return FreeSpace(field, now.footprint, footprint_padding, now.pose, &outline);
-  };
   const bool has_agents = read_fields(now);
-  const FreeSpace seen = space_of(field_);
-  FreeSpace foreseen = space_of(foreseen_);
+  const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   lay_out_global_path();
-  const Pose from = keep_path(now, foreseen);
-  std::optional<Plan> plan = this->plan(now, from, foreseen);
-  if (!(plan && plan->found->found) && has_agents) {
-    // the predicted motion of agents may block every path: plan with their current positions
-    foreseen_ = field_;
-    foreseen = space_of(foreseen_);
-    rough_.points.resize(rough_.kept);
-    plan = this->plan(now, from, foreseen);
-  }
+  if (way_out_.is_taken()) return way_out_.drive(now, seen);
+  const std::optional<Plan> plan = choose_plan(now, outline, has_agents);
   if (!plan) {
     path_.clear();
     return braking(now);
   }
 
   // turns in place to a path that leads aside or back, and gives up the kept path for that
-  const bool is_shaped = rough_.kept == 1 && now.velocity.v_x < slow_m_s && shape_path(now, foreseen);
+  const bool is_shaped = rough_.kept == 1 && now.velocity.v_x < slow_m_s && shape_path(now, plan->free_space);
   const Vec2 lead = lead_point(is_shaped);
-  const double aside = toolkit::difference(from.theta, toolkit::bearing(from, lead));
+  const double aside = toolkit::difference(plan->from.theta, toolkit::bearing(plan->from, lead));
   turning_ = std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad);
   if (turning_) {
     path_.clear();
-    return turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
+    return guarded_turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
   }
-  if (!is_shaped && !shape_path(now, foreseen)) {
-    path_.clear();
-    return braking(now);
-  }
-  const Command command = checked(now, follow(path_, now), seen);
-  annotate(plan->found->poses);
+  const bool has_path = is_shaped || shape_path(now, plan->free_space);
+  const Command command = has_path ? guarded(now, follow(path_, now), seen) : braking(now);
+  if (has_path) annotate(plan->found->poses);
+  const bool leaves = leave_padding && way_out_.take(now, command, toolkit::bearing(now.pose, lead), seen);
+  if (!has_path || leaves) path_.clear();
   return command;
+}
+
+// Plans with the margin, as long as there is a way so wide; otherwise without it; and with the agents' current
+// positions, if their predicted motion blocks every path.
+std::optional<E3mop::Plan> E3mop::choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents) {
+  const auto plan_with = [&](double margin_m) {
+    return plan(now, FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline, margin_m));
+  };
+  std::optional<Plan> chosen;
+  if (clearance_margin > 0.0) {
+    chosen = plan_with(clearance_margin);
+    const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+    if (chosen && leads_on(*chosen, now, foreseen)) return chosen;
+  }
+  chosen = plan_with(0.0);
+  if ((chosen && chosen->found->found) || !has_agents) return chosen;
+  foreseen_ = field_;
+  return plan_with(0.0);
+}
+
+// Whether a plan that keeps the margin leads where any plan would, or nearly so.
+bool E3mop::leads_on(const Plan& plan, const Observation& now, const FreeSpace& free_space) const {
+  if (!plan.found->found || plan.goal.is_cut) return false;
+  if (plan.goal.is_path_end) return true;
+  if (toolkit::distance(toolkit::position(now.pose), plan.goal.at) < leads_on_m) return false;
+  const auto is_free = [&](Vec2 point) { return free_space.is_free({point, {1.0, 0.0}}); };
+  const auto beyond = global_path_.begin() +
+                      static_cast<std::ptrdiff_t>(std::min(plan.goal.index + points_short + 1, global_path_.size()));
+  return std::none_of(beyond, global_path_.end(), is_free);
 }
 
 // Whether there are agents whose motion is foreseen.
@@ -239,8 +231,9 @@ Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
   return {path_[last].at.x, path_[last].at.y, path_[last].theta};
 }
 
-// Appends the lattice path from a pose to rough_. Nothing if the robot has to wait.
-std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const Pose& from, const FreeSpace& free_space) {
+// Sets rough_ to the part of the last path that stays and the lattice path from there. Nothing if the robot has to wait.
+std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const FreeSpace& free_space) {
+  const Pose from = keep_path(now, free_space);
   const std::optional<LatticeGoal> goal = local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space,
                                                                   now.footprint.inscribed_radius_m, global_path_);
   if (!goal) return {};
@@ -250,7 +243,7 @@ std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const Pose& from,
   settings.omega_max = now.limits.omega_max;
   settings.pruning = pruning;
   settings.first_turn_s = std::abs(now.velocity.v_x) / now.limits.a_max;
-  const Plan plan = {*goal, &local_plan_.search(from, free_space, settings)};
+  const Plan plan = {*goal, &local_plan_.search(from, free_space, settings), from, free_space};
   append_points(plan);
   if (rough_.points.size() <= 1) return {};
   return plan;

@@ -14,6 +14,7 @@
 
 #include "controllers/e3mop/local_plan.hpp"
 #include "controllers/e3mop/path_shaper.hpp"
+#include "controllers/e3mop/way_out.hpp"
 #include "controllers/motion/annotations.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -52,6 +53,14 @@ class E3mop final : public LocalController {
       param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
+  Param<double> clearance_margin =
+      param("clearance_margin", 0.1)
+          .unit("m")
+          .range(0.0, 1.0)
+          .doc("departure: kept free beyond the padding where there is a way as wide as that; 0: off");
+  Param<bool> leave_padding =
+      param("leave_padding", true)
+          .doc("departure: a robot that the collision check stops first drives clear, aside of its path");
   Param<double> prediction_time =
       param("prediction_time", 1.0)
           .unit("s")
@@ -67,6 +76,8 @@ class E3mop final : public LocalController {
   struct Plan {
     e3mop::LatticeGoal goal;
     const e3mop::SearchResult* found;
+    Pose from;                    // where the lattice path begins
+    e3mop::FreeSpace free_space;  // that it was searched in
   };
 
   void prepare(const Observation& now);
@@ -74,7 +85,9 @@ class E3mop final : public LocalController {
   bool read_fields(const Observation& now);
   void lay_out_global_path();
   Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
-  std::optional<Plan> plan(const Observation& now, const Pose& from, const e3mop::FreeSpace& free_space);
+  std::optional<Plan> choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents);
+  std::optional<Plan> plan(const Observation& now, const e3mop::FreeSpace& free_space);
+  bool leads_on(const Plan& plan, const Observation& now, const e3mop::FreeSpace& free_space) const;
   void append_points(const Plan& plan);
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
   Vec2 lead_point(bool is_shaped) const;
@@ -89,7 +102,8 @@ class E3mop final : public LocalController {
   StopAndRotate at_goal_;
   std::vector<e3mop::PathPoint> path_;  // the path in use; empty if there is none
   bool turning_ = false;                // in place
-  Limits limits_{};                     // for which the lattice was built
+  e3mop::WayOut way_out_;
+  Limits limits_{};  // for which the lattice was built
 
   // buffers, filled anew in every cycle
   e3mop::ClearanceField field_;     // the obstacles now

@@ -59,7 +59,7 @@ std::optional<LatticeGoal> LocalPlan::choose_goal(Vec2 robot, const ClearanceFie
   const auto can_stand = [&](Vec2 point) { return free_space.is_free({point, any_heading}); };
   const auto goal_at = [&](std::size_t i, bool is_cut) -> std::optional<LatticeGoal> {
     if (!can_reach(path[i])) return {};
-    return LatticeGoal{path[i], is_cut, i + 1 == path.size()};
+    return LatticeGoal{path[i], is_cut, i + 1 == path.size(), i};
   };
   std::size_t last = path.size();
   while (last > 0 && !(frame_.cell_of(path[last - 1]) >= 0 && can_stand(path[last - 1]))) --last;

@@ -14,6 +14,7 @@ struct LatticeGoal {
   Vec2 at = {0.0, 0.0};
   bool is_cut = false;       // obstacles separate the robot from the last free point of the path
   bool is_path_end = false;  // the last point of the path
+  std::size_t index = 0;     // of the point
 };
 
 // The window's lattice, its heuristic and its search. Reuses its buffers from cycle to cycle.

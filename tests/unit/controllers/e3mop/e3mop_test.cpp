@@ -97,6 +97,19 @@ TEST_CASE("A robot that stands too close to an obstacle may leave but come no cl
   CHECK_FALSE(from_there.is_free({{0.75, 0.55}, {1.0, 0.0}}) != from_afar.is_free({{0.75, 0.55}, {1.0, 0.0}}));
 }
 
+TEST_CASE("Whether a point is free depends on its own distance, not on that of its cell's centre") {
+  const Window wall({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return point.y > 0.6; });
+  const FreeSpace space(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, -1.0, 0.0});
+  const FreeSpace with_margin(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, -1.0, 0.0}, nullptr,
+                              0.1);
+  CHECK(with_margin.needed_m() == Approx(space.needed_m() + 0.1));
+  for (double y = 0.0; y < 0.5; y += 0.003) {
+    const dmrp_vec2 at = {0.51, y};
+    CHECK(space.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= space.needed_m()));
+    CHECK(with_margin.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= with_margin.needed_m()));
+  }
+}
+
 TEST_CASE("The objective's gradient agrees with finite differences") {
   Stream random(1, "e3mop.gradient");
   const Window window = discs_window({{0.0, 0.9}, {0.6, -0.8}, {-0.9, -0.7}}, 0.25);
