@@ -11,11 +11,9 @@ namespace dmrp::host {
 int keys_command(const std::string& format) {
   for (const TomlKeys& table : format == "experiment" ? experiment_keys() : scenario_keys()) {
     fmt::print("{}\n", table.title);
-    for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const std::string range = table.ranges.empty() ? "" : table.ranges[i];
-      fmt::print("  {}{}{}\n", table.keys[i], table.defaults.empty() ? "" : " = " + table.defaults[i],
-                 range.empty() ? "" : "  # " + range);
-    }
+    for (const TomlKey& key : table.keys)
+      fmt::print("  {}{}{}\n", key.name, key.fallback.empty() ? "" : " = " + key.fallback,
+                 key.range.empty() ? "" : "  # " + key.range);
   }
   return exit_status::done;
 }

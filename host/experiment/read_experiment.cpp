@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "host/errors/input_error.hpp"
 #include "host/errors/mistakes.hpp"
@@ -16,6 +17,7 @@
 #include "host/files/read_file.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
@@ -25,7 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_trials = 1'000'000;
-const std::vector<std::string> header_keys = {"name", "seed", "trials", "plugins", "skip_unloadable"};
+constexpr std::int64_t max_seed = std::numeric_limits<std::int64_t>::max();
+const std::vector<TomlKey> header_keys = {{"name"},
+                                          {"seed", range_text(0, max_seed)},
+                                          {"trials", range_text(1, max_trials)},
+                                          {"plugins"},
+                                          {"skip_unloadable", boolean_text}};
 
 // The lists of the experiment by plugin kind.
 std::vector<std::pair<std::uint32_t, std::vector<PluginUse>*>> lists_by_kind(Experiment& experiment) {
@@ -52,7 +59,7 @@ void read_header(const TomlDocument& document, std::uint32_t trials, const Plugi
   mistakes.attempt([&] {
     header.read(
         {{"name", read_name},
-         {"seed", [&](const TomlValue& at) { experiment.seed = static_cast<std::uint64_t>(at.integer(0)); }},
+         {"seed", [&](const TomlValue& at) { experiment.seed = static_cast<std::uint64_t>(at.integer(0, max_seed)); }},
          {"trials",
           [&](const TomlValue& at) { experiment.trials = static_cast<std::uint32_t>(at.integer(1, max_trials)); }},
          {"plugins", [&](const TomlValue& at) { read_libraries(document, at, source, tried_by, experiment); }},
@@ -144,9 +151,10 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 }
 
 TomlKeys root_keys() {
-  TomlKeys root = {"", {"experiment", "scenario", "simulation", "robot", "robot_type", "record", "limits"}};
+  TomlKeys root = {"",
+                   {{"experiment"}, {"scenario"}, {"simulation"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
   Experiment unused;
-  for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back(kind_name(kind));
+  for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
   return root;
 }
 
@@ -195,7 +203,7 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
 }  // namespace
 
 std::vector<TomlKeys> experiment_keys() {
-  std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys}};
+  std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys()}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused))
     tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
@@ -217,7 +225,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   document.know(std::move(tables));
 
   Mistakes mistakes;
-  mistakes.attempt([&] { root.allow_only(document.keys_of("")->keys); });
+  mistakes.attempt([&] { root.allow_only_keys(document.keys_of("")->keys); });
   mistakes.attempt([&] { read_header(document, trials, source, tried_by, experiment); });
   const bool has_settings = mistakes.attempt([&] { read_world_settings(root, experiment); });
   mistakes.attempt([&] { read_run_settings(root, experiment); });

@@ -100,9 +100,11 @@ void check_names(const TomlTable& table, std::uint32_t kind, const std::vector<P
 
 }  // namespace
 
-std::vector<std::string> plugin_use_keys(std::uint32_t kind) {
-  std::vector<std::string> keys = {"use", "label", "params_file", "params", "sweep"};
-  if (kind == DMRP_KIND_LOCAL_CONTROLLER) keys.push_back("control_latency_s");
+std::vector<TomlKey> plugin_use_keys(std::uint32_t kind) {
+  std::vector<TomlKey> keys = {{"use"}, {"label"}, {"params_file"}, {"params"}, {"sweep"}};
+  std::int64_t unused = 0;
+  if (kind == DMRP_KIND_LOCAL_CONTROLLER)
+    keys.push_back({"control_latency_s", latency("control_latency_s", unused).range});
   return keys;
 }
 
@@ -113,7 +115,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     PluginUse common;
     std::string name;
     std::vector<ParameterVariant> variants;
-    mistakes.attempt([&] { table.allow_only(plugin_use_keys(kind)); });
+    mistakes.attempt([&] { table.allow_only_keys(plugin_use_keys(kind)); });
     mistakes.attempt([&] {
       if (const auto label = table.find("label")) name = label->line();
     });

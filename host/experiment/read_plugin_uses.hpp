@@ -13,7 +13,7 @@
 namespace dmrp::host {
 
 // The keys of the tables of one kind.
-std::vector<std::string> plugin_use_keys(std::uint32_t kind);
+std::vector<TomlKey> plugin_use_keys(std::uint32_t kind);
 
 // Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment: one use for each variant of a sweep.
 // `all_libraries`: every library has been read; if not, plugins that are in none of them are passed over. If one was left

@@ -15,6 +15,7 @@
 #include "host/scenario/find_scenario.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -26,6 +27,9 @@ constexpr std::int64_t max_robots = 10'000;
 constexpr std::int64_t max_tasks = 1'000'000;
 constexpr double max_people_times = 100.0;
 constexpr std::int64_t max_people = 100'000;
+constexpr double max_jitter_m = 10.0;
+constexpr double max_share = 1e6;
+const std::vector<std::string> tasks_choices = {"listed", "drawn"};
 
 // A number of robots that a [[scenario]] asks for.
 struct RobotCount {
@@ -46,7 +50,7 @@ TasksKey read_tasks_key(const TomlTable& scenario) {
   TasksKey out{scenario.find("tasks")};
   if (!out.at) return out;
   if (!out.at->is_table()) {
-    out.drawn = out.at->choice({"listed", "drawn"}) == "drawn";
+    out.drawn = out.at->choice(tasks_choices) == "drawn";
     out.listed = !out.drawn;
     return out;
   }
@@ -159,7 +163,7 @@ std::vector<core::TypeShare> read_shares(const TomlValue& value, const core::Rob
     const std::string name = entry.key() == default_type_name ? "" : entry.key();
     if (!types.find(name)) fail_unknown_type(entry, types);
     entry.positive();
-    shares.push_back({name, entry.number(0.0, 1e6)});
+    shares.push_back({name, entry.number(0.0, max_share)});
   }
   if (shares.empty()) value.fail("'types' must have at least one type and its share");
   return shares;
@@ -185,7 +189,7 @@ StartJitter read_jitter(const TomlTable& table) {
   if (!value) return jitter;
   const TomlTable given = value->table();
   given.allow_only({"position_m", "heading_rad"});
-  if (const auto position = given.find("position_m")) jitter.position_m = position->number(0.0, 10.0);
+  if (const auto position = given.find("position_m")) jitter.position_m = position->number(0.0, max_jitter_m);
   if (const auto heading = given.find("heading_rad")) jitter.heading_rad = heading->number(0.0, std::numbers::pi);
   return jitter;
 }
@@ -265,10 +269,22 @@ ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::pa
 
 }  // namespace
 
+std::vector<TomlKey> scenario_use_keys() {
+  return {{"use"},
+          {"robots", range_text(0, max_robots)},
+          {"tasks", fmt::format("{}, or a table: numbers to {}", choices_text(tasks_choices), max_tasks)},
+          {"types", "each " + positive_text(max_share)},
+          {"levels"},
+          {"start_jitter", fmt::format("position_m: {}, heading_rad: {}", range_text(0.0, max_jitter_m),
+                                       range_text(0.0, std::numbers::pi))},
+          {"people", range_text(0, max_people)},
+          {"people_times", range_text(0.0, max_people_times)}};
+}
+
 void read_scenario_uses(const TomlTable& root, Experiment& experiment, std::vector<ScenarioUse>& uses) {
   root.read_tables("scenario", [&](const TomlTable& table) {
     Mistakes mistakes;
-    mistakes.attempt([&] { table.allow_only(scenario_use_keys); });
+    mistakes.attempt([&] { table.allow_only_keys(scenario_use_keys()); });
     mistakes.attempt([&] {
       const TomlValue name = table.need("use");
       const fs::path file = find_scenario(name.text(), experiment.file.parent_path());

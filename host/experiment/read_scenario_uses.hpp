@@ -13,8 +13,7 @@
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> scenario_use_keys = {
-    "use", "robots", "tasks", "types", "levels", "start_jitter", "people", "people_times"};  // of [[scenario]]
+std::vector<TomlKey> scenario_use_keys();  // of [[scenario]]
 
 // A [[scenario]] with its scenario file.
 struct ScenarioUse {

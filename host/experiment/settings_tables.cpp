@@ -164,11 +164,7 @@ std::vector<TomlKeys> settings_keys() {
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   for (TomlKeys& table : keys)
-    if (table.title == "[simulation]" || table.title == "[robot]") {
-      table.keys.push_back("sweep");
-      table.defaults.push_back("{}");
-      table.ranges.push_back("");
-    }
+    if (table.title == "[simulation]" || table.title == "[robot]") table.keys.push_back({"sweep", "", "{}"});
   return keys;
 }
 

@@ -14,6 +14,7 @@ namespace dmrp::host {
 namespace {
 
 constexpr std::int64_t max_people = 10'000;  // of a flow
+const std::vector<std::string> start_choices = {"along", "from"};
 
 Settings people_settings(core::PeopleSettings& to) {
   return {positive("radius_m", to.radius_m, 10.0), positive("speed_mean", to.speed_mean, 100.0),
@@ -35,7 +36,7 @@ void read_regions(const TomlTable& root, std::vector<std::string>& names, Scenar
   root.read_tables("region", [&](const TomlTable& table) {
     core::Region region;
     Mistakes mistakes;
-    mistakes.attempt([&] { table.allow_only(region_keys); });
+    mistakes.attempt([&] { table.allow_only_keys(region_keys()); });
     mistakes.attempt([&] {
       const TomlValue name = table.need("name");
       region.name = name.line();
@@ -95,7 +96,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
   root.read_tables("flow", [&](const TomlTable& table) {
     core::Flow flow;
     Mistakes mistakes;
-    mistakes.attempt([&] { table.allow_only(flow_keys); });
+    mistakes.attempt([&] { table.allow_only_keys(flow_keys()); });
     mistakes.attempt([&] {
       const TomlValue name = table.need("name");
       flow.name = name.line();
@@ -108,7 +109,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
       if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
     });
     mistakes.attempt([&] {
-      if (const auto start = table.find("start"); start && start->choice({"along", "from"}) == "from")
+      if (const auto start = table.find("start"); start && start->choice(start_choices) == "from")
         flow.start = core::FlowStart::from;
     });
     mistakes.attempt([&] {
@@ -125,6 +126,21 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
 TomlKeys people_keys() {
   core::PeopleSettings standard;
   return keys_of("[people]", people_settings(standard));
+}
+
+std::vector<TomlKey> region_keys() {
+  return {{"name"}, {"lower_m", point_range()}, {"upper_m", point_range()}};
+}
+
+std::vector<TomlKey> flow_keys() {
+  return {{"name"},
+          {"from"},
+          {"via"},
+          {"to"},
+          {"people", range_text(0, max_people)},
+          {"start", choices_text(start_choices)},
+          {"respawn", boolean_text},
+          {"group_size", range_text(1, max_people)}};
 }
 
 void read_crowd(const TomlTable& root, ScenarioFile& out) {

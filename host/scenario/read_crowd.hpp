@@ -2,17 +2,16 @@
 // read_crowd.hpp: reads [people], [[region]] and [[flow]] of scenario.toml.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "host/scenario/read_scenario.hpp"
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> region_keys = {"name", "lower_m", "upper_m"};
-inline const std::vector<std::string> flow_keys = {"name",   "from",  "via",     "to",
-                                                   "people", "start", "respawn", "group_size"};
+// The keys of [people], [[region]] and [[flow]].
 TomlKeys people_keys();
+std::vector<TomlKey> region_keys();
+std::vector<TomlKey> flow_keys();
 
 void read_crowd(const TomlTable& root, ScenarioFile& out);
 

@@ -10,12 +10,15 @@
 #include "host/maps/movingai.hpp"
 #include "host/maps/ros_map.hpp"
 #include "host/scenario/named_file.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::vector<std::string> unknown_choices = {"occupied", "free"};
 
 // A file with one of these extensions that scenario.toml names.
 NamedFile file_of_type(const TomlValue& value, const fs::path& scenario_file, const std::string& shown_path,
@@ -56,7 +59,7 @@ void read_map_server(const TomlTable& root, const TomlTable& table, const TomlVa
   if (const auto origin = root.find_table("scenario")->find("origin_m"))
     origin->fail_at_key("a map of map_server has an 'origin' of its own");
   auto unknown = UnknownCells::occupied;
-  if (const auto asked = table.find("unknown"); asked && asked->choice({"occupied", "free"}) == "free")
+  if (const auto asked = table.find("unknown"); asked && asked->choice(unknown_choices) == "free")
     unknown = UnknownCells::free;
   const RosMap map = read_ros_map(file.path, file.shown_path, unknown);
   check_roughness(name, map.cells);
@@ -71,11 +74,19 @@ void read_map_server(const TomlTable& root, const TomlTable& table, const TomlVa
 
 }  // namespace
 
+std::vector<TomlKey> map_keys() {
+  return {{"file"}, {"cell_m", positive_text(max_side_m)}, {"unknown", choices_text(unknown_choices)}};
+}
+
+std::vector<TomlKey> tasks_keys() {
+  return {{"scen"}, {"count", "at least 1"}};
+}
+
 std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, const std::string& shown_path,
                                 ScenarioFile& out) {
   const auto table = root.find_table("map");
   if (!table) return std::nullopt;
-  table->allow_only(map_keys);
+  table->allow_only_keys(map_keys());
   const TomlValue name = table->need("file");
   out.size = name.position();
   const NamedFile map = file_of_type(name, file, shown_path, {".map", ".yaml", ".yml"}, out);
@@ -87,7 +98,7 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
 void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const fs::path& file,
                 const std::string& shown_path, ScenarioFile& out) {
   constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-  table.allow_only(tasks_keys);
+  table.allow_only_keys(tasks_keys());
   const TomlValue name = table.need("scen");
   if (!map) name.fail("'scen' needs a [map] of MovingAI that its tasks are for");
   const NamedFile tasks = file_of_type(name, file, shown_path, {".scen"}, out);

@@ -12,8 +12,8 @@
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> map_keys = {"file", "cell_m", "unknown"};  // of [map]
-inline const std::vector<std::string> tasks_keys = {"scen", "count"};            // of [robots]
+std::vector<TomlKey> map_keys();    // of [map]
+std::vector<TomlKey> tasks_keys();  // of [robots]
 
 // A MovingAI map; the coordinates of its tasks are its cells. Its lower left corner is that of the world.
 struct TaskMap {

@@ -132,7 +132,7 @@ class Recording {
 
 void read_recordings(const TomlTable& root, const fs::path& file, const std::string& shown_path, ScenarioFile& out) {
   root.read_tables("recording", [&](const TomlTable& table) {
-    table.allow_only(recording_keys);
+    table.allow_only_keys(recording_keys);
     const TomlValue name = table.need("file");
     const NamedFile recording = named_file(name, file, shown_path, out);
     const std::size_t first = out.scenario.tracks.size();

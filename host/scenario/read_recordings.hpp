@@ -14,7 +14,7 @@
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> recording_keys = {"file"};
+inline const std::vector<TomlKey> recording_keys = {{"file"}};
 
 // Reads all recordings into the scenario's tracks, in the order of each person's first row. `file`, `shown_path`: of
 // scenario.toml.

@@ -12,6 +12,7 @@
 #include "host/scenario/read_tiles.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/scenario/scenario_values.hpp"
+#include "host/toml/setting.hpp"
 #include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
@@ -20,13 +21,28 @@ namespace {
 
 constexpr double max_time_s = 1e6;
 
-const std::vector<std::string> root_keys = {"scenario", "map",    "box",  "circle", "polygon",   "robot",      "robots",
-                                            "people",   "region", "flow", "tiles",  "recording", "robot_type", "grade"};
-const std::vector<std::string> header_keys = {"name",     "title",    "description", "size_m",
-                                              "origin_m", "inside_m", "time_limit_s"};
-const std::vector<std::string> robot_keys = {"name", "type", "start", "goal", "goals"};
+const std::vector<TomlKey> root_keys = {{"scenario"}, {"map"},       {"box"},        {"circle"}, {"polygon"},
+                                        {"robot"},    {"robots"},    {"people"},     {"region"}, {"flow"},
+                                        {"tiles"},    {"recording"}, {"robot_type"}, {"grade"}};
+const std::vector<std::string> harder_choices = {"higher", "lower"};
 
-const std::vector<std::string> grade_keys = {"quantity", "unit", "harder", "levels", "robots"};
+std::vector<TomlKey> header_keys() {
+  return {{"name"},
+          {"title"},
+          {"description"},
+          {"size_m", "each " + positive_text(max_side_m)},
+          {"origin_m", point_range()},
+          {"inside_m", point_range()},
+          {"time_limit_s", positive_text(max_time_s)}};
+}
+
+std::vector<TomlKey> robot_keys() {
+  return {{"name"}, {"type"}, {"start", point_range()}, {"goal", point_range()}, {"goals", point_range()}};
+}
+
+std::vector<TomlKey> grade_keys() {
+  return {{"quantity"}, {"unit"}, {"harder", choices_text(harder_choices)}, {"levels"}, {"robots", "at least 1"}};
+}
 
 std::vector<double> levels_of(const TomlTable& grade) {
   std::vector<double> levels;
@@ -39,7 +55,7 @@ std::vector<double> levels_of(const TomlTable& grade) {
 // The scenario's name gets the level, so that results tell levels apart.
 void read_grade(const TomlTable& grade, double level, ScenarioFile& out) {
   out.grade = {out.scenario.name, grade.need("quantity").line(), grade.need("unit").line(),
-               grade.need("harder").choice({"higher", "lower"}) == "higher", level};
+               grade.need("harder").choice(harder_choices) == "higher", level};
   out.scenario.name += fmt::format(" {}", level);
 }
 
@@ -69,7 +85,7 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
     core::RobotTask task;
     task.name = fmt::format("robot {}", out.scenario.robots.size());
     Mistakes mistakes;
-    mistakes.attempt([&] { table.allow_only(robot_keys); });
+    mistakes.attempt([&] { table.allow_only_keys(robot_keys()); });
     mistakes.attempt([&] {
       const auto name = table.find("name");
       if (!name) return;
@@ -118,7 +134,7 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   core::Scenario& scenario = out.scenario;
   const TomlTable header = root.need("scenario").table("[scenario]");
   Mistakes mistakes;
-  mistakes.attempt([&] { header.allow_only(header_keys); });
+  mistakes.attempt([&] { header.allow_only_keys(header_keys()); });
   mistakes.attempt([&] { read_name(header, file, out); });
   mistakes.attempt([&] { scenario.title = header.need("title").line(); });
   mistakes.attempt([&] { scenario.description = header.need("description").line(); });
@@ -146,7 +162,7 @@ void read_listed_tasks(const TomlTable& root, const std::optional<TaskMap>& map,
 
 // The level that the file is read at, by default its first.
 void set_level(const TomlTable& grade, std::optional<double> level, TomlDocument& document) {
-  grade.allow_only(grade_keys);
+  grade.allow_only_keys(grade_keys());
   document.set_level(level ? *level : levels_of(grade).front());
 }
 
@@ -154,11 +170,11 @@ void set_level(const TomlTable& grade, std::optional<double> level, TomlDocument
 
 std::vector<TomlKeys> scenario_keys() {
   std::vector<TomlKeys> tables = {
-      {"[scenario]", header_keys}, {"[map]", map_keys},         {"[tiles]", tiles_keys},
-      {"[[box]]", box_keys},       {"[[circle]]", circle_keys}, {"[[polygon]]", polygon_keys},
-      {"[[robot]]", robot_keys},   {"[robots]", tasks_keys},    people_keys(),
-      {"[[region]]", region_keys}, {"[[flow]]", flow_keys},     {"[[recording]]", recording_keys},
-      {"[grade]", grade_keys}};
+      {"[scenario]", header_keys()}, {"[map]", map_keys()},         {"[tiles]", tiles_keys()},
+      {"[[box]]", box_keys()},       {"[[circle]]", circle_keys()}, {"[[polygon]]", polygon_keys()},
+      {"[[robot]]", robot_keys()},   {"[robots]", tasks_keys()},    people_keys(),
+      {"[[region]]", region_keys()}, {"[[flow]]", flow_keys()},     {"[[recording]]", recording_keys},
+      {"[grade]", grade_keys()}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }
@@ -186,7 +202,7 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   const auto grade = root.find_table("grade");
   if (grade) set_level(*grade, level, *document);
   Mistakes mistakes;
-  mistakes.attempt([&] { root.allow_only(root_keys); });
+  mistakes.attempt([&] { root.allow_only_keys(root_keys); });
   const bool has_header = mistakes.attempt([&] { read_header(root, file, out); });
   if (grade) mistakes.attempt([&] { read_grade(*grade, *document->level(), out); });
   std::optional<TaskMap> map;

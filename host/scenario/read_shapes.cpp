@@ -10,13 +10,14 @@
 
 #include "host/errors/mistakes.hpp"
 #include "host/scenario/scenario_values.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 namespace {
 
 core::Shape read_box(const TomlTable& table) {
   Mistakes mistakes;
-  mistakes.attempt([&] { table.allow_only(box_keys); });
+  mistakes.attempt([&] { table.allow_only_keys(box_keys()); });
   core::Shape shape;
   dmrp_vec2 center = {};
   mistakes.attempt([&] { center = point(table.need("center_m")); });
@@ -37,7 +38,7 @@ core::Shape read_box(const TomlTable& table) {
 
 core::Shape read_circle(const TomlTable& table) {
   Mistakes mistakes;
-  mistakes.attempt([&] { table.allow_only(circle_keys); });
+  mistakes.attempt([&] { table.allow_only_keys(circle_keys()); });
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
   mistakes.attempt([&] { shape.center = point(table.need("center_m")); });
@@ -57,7 +58,7 @@ std::vector<dmrp_vec2> read_vertices(const TomlValue& value) {
 
 core::Shape read_polygon(const TomlTable& table) {
   Mistakes mistakes;
-  mistakes.attempt([&] { table.allow_only(polygon_keys); });
+  mistakes.attempt([&] { table.allow_only_keys(polygon_keys()); });
   core::Shape shape;
   mistakes.attempt([&] { shape.vertices = read_vertices(table.need("vertices_m")); });
   mistakes.end();
@@ -85,6 +86,25 @@ void read_kind(const TomlTable& root, const std::string& kind, Read&& read, Scen
 }
 
 }  // namespace
+
+std::vector<TomlKey> box_keys() {
+  return {{"name"},
+          {"center_m", point_range()},
+          {"size_m", size_range()},
+          {"angle_rad", range_text(-max_length_m, max_length_m)},
+          {"height_m", positive_text(max_length_m)}};
+}
+
+std::vector<TomlKey> circle_keys() {
+  return {{"name"},
+          {"center_m", point_range()},
+          {"radius_m", positive_text(max_length_m)},
+          {"height_m", positive_text(max_length_m)}};
+}
+
+std::vector<TomlKey> polygon_keys() {
+  return {{"name"}, {"vertices_m", point_range()}, {"height_m", positive_text(max_length_m)}};
+}
 
 void read_shapes(const TomlTable& root, ScenarioFile& out) {
   Mistakes mistakes;

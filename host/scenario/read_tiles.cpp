@@ -9,6 +9,7 @@
 #include "host/files/read_file.hpp"
 #include "host/scenario/find_scenario.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -59,11 +60,15 @@ ScenarioFile read_tile(const TomlValue& of, const fs::path& file) {
 
 }  // namespace
 
+std::vector<TomlKey> tiles_keys() {
+  return {{"of"}, {"columns", range_text(1, max_tiles)}, {"rows", range_text(1, max_tiles)}};
+}
+
 void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) {
   const auto table = root.find_table("tiles");
   if (!table) return;
   Mistakes mistakes;
-  mistakes.attempt([&] { table->allow_only(tiles_keys); });
+  mistakes.attempt([&] { table->allow_only_keys(tiles_keys()); });
   mistakes.attempt([&] {
     if (const auto map = root.find("map")) map->fail_at_key("a scenario has either [tiles] or a [map]");
   });

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "host/scenario/read_scenario.hpp"
 
 namespace dmrp::host {
 
-inline const std::vector<std::string> tiles_keys = {"of", "columns", "rows"};
+std::vector<TomlKey> tiles_keys();
 
 // Reads [tiles] into the scenario: its size, and for every tile the shapes, regions and flows of the named scenario, so
 // that the number of people grows with the area. The robots and the borders of the tiles are not copied. `file`:

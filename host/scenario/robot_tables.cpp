@@ -18,10 +18,14 @@ namespace dmrp::host {
 namespace {
 
 constexpr double max_length_m = 1e4;
+constexpr double min_radius_m = 0.01;
 constexpr double max_radius_m = 10.0;
+constexpr double max_noise = 100.0;           // of odometry
 constexpr double max_dropout_share = 0.9;     // with more a costmap cannot distinguish them from free space
 constexpr double max_costmap_cells = 2000.0;  // along a side
-const std::vector<std::string> footprint_keys = {"radius_m", "vertices_m", "parts_m"};
+const std::vector<TomlKey> footprint_keys = {{"radius_m", range_text(min_radius_m, max_radius_m)},
+                                             {"vertices_m", "each " + range_text(-max_radius_m, max_radius_m)},
+                                             {"parts_m", "each " + range_text(-max_radius_m, max_radius_m)}};
 const std::vector<std::string> drives = {"differential", "holonomic", "ackermann"};
 
 // The numbers, counted from 1, of two sides that meet although they are no neighbours.
@@ -53,13 +57,13 @@ core::ConvexPolygon read_polygon(const TomlValue& value) {
 }
 
 void read_footprint(const TomlTable& table, core::RobotSettings& to) {
-  table.allow_only(footprint_keys);
+  table.allow_only_keys(footprint_keys);
   const std::vector<TomlValue> entries = table.entries();
   if (entries.size() != 1) table.fail("'footprint' must have one of radius_m, vertices_m and parts_m");
   const TomlValue& given = entries.front();
   to.parts.clear();
   if (given.key() == "radius_m") {
-    to.radius_m = given.number(0.01, max_radius_m);
+    to.radius_m = given.number(min_radius_m, max_radius_m);
     return;
   }
   if (given.key() == "vertices_m") to.parts.push_back(read_polygon(given));
@@ -94,10 +98,11 @@ Settings odometry_settings(core::OdometrySettings& to) {
     if (given.size() != to.noise.size())
       value.fail(
           fmt::format("'noise' must be [a1, a2, a3, a4], not {} number{}", given.size(), given.size() == 1 ? "" : "s"));
-    for (std::size_t i = 0; i < given.size(); ++i) to.noise[i] = given[i].number(0.0, 100.0);
+    for (std::size_t i = 0; i < given.size(); ++i) to.noise[i] = given[i].number(0.0, max_noise);
   };
   const auto write_noise = [&to] { return toml_text(std::vector<double>(to.noise.begin(), to.noise.end())); };
-  return {{"noise", read_noise, write_noise}, seconds_or_never("fix_period_s", to.fix_period_ns)};
+  return {{"noise", read_noise, write_noise, "each " + range_text(0.0, max_noise)},
+          seconds_or_never("fix_period_s", to.fix_period_ns)};
 }
 
 Settings lidar_settings(core::LidarSettings& to) {

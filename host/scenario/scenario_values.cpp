@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/toml/setting.hpp"
+
 namespace dmrp::host {
 namespace {
 
@@ -22,6 +24,14 @@ std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size
 }
 
 }  // namespace
+
+std::string point_range() {
+  return "each " + range_text(-max_length_m, max_length_m);
+}
+
+std::string size_range() {
+  return "each " + positive_text(max_length_m);
+}
 
 dmrp_vec2 point(const TomlValue& value) {
   const auto xy = numbers(value, 2, 2);

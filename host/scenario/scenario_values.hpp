@@ -19,6 +19,10 @@ dmrp_vec2 size(const TomlValue& value);                   // [x, y], both above 
 dmrp_pose pose(const TomlValue& value);                   // [x, y] or [x, y, theta]; a heading that is not given is NaN
 double positive(const TomlValue& value, double maximum);  // a number above 0
 
+// Ranges in words.
+std::string point_range();  // also of poses
+std::string size_range();
+
 void refuse_twice(const TomlValue& name, const char* what, const std::vector<std::string>& names);
 
 }  // namespace dmrp::host

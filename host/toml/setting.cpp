@@ -15,16 +15,12 @@ std::string number_text(double number) {
   return fmt::format("{:.7g}", number);
 }
 
-std::string range_of(double minimum, double maximum) {
-  return fmt::format("{} to {}", number_text(minimum), number_text(maximum));
-}
-
 Setting time_setting(const std::string& key, std::int64_t& to_ns, double minimum_s, double maximum_s) {
   return {key,
           [&to_ns, minimum_s, maximum_s](const TomlValue& value) {
             to_ns = std::llround(value.number(minimum_s, maximum_s) * 1e9);
           },
-          [&to_ns] { return toml_text(static_cast<double>(to_ns) / 1e9); }, range_of(minimum_s, maximum_s)};
+          [&to_ns] { return toml_text(static_cast<double>(to_ns) / 1e9); }, range_text(minimum_s, maximum_s)};
 }
 
 }  // namespace
@@ -36,11 +32,8 @@ std::vector<TomlTable::KeyReader> readers_of(const Settings& settings) {
 }
 
 TomlKeys keys_of(const std::string& title, const Settings& settings) {
-  TomlKeys keys = {title, TomlTable::keys_of(readers_of(settings))};
-  for (const Setting& setting : settings) {
-    keys.defaults.push_back(setting.write());
-    keys.ranges.push_back(setting.range);
-  }
+  TomlKeys keys = {title, {}};
+  for (const Setting& setting : settings) keys.keys.push_back({setting.key, setting.range, setting.write()});
   return keys;
 }
 
@@ -61,6 +54,14 @@ std::string range_text(std::int64_t minimum, std::int64_t maximum) {
   return fmt::format("{} to {}", minimum, maximum);
 }
 
+std::string range_text(double minimum, double maximum) {
+  return fmt::format("{} to {}", number_text(minimum), number_text(maximum));
+}
+
+std::string positive_text(double maximum) {
+  return "above 0, to " + number_text(maximum);
+}
+
 std::string choices_text(const std::vector<std::string>& choices) {
   std::string text;
   for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + toml_text(choice);
@@ -69,7 +70,7 @@ std::string choices_text(const std::vector<std::string>& choices) {
 
 Setting number(const std::string& key, double& to, double minimum, double maximum) {
   return {key, [&to, minimum, maximum](const TomlValue& value) { to = value.number(minimum, maximum); },
-          [&to] { return toml_text(to); }, range_of(minimum, maximum)};
+          [&to] { return toml_text(to); }, range_text(minimum, maximum)};
 }
 
 Setting positive(const std::string& key, double& to, double maximum) {
@@ -78,12 +79,12 @@ Setting positive(const std::string& key, double& to, double maximum) {
             value.positive();
             to = value.number(0.0, maximum);
           },
-          [&to] { return toml_text(to); }, "above 0, to " + number_text(maximum)};
+          [&to] { return toml_text(to); }, positive_text(maximum)};
 }
 
 Setting boolean(const std::string& key, bool& to) {
   return {key, [&to](const TomlValue& value) { to = value.boolean(); }, [&to] { return to ? "true" : "false"; },
-          "true, false"};
+          boolean_text};
 }
 
 Setting seconds(const std::string& key, std::int64_t& to_ns) {

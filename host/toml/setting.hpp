@@ -29,7 +29,11 @@ TomlKeys keys_of(const std::string& title, const Settings& settings);
 std::string lines_of(const Settings& settings, std::size_t width);
 std::string inline_table(const Settings& settings);
 
+// Ranges in words.
+inline constexpr const char* boolean_text = "true, false";
 std::string range_text(std::int64_t minimum, std::int64_t maximum);
+std::string range_text(double minimum, double maximum);
+std::string positive_text(double maximum);
 std::string choices_text(const std::vector<std::string>& choices);
 
 Setting number(const std::string& key, double& to, double minimum, double maximum);

@@ -45,11 +45,17 @@ TomlDocument::TomlDocument(std::string shown_path, std::string_view text)
 
 TomlDocument::~TomlDocument() = default;
 
+std::vector<std::string> names_of(const std::vector<TomlKey>& keys) {
+  std::vector<std::string> names;
+  for (const TomlKey& key : keys) names.push_back(key.name);
+  return names;
+}
+
 std::vector<std::string> TomlDocument::tables_with(const std::string& key) const {
   std::vector<std::string> titles;
   for (const TomlKeys& table : tables_)
-    if (!table.title.empty() && std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end())
-      titles.push_back(table.title);
+    for (const TomlKey& known : table.keys)
+      if (!table.title.empty() && known.name == key) titles.push_back(table.title);
   return titles;
 }
 
@@ -280,11 +286,12 @@ TomlValue TomlTable::need(const std::string& key) const {
 }
 
 void TomlTable::fail_missing(const std::string& key, const std::string& text) const {
-  if (const TomlKeys* const known = document_->keys_of(title_))
+  if (const TomlKeys* const table = document_->keys_of(title_)) {
+    const std::vector<std::string> known = names_of(table->keys);
     for (const TomlValue& entry : entries())
-      if (std::find(known->keys.begin(), known->keys.end(), entry.key()) == known->keys.end() &&
-          nearest_name(entry.key(), known->keys) == key)
-        refuse_key(entry, known->keys, "");
+      if (std::find(known.begin(), known.end(), entry.key()) == known.end() && nearest_name(entry.key(), known) == key)
+        refuse_key(entry, known, "");
+  }
   fail(text);
 }
 

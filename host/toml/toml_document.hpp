@@ -29,12 +29,18 @@ struct SourcePosition {
 
 class TomlTable;
 
+// A key of the format.
+struct TomlKey {
+  std::string name;
+  std::string range = {};     // the values that it takes, in words; "" where its page says it
+  std::string fallback = {};  // its default as TOML; "" where the readers know none
+};
+std::vector<std::string> names_of(const std::vector<TomlKey>& keys);
+
 // The keys of a table of the format. `title`: its name in messages, for example "[robot]".
 struct TomlKeys {
   std::string title;
-  std::vector<std::string> keys;
-  std::vector<std::string> defaults = {};  // one a key, as TOML; empty where the readers know none
-  std::vector<std::string> ranges = {};    // one a key, in words, or ""; empty as defaults
+  std::vector<TomlKey> keys;
 };
 
 class TomlDocument {
@@ -124,6 +130,7 @@ class TomlTable {
 
   // Refuses every key that is not in the list. `whose`: "" or " for org.example.planner", for the message.
   void allow_only(const std::vector<std::string>& keys, const std::string& whose = "") const;
+  void allow_only_keys(const std::vector<TomlKey>& keys) const { allow_only(names_of(keys)); }
 
   std::optional<TomlValue> find(const std::string& key) const;
   TomlValue need(const std::string& key) const;

@@ -31,6 +31,66 @@ RANGES
 
 expect_status 0 "$host" keys scenario
 for key in start via group_size vertices_m scen; do
-  grep -qx "  $key" "$scratch/stdout" || fail "keys scenario lacks $key"
+  grep -qE "^  $key( |$)" "$scratch/stdout" || fail "keys scenario lacks $key"
 done
 expect_status 2 "$host" keys experimant
+
+# --- what lies beyond a range is refused at its key ---
+# beyond RANGE: values that the range leaves out, a line each; none for a range that is more than one
+beyond() {
+  local range=${1#each }
+  case $range in
+    "at least 1") echo 0 ;;
+    "true, false") echo '"yes"' ;;
+    *:* | *,\ or\ *) ;;
+    \"*) echo '"none of these"' ;;
+    "above 0, to "*) printf '0\n%s\n' "${range##* }1" ;;
+    *" to 9223372036854775807") echo -1 ;;
+    *" to "*) awk '{ print $1 - 1; print $3 + 1 }' <<<"$range" ;;
+  esac
+}
+# written KEY RANGE VALUE: the value in the form that the key takes
+written() {
+  case $1 in
+    noise) echo "[$3, 0, 0, 0]" ;;
+    vertices_m) echo "[[$3, 0], [1, 0], [0, 1]]" ;;
+    parts_m) echo "[[[$3, 0], [1, 0], [0, 1]]]" ;;
+    goals) echo "[[$3, 0]]" ;;
+    types) echo "{ default = $3 }" ;;
+    *) if [[ $2 == each* ]]; then echo "[$3, 1]"; else echo "$3"; fi ;;
+  esac
+}
+header='name = "world"
+title = "a"
+description = "a"'
+tried=0
+for format in experiment scenario; do
+  while IFS='|' read -r table key range; do
+    # read with the map or the robots that they belong to alone, or as [robot]
+    [[ $table != "[map]" && $table != "[robots]" && $table != "[grade]" && $key != types ]] || continue
+    [[ $table != "[robot_type"* ]] || continue
+    while read -r value; do
+      {
+        [[ $format == experiment || $table == "[scenario]" ]] || printf '[scenario]\n%s\n' "$header"
+        [[ $format == experiment || $table == "[scenario]" || $table == "[tiles]" ]] || echo "size_m = [10, 10]"
+        echo "$table"
+        [[ $table != "[[scenario]]" ]] || echo 'use = "mall"'
+        [[ $table != "[scenario]" ]] || echo "$header"
+        [[ $key != group_size ]] || echo "people = 1"
+        echo "$key = $(written "$key" "$range" "$value")"
+      } >world.toml
+      place="world.toml:$(wc -l <world.toml):"
+      file=world.toml
+      if [[ $format == scenario ]]; then
+        printf '[experiment]\nname = "a"\n[[scenario]]\nuse = "./world.toml"\n' >uses_it.toml
+        file=uses_it.toml
+      fi
+      expect_status 2 "$host" validate "$file"
+      grep -qF "$place" "$scratch/stderr" || fail "$table $key = $value should be refused: $(cat "$scratch/stderr")"
+      tried=$((tried + 1))
+    done < <(beyond "$range")
+  done < <("$host" keys "$format" | awk '
+    /^\[/ { table = $1; next }
+    index($0, "  # ") { range = $0; sub(/.*  # /, "", range); print table "|" $1 "|" range }')
+done
+((tried > 100)) || fail "only $tried values beyond ranges were tried"
