@@ -27,6 +27,9 @@ constexpr double spacing_m = static_cast<double>(mppi::path_spacing_m);
 // and standing costs least.
 constexpr float stray_m = 0.2f;
 
+// A path has come back if its direction has turned by more than this, at once or in several corners.
+constexpr double comes_back_rad = 2.0;
+
 // A detour prefers this clearance beyond what the robot needs.
 constexpr double easy_beyond_m = 0.15;
 
@@ -190,6 +193,7 @@ void Mppi::look_at_path(const Observation& now) {
   const double length_m = std::min<double>(prune_distance, tracker_.remaining_m());
   const auto count = static_cast<int>(std::ceil(length_m / spacing_m));
   double heading = now.pose.theta;
+  double first_heading = heading;
   for (int i = 0; i <= count; ++i) {
     const double ahead_m = std::min(i * spacing_m, length_m);
     const double arc_m = tracker_.progress_m() + ahead_m;
@@ -197,7 +201,10 @@ void Mppi::look_at_path(const Observation& now) {
     if (i > 0 && !field_.contains(point)) break;
     const double next_heading = tracker_.heading_at(arc_m, heading);
     const bool turns_back = std::abs(toolkit::difference(heading, next_heading)) > 0.5 * toolkit::pi;
-    if (enforce_path_inversion && turns_back && ahead_m > inversion_xy_tolerance) break;
+    if (i == 0) first_heading = next_heading;
+    const bool comes_back = std::abs(toolkit::difference(first_heading, next_heading)) > comes_back_rad;
+    if (((enforce_path_inversion && turns_back) || (end_at_hairpins && comes_back)) && ahead_m > inversion_xy_tolerance)
+      break;
     heading = next_heading;
     add_path_point(point - robot, heading, !field_.is_blocked(point));
   }

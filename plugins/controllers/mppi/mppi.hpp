@@ -55,6 +55,9 @@ class Mppi final : public LocalController {
       param("enforce_path_inversion", false).doc("consider the path only up to where it turns back");
   Param<bool> detour = param("detour", false)
                            .doc("departure: where the path is blocked, follow the shortest way round over the costmap");
+  Param<bool> end_at_hairpins =
+      param("end_at_hairpins", false)
+          .doc("departure: consider the path only up to where it comes back in several corners, too");
   Param<double> inversion_xy_tolerance = param("inversion_xy_tolerance", 0.2)
                                              .unit("m")
                                              .range(0.0, 5.0)

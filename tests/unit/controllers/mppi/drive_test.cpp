@@ -2,6 +2,7 @@
 // MPPI in closed loop: what its parameters change.
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <dmrp/toolkit/random.hpp>
 
 #include "tests/unit/controllers/arena.hpp"
 #include "tests/unit/controllers/tuned_parameters.hpp"
@@ -72,6 +73,24 @@ TEST_CASE("MPPI drives on from a corner that it has cut") {
   course.start = {0.2, 0.1, 2.7};
   course.time_limit_s = 40.0;
   CHECK(run(mppi, course, tuned_parameters(mppi)).arrived);
+}
+
+// In a hairpin a metre wide, the farthest point of the path that trajectories reach is beyond both corners: the path's
+// follow critic draws the robot across, the align critic along, and it stands between them.
+TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to where that comes back") {
+  int arrived = 0;
+  int arrived_before = 0;
+  dmrp::toolkit::Stream random(29, "starts");
+  for (int i = 0; i < 20; ++i) {
+    Course course;
+    course.path = metre_path({{0.0, 0.0}, {0.0, -3.0}, {2.0, -3.0}, {2.0, -4.0}, {-2.0, -4.0}});
+    course.start = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), -1.57 + random.uniform(-0.2, 0.2)};
+    course.time_limit_s = 40.0;
+    arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
+    arrived_before += run(mppi, course, tuned_with({{"end_at_hairpins", false}})).arrived;
+  }
+  CHECK(arrived == 20);
+  CHECK(arrived_before < 20);
 }
 
 TEST_CASE("MPPI knows of agents only if it is to predict them, as nav2 does not") {
