@@ -11,8 +11,8 @@ namespace dmrp::planners {
 
 namespace {
 
-// Prioritized planning is left when it has expanded so many states for each step of the robots' costs alone without
-// halving the number of robots that have no path. Where it comes to its end, its plans are much cheaper than the first
+// Prioritized planning is left when it has expanded so many states for each step of the robots' costs alone, and more
+// than until then, without halving the number of robots that have no path. Where it comes to its end, its plans are much cheaper than the first
 // ones of LaCAM*.
 constexpr double patience_a_step = 60;
 

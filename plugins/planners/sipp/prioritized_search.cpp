@@ -58,7 +58,8 @@ PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart, std:
   const std::int64_t limit =
       statistics_.displaced + displacements_a_robot * static_cast<std::int64_t>(problem_.agents.size());
   std::size_t next_half = order_.size() / 2;
-  std::int64_t halved_at = low_level_.expanded();
+  const std::int64_t began_at = low_level_.expanded();
+  std::int64_t halved_at = began_at;
   while (!order_.empty()) {
     if (order_.size() <= next_half) {
       next_half = order_.size() / 2;
@@ -69,7 +70,7 @@ PrioritizedSearch::Attempt PrioritizedSearch::attempt(std::int64_t restart, std:
     const SippSearch::Result result = plan(agent);
     if (result == SippSearch::Result::stopped) return Attempt::stopped;
     if (result == SippSearch::Result::none || statistics_.displaced > limit ||
-        low_level_.expanded() - halved_at > patience)
+        low_level_.expanded() - halved_at > std::max(patience, halved_at - began_at))
       return Attempt::failed;
   }
   return restart == 0 ? Attempt::succeeded : tighten();

@@ -32,8 +32,8 @@ class PrioritizedSearch {
 
   Result run(std::int64_t restart_limit);
 
-  // Plans in the first order only, and gives up when the low level has expanded so many states since the number of
-  // robots without a path was last halved. Result::restart_limit: no plan.
+  // Plans in the first order only, and gives up when the low level has expanded so many states, and more than until
+  // then, since the number of robots without a path was last halved. Result::restart_limit: no plan.
   Result run_once(std::int64_t patience);
 
   // After Result::solved: one path for each agent.
