@@ -72,13 +72,15 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
   grid.free.assign(size, 0);
   grid.edges.assign(size, 0);
   grid.clearance.assign(size, 0.0f);
+  grid.at_open_edge.assign(geometry.has_open_edge() ? size : 0, 0);
 
   const dmrp_grid sdk_grid = grid.view();
   const GridView view(sdk_grid);
   for (std::uint32_t index = 0; index < size; ++index) {
-    const double clearance = geometry.clearance(view.center(index));
-    grid.clearance[index] = static_cast<float>(clearance);
-    grid.free[index] = clearance > 0.0 && clearance >= radius_m + margin_m - touching_m ? 1 : 0;
+    const NearestShape nearest = geometry.nearest(view.center(index));
+    grid.clearance[index] = static_cast<float>(nearest.clearance_m);
+    grid.free[index] = nearest.clearance_m > 0.0 && nearest.clearance_m >= radius_m + margin_m - touching_m ? 1 : 0;
+    if (geometry.has_open_edge()) grid.at_open_edge[index] = geometry.is_open_edge(nearest.shape) ? 1 : 0;
   }
   find_edges(geometry, radius_m, grid);
   return grid;
@@ -88,7 +90,7 @@ PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m)
   return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
 }
 
-std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from) {
+std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from, const std::vector<bool>& closed) {
   const dmrp_grid c_grid = grid.view();
   const toolkit::GridView view(c_grid);
   std::vector<bool> seen(view.size());
@@ -100,7 +102,7 @@ std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from) 
     for (int direction = 0; direction < 8; direction += 2) {
       if (!view.edge(cell, direction)) continue;
       const std::uint32_t next = view.neighbour(cell, direction);
-      if (!seen[next]) {
+      if (!seen[next] && (closed.empty() || !closed[next])) {
         seen[next] = true;
         open.push_back(next);
       }

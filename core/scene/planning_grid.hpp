@@ -19,6 +19,7 @@ struct PlanningGrid {
   std::vector<std::uint8_t> free;
   std::vector<std::uint8_t> edges;
   std::vector<float> clearance;
+  std::vector<std::uint8_t> at_open_edge;  // nearest to the edge of a map that is open there; empty for other worlds
 
   // Valid as long as this struct is neither moved nor changed.
   dmrp_grid view() const;
@@ -33,7 +34,8 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
 inline constexpr double walking_resolution_m = 0.25;
 PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m);
 
-// Marks the cells that are reachable from a cell over orthogonal edges: the moves that every planner can use.
-std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from);
+// Marks the cells that are reachable from a cell over orthogonal edges: the moves that every planner can use. Cells that
+// are marked in `closed` are not entered; empty: none is closed.
+std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from, const std::vector<bool>& closed = {});
 
 }  // namespace dmrp::core

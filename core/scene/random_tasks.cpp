@@ -94,6 +94,42 @@ std::size_t grid_of(std::span<const TypeGrid> grids, const std::string& type) {
   return static_cast<std::size_t>(found - grids.begin());
 }
 
+// The cells that the open edge of a map reaches over cells of such clearance.
+std::vector<bool> wide_outside(const PlanningGrid& grid, double clearance_m) {
+  std::vector<bool> narrow(grid.free.size());
+  for (std::size_t cell = 0; cell < narrow.size(); ++cell)
+    narrow[cell] = static_cast<double>(grid.clearance[cell]) < clearance_m;
+  std::vector<bool> outside(narrow.size());
+  for (std::uint32_t cell = 0; cell < grid.at_open_edge.size(); ++cell) {
+    if (!grid.at_open_edge[cell] || !grid.free[cell] || narrow[cell] || outside[cell]) continue;
+    const std::vector<bool> seen = reachable_cells(grid, cell, narrow);
+    for (std::size_t other = 0; other < seen.size(); ++other) outside[other] = outside[other] || seen[other];
+  }
+  return outside;
+}
+
+// Adds what lies within `steps` moves, between the wide outside and the walls; diagonal ones reach into corners.
+void widen(const dmrp_grid& grid, int steps, std::vector<bool>& cells) {
+  const toolkit::GridView view(grid);
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<bool> before = cells;
+    for (std::uint32_t cell = 0; cell < view.size(); ++cell)
+      for (int direction = 0; before[cell] && direction < toolkit::direction_count; ++direction)
+        if (view.edge(cell, direction)) cells[view.neighbour(cell, direction)] = true;
+  }
+}
+
+// The outside of the buildings of a map whose edge is open; empty if there is none, or if no point lies in a building.
+std::vector<bool> outside_of_buildings(const PlanningGrid& grid, const std::vector<bool>& holds_point) {
+  constexpr double half_way_m = way_outside_m / 2.0;
+  if (grid.at_open_edge.empty()) return {};
+  std::vector<bool> outside = wide_outside(grid, half_way_m);
+  widen(grid.view(), static_cast<int>(half_way_m / grid.resolution_m), outside);
+  for (std::size_t cell = 0; cell < outside.size(); ++cell)
+    if (holds_point[cell] && grid.free[cell] && !outside[cell]) return outside;
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<const dmrp_vec2> inside) {
@@ -103,12 +139,13 @@ std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<co
   for (const dmrp_vec2 point : inside)
     if (const toolkit::Cell cell = view.cell_of(point); view.contains(cell)) holds_point[view.index(cell)] = true;
 
-  std::vector<bool> known(view.size());
+  const std::vector<bool> outside = outside_of_buildings(grid, holds_point);
+  std::vector<bool> known = outside.empty() ? std::vector<bool>(view.size()) : outside;
   std::vector<std::uint32_t> best;  // the first among equals
   bool best_is_inside = false;
   for (std::uint32_t cell = 0; cell < view.size(); ++cell) {
     if (!view.free(cell) || known[cell]) continue;
-    const std::vector<bool> seen = reachable_cells(grid, cell);
+    const std::vector<bool> seen = reachable_cells(grid, cell, outside);
     std::vector<std::uint32_t> part;
     bool is_inside = false;
     for (std::uint32_t other = cell; other < seen.size(); ++other) {

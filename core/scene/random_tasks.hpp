@@ -18,8 +18,13 @@ inline constexpr double task_separation_m = 2.0;  // starts, and goals, are fart
 inline constexpr double task_gap_m = 0.2;         // so are the circles around their footprints, if they are large
 inline constexpr double min_task_length_m = 5.0;  // a goal is at least this far from its start, as the crow flies
 
+// On a map with an open edge, a narrower way between that edge and a room is a door.
+inline constexpr double way_outside_m = 2.0;
+
 // The largest connected set of free cells, ascending. `inside`: only sets that hold the cell of one of these points
-// count, if there is such a set; around a building on a map there can be more free cells than in it.
+// count, if there is such a set; around a building on a map there can be more free cells than in it. If its doors stand
+// open, the set ends there: the outside, which the map's open edge reaches by ways at least way_outside_m wide, is left
+// out, unless all of the points lie in it.
 std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<const dmrp_vec2> inside);
 
 // Starts and goals of `count` robots on the centres of free cells of part_for_tasks(); headings are free. The task of

@@ -69,6 +69,7 @@ struct Scenario {
   dmrp_vec2 upper{};
   double time_limit_s = 180.0;
   std::vector<Shape> shapes;
+  bool edge_is_open = false;      // of a map of map_server: beyond its edge there may be more, but no wall
   std::vector<dmrp_vec2> inside;  // robots are drawn in what these points reach: given points, or all listed starts
   std::vector<RobotTask> robots;
   std::vector<dmrp_vec2> other_starts;  // of listed robots that take no part: people keep clear of them too at t = 0

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/cell_map.hpp"
 #include "core/scene/convex_separation.hpp"
 
 namespace dmrp::core {
@@ -94,7 +95,9 @@ std::vector<dmrp_shape> sdk_shapes_of(const std::vector<Shape>& shapes) {
 }
 
 StaticGeometry::StaticGeometry(const Scenario& scenario)
-    : StaticGeometry({scenario.lower, scenario.upper}, scenario.shapes) {}
+    : StaticGeometry({scenario.lower, scenario.upper}, scenario.shapes) {
+  has_open_edge_ = scenario.edge_is_open;
+}
 
 StaticGeometry::StaticGeometry(const dmrp_world& world)
     : StaticGeometry({world.lower, world.upper}, shapes_of(world)) {}
@@ -109,6 +112,10 @@ StaticGeometry::StaticGeometry(const toolkit::Rectangle& rectangle, std::vector<
 
 std::string_view StaticGeometry::shape_name(std::uint32_t shape) const {
   return shape < shapes_.size() ? std::string_view(shapes_[shape].name) : "the border";
+}
+
+bool StaticGeometry::is_open_edge(std::uint32_t shape) const {
+  return has_open_edge_ && (shape == border() || shape_name(shape).starts_with(beyond_map));
 }
 
 bool StaticGeometry::inside_world(dmrp_vec2 point) const {

@@ -49,6 +49,10 @@ class StaticGeometry {
   std::uint32_t border() const { return static_cast<std::uint32_t>(shapes_.size()); }  // the border's index
   std::string_view shape_name(std::uint32_t shape) const;                              // "the border" for border()
 
+  // Whether the border is the edge of a map that may go on beyond it, and whether the shape is that edge.
+  bool has_open_edge() const { return has_open_edge_; }
+  bool is_open_edge(std::uint32_t shape) const;
+
   // Outlines of all shapes and of the border, as walls for people; circles as polygons around them.
   std::span<const dmrp_segment> segments() const { return segments_; }
 
@@ -83,6 +87,7 @@ class StaticGeometry {
   std::vector<dmrp_shape> sdk_shapes_;  // point into shapes_
   std::vector<dmrp_segment> segments_;
   BoxTree tree_;
+  bool has_open_edge_ = false;
 };
 
 }  // namespace dmrp::core

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
@@ -12,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/cell_map.hpp"
 #include "core/scene/footprint.hpp"
 #include "core/scene/footprint_grid.hpp"
 #include "core/scene/planning_grids.hpp"
@@ -31,6 +31,7 @@ namespace {
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
 constexpr double max_cells = 1 << 24;
 constexpr double most_cells_tried = 1e6;  // of a grid that a message proposes
+constexpr std::array proposed_cells_m = {0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1};
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;
@@ -145,7 +146,7 @@ class WorldCheck {
     const core::RobotTask& task = scenario_.robots[robot];
     const core::RobotSettings& type = types_.of(task);
     std::vector<std::string> found;
-    for (const double cell_m : {0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1}) {
+    for (const double cell_m : proposed_cells_m) {
       if (cell_m >= now.grid_resolution_m || world_m2 / (cell_m * cell_m) > most_cells_tried) continue;
       if (!would_do(task, type, cell_m, now.planning_margin_m)) continue;
       found.push_back(fmt::format("grid_resolution_m = {}", cell_m));
@@ -286,36 +287,63 @@ class WorldCheck {
   std::map<std::string, std::string> too_large_;  // by type of robot: the first mistake of one
 };
 
-// Around a building on a map there can be free cells, too.
-void check_inside(const ScenarioFile& file, const core::PlanningGrid& planning, const core::StaticGeometry& geometry,
-                  Experiment& experiment) {
+bool any_on_free_cell(std::span<const dmrp_vec2> points, const core::PlanningGrid& planning) {
   const dmrp_grid view = planning.view();
   const toolkit::GridView grid(view);
-  if (file.inside) {
-    const toolkit::Cell cell = grid.cell_of(file.scenario.inside.front());
-    if (!grid.contains(cell) || !grid.free(cell))
-      file.document->fail(*file.inside, "'inside_m' must lie on a free planning cell");
-  }
-  const double cell_m2 = grid.resolution_m() * grid.resolution_m();
-  const auto part = core::part_for_tasks(planning, file.scenario.inside);
-  if (const auto largest = core::part_for_tasks(planning, {}); largest.size() > part.size())
-    experiment.warnings.push_back(file.document->place(file.size) +
-                                  fmt::format(": robots are drawn in the {:.0f} m2 that {} reach{}; larger free space "
-                                              "beyond, {:.0f} m2, is left out",
-                                              cell_m2 * static_cast<double>(part.size()),
-                                              file.inside ? "'inside_m'" : "the listed starts", file.inside ? "es" : "",
-                                              cell_m2 * static_cast<double>(largest.size())));
-  const auto is_at_edge = [&](std::uint32_t cell) {
-    const std::uint32_t nearest = geometry.nearest(grid.center(cell)).shape;
-    return nearest == geometry.border() || geometry.shape_name(nearest).starts_with(core::beyond_map);
+  return std::any_of(points.begin(), points.end(), [&](dmrp_vec2 point) {
+    const toolkit::Cell cell = grid.cell_of(point);
+    return grid.contains(cell) && grid.free(cell);
+  });
+}
+
+// Without a free cell under one of the points, the largest free space would count: on an open map that is the outside.
+void check_points_inside(const ScenarioFile& file, const WorldCheck& check, const Experiment& experiment) {
+  const core::Scenario& scenario = file.scenario;
+  const core::SimulationSettings& now = experiment.simulation;
+  if (any_on_free_cell(scenario.inside, check.planning_grids().standard())) return;
+  if (file.inside) file.document->fail(*file.inside, "'inside_m' must lie on a free planning cell");
+  if (!scenario.edge_is_open || scenario.inside.empty()) return;
+  const auto would_do = [&](double cell_m) {
+    return cell_m < now.grid_resolution_m &&
+           any_on_free_cell(scenario.inside, core::build_planning_grid(check.geometry(), cell_m, experiment.robot,
+                                                                       now.planning_margin_m));
   };
-  if (file.edge_is_open && std::any_of(part.begin(), part.end(), is_at_edge))
-    experiment.warnings.push_back(
-        file.document->place(file.size) +
-        fmt::format(": drawn robots may begin outside the building: {} the edge of the map{}",
-                    file.scenario.inside.empty() ? "their free space reaches" : "the way is open from its inside to",
-                    file.scenario.inside.empty() ? " ('inside_m' = [x, y] in [scenario] names a point inside)"
-                                                 : " (a [[box]] can close the gap)"));
+  const auto found = std::find_if(proposed_cells_m.begin(), proposed_cells_m.end(), would_do);
+  file.document->fail(
+      file.robots.front(),
+      fmt::format("robots are drawn in what the listed starts reach, but none of these lies on a free planning cell{}",
+                  found == proposed_cells_m.end() ? "" : fmt::format("; grid_resolution_m = {} would do", *found)));
+}
+
+// Around a building on a map there can be free cells, too.
+void check_inside(const ScenarioFile& file, const core::PlanningGrid& planning, Experiment& experiment) {
+  const core::Scenario& scenario = file.scenario;
+  const double cell_m2 = planning.resolution_m * planning.resolution_m;
+  const auto part = core::part_for_tasks(planning, scenario.inside);
+  const auto warn = [&](const std::string& text) {
+    experiment.warnings.push_back(file.document->place(file.size) + ": " + text);
+  };
+  if (const auto largest = core::part_for_tasks(planning, {}); largest.size() > part.size()) {
+    const bool is_open = std::binary_search(largest.begin(), largest.end(), part.front());
+    const double part_m2 = cell_m2 * static_cast<double>(part.size());
+    const double largest_m2 = cell_m2 * static_cast<double>(largest.size());
+    if (is_open)
+      warn(fmt::format(
+          "robots are drawn in the {:.0f} m2 around {}; the outside, {:.0f} m2 beyond ways narrower than "
+          "{} m, is left out",
+          part_m2, file.inside ? "'inside_m'" : "the listed starts", largest_m2 - part_m2, core::way_outside_m));
+    else
+      warn(
+          fmt::format("robots are drawn in the {:.0f} m2 that {} reach{}; larger free space beyond, {:.0f} m2, is left "
+                      "out",
+                      part_m2, file.inside ? "'inside_m'" : "the listed starts", file.inside ? "es" : "", largest_m2));
+  }
+  const auto is_at_edge = [&](std::uint32_t cell) { return planning.at_open_edge[cell] != 0; };
+  if (scenario.edge_is_open && std::any_of(part.begin(), part.end(), is_at_edge))
+    warn(fmt::format("drawn robots may begin outside the building: {} the edge of the map{}",
+                     scenario.inside.empty() ? "their free space reaches" : "the way is open from its inside to",
+                     scenario.inside.empty() ? " ('inside_m' = [x, y] in [scenario] names a point inside)"
+                                             : " (a [[box]] can close the gap)"));
 }
 
 // That every repetition has room for its tasks, and tasks as wished.
@@ -358,7 +386,8 @@ void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experi
   check_size(file, core::walking_resolution_m, "the grid for people");
   WorldCheck check(file, types, experiment, drawn, root);
   check.run();
-  if (drawn.most > 0) check_inside(file, check.planning_grids().standard(), check.geometry(), experiment);
+  if (drawn.most > 0) check_points_inside(file, check, experiment);
+  if (drawn.most > 0) check_inside(file, check.planning_grids().standard(), experiment);
   check_drawn_tasks(file, check.planning_grids(), experiment, drawn);
 }
 

@@ -64,7 +64,7 @@ void read_map_server(const TomlTable& root, const TomlTable& table, const TomlVa
   const RosMap map = read_ros_map(file.path, file.shown_path, unknown);
   check_roughness(name, map.cells);
   out.files.push_back(map.image);
-  out.edge_is_open = true;
+  out.scenario.edge_is_open = true;
   core::PlacedBoxes placed = core::place_boxes(map.cells, map.resolution_m, map.origin);
   check_extent(name, {placed.world.upper.x - placed.world.lower.x, placed.world.upper.y - placed.world.lower.y});
   out.scenario.lower = placed.world.lower;

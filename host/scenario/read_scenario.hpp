@@ -39,7 +39,6 @@ struct ScenarioFile {
   std::shared_ptr<const TomlDocument> document;
   SourcePosition size;                   // of the world
   std::optional<SourcePosition> inside;  // the point that is given, not the listed starts
-  bool edge_is_open = false;             // a map of map_server: beyond its edge there may be more, but no wall
   std::vector<SourcePosition> robots;    // parallel to scenario.robots
   std::vector<SourcePosition> regions;   // parallel to scenario.regions
   std::vector<SourcePosition> flows;     // parallel to scenario.flows

@@ -266,16 +266,16 @@ size_m = [0.2, 10.2]
              Catch::EndsWith("scenario.toml:6:12: 'inside_m' must lie on a free planning cell"));
 }
 
-TEST_CASE("a map whose building is open to the map's edge gives a warning") {
+TEST_CASE("on a map whose edge is open, robots are drawn in the building, not outside its doors") {
   const ExperimentFolder folder;
   // 30 m x 30 m, 1 m a cell: a house from 8 to 22 m, with a gap in its southern wall or without
-  const auto write_map = [](bool gap) {
+  const auto write_map = [](int gap) {
     std::string image = "P2\n30 30\n255\n";
     for (int row = 0; row < 30; ++row)
       for (int column = 0; column < 30; ++column) {
         const bool in_house = row >= 8 && row <= 21 && column >= 8 && column <= 21;
         const bool wall = in_house && (row == 8 || row == 21 || column == 8 || column == 21);
-        image += wall && !(gap && row == 21 && column == 14) ? "0\n" : "254\n";
+        image += wall && !(row == 21 && column >= 14 && column < 14 + gap) ? "0\n" : "254\n";
       }
     write_file("hall/map.pgm", image);
   };
@@ -284,19 +284,38 @@ TEST_CASE("a map whose building is open to the map's edge gives a warning") {
              "0.196\n");
   write_file("hall/scenario.toml",
              "[scenario]\nname = \"hall\"\ntitle = \"Hall\"\ndescription = \"a house\"\n[map]\nfile = "
-             "\"map.yaml\"\n[[robot]]\nstart = [10.5, 10.5]\ngoal = [18.5, 18.5]\n");
+             "\"map.yaml\"\n[[robot]]\nstart = [9.5, 9.5]\ngoal = [18.5, 18.5]\n");
   const std::string alone = with(experiment_text, "[[pedestrian_model]]\nuse = \"test.model\"\n", "");
   const std::string experiment = with(alone, "scenario.toml\"\n", "scenario.toml\"\nrobots = 3\n");
-  write_map(true);
-  const Experiment open = load(experiment);
-  REQUIRE(open.warnings.size() == 1);
-  CHECK_THAT(open.warnings[0],
-             Catch::EndsWith(": drawn robots may begin outside the building: the way is open from its "
-                             "inside to the edge of the map (a [[box]] can close the gap)"));
-  write_map(false);
-  const Experiment closed = load(experiment);
-  REQUIRE(closed.warnings.size() == 1);
-  CHECK_THAT(closed.warnings[0], Catch::EndsWith("is left out"));
+  const auto warning = [&] {
+    const Experiment e = load(experiment);
+    REQUIRE(e.warnings.size() == 1);
+    return e.warnings[0];
+  };
+  write_map(0);
+  CHECK_THAT(warning(), Catch::EndsWith(": robots are drawn in the 144 m2 that the listed starts reach; larger free "
+                                        "space beyond, 704 m2, is left out"));
+  write_map(3);
+  CHECK_THAT(warning(), Catch::EndsWith(": drawn robots may begin outside the building: the way is open from its "
+                                        "inside to the edge of the map (a [[box]] can close the gap)"));
+  write_map(1);
+  CHECK_THAT(warning(), Catch::EndsWith(": robots are drawn in the 145 m2 around the listed starts; the outside, 704 "
+                                        "m2 beyond ways narrower than 2 m, is left out"));
+  const Experiment e = load(experiment);
+  const VariantWorld shared(e, e.scenarios[0]);
+  for (std::uint32_t repetition = 0; repetition < 20; ++repetition) {
+    const VariantWorld world(e, e.scenarios[0], shared, world_seed(e, "hall", repetition));
+    REQUIRE(world.scenario.robots.size() == 3);
+    for (const core::RobotTask& task : world.scenario.robots)
+      for (const dmrp_pose& pose : {task.start, task.goals[0]}) {
+        CHECK(std::abs(pose.x - 15.0) < 7.0);
+        CHECK(std::abs(pose.y - 15.0) < 7.0);
+      }
+  }
+  CHECK_THAT(
+      message_of(experiment + "[simulation]\ngrid_resolution_m = 2.0\n"),
+      Catch::EndsWith("scenario.toml:7:1: robots are drawn in what the listed starts reach, but none of these lies "
+                      "on a free planning cell; grid_resolution_m = 0.75 would do"));
 }
 
 TEST_CASE("a start that cannot be reached says what would do") {
