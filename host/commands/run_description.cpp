@@ -62,10 +62,10 @@ ExperimentFacts facts_of(const Experiment& experiment, const Shard& shard, std::
                                     ? static_cast<double>(simulation_of(experiment, variant).time_limit_ns) / 1e9
                                     : scenario.time_limit_s;
     const Grade& grade = variant.grade;
-    facts.scenarios.push_back({result_name(variant), scenario.title, scenario.description, robot_count(variant),
-                               core::person_count(scenario), time_limit_s, types_of_robots(variant),
-                               grade.series.empty() ? "" : with_swept(grade.series, variant.swept), grade.quantity,
-                               grade.unit, grade.harder_when_higher, grade.level, scenario.name});
+    facts.scenarios.push_back(
+        {result_name(variant), scenario.title, scenario.description, robot_count(variant), core::person_count(scenario),
+         time_limit_s, types_of_robots(variant), grade.series.empty() ? "" : with_swept(grade.series, variant.swept),
+         grade.quantity, grade.unit, grade.harder_when_higher, grade.level, scenario.name, variant.drawn_robots > 0});
   }
   return facts;
 }

@@ -88,6 +88,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
     fmt::print("\n{}", summary_table(layout, results.metrics, results.summaries, marks, style));
     fmt::print("{}\n", table_legend(layout, results.metrics, marks, {width, style.ansi}));
   }
+  if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
+    fmt::print("{}\n", wrapped_text(drawn, width, "  "));
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));

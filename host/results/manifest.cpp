@@ -45,6 +45,7 @@ Json to_json(const ExperimentFacts& experiment) {
                                              {"people", scenario.people},
                                              {"time_limit_s", scenario.time_limit_s}});
     if (!scenario.world.empty() && scenario.world != scenario.name) json["world"] = scenario.world;
+    if (scenario.tasks_drawn) json["tasks_drawn"] = true;
     if (!scenario.robot_types.empty()) json["robot_types"] = scenario.robot_types;
     if (scenario.series.empty()) continue;
     json["grade"] = {{"series", scenario.series},
@@ -81,6 +82,7 @@ ExperimentFacts parse_experiment(const Json& json) {
     scenario.at("time_limit_s").get_to(facts.time_limit_s);
     facts.robot_types = scenario.value("robot_types", facts.robot_types);
     facts.world = scenario.value("world", facts.world);
+    facts.tasks_drawn = scenario.value("tasks_drawn", false);
     const auto grade = scenario.find("grade");
     if (grade == scenario.end()) continue;
     facts.series = grade->at("series");

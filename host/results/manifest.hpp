@@ -38,7 +38,8 @@ struct ScenarioFacts {
   std::string unit{};
   bool harder_when_higher = true;
   double level = 0.0;
-  std::string world{};  // its own name, without swept values; empty: `name`
+  std::string world{};       // its own name, without swept values; empty: `name`
+  bool tasks_drawn = false;  // the robots' tasks are drawn, not listed
 };
 
 // Trials k with k % count == index.

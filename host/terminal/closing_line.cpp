@@ -18,6 +18,20 @@ std::string counted(std::uint64_t count, const std::string& noun) {
 
 }  // namespace
 
+std::string drawn_tasks_line(std::span<const ScenarioFacts> scenarios) {
+  std::string line;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const ScenarioFacts& facts = scenarios[i];
+    if (!facts.tasks_drawn) continue;
+    const bool goes_on = i > 0 && scenarios[i - 1].tasks_drawn && scenarios[i - 1].name == facts.name;
+    const bool ends = i + 1 == scenarios.size() || !scenarios[i + 1].tasks_drawn || scenarios[i + 1].name != facts.name;
+    line += goes_on ? ", " : (line.empty() ? "drawn tasks: " : "; ") + facts.name + " with ";
+    line += std::to_string(facts.robots);
+    if (ends) line += facts.robots == 1 ? " robot" : " robots";
+  }
+  return line;
+}
+
 std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
   std::uint64_t robots = 0;
   std::uint64_t arrived = 0;

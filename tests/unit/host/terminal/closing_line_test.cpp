@@ -29,6 +29,24 @@ TEST_CASE("the closing line counts", "[terminal]") {
   CHECK(closing_line(layout, trials) == "1 fault · 1 trial skipped · repeatable");
 }
 
+TEST_CASE("a line tells which tasks are drawn", "[terminal]") {
+  ScenarioFacts two;
+  two.name = "office";
+  two.robots = 2;
+  CHECK(drawn_tasks_line({}).empty());
+  CHECK(drawn_tasks_line(std::vector{two}).empty());
+  two.tasks_drawn = true;
+  ScenarioFacts sixteen = two;
+  sixteen.robots = 16;
+  ScenarioFacts listed = two;
+  listed.tasks_drawn = false;
+  ScenarioFacts mall = two;
+  mall.name = "mall";
+  mall.robots = 1;
+  CHECK(drawn_tasks_line(std::vector{two, sixteen, listed, mall}) ==
+        "drawn tasks: office with 2, 16 robots; mall with 1 robot");
+}
+
 TEST_CASE("the run directory is printed with its files", "[terminal]") {
   const std::vector<std::string> files{"results.sqlite", "traces/"};
   CHECK(files_line("runs/quickstart", files) == "runs/quickstart   results.sqlite  traces/");
