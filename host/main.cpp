@@ -188,7 +188,12 @@ CLI::App* add_discriminate(CLI::App& app, DiscriminateOptions& options) {
       ->check(CLI::IsMember({"success", "time"}))
       ->type_name("CRITERION")
       ->capture_default_str();
-  command->add_option("--row", options.factor, "print a row of a Markdown table, for this factor")->type_name("FACTOR");
+  CLI::Option* row = command->add_option("--row", options.factor, "print a row of a Markdown table, for this factor")
+                         ->type_name("FACTOR");
+  command->add_option("--contrast", options.contrast, "print how much more the second entry arrives than the first")
+      ->type_name("ENTRY ENTRY")
+      ->expected(2)
+      ->excludes(row);
   return command;
 }
 

@@ -133,6 +133,7 @@ struct DiscriminateOptions {
   std::vector<std::filesystem::path> runs;  // of the same tasks
   std::string declared = "success";         // the effect that counts, declared beforehand: or "time"
   std::string factor;                       // not empty: prints a row of a Markdown table, with this name of the factor
+  std::vector<std::string> contrast;        // not empty: two entries; prints their difference instead
 };
 int discriminate_command(const DiscriminateOptions& options);
 

@@ -100,6 +100,16 @@ void print_row(const Discrimination& one, const AllRuns& all, const Discriminate
              interaction_words(run_interaction(one, all.names)), joined(misses(one, time)));
 }
 
+// "mall 40 +56.9 [50.3, 63.1] 0.0001": world, tasks, points of the share, its interval, p.
+void print_contrast(const Discrimination& one, const std::vector<std::string>& entries) {
+  const auto found = contrast(one, entries[0], entries[1]);
+  if (!found)
+    throw InputError(
+        fmt::format("--contrast: scenario '{}' has no entries '{}' and '{}'", one.scenario, entries[0], entries[1]));
+  fmt::print("{} {} {:+.1f} [{:.1f}, {:.1f}] {:.2g}\n", one.scenario, one.tasks, 100.0 * found->difference,
+             100.0 * found->interval.low, 100.0 * found->interval.high, found->p);
+}
+
 }  // namespace
 
 int discriminate_command(const DiscriminateOptions& options) {
@@ -110,7 +120,9 @@ int discriminate_command(const DiscriminateOptions& options) {
     throw InputError(fmt::format("{}: nothing to compare: needs two entries that met the same tasks, and {}",
                                  options.runs.front().string(), layout.answer.shares.front()));
   for (const Discrimination& one : found)
-    if (options.factor.empty())
+    if (!options.contrast.empty())
+      print_contrast(one, options.contrast);
+    else if (options.factor.empty())
       print_text(one, run.names, options.declared == "time");
     else
       print_row(one, run, options);

@@ -255,6 +255,25 @@ std::optional<RunInteraction> run_interaction(const Discrimination& result, std:
   return out;
 }
 
+std::optional<EntryContrast> contrast(const Discrimination& result, const std::string& first,
+                                      const std::string& second) {
+  const auto entry = [&](const std::string& name) {
+    return std::find_if(result.entries.begin(), result.entries.end(),
+                        [&](const auto& one) { return one.name == name; });
+  };
+  const auto a = entry(first);
+  const auto b = entry(second);
+  if (a == result.entries.end() || b == result.entries.end()) return std::nullopt;
+  std::vector<double> differences;
+  std::vector<std::vector<double>> clusters;
+  for (std::size_t task = 0; task < a->shares.size(); ++task) {
+    differences.push_back(b->shares[task] - a->shares[task]);
+    clusters.push_back({differences.back()});
+  }
+  return EntryContrast{core::mean(differences), core::cluster_bootstrap_interval(clusters),
+                       paired_test(differences, PairedTest::sign_flip).p};
+}
+
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars) {
   std::vector<std::string> out;
   if (result.mean_share < bars.mean_low || result.mean_share > bars.mean_high)

@@ -78,6 +78,17 @@ std::string planner_in_run(const std::string& planner, const std::string& run);
 // None with one run, or if fewer than two entries are in all of them.
 std::optional<RunInteraction> run_interaction(const Discrimination& result, std::span<const std::string> runs);
 
+// The second entry's share minus the first's, paired by task: its interval is a bootstrap over tasks, p of sign flips.
+struct EntryContrast {
+  double difference = 0.0;
+  core::Interval interval{};
+  double p = 1.0;
+};
+
+// None if there is no entry of one of these names.
+std::optional<EntryContrast> contrast(const Discrimination& result, const std::string& first,
+                                      const std::string& second);
+
 // What it misses, in words; empty: it passes. The effect that counts was declared before: of the share, or of the time.
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars = {});
 

@@ -50,6 +50,15 @@ TEST_CASE("entries that differ much are told apart, and the tasks pass", "[ranki
   REQUIRE(result.tasks_needed);
   CHECK(*result.tasks_needed > 100);  // a deviation of about a half, and a difference of 0.05
   CHECK(misses(result, false).empty());
+
+  const auto found = contrast(result, result.entries[0].name, result.entries[2].name);
+  REQUIRE(found);
+  CHECK(found->difference == Approx(result.entries[2].share - result.entries[0].share));
+  CHECK(found->interval.low > 0.5);
+  CHECK(found->interval.high < 0.95);
+  CHECK(found->p < 0.001);
+  CHECK(contrast(result, result.entries[0].name, result.entries[0].name)->p == 1.0);
+  CHECK_FALSE(contrast(result, result.entries[0].name, "nobody"));
 }
 
 TEST_CASE("one entry under two labels is not told apart from itself", "[ranking]") {
