@@ -134,13 +134,27 @@ void ChildProcess::kill() {
   ::kill(pid_, SIGKILL);
 }
 
-double ChildProcess::resident_mb() const {
-  if (pid_ < 0) return 0.0;
-  std::ifstream file(fmt::format("/proc/{}/statm", pid_));
-  double all_pages = 0.0;
-  double resident_pages = 0.0;
-  if (!(file >> all_pages >> resident_pages)) return 0.0;
-  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+MemoryInUse ChildProcess::memory_in_use() const {
+  MemoryInUse used;
+  if (pid_ < 0) return used;
+  std::ifstream file(fmt::format("/proc/{}/status", pid_));
+  const auto kilobytes = [&file] {
+    double value = 0.0;
+    file >> value;
+    return value;
+  };
+  for (std::string word; file >> word;) {
+    if (word == "VmRSS:") used.resident_mb = kilobytes() / 1024.0;
+    if (word == "RssShmem:") used.shared_mb = kilobytes() / 1024.0;
+  }
+  return used;
+}
+
+std::int64_t ChildProcess::waited_for_processor_ns() const {
+  std::int64_t ran_ns = 0;
+  std::int64_t waited_ns = 0;
+  if (pid_ >= 0) std::ifstream(fmt::format("/proc/{}/schedstat", pid_)) >> ran_ns >> waited_ns;
+  return waited_ns;
 }
 
 void ChildProcess::allow_cpu(double s) {

@@ -43,6 +43,13 @@ struct ProcessEnding {
   std::string explain(std::int64_t memory_mb) const;
 };
 
+// Of a process, in MB.
+struct MemoryInUse {
+  double resident_mb = 0.0;
+  double shared_mb =
+      0.0;  // of that, what no limit on data counts: memory that other processes may share, without files
+};
+
 class ChildProcess {
  public:
   struct Program {
@@ -72,8 +79,11 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Megabytes of memory that it has in use now; 0 once it has been waited for.
-  double resident_mb() const;
+  // The memory that it has in use now; nothing once it has been waited for.
+  MemoryInUse memory_in_use() const;
+
+  // How long its main thread has waited for a processor while others used all; 0 where the kernel does not count it.
+  std::int64_t waited_for_processor_ns() const;
 
   // From now on, it and each process that it starts may take so many seconds of processor time; then the kernel kills it with
   // SIGXCPU.

@@ -98,8 +98,7 @@ class Supervisor {
     while (open_trials_ > 0) {
       for (Slot& slot : slots_) assign_work(slot);
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
-      for (Slot& slot : slots_)
-        if (slot.worker && watches_memory_) check_memory(slot);
+      if (experiment_.limits.memory_mb > 0 && monotonic_ns() >= next_look_at_memory_ns_) look_at_memory();
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
       sinks_.on_idle();
@@ -327,14 +326,22 @@ class Supervisor {
     end_worker(slot, std::move(fault), false);
   }
 
-  // Where the kernel's limit does not fit the plugins.
+  void look_at_memory() {
+    next_look_at_memory_ns_ = monotonic_ns() + second_ns / 10;
+    for (Slot& slot : slots_)
+      if (slot.worker) check_memory(slot);
+  }
+
+  // What the kernel's limit on data does not count: shared memory, or all where that limit does not fit the plugins.
   void check_memory(Slot& slot) {
-    const double resident_mb = slot.worker->process().resident_mb();
-    if (resident_mb <= static_cast<double>(experiment_.limits.memory_mb)) return;
+    const MemoryInUse used = slot.worker->process().memory_in_use();
+    const double counted_mb = counts_resident_memory_ ? used.resident_mb : used.shared_mb;
+    if (counted_mb <= static_cast<double>(experiment_.limits.memory_mb)) return;
     FaultRecord fault = fault_at(slot.worker->last_call());
     fault.kind = fault_kind::out_of_memory;
-    fault.detail += fmt::format("{:.0f} MB in use, more than memory_mb = {}; when this is noticed depends on timing",
-                                resident_mb, experiment_.limits.memory_mb);
+    fault.detail +=
+        fmt::format("{:.0f} MB {}in use, more than memory_mb = {}; when this is noticed depends on timing", counted_mb,
+                    counts_resident_memory_ ? "" : "of shared memory ", experiment_.limits.memory_mb);
     end_worker(slot, std::move(fault), slot.trials_begun > 1);
   }
 
@@ -423,7 +430,8 @@ class Supervisor {
   const SupervisorSettings& settings_;
   const SupervisorSinks& sinks_;
   const std::string digest_;
-  const bool watches_memory_ = experiment_.limits.memory_mb > 0 && counts_resident_memory(experiment_);
+  const bool counts_resident_memory_ = counts_resident_memory(experiment_);
+  std::int64_t next_look_at_memory_ns_ = 0;
   Descriptor log_;
   Watchdog watchdog_;
   PlannedTrials planned_;

@@ -209,8 +209,16 @@ tr -d ' \n' <"$scratch/helped/manifest.json" |
   fail "the manifest should name the plugin: $(cat "$scratch/helped/manifest.json")"
 expect_same helped
 
-# a plugin that asks for it is watched by the memory in use
+# shared memory, which no limit on data counts, is watched; so is all memory of a plugin that asks for it
 if $limited; then
+  begin shared
+  hostile shared fills
+  sed -i 's/^memory_mb .*/memory_mb = 150/' "$scratch/shared.toml"
+  run_with_faults shared 1
+  expect_fault shared "local_controller = 'fills' AND repetition = 0" \
+    "out_of_memory|test.controller.hostile|step|50|1|" "MB of shared memory in use, more than memory_mb = 150; when this"
+  expect_same shared
+  note box "fills shared memory" "fault, \`out_of_memory\`" yes
   begin resident
   hostile resident fills
   sed -i 's/test.controller.hostile/test.controller.resident/; s/^memory_mb .*/memory_mb = 150/' "$scratch/resident.toml"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/child_process.hpp"
 
+#include <sched.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -58,6 +59,23 @@ TEST_CASE("a child that takes more processor time than it may is ended") {
   CHECK(ending.fault_kind() == std::string(fault_kind::hang));
   child.allow_cpu(5.0);  // it has ended: nothing to allow
   CHECK(ending.explain(400) == "took more than 0.1 s of processor time");
+}
+
+TEST_CASE("a child that others keep from the processor is known to wait") {
+  if (access("/proc/self/schedstat", R_OK) != 0) {
+    WARN("skipped: the kernel does not count waiting");
+    return;
+  }
+  const auto spin = [processor = sched_getcpu()] {
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(processor), &one);
+    sched_setaffinity(0, sizeof(one), &one);
+    for (volatile int turns = 0;;) turns = turns + 1;
+  };
+  const ChildProcess one = ChildProcess::fork(no_limits, spin);
+  const ChildProcess other = ChildProcess::fork(no_limits, spin);
+  while (one.waited_for_processor_ns() < 20'000'000 || other.waited_for_processor_ns() < 20'000'000) usleep(10'000);
 }
 
 TEST_CASE("processes share the processors, each has one") {
