@@ -176,17 +176,3 @@ TEST_CASE("large neighborhood search begins with a prioritized plan as long as t
   REQUIRE(plan.status == DMRP_OK);
   CHECK(plan.statistics.at("first_cost") <= prioritized.cost());
 }
-
-// Prioritized planning halves the number of robots without a path slowly here, but each time in less than twice the time.
-TEST_CASE("large neighborhood search waits for a prioritized plan that gets on slowly", "[slow][data]") {
-  const auto data = test_data();
-  if (!data) {
-    WARN("skipped: DMRP_TEST_DATA is not set");
-    return;
-  }
-  const PlanningCase c = read_instance(*data, "warehouse-10-20-10-2-1", 1000, 1);
-  const Plan plan = run_planner(lns, c, {{"iterations", 1}});
-  REQUIRE(plan.status == DMRP_OK);
-  // by LaCAM* 252,942, by prioritized planning 129,597
-  CHECK(plan.statistics.at("first_cost") < 130'000);
-}
