@@ -44,6 +44,9 @@ constexpr double kept_m = 0.2;
 constexpr double lost_m = 0.12;
 constexpr double lost_rad = 0.6;
 
+// Below this speed the robot stands.
+constexpr double standing_m_s = 0.02;
+
 // At a turning point of the path, the robot has to come this close before the way back counts.
 constexpr double tip_reached_m = 0.25;
 
@@ -90,6 +93,9 @@ Status E3mop::step(const Observation& now, Command& command) {
   }
   if (limits_.v_max != now.limits.v_max || limits_.omega_max != now.limits.omega_max) prepare(now);
   command = drive(now);
+  // it cannot come closer
+  const bool stands = std::max(command.v_x, now.velocity.v_x) < standing_m_s;
+  if (stands && at_goal_.settles(tracker_.stop(), now)) command = at_goal_.command(tracker_.stop(), now);
   return Status::ok;
 }
 

@@ -24,7 +24,8 @@ class LocalPlan {
   void prepare(const Limits& limits, double resolution_m, const ClearanceField& field);
 
   // Lays the lattice about the robot and chooses the last point of the global path where the robot can stand and that
-  // it can reach, according to the heuristic's grid. Nothing if it can reach none.
+  // it can reach, according to the heuristic's grid. Nothing if it can reach none. Where the path's end is too close to
+  // an obstacle, a free cell at most a cell and a half beside counts as the end.
   std::optional<LatticeGoal> choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
                                          double inscribed_radius_m, const std::vector<Vec2>& path);
 
@@ -34,6 +35,7 @@ class LocalPlan {
  private:
   void lay_lattice(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space, double inscribed_radius_m);
   bool can_reach(Vec2 goal);
+  std::optional<Vec2> place_beside(Vec2 point, const FreeSpace& free_space) const;
 
   MotionSet motions_;
   LatticeFrame frame_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
+#include "controllers/e3mop/local_plan.hpp"
 #include "controllers/e3mop/path_follower.hpp"
 #include "controllers/e3mop/path_smoother.hpp"
 #include "controllers/e3mop/velocity_profile.hpp"
@@ -108,6 +109,20 @@ TEST_CASE("Whether a point is free depends on its own distance, not on that of i
     CHECK(space.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= space.needed_m()));
     CHECK(with_margin.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= with_margin.needed_m()));
   }
+}
+
+TEST_CASE("A path that ends too close to an obstacle leads to a place beside its end") {
+  const Window wall({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return point.y > 0.6; });
+  const FreeSpace space(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {0.0, 0.0, 0.0});
+  LocalPlan plan;
+  plan.prepare(dmrp::Limits(e3mop_limits), 0.1, wall.field);
+  const dmrp_vec2 end = {0.51, 0.37};
+  REQUIRE_FALSE(space.is_free({end, {1.0, 0.0}}));
+  const auto goal = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, {{0.0, 0.0}, {0.2, 0.0}, {0.4, 0.2}, end});
+  REQUIRE(goal);
+  CHECK((goal->is_path_end && !goal->is_cut));
+  CHECK(space.is_free({goal->at, {1.0, 0.0}}));
+  CHECK(dmrp::toolkit::distance(goal->at, end) < 0.15);
 }
 
 TEST_CASE("The objective's gradient agrees with finite differences") {
