@@ -9,7 +9,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 host=$1 controller=$2 out=$3 candidates=${4:-24} trials=${5:-5} seed=${6:-41}
 
 # Tasks are drawn from the seed. Those of docs/controllers.md, of the controllers' README and of ablation.sh are for judging.
-held_out="160016 160711 160712"
+held_out="160016 160711 160712 20261123"
 training_scenarios="mall library"
 training_robots=8
 

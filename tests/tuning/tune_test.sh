@@ -9,7 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 fail() { echo "FAILED: $1"; exit 1; }
 
-for seed in 160016 160711 160712; do
+for seed in 160016 160711 160712 20261123; do
   status=0
   "$here/tune.sh" "$host" dwa "$scratch/refused" 1 1 "$seed" 2>"$scratch/said" || status=$?
   [[ $status == 2 ]] && grep -q "held out" "$scratch/said" || fail "seed $seed should be refused"
