@@ -11,6 +11,11 @@ namespace dmrp::core {
 EndingMonitor::EndingMonitor(std::uint32_t robot_count, std::int64_t time_limit_ns)
     : time_limit_ns_(time_limit_ns), robots_(robot_count) {}
 
+void EndingMonitor::restart(std::uint32_t robot, std::int64_t t_ns) {
+  robots_[robot].history.clear();
+  command_given(robot, t_ns);
+}
+
 std::uint32_t EndingMonitor::update(std::int64_t t_ns, std::span<const RobotState> robots,
                                     std::span<const double> gained_m, bool deserted) {
   if (robots_.empty()) return deserted ? DMRP_ENDING_DESERTED : t_ns >= time_limit_ns_ ? DMRP_ENDING_TIME_LIMIT : 0;

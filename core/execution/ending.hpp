@@ -24,6 +24,7 @@ inline constexpr std::int64_t controller_silence_ns = 5'000'000'000;
 // - Deadlock: no unfinished robot gained stall_progress_m in the last stall_window_ns. Ends the trial.
 // - Oscillation of a robot: over the same window it gained less than stall_progress_m but travelled more than
 //   oscillation_travel_m or turned more than oscillation_turn_rad. The record stays even if it arrives later.
+//   Time in which it recovers counts for neither: its window begins again when it ends (restart()).
 // - Controller failure: no command for controller_silence_ns.
 class EndingMonitor {
  public:
@@ -31,6 +32,9 @@ class EndingMonitor {
 
   // Records that a controller gave a command.
   void command_given(std::uint32_t robot, std::int64_t t_ns) { robots_[robot].last_command_ns = t_ns; }
+
+  // The robot recovers: its window begins now, and it has a command.
+  void restart(std::uint32_t robot, std::int64_t t_ns);
 
   // Takes the robots at t = 0 and after every step, with the gain of each along its paths (PathProgress::gained_m).
   // Returns DMRP_ENDING_* once the trial is over, 0 until then. A trial without robots is over when the world is

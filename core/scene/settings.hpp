@@ -3,6 +3,7 @@
 // The defaults are those of the benchmark's method.
 #pragma once
 
+#include <dmrp/recovery.h>
 #include <dmrp/robot.h>
 
 #include <array>
@@ -57,6 +58,7 @@ struct RobotSettings {
   std::vector<ConvexPolygon> parts;  // the footprint is their union; none: a disc
   Drive drive = Drive::differential;
   double v_min = 0.0;                     // m/s
+  double recovery_v_min = 0.0;            // m/s; in a recovery the robot may drive backwards this fast, too
   double v_max = 0.8;                     // m/s
   double v_y_max = 0.0;                   // m/s; holonomic only
   double omega_max = 1.0;                 // rad/s
@@ -86,6 +88,29 @@ struct ReplanSettings {
   std::int64_t min_interval_ns = 2'000'000'000;  // between a call of the planner and one for straying or stalling
 };
 
+// A step of the recovery ladder.
+enum class RecoveryStep : std::uint32_t {
+  clear_costmap = DMRP_RECOVERY_CLEAR_COSTMAP,
+  spin = DMRP_RECOVERY_SPIN,
+  wait = DMRP_RECOVERY_WAIT,
+  backup = DMRP_RECOVERY_BACKUP,
+  replan = DMRP_RECOVERY_REPLAN,
+};
+
+// What a robot does that makes no progress (recovery.hpp). Names and defaults, except that of `retries`, are nav2's.
+struct RecoverySettings {
+  std::uint32_t retries = 0;  // recoveries of a robot on its way to a goal; 0: none
+  std::vector<RecoveryStep> steps = {RecoveryStep::clear_costmap, RecoveryStep::spin, RecoveryStep::wait,
+                                     RecoveryStep::backup, RecoveryStep::replan};
+  double required_movement_radius_m = 0.5;                   // a robot that moved no farther than this
+  std::int64_t movement_time_allowance_ns = 10'000'000'000;  // in this time makes no progress
+  std::int64_t failure_tolerance_ns = 300'000'000;           // for which a controller may have no command
+  double spin_dist_rad = 1.57;
+  std::int64_t wait_duration_ns = 5'000'000'000;
+  double backup_dist_m = 0.30;
+  double backup_speed = 0.05;  // m/s
+};
+
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
@@ -102,6 +127,7 @@ struct SimulationSettings {
   Dispatch dispatch = Dispatch::full_path;
   Execution execution = Execution::free;
   ReplanSettings replan;
+  RecoverySettings recovery;
 };
 
 }  // namespace dmrp::core

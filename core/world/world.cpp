@@ -128,6 +128,16 @@ std::vector<ContactTracker::Braking> World::braking_of_robots() const {
 }
 
 dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
+  limits_[robot].v_min = robot_settings(robot).v_min;
+  return take_command(robot, command);
+}
+
+dmrp_twist World::set_recovery_command(std::uint32_t robot, const dmrp_twist& command) {
+  limits_[robot].v_min = std::min(robot_settings(robot).v_min, robot_settings(robot).recovery_v_min);
+  return take_command(robot, command);
+}
+
+dmrp_twist World::take_command(std::uint32_t robot, const dmrp_twist& command) {
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
   const dmrp_twist clipped = clip_to_drive(command, robot_settings(robot).drive, limits_[robot]);

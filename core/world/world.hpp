@@ -69,6 +69,9 @@ class World {
   // not active. Returns the command that is in effect now.
   dmrp_twist set_command(std::uint32_t robot, const dmrp_twist& command);
 
+  // As set_command(); the robot may drive backwards as fast as its type allows in a recovery, until the next command.
+  dmrp_twist set_recovery_command(std::uint32_t robot, const dmrp_twist& command);
+
   // Ends the robot's task: it brakes and stays where it stops.
   void fail(std::uint32_t robot);
 
@@ -94,6 +97,7 @@ class World {
   }
   std::vector<ContactTracker::Braking> braking_of_robots() const;
   ContactTracker::Sight sight_of_robots() const;
+  dmrp_twist take_command(std::uint32_t robot, const dmrp_twist& command);
   void stop(std::uint32_t robot);
   void apply_due_commands();
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
@@ -109,7 +113,7 @@ class World {
 
   RobotTypes types_;
   std::vector<const RobotSettings*> settings_of_;  // by robot, in types_
-  std::vector<dmrp_limits> limits_;                // by robot
+  std::vector<dmrp_limits> limits_;                // by robot, for the command in force
   SimulationSettings settings_;
   std::shared_ptr<const StaticGeometry> geometry_;
   std::int64_t t_ns_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/commands/plugins_json.hpp"
 
+#include <dmrp/recovery.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -101,8 +102,10 @@ Json plugin_as_json(const PluginInfo& info) {
   out["values"] = Json::array();
   for (const MetricValueSpec& spec : info.values) out["values"].push_back(value(spec));
   out["connectivity"] = connectivity_name(info.connectivity);
-  out["channels"] = bits(
-      info.channels, {{DMRP_CHANNEL_PEOPLE, "people"}, {DMRP_CHANNEL_CALLS, "calls"}, {DMRP_CHANNEL_SCANS, "scans"}});
+  out["channels"] = bits(info.channels, {{DMRP_CHANNEL_PEOPLE, "people"},
+                                         {DMRP_CHANNEL_CALLS, "calls"},
+                                         {DMRP_CHANNEL_SCANS, "scans"},
+                                         {DMRP_CHANNEL_RECOVERIES, "recoveries"}});
   out["flags"] = bits(info.flags, {{DMRP_FLAG_UNCOORDINATED, "uncoordinated"},
                                    {DMRP_FLAG_CENTRAL, "central"},
                                    {DMRP_FLAG_BACKWARDS, "backwards"},

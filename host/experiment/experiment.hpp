@@ -26,7 +26,7 @@ struct RunLimits {
   bool processes = false;         // plugins that declare it may start processes
 };
 
-// A key of [simulation] or [robot] that has a list of values; the scenario variants have them.
+// A key of [simulation], [recovery] or [robot] that has a list of values; the scenario variants have them.
 struct SettingsSweep {
   std::string table;
   std::string key;                  // "tracking", "lidar.beams"

@@ -151,8 +151,9 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 }
 
 TomlKeys root_keys() {
-  TomlKeys root = {"",
-                   {{"experiment"}, {"scenario"}, {"simulation"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
+  TomlKeys root = {
+      "",
+      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
   return root;
@@ -239,9 +240,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   // Checks of what belongs together, as far as it has been read.
   mistakes.attempt([&] { check_processes(root, experiment); });
+  if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
-  if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   mistakes.end();
   return experiment;
 }

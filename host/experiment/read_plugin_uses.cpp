@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/experiment/read_plugin_uses.hpp"
 
+#include <dmrp/recovery.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,10 +143,18 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
   });
 }
 
+// Whether robots of a scenario have recoveries.
+static bool has_recoveries(const Experiment& experiment) {
+  return std::any_of(experiment.scenarios.begin(), experiment.scenarios.end(), [&](const ScenarioVariant& variant) {
+    return simulation_of(experiment, variant).recovery.retries > 0;
+  });
+}
+
 void use_every_metric(const TomlValue& at, Experiment& experiment) {
   for (std::uint32_t i = 0; i < experiment.libraries.size(); ++i)
     for (const PluginInfo& info : experiment.libraries[i].plugins) {
       if (info.kind != DMRP_KIND_METRIC) continue;
+      if ((info.channels & DMRP_CHANNEL_RECOVERIES) && !has_recoveries(experiment)) continue;
       check_extensions(at, info);
       PluginUse use;
       use.library = i;

@@ -21,7 +21,7 @@ std::vector<TomlKey> plugin_use_keys(std::uint32_t kind);
 void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, Experiment& experiment,
                       std::vector<PluginUse>& uses);
 
-// Uses every metric of the experiment's libraries with its defaults. `at`: the place for errors. Throws InputError.
+// Uses every metric of the experiment's libraries with its defaults, those of recoveries only if robots have them. `at`: the place for errors. Throws InputError.
 void use_every_metric(const TomlValue& at, Experiment& experiment);
 
 }  // namespace dmrp::host

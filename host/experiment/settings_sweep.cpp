@@ -14,10 +14,11 @@ namespace dmrp::host {
 namespace {
 
 constexpr std::size_t max_points = 1000;
-constexpr const char* swept_tables[] = {"simulation", "robot"};
+constexpr const char* swept_tables[] = {"simulation", "recovery", "robot"};
 
 Settings settings_of(SettingsPoint& point, const std::string& table) {
-  return table == "simulation" ? simulation_settings(point.simulation) : robot_values(point.robot);
+  if (table == "simulation") return simulation_settings(point.simulation);
+  return table == "recovery" ? recovery_settings(point.simulation.recovery) : robot_values(point.robot);
 }
 
 // "lidar" of "lidar.beams".
@@ -94,7 +95,7 @@ std::vector<SettingsPoint> read_settings_sweep(const TomlTable& root, Experiment
     for (SettingsPoint& point : points)
       if (table == "simulation")
         check_simulation(*sweep, point.simulation);
-      else
+      else if (table == "robot")
         check_robot(*sweep, point.robot);
   }
   return points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// settings_sweep.hpp: `sweep = { ... }` of [simulation] and [robot].
+// settings_sweep.hpp: `sweep = { ... }` of [simulation], [recovery] and [robot].
 #pragma once
 
 #include <string>

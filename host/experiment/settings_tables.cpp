@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <numbers>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "host/errors/mistakes.hpp"
@@ -77,6 +80,43 @@ Settings simulation_settings(core::SimulationSettings& to) {
 
 namespace {
 
+const std::vector<std::string> recovery_steps = {"clear_costmap", "spin", "wait", "backup", "replan"};
+
+Setting steps_setting(std::vector<core::RecoveryStep>& to) {
+  const auto read = [&to](const TomlValue& value) {
+    std::vector<core::RecoveryStep> steps;
+    for (const TomlValue& step : value.array()) {
+      const auto found = std::find(recovery_steps.begin(), recovery_steps.end(), step.choice(recovery_steps));
+      steps.push_back(static_cast<core::RecoveryStep>(found - recovery_steps.begin() + DMRP_RECOVERY_CLEAR_COSTMAP));
+    }
+    if (steps.empty()) value.fail("'steps' needs one step at least (no recoveries: retries = 0)");
+    to = std::move(steps);
+  };
+  const auto write = [&to] {
+    std::vector<std::string> names;
+    for (const core::RecoveryStep step : to)
+      names.push_back(recovery_steps[static_cast<std::size_t>(step) - DMRP_RECOVERY_CLEAR_COSTMAP]);
+    return toml_text(names);
+  };
+  return {"steps", read, write, "each " + choices_text(recovery_steps)};
+}
+
+}  // namespace
+
+Settings recovery_settings(core::RecoverySettings& to) {
+  return {integer("retries", to.retries, 0, 1000),
+          steps_setting(to.steps),
+          positive("required_movement_radius_m", to.required_movement_radius_m, max_length_m),
+          seconds("movement_time_allowance_s", to.movement_time_allowance_ns),
+          latency("failure_tolerance_s", to.failure_tolerance_ns),
+          positive("spin_dist_rad", to.spin_dist_rad, 10.0),
+          seconds("wait_duration_s", to.wait_duration_ns),
+          positive("backup_dist_m", to.backup_dist_m, max_length_m),
+          positive("backup_speed", to.backup_speed, 100.0)};
+}
+
+namespace {
+
 void read_simulation(const TomlTable& table, Experiment& experiment) {
   core::SimulationSettings& simulation = experiment.simulation;
   std::vector<TomlTable::KeyReader> readers = readers_of(simulation_settings(simulation));
@@ -84,6 +124,12 @@ void read_simulation(const TomlTable& table, Experiment& experiment) {
   table.read(readers);
   experiment.time_limit_set = table.find("time_limit_s").has_value();
   check_simulation(table, simulation);
+}
+
+void read_recovery(const TomlTable& table, core::RecoverySettings& recovery) {
+  std::vector<TomlTable::KeyReader> readers = readers_of(recovery_settings(recovery));
+  readers.emplace_back("sweep", [](const TomlValue& sweep) { sweep.table(); });
+  table.read(readers);
 }
 
 Settings record_settings(Experiment& experiment) {
@@ -139,6 +185,9 @@ void read_world_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("simulation")) read_simulation(*table, experiment);
   });
   mistakes.attempt([&] {
+    if (const auto table = root.find_table("recovery")) read_recovery(*table, experiment.simulation.recovery);
+  });
+  mistakes.attempt([&] {
     if (const auto table = root.find_table("robot")) read_robot_table(*table, experiment.robot, {"sweep"});
   });
   mistakes.attempt([&] { experiment.robot_types = read_robot_types(root, experiment.robot); });
@@ -160,11 +209,13 @@ void read_run_settings(const TomlTable& root, Experiment& experiment) {
 std::vector<TomlKeys> settings_keys() {
   Experiment unused;
   std::vector<TomlKeys> keys = {keys_of("[simulation]", simulation_settings(unused.simulation)),
+                                keys_of("[recovery]", recovery_settings(unused.simulation.recovery)),
                                 keys_of("[record]", record_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   for (TomlKeys& table : keys)
-    if (table.title == "[simulation]" || table.title == "[robot]") table.keys.push_back({"sweep", "", "{}"});
+    if (table.title == "[simulation]" || table.title == "[recovery]" || table.title == "[robot]")
+      table.keys.push_back({"sweep", "", "{}"});
   return keys;
 }
 
@@ -187,10 +238,12 @@ std::string settings_text(const Experiment& experiment) {
   Settings simulation = simulation_settings(copy.simulation);
   if (!experiment.time_limit_set)
     std::erase_if(simulation, [](const Setting& setting) { return setting.key == "time_limit_s"; });
+  const std::string recovery =
+      "\n[recovery]\n" + lines_of(recovery_settings(copy.simulation.recovery), 26) + sweep_text(experiment, "recovery");
   std::string robots = "\n[robot]\n" + robot_text(experiment.robot) + sweep_text(experiment, "robot");
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
-  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + robots +
+  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + robots +
          "\n[record]\n" + lines_of(record_settings(copy), 11) + "\n[limits]\n" +
          lines_of(limits_settings(copy.limits), 17);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// settings_tables.hpp: the tables [simulation], [robot], [record] and [limits] of an experiment file: one list of keys
+// settings_tables.hpp: the tables [simulation], [recovery], [robot], [record] and [limits] of an experiment file: one list of keys
 // for reading and writing.
 #pragma once
 
@@ -12,13 +12,14 @@
 
 namespace dmrp::host {
 
-// Reads [simulation], [robot] and [robot_type.NAME]. Throws InputError.
+// Reads [simulation], [recovery], [robot] and [robot_type.NAME]. Throws InputError.
 void read_world_settings(const TomlTable& root, Experiment& experiment);
 
 // Reads [record] and [limits]. Throws InputError.
 void read_run_settings(const TomlTable& root, Experiment& experiment);
 
 Settings simulation_settings(core::SimulationSettings& to);
+Settings recovery_settings(core::RecoverySettings& to);
 
 // Refuses settings that do not fit together, at their keys in `table`. Throws InputError.
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation);

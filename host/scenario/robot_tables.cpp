@@ -140,6 +140,7 @@ Settings robot_settings(core::RobotSettings& to) {
   return {footprint_setting(to),
           choice("drive", to.drive, drives, DMRP_KINEMATICS_DIFFERENTIAL),
           number("v_min", to.v_min, -100.0, 0.0),
+          number("recovery_v_min", to.recovery_v_min, -100.0, 0.0),
           positive("v_max", to.v_max, 100.0),
           positive("v_y_max", to.v_y_max, 100.0),
           positive("omega_max", to.omega_max, 100.0),

@@ -157,6 +157,12 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
   return positions;
 }
 
+bool Dispatcher::is_held(std::uint32_t robot) const {
+  const Course& course = courses_[robot];
+  if (course.path.empty() || course.released + 1 == course.path.size()) return false;
+  return progress_[robot].waypoint() >= course.released || is_near(robot, course.path[course.released]);
+}
+
 // The time at which the plan puts the robot at its current progress.
 std::int64_t Dispatcher::time_on_path_ns(std::uint32_t robot) const {
   const auto& path = courses_[robot].path;

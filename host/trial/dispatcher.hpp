@@ -53,6 +53,9 @@ class Dispatcher {
 
   Guidance guidance(std::uint32_t robot) const;
 
+  // Whether the robot is at the last waypoint that it may pass and waits for other robots.
+  bool is_held(std::uint32_t robot) const;
+
   // The robots on their paths, now and `later_ns` from now.
   std::vector<PathPosition> positions_on_paths(std::int64_t later_ns) const;
 

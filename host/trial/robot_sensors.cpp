@@ -24,6 +24,12 @@ void RobotSensors::subscribe_to_costmap() {
   costmap_->update(odometry_.pose(), scan());
 }
 
+void RobotSensors::clear_costmap() {
+  costmap_->reset();
+  costmap_->update(odometry_.pose(), scan());
+  fresh_clusters_ = nullptr;
+}
+
 void RobotSensors::tick() {
   odometry_.read(world_.t_ns(), world_.robots()[robot_].pose, world_.robots()[robot_].velocity);
   scan_is_fresh_ = false;

@@ -30,6 +30,11 @@ class RobotSensors {
   // From now on every scan is entered into the costmap, which the readings below the scan need.
   void subscribe_to_costmap();
 
+  bool has_costmap() const { return costmap_ != nullptr; }
+
+  // Forgets all earlier scans.
+  void clear_costmap();
+
   // A control tick begins: earlier readings are out of date.
   void tick();
 

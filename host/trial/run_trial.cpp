@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/execution/ending.hpp"
+#include "core/execution/recovery.hpp"
 #include "core/execution/replanning.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/dispatcher.hpp"
@@ -36,7 +37,8 @@ class Run {
         trace_(trace),
         dispatcher_(trial.variant, world_),
         replanning_(settings_.replan, world_.robots().size()),
-        monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns) {}
+        monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
+        recoveries_(world_, robots_with_costmap()) {}
 
   dmrp_trial_end run() {
     if (has_robots()) {
@@ -87,7 +89,9 @@ class Run {
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
   bool replan_due() {
-    return has_plan() && !pending_plan_ && replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress());
+    if (!has_plan() || pending_plan_) return false;
+    const bool due = replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress());
+    return std::exchange(recovery_asks_for_plan_, false) || due;
   }
 
   // Without a new plan, the plan in force stays.
@@ -122,7 +126,7 @@ class Run {
     plugins_.sense();
     if (plugins_.has_central_controller()) return control_all();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-      if (!is_active(i)) continue;
+      if (recovers(i) || !is_active(i)) continue;
       pass_new_path(i);
       drive(i, plugins_.control(i, dispatcher_.guidance(i), step_));
     }
@@ -131,7 +135,7 @@ class Run {
   void control_all() {
     guided_.clear();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-      if (!is_active(i)) continue;
+      if (recovers(i) || !is_active(i)) continue;
       pass_new_path(i);
       guided_.push_back({i, dispatcher_.guidance(i)});
     }
@@ -146,12 +150,38 @@ class Run {
     if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) plugins_.set_path(robot, path, step_);
   }
 
+  std::vector<bool> robots_with_costmap() const {
+    std::vector<bool> robots;
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) robots.push_back(plugins_.has_costmap(i));
+    return robots;
+  }
+
+  // Whether the robot recovers, which commands it; its controller is not called.
+  bool recovers(std::uint32_t robot) {
+    if (settings_.recovery.retries == 0) return false;
+    const bool recovered = recoveries_.is_recovering(robot);
+    const auto action = recoveries_.act(robot, dispatcher_.is_held(robot));
+    if (!action) {
+      if (recovered) plugins_.note_recovery(robot, DMRP_RECOVERY_NONE);
+      return false;
+    }
+    if (action->begins) {
+      plugins_.note_recovery(robot, static_cast<std::int32_t>(*action->begins));
+      if (action->begins == core::RecoveryStep::clear_costmap) plugins_.clear_costmap(robot);
+      if (action->begins == core::RecoveryStep::replan) recovery_asks_for_plan_ = true;
+    }
+    world_.set_recovery_command(robot, action->command);
+    monitor_.restart(robot, world_.t_ns());
+    return true;
+  }
+
   // Without a command the robot brakes.
   void drive(std::uint32_t robot, const std::optional<dmrp_twist>& command) {
     const std::uint64_t clipped_before = world_.robots()[robot].clipped_commands;
     world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
     if (world_.robots()[robot].clipped_commands > clipped_before) plugins_.note_clipped(robot);
     if (command) monitor_.command_given(robot, world_.t_ns());
+    recoveries_.controller_answered(robot, command.has_value());
     if (monitor_.failure(robot) == DMRP_FAILURE_CONTROLLER) world_.fail(robot);
   }
 
@@ -209,6 +239,8 @@ class Run {
   Dispatcher dispatcher_;
   core::ReplanMonitor replanning_;
   core::EndingMonitor monitor_;
+  core::RecoveryLadder recoveries_;
+  bool recovery_asks_for_plan_ = false;
   Plan plan_;                         // in force
   std::optional<Plan> pending_plan_;  // comes into force after the planning latency
   std::int64_t step_ = 0;

@@ -71,6 +71,15 @@ class TrialPlugins {
   // The command of a robot was beyond its drive's ability.
   void note_clipped(std::uint32_t robot) { calls_.push_back({DMRP_CALL_CLIPPED, robot, DMRP_OK, 0, 0}); }
 
+  // The robot's recovery began a step, or ended: DMRP_RECOVERY_*.
+  void note_recovery(std::uint32_t robot, std::int32_t step) {
+    calls_.push_back({DMRP_CALL_RECOVERY, robot, step, 0, 0});
+  }
+
+  // Whether the robot has a costmap, which remembers; and makes it forget.
+  bool has_costmap(std::uint32_t robot) const { return controllers_[robot].sensors->has_costmap(); }
+  void clear_costmap(std::uint32_t robot) { controllers_[robot].sensors->clear_costmap(); }
+
   // The calls of plugins since the previous take_calls().
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 

@@ -42,7 +42,7 @@ extern "C" {
 #define DMRP_SUBJECT_ROBOT 1
 #define DMRP_SUBJECT_PEDESTRIAN 2
 
-// Parts of the trace that a metric needs besides robots, plan and contacts: descriptor.channels. Open list.
+// What a metric needs of the trace besides robots, plan, contacts: descriptor.channels. Open list (see recovery.h).
 #define DMRP_CHANNEL_PEOPLE 1u  // positions and velocities of people
 #define DMRP_CHANNEL_CALLS 2u   // durations of plugin calls
 #define DMRP_CHANNEL_SCANS 4u   // lidar scans; reserved: samples of v1.0 contain none

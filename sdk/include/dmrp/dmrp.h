@@ -17,5 +17,6 @@
 #include "local_controller.h"
 #include "metric.h"
 #include "pedestrian_model.h"
+#include "recovery.h"
 
 #endif

@@ -153,6 +153,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"jerk", "m/s^3"},
                                                        {"idle_time", "s"},
                                                        {"clipped_commands", "1"},
+                                                       {"recoveries", "1"},
                                                        {"plan_call_mean", "ms"},
                                                        {"plan_call_p99", "ms"},
                                                        {"plan_missed", "%"},

@@ -81,6 +81,27 @@ TEST_CASE("a deadlock is 20 s without 0.2 m of progress of any unfinished robot"
   CHECK(ends[1].failure == DMRP_FAILURE_DEADLOCK);
 }
 
+TEST_CASE("a recovery is no deadlock, and what the robot does in it no oscillation") {
+  Watch watch(1, 90 * second_ns);
+  const auto ending = watch.run([](double t, auto& robots, auto& gained, auto& monitor, std::int64_t t_ns) {
+    command_all(monitor, 1, t_ns);
+    gained = {0.0};
+    if (t < 10.0 || t > 40.0) return;
+    monitor.restart(0, t_ns);
+    robots[0].pose.x = 0.2 * std::sin(t);  // to and fro
+  });
+  CHECK(ending == DMRP_ENDING_DEADLOCK);
+  CHECK(watch.ended_ns == Approx(60 * second_ns).margin(0.2 * second_ns));  // 20 s after the recovery
+  CHECK(watch.monitor.failure(0) == DMRP_FAILURE_NONE);
+
+  Watch silent(1, 90 * second_ns);
+  silent.run([](double t, auto&, auto& gained, auto& monitor, std::int64_t t_ns) {
+    gained = {t};
+    monitor.restart(0, t_ns);
+  });
+  CHECK(silent.monitor.failure(0) == DMRP_FAILURE_NONE);
+}
+
 TEST_CASE("oscillation is recorded for good and ends nothing") {
   Watch watch(2, 90 * second_ns);
   const auto ending = watch.run([](double t, auto& robots, auto& gained, auto& monitor, std::int64_t t_ns) {

@@ -59,9 +59,21 @@ replan_stray_m = 1.5
 replan_stall_s = 6
 replan_min_interval_s = 0.5
 
+[recovery]
+retries = 3
+steps = ["backup", "wait"]
+required_movement_radius_m = 0.4
+movement_time_allowance_s = 8
+failure_tolerance_s = 0
+spin_dist_rad = 3
+wait_duration_s = 2
+backup_dist_m = 0.2
+backup_speed = 0.1
+
 [robot]
 footprint = { radius_m = 0.2 }
 v_min = -0.1
+recovery_v_min = -0.2
 v_max = 1.1
 omega_max = 2
 a_max = 3
@@ -187,8 +199,19 @@ TEST_CASE("all settings arrive") {
   CHECK(e.simulation.replan.stray_m == 1.5);
   CHECK(e.simulation.replan.stall_ns == 6'000'000'000);
   CHECK(e.simulation.replan.min_interval_ns == 500'000'000);
+  const dmrp::core::RecoverySettings& recovery = e.simulation.recovery;
+  CHECK(recovery.retries == 3);
+  CHECK(recovery.steps == std::vector{dmrp::core::RecoveryStep::backup, dmrp::core::RecoveryStep::wait});
+  CHECK(recovery.required_movement_radius_m == 0.4);
+  CHECK(recovery.movement_time_allowance_ns == 8'000'000'000);
+  CHECK(recovery.failure_tolerance_ns == 0);
+  CHECK(recovery.spin_dist_rad == 3.0);
+  CHECK(recovery.wait_duration_ns == 2'000'000'000);
+  CHECK(recovery.backup_dist_m == 0.2);
+  CHECK(recovery.backup_speed == 0.1);
   CHECK(e.robot.radius_m == 0.2);
   CHECK(e.robot.v_min == -0.1);
+  CHECK(e.robot.recovery_v_min == -0.2);
   CHECK(e.robot.v_max == 1.1);
   CHECK(e.robot.omega_max == 2.0);
   CHECK(e.robot.a_max == 3.0);

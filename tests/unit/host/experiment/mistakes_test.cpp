@@ -211,6 +211,12 @@ TEST_CASE("mistakes in an experiment's settings") {
       {"[simulation]\nreplan_stall_s = 0.05",
        "20:18: 'replan_stall_s' must be 0 (never) or at least 'control_period_s', 0.1 s"},
       {"[simulation]\nreplan_stray_m = -1", "20:18: 'replan_stray_m' must be at least 0, not -1"},
+      {"[recovery]\nretrys = 6", "20:1: unknown key 'retrys' in [recovery] (did you mean 'retries'?)"},
+      {"[recovery]\nretries = -1", "20:11: 'retries' must be at least 0, not -1"},
+      {"[recovery]\nsteps = [\"wait\", \"back_up\"]",
+       "20:18: 'steps' must be one of clear_costmap, spin, wait, backup, replan, not 'back_up' (did you mean "
+       "'backup'?)"},
+      {"[recovery]\nsteps = []", "20:9: 'steps' needs one step at least (no recoveries: retries = 0)"},
       {"[[simulation]]", "19:1: 'simulation' must be a table, not an array"},
       {"[robot]\nfootprint = { radius = 0.3 }",
        "20:15: unknown key 'radius' in 'footprint' (did you mean 'radius_m'?)"},

@@ -69,7 +69,7 @@ TEST_CASE("a list of numbers of people makes a variant of each, with the same se
   check_round_trip(one);
 }
 
-TEST_CASE("settings of [simulation] and [robot] are swept, each combination a variant") {
+TEST_CASE("settings of [simulation], [recovery] and [robot] are swept, each combination a variant") {
   const ExperimentFolder folder;
   const Experiment e =
       load(with_tables("[simulation]\nsweep = { tracking = [\"none\", \"all\"], replan_period_s = [0, 2] }\n"
@@ -85,6 +85,15 @@ TEST_CASE("settings of [simulation] and [robot] are swept, each combination a va
   CHECK(e.scenarios[5].types.standard().v_max == 0.9);
   CHECK(trial_seed(e, 0) == trial_seed(e, 7));
   check_round_trip(e);
+
+  const Experiment ladders =
+      load(with_tables("[recovery]\nsweep = { retries = [0, 6], steps = [[\"wait\"], [\"spin\", \"wait\"]] }\n"));
+  REQUIRE(ladders.scenarios.size() == 4);
+  CHECK(ladders.scenarios[3].swept[0] == SweptValue{"recovery", "retries", "6"});
+  CHECK(simulation_of(ladders, ladders.scenarios[1]).recovery.retries == 0);
+  CHECK(simulation_of(ladders, ladders.scenarios[3]).recovery.retries == 6);
+  CHECK(simulation_of(ladders, ladders.scenarios[3]).recovery.steps.size() == 2);
+  check_round_trip(ladders);
 
   const Experiment limits = load(with_tables("[simulation]\nsweep = { time_limit_s = [20, 40] }\n"));
   CHECK(limits.time_limit_set);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Smoothness, idle time and compute time: cases computed by hand.
+#include <dmrp/recovery.h>
 #include <dmrp/status.h>
 
 #include <catch2/catch.hpp>
@@ -163,4 +164,31 @@ TEST_CASE("clipped commands are counted by robot") {
   CHECK(m.robot("clipped_commands", 0) == 0.0);
   CHECK(m.robot("clipped_commands", 1) == 4.0);
   CHECK(m.system("clipped_commands") == 4.0);
+}
+
+TEST_CASE("recoveries are counted by robot, and each is an event with its steps") {
+  const auto recovery = [](std::uint32_t robot, std::int32_t step) {
+    return dmrp_call{DMRP_CALL_RECOVERY, robot, step, 0, 0};
+  };
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  for (int i = 0; i <= 20; ++i) {
+    std::vector<dmrp_call> calls = {call(DMRP_CALL_CONTROL, 0, 1.0)};
+    if (i == 4) calls.push_back(recovery(1, DMRP_RECOVERY_SPIN));
+    if (i == 6) calls.push_back(recovery(1, DMRP_RECOVERY_WAIT));
+    if (i == 9) calls.push_back(recovery(1, DMRP_RECOVERY_NONE));
+    if (i == 19) calls.push_back(recovery(1, 77));  // of a later host
+    trial.sample(i, {at(0, 0), at(2, 1)}).calls(calls);
+  }
+  trial.end(20.0, {never, never});
+  const Measurement m = measure("dmrp.metric.recoveries", trial);
+  CHECK(m.robot("recoveries", 0) == 0.0);
+  CHECK(m.robot("recoveries", 1) == 2.0);
+  CHECK(m.system("recoveries") == 2.0);
+  REQUIRE(m.events.size() == 2);
+  CHECK(m.events[0].from_s == 3.0);
+  CHECK(m.events[0].to_s == 8.0);
+  CHECK(m.events[0].text == "robot 1 recovers: spin, wait");
+  CHECK(m.events[1].to_s == 20.0);
+  CHECK(m.events[1].text == "robot 1 recovers: step 77");
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "metrics/execution/recoveries.hpp"
+
+#include <dmrp/recovery.h>
+
+#include <dmrp/toolkit/vec2.hpp>
+
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+std::string name_of(std::int32_t step) {
+  switch (step) {
+    case DMRP_RECOVERY_CLEAR_COSTMAP:
+      return "clear_costmap";
+    case DMRP_RECOVERY_SPIN:
+      return "spin";
+    case DMRP_RECOVERY_WAIT:
+      return "wait";
+    case DMRP_RECOVERY_BACKUP:
+      return "backup";
+    case DMRP_RECOVERY_REPLAN:
+      return "replan";
+    default:
+      return "step " + std::to_string(step);
+  }
+}
+
+}  // namespace
+
+Descriptor Recoveries::describe() {
+  return describe_metric("dmrp.metric.recoveries", "Recoveries")
+      .summary("how often robots recovered because they made no progress or their controller had no command")
+      .source("own definition")
+      .channels(DMRP_CHANNEL_CALLS | DMRP_CHANNEL_RECOVERIES)
+      .value("recoveries", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "number of recoveries ([recovery] of the experiment); each is an event with its steps; system: sum over "
+             "robots; undefined if planning failed");
+}
+
+void Recoveries::begin(const dmrp_plan* plan) {
+  recoveries_.clear();
+  open_.assign(world().robots().size(), -1);
+  counts_.assign(world().robots().size(), plan ? 0.0 : undefined);
+}
+
+void Recoveries::observe(const Sample& sample) {
+  for (const Call& call : sample.calls) {
+    if (call.kind != DMRP_CALL_RECOVERY || call.robot >= open_.size()) continue;
+    const std::int64_t began_ns = sample.t_ns - sample.dt_ns;  // calls are those since the last sample
+    if (call.status == DMRP_RECOVERY_NONE) {
+      close(call.robot, began_ns);
+    } else if (open_[call.robot] >= 0) {
+      recoveries_[static_cast<std::size_t>(open_[call.robot])].steps += ", " + name_of(call.status);
+    } else {
+      open_[call.robot] = static_cast<std::int64_t>(recoveries_.size());
+      recoveries_.push_back(
+          {call.robot, began_ns, began_ns, name_of(call.status), toolkit::position(sample.robots[call.robot].pose)});
+      counts_[call.robot] += 1.0;
+    }
+  }
+}
+
+void Recoveries::close(std::size_t robot, std::int64_t now_ns) {
+  if (open_[robot] >= 0) recoveries_[static_cast<std::size_t>(open_[robot])].to_ns = now_ns;
+  open_[robot] = -1;
+}
+
+void Recoveries::finish(const TrialEnd& end, MetricSink& sink) {
+  for (std::size_t robot = 0; robot < open_.size(); ++robot) close(robot, end.t_ns);
+  for (const Recovery& recovery : recoveries_)
+    sink.event({"recoveries",
+                recovery.from_ns,
+                recovery.to_ns,
+                {robot_subject(recovery.robot)},
+                "robot " + std::to_string(recovery.robot) + " recovers: " + recovery.steps,
+                recovery.place,
+                Severity::warning});
+  give(sink, "recoveries", counts_, &sum_of_defined);
+}
+
+}  // namespace dmrp::metrics
