@@ -173,7 +173,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   }
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
-  const RunResults results = read_results(std::move(database), layout);
+  const RunResults results = read_results(std::move(database), layout, out);
   write_tables(results, out);
   print_results(results, layout, out, try_to_report(results, out));
   if (results.trials.size() < manifest.experiment.trials_planned)

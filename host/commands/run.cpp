@@ -162,7 +162,7 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
                                  [&] { progress.refresh(); }};
   const RunEnding ending = supervise(experiment, std::move(trials), settings, sinks);
   progress.finish();
-  const RunResults results = read_results(std::move(database), layout);
+  const RunResults results = read_results(std::move(database), layout, files.directory());
   write_tables(results, files.directory());
   complete_manifest(files.directory(), results.trials);
   const bool reported = try_to_report(results, files.directory());

@@ -14,10 +14,12 @@
 
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
 #include "host/program/executable.hpp"
 #include "host/ranking/answer.hpp"
 #include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
+#include "host/ranking/bounds.hpp"
 #include "host/ranking/failure_causes.hpp"
 #include "host/ranking/tested_worlds.hpp"
 #include "host/report/write_report.hpp"
@@ -34,16 +36,20 @@ namespace dmrp::host {
 
 namespace fs = std::filesystem;
 
-RunResults read_results(ResultsDatabase database, const SummaryLayout& layout) {
+RunResults read_results(ResultsDatabase database, const SummaryLayout& layout, const fs::path& directory) {
   database.finish();
-  RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}};
+  RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}, {}};
   results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
+  results.summarised = results.metrics;
+  const fs::path effective = directory / "effective.toml";
+  add_places(bounds_of(read_file(effective, effective.string())), layout, results.trials, results.summarised,
+             results.summaries);
   return results;
 }
 
 void write_tables(const RunResults& results, const fs::path& directory) {
   write_file_atomically(directory / "trials.csv", trials_csv(results.metrics, results.trials));
-  write_file_atomically(directory / "summary.csv", summary_csv(results.metrics, results.summaries));
+  write_file_atomically(directory / "summary.csv", summary_csv(results.summarised, results.summaries));
 }
 
 bool try_to_report(const RunResults& results, const fs::path& directory) {
@@ -74,7 +80,7 @@ std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
 
 void print_results(const RunResults& results, const SummaryLayout& own_layout, const fs::path& directory, bool reported,
                    std::span<const ScenarioFacts> scenarios) {
-  const SummaryLayout layout = with_added_columns(own_layout, results.metrics);
+  const SummaryLayout layout = with_added_columns(own_layout, results.summarised);
   const std::vector<GradedSeries> graded = graded_series(layout, scenarios, results.trials);
   const bool all_graded = !graded.empty() && std::all_of(scenarios.begin(), scenarios.end(),
                                                          [](const auto& facts) { return !facts.series.empty(); });
@@ -85,8 +91,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
   const std::size_t width = style.width > 0 ? style.width : text_width;
   if (!all_graded) {
-    fmt::print("\n{}", summary_table(layout, results.metrics, results.summaries, marks, style));
-    fmt::print("{}\n", table_legend(layout, results.metrics, marks, {width, style.ansi}));
+    fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
+    fmt::print("{}\n", table_legend(layout, results.summarised, marks, {width, style.ansi}));
   }
   if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
     fmt::print("{}\n", wrapped_text(drawn, width, "  "));
@@ -128,12 +134,12 @@ void print_results_as_json(const RunResults& results, const SummaryLayout& layou
                                                        {"local_controller", labels.local_controller},
                                                        {"pedestrian_model", labels.pedestrian_model},
                                                        {"trials", summary.trials}});
-    for (std::size_t i = 0; i < results.metrics.size(); ++i)
-      one["metrics"][results.metrics[i].name] = {{"unit", results.metrics[i].unit},
-                                                 {"defined", summary.metrics[i].defined},
-                                                 {"mean", summary.metrics[i].mean},
-                                                 {"low", summary.metrics[i].interval.low},
-                                                 {"high", summary.metrics[i].interval.high}};
+    for (std::size_t i = 0; i < results.summarised.size(); ++i)
+      one["metrics"][results.summarised[i].name] = {{"unit", results.summarised[i].unit},
+                                                    {"defined", summary.metrics[i].defined},
+                                                    {"mean", summary.metrics[i].mean},
+                                                    {"low", summary.metrics[i].interval.low},
+                                                    {"high", summary.metrics[i].interval.high}};
   }
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }

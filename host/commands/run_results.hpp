@@ -18,10 +18,11 @@ namespace dmrp::host {
 struct RunResults {
   std::vector<MetricColumn> metrics;
   std::vector<TrialRecord> trials;
+  std::vector<MetricColumn> summarised;  // the metrics, and places between bounds (host/ranking/bounds.hpp)
   std::vector<CombinationSummary> summaries;
 };
-// The database is finished and closed.
-RunResults read_results(ResultsDatabase database, const SummaryLayout& layout);
+// The database is finished and closed. `directory`: the run's.
+RunResults read_results(ResultsDatabase database, const SummaryLayout& layout, const std::filesystem::path& directory);
 
 // trials.csv and summary.csv.
 void write_tables(const RunResults& results, const std::filesystem::path& directory);

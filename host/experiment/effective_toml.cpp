@@ -32,6 +32,7 @@ void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUs
                        toml_text(use.label));
     if (use.control_latency_ns)
       out += fmt::format("control_latency_s = {}\n", toml_text(static_cast<double>(*use.control_latency_ns) / 1e9));
+    if (use.bound != Bound::none) out += fmt::format("bound = \"{}\"\n", use.bound == Bound::lower ? "lower" : "upper");
     if (use.parameters.empty()) continue;
     out += fmt::format("[{}.params]\n", kind_name(kind));
     // A default may be infinite or NaN, which an experiment file cannot set: it becomes a comment.

@@ -72,6 +72,15 @@ std::optional<std::int64_t> read_control_latency(const TomlTable& table) {
   return latency_ns;
 }
 
+const std::vector<std::string> bounds = {"lower", "upper"};
+
+// Only a controller is one.
+Bound read_bound(const TomlTable& table) {
+  const auto value = table.find("bound");
+  if (!value) return Bound::none;
+  return value->choice(bounds) == "lower" ? Bound::lower : Bound::upper;
+}
+
 // The variants of a use; sets its parameter file.
 std::vector<ParameterVariant> read_variants(const TomlTable& table, const PluginInfo& info,
                                             const std::filesystem::path& base, std::filesystem::path& parameter_file) {
@@ -99,13 +108,23 @@ void check_names(const TomlTable& table, std::uint32_t kind, const std::vector<P
   if (kind == DMRP_KIND_METRIC) check_value_names(use, others, made);
 }
 
+void check_bound(const TomlTable& table, const std::vector<PluginUse>& others, const PluginUse& made) {
+  if (made.bound == Bound::none) return;
+  for (const PluginUse& other : others)
+    if (other.bound == made.bound)
+      table.need("bound").fail(fmt::format("'{}' and '{}' cannot both be the {} bound", other.label, made.label,
+                                           made.bound == Bound::lower ? "lower" : "upper"));
+}
+
 }  // namespace
 
 std::vector<TomlKey> plugin_use_keys(std::uint32_t kind) {
   std::vector<TomlKey> keys = {{"use"}, {"label"}, {"params_file"}, {"params"}, {"sweep"}};
   std::int64_t unused = 0;
-  if (kind == DMRP_KIND_LOCAL_CONTROLLER)
+  if (kind == DMRP_KIND_LOCAL_CONTROLLER) {
     keys.push_back({"control_latency_s", latency("control_latency_s", unused).range});
+    keys.push_back({"bound", choices_text(bounds)});
+  }
   return keys;
 }
 
@@ -121,6 +140,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
       if (const auto label = table.find("label")) name = label->line();
     });
     mistakes.attempt([&] { common.control_latency_ns = read_control_latency(table); });
+    mistakes.attempt([&] { common.bound = read_bound(table); });
     mistakes.attempt([&] {
       const TomlValue use = table.need("use");
       const auto found = find_plugin(use, kind, all_libraries, experiment);
@@ -138,6 +158,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
       made.swept = std::move(variant.swept);
       made.parameters = std::move(variant.values);
       check_names(table, kind, uses, made);
+      check_bound(table, uses, made);
       uses.push_back(std::move(made));
     }
   });

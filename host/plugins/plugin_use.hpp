@@ -20,6 +20,9 @@ struct LibraryUse {
   std::vector<PluginInfo> plugins;
 };
 
+// A controller that an experiment names as a bound of what is possible (host/ranking/bounds.hpp).
+enum class Bound { none, lower, upper };
+
 // A plugin as the experiment uses it.
 struct PluginUse {
   std::uint32_t library = 0;  // index into Experiment::libraries
@@ -28,6 +31,7 @@ struct PluginUse {
   std::vector<ParameterValue> parameters;            // complete, in the declared order; paths absolute
   std::filesystem::path parameter_file{};            // the source of some of them; absolute, empty if there is none
   std::optional<std::int64_t> control_latency_ns{};  // of a controller: in place of [simulation]'s
+  Bound bound = Bound::none;                         // of a controller
   std::vector<SweptValue> swept{};                   // parameters that `sweep` lists
 };
 

@@ -29,6 +29,7 @@ class Measures {
 
   const std::vector<Criterion>& criteria() const { return criteria_; }
   const RobotValues& ways() const { return ways_; }
+  const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;
   double mean(std::span<const std::size_t> trials, std::size_t criterion) const;  // NaN: undefined

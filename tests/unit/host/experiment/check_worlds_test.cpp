@@ -597,6 +597,20 @@ TEST_CASE("a controller may have a control latency of its own") {
   CHECK_THAT(message_of(text), Catch::Contains("control_latency_s"));
 }
 
+TEST_CASE("a controller may be a bound for the others") {
+  const ExperimentFolder folder;
+  const std::string second = "[[local_controller]]\nuse = \"test.controller\"\nlabel = \"second\"\n";
+  CHECK(load(experiment_text).local_controllers[0].bound == Bound::none);
+  const Experiment e = load(experiment_text + second + "bound = \"upper\"\n");
+  CHECK(e.local_controllers[1].bound == Bound::upper);
+  check_round_trip(e);
+  CHECK_THAT(message_of(experiment_text + second + "bound = \"top\"\n"),
+             Catch::EndsWith("'bound' must be one of lower, upper, not 'top'"));
+  CHECK_THAT(message_of(experiment_text + second + "bound = \"lower\"\n[[local_controller]]\n" +
+                        "use = \"test.controller\"\nlabel = \"third\"\nbound = \"lower\"\n"),
+             Catch::EndsWith("'second' and 'third' cannot both be the lower bound"));
+}
+
 TEST_CASE("imperfections are off by default") {
   const ExperimentFolder folder;
   const Experiment off = load(experiment_text);
