@@ -192,10 +192,10 @@ rows >"$out/rows.md"
 verdicts <"$out/rows.md" >"$out/discrimination.json"
 {
   sed '/^<!-- tests\/bench\/discrimination.sh -->$/q' "$page"
-  printf '\n%s tasks a world, %s trials, %s minutes of processor time. Run by dmrp %s).\n\n' "$tasks" \
+  printf '\n%s tasks a world, %s trials, %s minutes of processor time. Run by commit %s.\n\n' "$tasks" \
     "$(tail -qn +2 "$out"/*.*/trials.csv | wc -l)" \
     "$(awk '{ seconds += $1 + $2 } END { printf "%.0f", seconds / 60 }' "$out/processor_seconds")" \
-    "$("$host" --version | sed -n '1s/^dmrp-host \([^,]*\),.*/\1/p')"
+    "$(sed -n 's/^ *"commit": *"\([0-9a-f]*\)".*/\1/p' "$out"/*.*/manifest.json | sort -u | paste -s -d ' ')"
   echo '| world | robots | people | factor | declared | tasks | mean safe success | at ceiling | D | eta² of safe success | eta² of time | halves | tasks for 5 points | interaction | |'
   echo '| --- | ---: | ---: | --- | --- | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: | --- | --- |'
   cat "$out/rows.md"
