@@ -35,6 +35,19 @@ const expectedSchemas = new Map([
   ['/robot_1/scan', 'foxglove.LaserScan'],
 ]);
 
+// The layout for Foxglove shows topics that traces have, and places each of its panels.
+function checkLayout() {
+  const layout = JSON.parse(fs.readFileSync(path.join(endToEnd, '../../docs/foxglove_layout.json'), 'utf8'));
+  const placed = (node) => (typeof node === 'string' ? [node] : [...placed(node.first), ...placed(node.second)]);
+  assert.deepEqual(placed(layout.layout).sort(), Object.keys(layout.configById).sort());
+  const shown = Object.values(layout.configById).flatMap((panel) => [
+    ...Object.keys(panel.topics || {}),
+    ...(panel.topicToRender ? [panel.topicToRender] : []),
+  ]);
+  assert.ok(shown.length > 0);
+  for (const topic of shown) assert.ok(expectedSchemas.has(topic), topic);
+}
+
 // Two planners, two controllers, two people; scans; the one that only follows its path runs into things.
 function run() {
   const experiment = path.join(scratch, 'seen.toml');
@@ -272,6 +285,7 @@ function checkCutShort(trace, decompressHandlers) {
 }
 
 async function main() {
+  checkLayout();
   const decompressHandlers = await loadDecompressHandlers();
   const directory = run();
   const found = {events: 0, contacts: 0};
