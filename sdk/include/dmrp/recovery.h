@@ -4,6 +4,8 @@
 #ifndef DMRP_RECOVERY_H
 #define DMRP_RECOVERY_H
 
+#include "sample.h"
+
 // A kind of dmrp_call, beside those of sample.h. No call: the recovery of `robot` began the step that `status` names, or
 // ended.
 #define DMRP_CALL_RECOVERY 5
