@@ -282,16 +282,18 @@ class Supervisor {
     if (experiment_.traces == RecordTraces::none) return true;
     const TrialRecord& record = slot.trial->record();
     const fs::path stored = stored_trace(record.id);
-    if (fs::create_directory(stored.parent_path())) {
+    const auto make_folder = [&] {
+      if (!fs::create_directory(stored.parent_path())) return;
       const std::string text = stored.parent_path().string() + ": was deleted, with the traces of earlier trials";
       sinks_.on_warning(text);
       note(text);
-    }
+    };
+    make_folder();
     if (experiment_.traces == RecordTraces::failed && record.outcome == trial_outcome::succeeded) {
       fs::remove(stored);  // of an earlier attempt
       return true;
     }
-    return store_trace(scratch_trace(slot, record.id), stored) || record.outcome == trial_outcome::fault;
+    return store_trace(scratch_trace(slot, record.id), stored, make_folder) || record.outcome == trial_outcome::fault;
   }
 
   void run_again(Slot& slot) {
