@@ -52,9 +52,10 @@ struct Flow {
   std::uint32_t group_size = 1;  // people per group; the last group is smaller if `people` is not a multiple
 };
 
-// Body radius and walking speed of people; the speed is truncated normal.
+// Body radius and walking speed of people; the speed is truncated normal. The body is RiMEA's, 40 cm wide (guideline
+// 4.1.1): the pedestrian models are verified with it (docs/pedestrians.md).
 struct PeopleSettings {
-  double radius_m = 0.3;
+  double radius_m = 0.2;
   double speed_mean = 1.2;  // m/s
   double speed_sd = 0.2;
   double speed_min = 0.5;
