@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // walking_groups.hpp: the groups of flows, and their formations: side by side, as groups walk at low density (Moussaid
 // et al.: The walking behaviour of pedestrian social groups, PLoS ONE 5 (2010); they calibrated a distance of 0.8 m
-// between neighbours, which corresponds to group_gap_m for people 0.6 m across).
+// between neighbours, which is group_gap_m between bodies of the default radius).
 #pragma once
 
 #include <dmrp/values.h>
@@ -20,7 +20,7 @@ namespace dmrp::core {
 
 inline constexpr double spawn_distance_to_robots_m = 1.5;  // between centres
 inline constexpr double personal_gap_m = 0.05;             // between the bodies of any two people at the beginning
-inline constexpr double group_gap_m = 0.2;                 // between the bodies of group members at the beginning
+inline constexpr double group_gap_m = 0.4;                 // between the bodies of group members at the beginning
 
 // People of a flow who walk together. A person who walks alone is a group of one.
 struct WalkingGroup {

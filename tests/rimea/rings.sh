@@ -24,7 +24,7 @@ ring() {
       print "# Written by tests/rimea/rings.sh."
       printf "\n[scenario]\nname = \"%s\"\ntitle = \"%s\"\ndescription = \"%s\"\n", name, title, description
       printf "size_m = [%.1f, %.1f]\ntime_limit_s = %.1f\n", 2 * c, 2 * c, limit
-      print "\n[people]\nradius_m = 0.2     # RiMEA'"'"'s body of 40 cm\nspeed_mean = 1.34  # Weidmann'"'"'s adults\nspeed_sd = 0.26"
+      print "\n[people]\nspeed_mean = 1.34  # Weidmann'"'"'s adults\nspeed_sd = 0.26"
 
       printf "\n[[polygon]]\nname = \"inside\"\nvertices_m = [\n"
       for (i = 0; i < sides; ++i) printf "  %s,\n", at(inner, i)

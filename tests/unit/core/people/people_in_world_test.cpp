@@ -24,14 +24,14 @@ TEST_CASE("people start along their flows, clear of obstacles and each other, at
     double east_most = 0.0;
     for (const dmrp_person& person : world.people()) {
       ids.insert(person.id);
-      CHECK(geometry->disc_is_free(person.position, 0.3));
+      CHECK(geometry->disc_is_free(person.position, body_radius_m));
       CHECK(person.desired_speed >= 0.5);
       CHECK(person.desired_speed <= 2.0);
       CHECK(toolkit::contains(toolkit::Rectangle{person.area_lower, person.area_upper}, person.target));
       for (const RobotState& state : world.robots())
         CHECK(toolkit::distance(person.position, toolkit::position(state.pose)) >= 1.5);
       for (const dmrp_person& other : world.people())
-        if (&other != &person) CHECK(toolkit::distance(person.position, other.position) >= 0.6);
+        if (&other != &person) CHECK(toolkit::distance(person.position, other.position) >= 2.0 * body_radius_m);
       west_most = std::min(west_most, person.position.x);
       east_most = std::max(east_most, person.position.x);
     }

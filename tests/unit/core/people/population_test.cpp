@@ -40,11 +40,11 @@ TEST_CASE("a crowd fills a region evenly, free and apart, up to nearly the close
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const World world = world_of(scenario, seed);
     REQUIRE(world.people().size() == 150);
-    CHECK(nearest_pair(world.people()) >= 0.65 - 1e-9);
+    CHECK(nearest_pair(world.people()) >= 2.0 * body_radius_m + personal_gap_m - 1e-9);
     int west = 0;
     int south = 0;
     for (const dmrp_person& person : world.people()) {
-      CHECK(geometry->disc_is_free(person.position, 0.3));
+      CHECK(geometry->disc_is_free(person.position, body_radius_m));
       CHECK(toolkit::contains(toolkit::Rectangle{{0.5, 0.5}, {9.5, 9.5}}, person.position));
       west += person.position.x < 5.0;
       south += person.position.y < 5.0;
@@ -54,9 +54,9 @@ TEST_CASE("a crowd fills a region evenly, free and apart, up to nearly the close
   }
   CHECK(world_of(scenario, 1).people()[0].position != world_of(scenario, 2).people()[0].position);
 
-  // the closest packing of discs 0.65 m apart has 2.73 people a square metre: 221 in 81 m2
-  CHECK(world_of(room(200)).people().size() == 200);
-  CHECK_THROWS_WITH(world_of(room(300)), Catch::Contains("no room in region 'room' for 300 people"));
+  // the closest packing of discs 0.45 m apart has 5.7 people a square metre: 461 in 81 m2
+  CHECK(world_of(room(420)).people().size() == 420);
+  CHECK_THROWS_WITH(world_of(room(600)), Catch::Contains("no room in region 'room' for 600 people"));
 }
 
 TEST_CASE("flows that start in the same or in overlapping regions share the space") {
@@ -67,7 +67,7 @@ TEST_CASE("flows that start in the same or in overlapping regions share the spac
   scenario.flows.push_back({"along", {0, 1}, 10});
   const World world = world_of(scenario);
   REQUIRE(world.people().size() == 110);
-  CHECK(nearest_pair(world.people()) >= 0.65 - 1e-9);
+  CHECK(nearest_pair(world.people()) >= 2.0 * body_radius_m + personal_gap_m - 1e-9);
   for (std::size_t i = 0; i < 110; ++i) CHECK(world.people()[i].id == i);
   for (std::size_t i = 80; i < 100; ++i)
     CHECK(toolkit::contains(toolkit::Rectangle{{5.0, 5.0}, {9.5, 9.5}}, world.people()[i].position));
@@ -181,7 +181,7 @@ TEST_CASE("nobody starts on top of a recorded person") {
   scenario.flows.push_back({"along", {0, 1}, 10});
   const World world = world_of(scenario);
   REQUIRE(world.people().size() == 74);
-  CHECK(nearest_pair(world.people()) >= 0.6);
+  CHECK(nearest_pair(world.people()) >= 2.0 * body_radius_m);
 }
 
 TEST_CASE("a world of recorded people is deserted after the last one left, not before the first one appears") {
@@ -220,7 +220,7 @@ TEST_CASE("a recorded person walks through bodies without pushing them, and bodi
   }
   CHECK(touched);
   CHECK(world.robots()[0].pose.x == 5.0);
-  CHECK(world.robots()[1].pose.x == Approx(7.55).margin(0.01));
+  CHECK(world.robots()[1].pose.x == Approx(7.0 + 0.25 + body_radius_m).margin(0.01));
   CHECK(deepest_m > 0.001);
   CHECK(deepest_m < 0.002);
 }

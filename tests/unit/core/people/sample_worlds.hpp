@@ -13,6 +13,8 @@
 
 namespace dmrp::core::test {
 
+inline constexpr double body_radius_m = PeopleSettings{}.radius_m;
+
 inline World world_of(const Scenario& scenario, std::uint64_t seed = 1) {
   return World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), seed);
 }
