@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "tests/rimea/metrics/bottleneck.hpp"
+#include "tests/rimea/metrics/counter_flow.hpp"
 #include "tests/rimea/metrics/describe_rimea.hpp"
 #include "tests/rimea/metrics/evacuation.hpp"
 #include "tests/rimea/metrics/fundamental_diagram.hpp"
@@ -20,4 +21,4 @@ toolkit::Rectangle rectangle_of(const std::vector<double>& lower_m, const std::v
 }  // namespace dmrp::rimea
 
 DMRP_PLUGINS(dmrp::rimea::TravelTime, dmrp::rimea::Evacuation, dmrp::rimea::FundamentalDiagram, dmrp::rimea::Solidity,
-             dmrp::rimea::Bottleneck)
+             dmrp::rimea::Bottleneck, dmrp::rimea::CounterFlow)

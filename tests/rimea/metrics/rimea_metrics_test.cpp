@@ -123,6 +123,35 @@ TEST_CASE("a bottleneck is measured while people arrive at it") {
   CHECK(std::isnan(m.system("speed_at_exit")));
 }
 
+TEST_CASE("a counter-flow has its speed over the desired one, and an order of lanes") {
+  const auto walker = [](std::uint64_t id, dmrp_vec2 at, double direction, double speed) {
+    dmrp_person made = person(id, at);
+    made.target = {at.x + 10.0 * direction, at.y};
+    made.velocity = {direction * speed, 0.0};
+    made.desired_speed = 1.0;
+    return made;
+  };
+  const auto measure_rows = [&](double one, double other) {
+    SyntheticTrial trial(0);
+    std::vector<dmrp_person> people;
+    for (std::uint64_t i = 0; i < 4;
+         ++i) {  // two rows of four, 1 m apart, the second half of each in its own direction
+      const double x = 1.0 + static_cast<double>(i);
+      people.push_back(walker(i, {x, 1.0}, i < 2 ? 1.0 : one, 0.5));
+      people.push_back(walker(4 + i, {x, 2.0}, i < 2 ? -1.0 : other, 1.0));
+    }
+    people.push_back(walker(9, {20.0, 1.0}, -1.0, 1.0));  // outside
+    trial.sample(0.0, {}).crowd(people);
+    trial.sample(1.0, {}).crowd(people).end(1.0);
+    return measure_people("rimea.counter_flow", trial, {{"upper_m", std::vector<double>{10.0, 3.0}}, {"from_s", 0.0}});
+  };
+  const Measurement lanes = measure_rows(1.0, -1.0);
+  CHECK(lanes.system("relative_speed") == Approx(0.75));
+  CHECK(lanes.system("lane_order") == Approx(1.0));
+  CHECK(measure_rows(-1.0, 1.0).system("lane_order") == Approx((0.0 - 0.25) / 0.75));  // half and half in every row
+  CHECK(measure_rows(1.0, 1.0).system("lane_order") == Approx((0.5 - 0.25) / 0.75));
+}
+
 TEST_CASE("an area without two corners in order is refused") {
   SyntheticTrial trial(0);
   trial.sample(0.0, {}).end(0.0);
