@@ -31,6 +31,7 @@ RankedCombination ranked(const Contest& contest, std::size_t contestant, const M
     trials.insert(trials.end(), of_situation.begin(), of_situation.end());
   result.trials = static_cast<std::uint32_t>(trials.size());
   for (std::size_t i = 0; i < measures.criteria().size(); ++i) result.means.push_back(measures.mean(trials, i));
+  if (measures.stricter()) result.stricter_mean = measures.stricter_mean(trials);
   return result;
 }
 
@@ -78,8 +79,23 @@ std::optional<std::uint64_t> needed(const Answer& answer) {
   return core::pairs_needed(sd, wished_difference, level);
 }
 
+std::vector<OrderFlip> flips_of(const std::vector<RankedCombination>& ranking) {
+  std::vector<OrderFlip> flips;
+  for (std::size_t before = 0; before < ranking.size(); ++before)
+    for (std::size_t behind = before + 1; behind < ranking.size(); ++behind)
+      if (ranking[before].means[0] > ranking[behind].means[0] + rounding &&
+          ranking[before].stricter_mean < ranking[behind].stricter_mean - rounding)
+        flips.push_back({before, behind});
+  return flips;
+}
+
 Answer answer_of(const Contest& contest, const Measures& measures) {
-  Answer answer{contest.cells, contest.tasks, contest.tasks_known, in_general(contest), 0, measures.criteria(), {}, {}};
+  Answer answer;
+  answer.cells = contest.cells;
+  answer.tasks = contest.tasks;
+  answer.tasks_known = contest.tasks_known;
+  answer.in_general = in_general(contest);
+  answer.criteria = measures.criteria();
   std::vector<RankedCombination> all;
   for (std::size_t i = 0; i < contest.contestants.size(); ++i) all.push_back(ranked(contest, i, measures));
   std::vector<std::size_t> order(all.size());
@@ -100,6 +116,10 @@ Answer answer_of(const Contest& contest, const Measures& measures) {
     answer.observations = std::max(answer.observations, answer.ranking[i].against[0].observations);
   }
   answer.needed = needed(answer);
+  if (measures.stricter()) {
+    answer.stricter = measures.stricter()->name;
+    answer.flips = flips_of(answer.ranking);
+  }
   return answer;
 }
 

@@ -109,6 +109,20 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
                                    combination_name(one), unsafe, cause_words(causes));
 }
 
+// Pairs of combinations whose order the stricter sibling of the first criterion turns round.
+std::string flip_line(const Answer& answer) {
+  std::vector<std::string> pairs;
+  for (const OrderFlip& flip : answer.flips) {
+    const RankedCombination& before = answer.ranking[flip.before];
+    const RankedCombination& behind = answer.ranking[flip.behind];
+    pairs.push_back(fmt::format("{} ({:.2f}; {} {:.2f}) is before {} ({:.2f}; {} {:.2f})", combination_name(behind),
+                                behind.stricter_mean, answer.criteria.front().name, behind.means[0],
+                                combination_name(before), before.stricter_mean, answer.criteria.front().name,
+                                before.means[0]));
+  }
+  return fmt::format("The order depends on whose fault contacts are: by {}, {}.", answer.stricter, list_words(pairs));
+}
+
 // With n pairs no p is below 2^(1 - n), and Holm multiplies the least one by the number of tests.
 std::uint64_t least_observations(const Answer& answer) {
   double tests = 0.0;
@@ -147,6 +161,7 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
     if (const std::string causes = cause_line(answer, *worse.back(), failures); !causes.empty())
       lines.push_back(causes);
   }
+  if (!answer.flips.empty()) lines.push_back(flip_line(answer));
   if (const std::uint64_t least = least_observations(answer); answer.observations < least)
     lines.push_back(fmt::format("{} cannot tell so many combinations apart: it takes at least {}.",
                                 observed(answer, answer.observations), least));

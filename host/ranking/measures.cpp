@@ -12,19 +12,36 @@ namespace {
 
 constexpr double rounding = 1e-9;  // sums in another order differ by less
 
+// None: it was not measured.
+std::optional<std::size_t> column_of(std::span<const MetricColumn> metrics, const std::string& name) {
+  const auto found =
+      std::find_if(metrics.begin(), metrics.end(), [&](const auto& metric) { return metric.name == name; });
+  return found == metrics.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - metrics.begin()));
+}
+
+Criterion share_of(std::string metric) {
+  std::replace(metric.begin(), metric.end(), '_', ' ');
+  return {metric, true};
+}
+
+double mean_or_undefined(const std::vector<double>& values) {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : core::mean(values);
+}
+
 }  // namespace
 
 Measures::Measures(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                    std::span<const TrialRecord> trials)
     : trials_(trials), values_(system_values(metrics, trials)) {
   for (const std::string& share : layout.answer.shares) {
-    const auto metric =
-        std::find_if(metrics.begin(), metrics.end(), [&](const auto& column) { return column.name == share; });
-    if (metric == metrics.end()) continue;
-    std::string name = share;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    criteria_.push_back({name, true});
-    metrics_.push_back(static_cast<std::size_t>(metric - metrics.begin()));
+    const auto column = column_of(metrics, share);
+    if (!column) continue;
+    criteria_.push_back(share_of(share));
+    metrics_.push_back(*column);
+    const auto stricter = column_of(metrics, layout.answer.stricter);
+    if (!stricter || share != layout.answer.shares.front()) continue;
+    stricter_ = share_of(layout.answer.stricter);
+    stricter_metric_ = *stricter;
   }
   ways_ = robot_values(trials, layout.answer.way_length);
   times_ = robot_values(trials, layout.answer.time);
@@ -40,7 +57,7 @@ Measures::Measures(const SummaryLayout& layout, std::span<const MetricColumn> me
 
 Difference Measures::difference(std::size_t criterion) const {
   if (criteria_[criterion].share)
-    return difference_of([this, criterion](std::size_t trial) { return share(trial, criterion); });
+    return difference_of([this, metric = metrics_[criterion]](std::size_t trial) { return share(trial, metric); });
   return [this](std::span<const std::size_t> a, std::span<const std::size_t> b) {
     return time_difference(a.front(), b.front());
   };
@@ -51,16 +68,24 @@ double Measures::mean(std::span<const std::size_t> trials, std::size_t criterion
   for (const std::size_t trial : trials) {
     if (const auto found = value(trial, criterion)) values.push_back(*found);
   }
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : core::mean(values);
+  return mean_or_undefined(values);
+}
+
+double Measures::stricter_mean(std::span<const std::size_t> trials) const {
+  std::vector<double> values;
+  for (const std::size_t trial : trials) {
+    if (const auto found = share(trial, stricter_metric_)) values.push_back(*found);
+  }
+  return mean_or_undefined(values);
 }
 
 std::optional<double> Measures::value(std::size_t trial, std::size_t criterion) const {
-  return criteria_[criterion].share ? share(trial, criterion) : time(trial);
+  return criteria_[criterion].share ? share(trial, metrics_[criterion]) : time(trial);
 }
 
 // A trial that ended in a fault counts as 0.
-std::optional<double> Measures::share(std::size_t trial, std::size_t criterion) const {
-  if (const auto& value = values_[trial][metrics_[criterion]]) return value;
+std::optional<double> Measures::share(std::size_t trial, std::size_t metric) const {
+  if (const auto& value = values_[trial][metric]) return value;
   return trials_[trial].outcome == trial_outcome::fault ? std::optional(0.0) : std::nullopt;
 }
 

@@ -28,15 +28,19 @@ class Measures {
   Measures(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
 
   const std::vector<Criterion>& criteria() const { return criteria_; }
+
+  // The stricter sibling of the first criterion, a share, if both were measured.
+  const std::optional<Criterion>& stricter() const { return stricter_; }
   const RobotValues& ways() const { return ways_; }
   const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;
   double mean(std::span<const std::size_t> trials, std::size_t criterion) const;  // NaN: undefined
+  double stricter_mean(std::span<const std::size_t> trials) const;                // likewise
   std::optional<double> value(std::size_t trial, std::size_t criterion) const;
 
  private:
-  std::optional<double> share(std::size_t trial, std::size_t criterion) const;
+  std::optional<double> share(std::size_t trial, std::size_t metric) const;
   std::optional<double> time(std::size_t trial) const;
   std::optional<double> time_difference(std::size_t a, std::size_t b) const;
 
@@ -47,6 +51,8 @@ class Measures {
   bool any_time_ = false;
   std::vector<Criterion> criteria_;
   std::vector<std::size_t> metrics_;  // of the criteria that are shares
+  std::optional<Criterion> stricter_;
+  std::size_t stricter_metric_ = 0;
 };
 
 // Whether means a come before means b, by criterion. An undefined time comes last.

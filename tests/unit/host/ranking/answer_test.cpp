@@ -277,3 +277,36 @@ TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
   CHECK(found[0].cells.size() == 2);
   CHECK(found[0].tasks == 6);
 }
+
+TEST_CASE("orders that the stricter share turns round are flagged", "[ranking]") {
+  const std::vector<RobotResult> one_is_touched{{20.0, true, 10.0, true}, {40.0, true, 20.0}};
+  const auto first = [](std::uint32_t count, const std::vector<RobotResult>& robots) {
+    return [=](std::uint32_t i) { return i < count ? robots : both_arrive; };
+  };
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "touched", 20, first(10, one_is_touched));  // safe 1, untouched .75
+  add_trials(trials, "unsafe", 20, first(4, one_touches));       // safe .9, untouched .9
+  add_trials(trials, "worst", 20, first(16, one_fails));         // safe .6, untouched .6
+  const Answer answer = answer_of(trials);
+  REQUIRE(order_of(answer) == Names{"touched", "unsafe", "worst"});
+  REQUIRE(answer.flips.size() == 1);
+  CHECK(answer.flips[0].before == 0);
+  CHECK(answer.flips[0].behind == 1);
+  CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
+                                   "The order depends on whose fault contacts are: by untouched done, P + unsafe "
+                                   "(0.90; safe 0.90) is before P + touched (0.75; safe 1.00).")));
+
+  SECTION("not where the order stays, or the values are equal") {
+    trials.clear();
+    add_trials(trials, "touched", 20, first(4, one_is_touched));  // safe 1, untouched .9
+    add_trials(trials, "unsafe", 20, first(4, one_touches));      // both .9
+    add_trials(trials, "worst", 20, first(16, one_fails));
+    CHECK(answer_of(trials).flips.empty());
+    for (const std::string& line : lines_of(trials)) CHECK_THAT(line, !Contains("whose fault"));
+  }
+  SECTION("nor where the stricter share was not measured") {
+    std::vector<MetricColumn> metrics = ranking_metrics();
+    metrics.erase(metrics.begin() + 1);
+    CHECK(answers(ranking_layout(), metrics, trials).front().flips.empty());
+  }
+}

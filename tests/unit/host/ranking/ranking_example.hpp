@@ -15,15 +15,16 @@
 namespace dmrp::test {
 
 inline std::vector<host::MetricColumn> ranking_metrics() {
-  return {{"safe", "1", DMRP_DIRECTION_HIGHER, false, ""},   {"done", "1", DMRP_DIRECTION_HIGHER, false, ""},
-          {"time", "s", DMRP_DIRECTION_LOWER, false, ""},    {"length", "m", DMRP_DIRECTION_LOWER, false, ""},
-          {"planned", "m", DMRP_DIRECTION_LOWER, false, ""}, {"plan_ms", "ms", DMRP_DIRECTION_LOWER, true, ""}};
+  return {{"safe", "1", DMRP_DIRECTION_HIGHER, false, ""},  {"untouched_done", "1", DMRP_DIRECTION_HIGHER, false, ""},
+          {"done", "1", DMRP_DIRECTION_HIGHER, false, ""},  {"time", "s", DMRP_DIRECTION_LOWER, false, ""},
+          {"length", "m", DMRP_DIRECTION_LOWER, false, ""}, {"planned", "m", DMRP_DIRECTION_LOWER, false, ""},
+          {"plan_ms", "ms", DMRP_DIRECTION_LOWER, true, ""}};
 }
 
 inline host::SummaryLayout ranking_layout() {
-  return host::parse_summary_layout(R"({"arrived": "done", "counts_failures": ["safe", "done"],
+  return host::parse_summary_layout(R"({"arrived": "done", "counts_failures": ["safe", "untouched_done", "done"],
       "of_plans": ["planned", "plan_ms"],
-      "answer": {"shares": ["safe", "done"], "time": "time", "way_length": "way"}})",
+      "answer": {"shares": ["safe", "done"], "stricter": "untouched_done", "time": "time", "way_length": "way"}})",
                                     "layout");
 }
 
@@ -32,6 +33,7 @@ struct RobotResult {
   std::optional<double> time_s = 20.0;  // none: it does not arrive
   bool safe = true;
   double way_m = 10.0;
+  bool touched = false;  // though not at its fault; an unsafe robot is touched, too
 };
 
 // A trial of two robots in the mall.
@@ -48,11 +50,13 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   trial.seed = 1000 + repetition;
   double done = 0.0;
   double safe = 0.0;
+  double untouched = 0.0;
   for (std::uint64_t i = 0; i < robots.size(); ++i) {
     const RobotResult& robot = robots[i];
     const bool arrived = robot.time_s.has_value();
     done += arrived ? 1.0 : 0.0;
     safe += arrived && robot.safe ? 1.0 : 0.0;
+    untouched += arrived && robot.safe && !robot.touched ? 1.0 : 0.0;
     trial.values.push_back({"done", DMRP_SUBJECT_ROBOT, i, std::nullopt, arrived ? 1.0 : 0.0});
     trial.values.push_back({"safe", DMRP_SUBJECT_ROBOT, i, std::nullopt, arrived && robot.safe ? 1.0 : 0.0});
     trial.values.push_back({"time", DMRP_SUBJECT_ROBOT, i, std::nullopt, robot.time_s});
@@ -71,6 +75,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
     trial.values.push_back({metric, DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, value});
   };
   system("safe", safe / count);
+  system("untouched_done", untouched / count);
   system("done", done / count);
   system("time", done == count ? robots.front().time_s : std::nullopt);
   system("length", length_m);
