@@ -127,7 +127,7 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--memory-limit", options.memory_mb, "address space of the planner's process in MB; 0: no limit")
+  command->add_option("--memory-limit", options.memory_mb, "memory of the planner's process in MB; 0: no limit")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
       ->type_name("MB")
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
 #include "host/process/box.hpp"
+#include "host/process/memory_group.hpp"
 #include "host/process/resource_limits.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
@@ -31,7 +32,7 @@ std::vector<std::string> types_of_robots(const ScenarioVariant& variant) {
 
 PluginLimits limits_of(const Experiment& experiment) {
   const RunLimits& limits = experiment.limits;
-  const bool watched = limits.memory_mb > 0 && counts_resident_memory(experiment);
+  const bool watched = limits.memory_mb > 0 && counts_resident_memory(experiment) && !MemoryGroup::available();
   std::set<std::string> with_processes;
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})

@@ -18,6 +18,7 @@
 #include <fstream>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "host/errors/machine_error.hpp"
 #include "host/process/box.hpp"
@@ -30,20 +31,29 @@ namespace {
 
 constexpr int start_failed_exit = 127;  // as a shell's
 
+// Above this process's.
+std::string oom_score_of_children() {
+  constexpr int step = 500;
+  constexpr int highest = 1000;
+  int own = 0;
+  std::ifstream("/proc/self/oom_score_adj") >> own;
+  return std::to_string(std::min(own + step, highest));
+}
+
 // Only async-signal-safe functions. Where it fails, the kernel chooses as it likes.
-void be_killed_first() {
+void be_killed_first(std::string_view score) {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
-  constexpr std::string_view score = "500";
   [[maybe_unused]] const ssize_t written = write(file, score.data(), score.size());
   close(file);
 }
 
 // In the child.
-[[noreturn]] void run_child(pid_t parent, int output, const std::function<void()>& function) noexcept {
+[[noreturn]] void run_child(pid_t parent, int output, std::string_view oom_score,
+                            const std::function<void()>& function) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
-  be_killed_first();
+  be_killed_first(oom_score);
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
@@ -73,6 +83,7 @@ void execute_program(const char* const* arguments, const ChildProcess::Program& 
 }  // namespace
 
 const char* ProcessEnding::fault_kind() const {
+  if (exceeded_group) return fault_kind::out_of_memory;
   if (signal == SIGSYS) return fault_kind::abi_breach;
   if (signal == SIGXCPU) return fault_kind::hang;
   if (signal != 0) return fault_kind::crash;
@@ -81,10 +92,11 @@ const char* ProcessEnding::fault_kind() const {
 }
 
 std::string ProcessEnding::explain(std::int64_t memory_mb) const {
+  if (exceeded_group || exit_status == out_of_memory_exit)
+    return fmt::format("needs more than {} MB of memory", memory_mb);
   if (signal == SIGSYS) return "made a system call that its process may not make";
   if (signal == SIGXCPU) return fmt::format("took more than {:.3g} s of processor time", cpu_limit_s);
   if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
-  if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
   return fmt::format("ended the process with status {}", exit_status);
 }
 
@@ -93,13 +105,16 @@ ChildProcess ChildProcess::execute(const Program& program) {
   std::vector<const char*> arguments = {executable.c_str()};
   for (const std::string& argument : program.arguments) arguments.push_back(argument.c_str());
   arguments.push_back(nullptr);
-  return ChildProcess(program.output, [&] { execute_program(arguments.data(), program); });
+  return ChildProcess(program.output, MemoryGroup::make(program.group_memory_mb),
+                      [&] { execute_program(arguments.data(), program); });
 }
 
 ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function,
                                 const Notes& notes) {
-  return ChildProcess(notes.output, [&] {
-    set_resource_limits(limits.memory_mb);
+  std::unique_ptr<MemoryGroup> group = MemoryGroup::make(limits.memory_mb);
+  const std::int64_t data_mb = group ? 0 : limits.memory_mb;
+  return ChildProcess(notes.output, std::move(group), [&] {
+    set_resource_limits(data_mb);
     if (limits.file_mb > 0) limit_files(limits.file_mb);
     own_process::watch({});
     box::enter(limits.processes, notes.refused);
@@ -107,12 +122,17 @@ ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function
   });
 }
 
-ChildProcess::ChildProcess(int output, const std::function<void()>& function) {
+ChildProcess::ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function)
+    : group_(std::move(group)) {
   std::fflush(nullptr);  // buffered output would be written twice
   const pid_t parent = getpid();
+  const std::string oom_score = oom_score_of_children();
   pid_ = ::fork();
   if (pid_ < 0) throw MachineError("fork", errno);
-  if (pid_ == 0) run_child(parent, output, function);
+  if (pid_ == 0) {
+    if (group_ && !group_->enter()) _exit(start_failed_exit);
+    run_child(parent, output, oom_score, function);
+  }
   ended_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
   if (!ended_.is_open()) {
     const int reason = errno;
@@ -181,7 +201,8 @@ const ProcessEnding& ChildProcess::wait() {
     ending_.signal = WTERMSIG(status);
   else
     ending_.exit_status = WEXITSTATUS(status);
-  ending_.killed_from_outside = ending_.signal == SIGKILL && !killed_;
+  ending_.exceeded_group = ending_.signal == SIGKILL && group_ && group_->has_exceeded_limit();
+  ending_.killed_from_outside = ending_.signal == SIGKILL && !killed_ && !ending_.exceeded_group;
   ending_.peak_rss_mb = static_cast<double>(used.ru_maxrss) / 1024.0;
   return ending_;
 }

@@ -11,11 +11,13 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "host/process/descriptor.hpp"
 #include "host/process/fault_kind.hpp"
+#include "host/process/memory_group.hpp"
 #include "host/process/resource_limits.hpp"
 
 namespace dmrp::host {
@@ -31,6 +33,7 @@ struct ProcessEnding {
   int signal = 0;                    // that killed it; 0: it exited
   int exit_status = 0;               // if it exited
   bool killed_from_outside = false;  // by SIGKILL, and not by kill(): the kernel, when memory is short, or a person
+  bool exceeded_group = false;       // killed by the kernel, for its memory_group.hpp had exceeded its limit
   double peak_rss_mb = 0.0;
   double cpu_limit_s = 0.0;  // the last of allow_cpu(); 0: none
 
@@ -57,6 +60,7 @@ class ChildProcess {
     std::vector<int> inherited;          // descriptors that the program keeps; it inherits no other
     int output = STDERR_FILENO;          // for its standard output and standard error
     bool ignores_terminal = false;       // Ctrl-C and the like, which reach all processes of a terminal
+    std::int64_t group_memory_mb = 0;    // of a memory group, where there can be one; 0: none
   };
 
   // Starts dmrp-host again. Throws MachineError.
@@ -101,9 +105,10 @@ class ChildProcess {
   const ProcessEnding& wait();
 
  private:
-  ChildProcess(int output, const std::function<void()>& function);
+  ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function);
 
-  pid_t pid_ = -1;  // -1: it has been waited for
+  std::unique_ptr<MemoryGroup> group_;  // none: it lives in its parent's
+  pid_t pid_ = -1;                      // -1: it has been waited for
   Descriptor ended_;
   bool killed_ = false;
   ProcessEnding ending_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "host/process/memory_group.hpp"
 #include "host/process/sanitized.hpp"
 
 namespace dmrp::host {
@@ -22,7 +23,8 @@ void set_resource_limits(std::int64_t memory_mb) {
 }
 
 const char* memory_limit_kind(std::int64_t memory_mb) {
-  return sanitizer_is_loaded() || memory_mb == 0 ? "none" : "RLIMIT_DATA";
+  if (sanitizer_is_loaded() || memory_mb == 0) return "none";
+  return MemoryGroup::available() ? "memory.max" : "RLIMIT_DATA";
 }
 
 double processor_time_s(double wall_s, unsigned sharers) {

@@ -7,7 +7,7 @@
 namespace dmrp::host {
 
 struct ProcessLimits {
-  std::int64_t memory_mb = 0;  // of data; 0: no limit
+  std::int64_t memory_mb = 0;  // of all in a memory group, of data where there can be none; 0: no limit
   bool processes = false;      // plugins may start processes
   std::int64_t file_mb = 0;    // of a file that it writes; 0: the box's limit
 };
@@ -17,7 +17,7 @@ struct ProcessLimits {
 // already set stays.
 void set_resource_limits(std::int64_t memory_mb);
 
-// What set_resource_limits() uses: "RLIMIT_DATA", or "none".
+// What limits the memory of a child: "memory.max" of a memory group, "RLIMIT_DATA", or "none".
 const char* memory_limit_kind(std::int64_t memory_mb);
 
 // The processor time of a process that may take `wall_s`, if so many share the processors: each has its share of them, and

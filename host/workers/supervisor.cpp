@@ -18,6 +18,7 @@
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/try_to_write.hpp"
+#include "host/process/memory_group.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
 #include "host/process/watchdog.hpp"
@@ -98,7 +99,7 @@ class Supervisor {
     while (open_trials_ > 0) {
       for (Slot& slot : slots_) assign_work(slot);
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
-      if (experiment_.limits.memory_mb > 0 && monotonic_ns() >= next_look_at_memory_ns_) look_at_memory();
+      if (watches_memory_ && monotonic_ns() >= next_look_at_memory_ns_) look_at_memory();
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
       sinks_.on_idle();
@@ -432,6 +433,7 @@ class Supervisor {
   const SupervisorSettings& settings_;
   const SupervisorSinks& sinks_;
   const std::string digest_;
+  const bool watches_memory_ = experiment_.limits.memory_mb > 0 && !MemoryGroup::available();
   const bool counts_resident_memory_ = counts_resident_memory(experiment_);
   std::int64_t next_look_at_memory_ns_ = 0;
   Descriptor log_;

@@ -28,7 +28,9 @@ FaultRecord fault_of_end(WorkerProcess& worker, std::int64_t memory_mb) {
   const ProcessEnding& ending = worker.process().wait();
   fault.kind = ending.fault_kind();
   fault.signal = ending.signal;
-  if (ending.killed_from_outside)
+  if (ending.exceeded_group)
+    fault.detail += fmt::format("more than memory_mb = {} in use; when this is noticed depends on timing", memory_mb);
+  else if (ending.killed_from_outside)
     fault.detail += "killed by SIGKILL from outside";
   else if (ending.signal == SIGSYS)
     fault.detail += fmt::format("the box refuses {}", box::name_of(worker.last_call().refused));

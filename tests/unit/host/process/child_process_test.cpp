@@ -5,7 +5,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -114,6 +116,23 @@ TEST_CASE("the parent sees the call that its child has noted") {
   }).wait();
   CHECK(note.read().inside);
   CHECK(note.read().function == "plan");
+}
+
+TEST_CASE("when memory is short, the kernel kills a child before its parent") {
+  const auto score = [] {
+    int found = 0;
+    std::ifstream("/proc/self/oom_score_adj") >> found;
+    return found;
+  };
+  Pipe pipe = make_pipe();
+  ChildProcess child = ChildProcess::fork(no_limits, [&] {
+    LineChannel(Descriptor(), std::move(pipe.write_end)).send({{"score", score()}});
+  });
+  pipe.write_end.close();
+  LineChannel channel(std::move(pipe.read_end), Descriptor());
+  const int of_child = channel.receive().value().at("score");
+  CHECK(of_child == std::min(score() + 500, 1000));
+  CHECK((of_child > score() || score() == 1000));
 }
 
 TEST_CASE("a watchdog waits for the end of a child, or until it is late") {
