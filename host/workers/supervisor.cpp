@@ -41,6 +41,8 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
 constexpr int most_kills = 4;  // of one trial: then a plugin of it is to blame, not somebody outside
 constexpr int most_kills_between_trials = 20;
+constexpr std::int64_t long_call_ns = second_ns;
+constexpr int longest_wait_factor = 20;  // no limit is exceeded more often than this, however loaded the machine is
 constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
 
 std::string quoted_for_shell(const std::string& word) {
@@ -50,10 +52,18 @@ std::string quoted_for_shell(const std::string& word) {
   return quoted + "'";
 }
 
+// Something of a worker that may take so long. On a loaded machine it waits for a processor: that does not count.
+struct Watch {
+  std::int64_t start_ns = 0;
+  std::int64_t waited_before_ns = 0;  // by the worker, before the start
+};
+
 struct Slot {
   std::unique_ptr<ScratchFolder> scratch;  // outlives the worker
   std::unique_ptr<WorkerProcess> worker;
   std::int64_t worker_started_ns = 0;
+  Watch work;       // the start of the worker, or its trial
+  Watch long_call;  // the last that took long
   bool ready = false;
   bool listening = true;  // the worker's end of the channel is open
   int trials_begun = 0;   // by this worker
@@ -117,11 +127,13 @@ class Supervisor {
       slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
       slot.worker = std::make_unique<WorkerProcess>(experiment_, slot.scratch->path());
       slot.worker_started_ns = monotonic_ns();
+      slot.work = {slot.worker_started_ns, 0};
       allow_cpu(slot);
     }
     if (!slot.ready) return;
     slot.trial = next_trial();
     slot.trial->started_ns = monotonic_ns();
+    slot.work = {slot.trial->started_ns, slot.worker->process().waited_for_processor_ns()};
     // a worker that has died is noticed by its end
     slot.scratch->restore();
     allow_cpu(slot);
@@ -313,20 +325,34 @@ class Supervisor {
     if (slot.ready && !slot.trial) return;
     const auto longest_ns =
         static_cast<std::int64_t>(experiment_.limits.trial_wall_time_s * static_cast<double>(second_ns));
-    const std::int64_t began_ns = slot.trial ? slot.trial->started_ns : slot.worker_started_ns;
     const NotedCall call = slot.worker->last_call();
     FaultRecord fault = fault_at(call);
     fault.kind = fault_kind::hang;
-    if (watchdog_.elapsed_ns(began_ns) > longest_ns) {
+    if (is_late(slot, slot.work, longest_ns)) {
       fault.detail += fmt::format("the {} took longer than trial_wall_time_s = {} s",
                                   slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
       return end_worker(slot, std::move(fault), false);
     }
     const std::int64_t limit_ns = call.limit_ns > 0 ? std::min(call.limit_ns, longest_ns) : longest_ns;
-    if (!watchdog_.is_overdue(call, slot.worker_started_ns, limit_ns)) return;
+    if (!is_overdue(slot, call, limit_ns)) return;
     fault.detail =
         fmt::format("did not return within {:.1f} s", static_cast<double>(monotonic_ns() - call.start_ns) * 1e-9);
     end_worker(slot, std::move(fault), false);
+  }
+
+  bool is_late(Slot& slot, const Watch& watch, std::int64_t limit_ns) const {
+    const std::int64_t elapsed_ns = watchdog_.elapsed_ns(watch.start_ns);
+    if (elapsed_ns <= limit_ns) return false;
+    const std::int64_t waited_ns = slot.worker->process().waited_for_processor_ns() - watch.waited_before_ns;
+    return elapsed_ns - waited_ns > limit_ns || elapsed_ns / longest_wait_factor > limit_ns;
+  }
+
+  bool is_overdue(Slot& slot, const NotedCall& call, std::int64_t limit_ns) const {
+    // most calls are short, and cost no look at what the worker has waited
+    if (!watchdog_.is_overdue(call, slot.worker_started_ns, std::min(long_call_ns, limit_ns))) return false;
+    if (slot.long_call.start_ns != call.start_ns)
+      slot.long_call = {call.start_ns, slot.worker->process().waited_for_processor_ns()};
+    return is_late(slot, slot.long_call, limit_ns);
   }
 
   void look_at_memory() {

@@ -31,7 +31,7 @@ expect_none_left() {
 
 # one controller fills shared memory, which no limit on data counts; the other has no faults
 begin_experiment shared local_controller global_planner
-sed -i 's/^trials .*/trials = 2/; s/^memory_mb .*/memory_mb = 150/' "$scratch/shared.toml"
+sed -i 's/^trials .*/trials = 2/; s/^memory_mb .*/memory_mb = 150\nstep_time_s = 60/' "$scratch/shared.toml"
 sed -i "s|^plugins = \[|&\"$attacks\", |" "$scratch/shared.toml"
 use shared global_planner dmrp.planner.cbs
 use shared metric dmrp.metric.path_length
