@@ -25,8 +25,9 @@ World make_world(const Scenario& scenario, std::uint64_t seed = 1) {
   return World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), seed);
 }
 
-// Adds one flow across the scenario. The population chooses the positions of its people.
+// Adds one flow across the scenario, of people with bodies of 0.3 m. The population chooses their positions.
 void add_people(Scenario& scenario, std::uint32_t count) {
+  scenario.people.radius_m = 0.3;
   scenario.regions = {{"west", scenario.lower, {scenario.lower.x + 1.5, scenario.upper.y}},
                       {"east", {scenario.upper.x - 1.5, scenario.lower.y}, scenario.upper}};
   scenario.flows = {{"across", {0, 1}, count}};

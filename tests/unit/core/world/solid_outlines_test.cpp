@@ -60,7 +60,8 @@ double deepest_overlap(const World& world) {
       least_m = std::min(least_m, geometry.clearance(part, 1.0));
       for (const dmrp_person& person : world.people())
         least_m = std::min(least_m, separation(part, person.position, person.radius_m).distance_m);
-      for (std::uint32_t k = i + 1; k < world.robots().size(); ++k) {
+      for (std::uint32_t k = 0; k < world.robots().size(); ++k) {
+        if (k == i) continue;
         const RobotState& other = world.robots()[k];
         if (world.robot_settings(k).parts.empty())
           least_m = std::min(least_m, separation(part, toolkit::position(other.pose), 0.25).distance_m);

@@ -516,7 +516,7 @@ TEST_CASE("people need room at t = 0") {
   const auto begin = text.find("[[robot]]");
   text.erase(begin, text.find("[[region]]") - begin);
   const auto hall_with = [&](const std::string& flow, const std::string& more) {
-    write_file("hall/scenario.toml", with(text, "people = 2", flow) + more);
+    write_file("hall/scenario.toml", with(text, "people = 2", flow) + more + "\n[people]\nradius_m = 0.3\n");
     return message_of(experiment_text);
   };
   // in the 1 m x 2 m of 'west' there is room for two or three people 0.65 m apart
