@@ -44,9 +44,6 @@ constexpr double kept_m = 0.2;
 constexpr double lost_m = 0.12;
 constexpr double lost_rad = 0.6;
 
-// Below this speed the robot stands.
-constexpr double standing_m_s = 0.02;
-
 // At a turning point of the path, the robot has to come this close before the way back counts.
 constexpr double tip_reached_m = 0.25;
 
@@ -240,8 +237,9 @@ Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
 // Sets rough_ to the part of the last path that stays and the lattice path from there. Nothing if the robot has to wait.
 std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const FreeSpace& free_space) {
   const Pose from = keep_path(now, free_space);
-  const std::optional<LatticeGoal> goal = local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space,
-                                                                  now.footprint.inscribed_radius_m, global_path_);
+  const std::optional<LatticeGoal> goal =
+      local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space, now.footprint.inscribed_radius_m,
+                              global_path_, end_beside_obstacles);
   if (!goal) return {};
   if (goal->is_cut && toolkit::distance(toolkit::position(now.pose), goal->at) < wait_within_m) return {};
   SearchSettings settings;

@@ -61,6 +61,9 @@ class E3mop final : public LocalController {
   Param<bool> leave_padding =
       param("leave_padding", true)
           .doc("departure: a robot that the collision check stops first drives clear, aside of its path");
+  Param<bool> end_beside_obstacles =
+      param("end_beside_obstacles", true)
+          .doc("departure: where the path's end is too close to an obstacle, a free cell beside it counts as its end");
   Param<double> prediction_time =
       param("prediction_time", 1.0)
           .unit("s")

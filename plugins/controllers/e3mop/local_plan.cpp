@@ -70,10 +70,11 @@ std::optional<Vec2> LocalPlan::place_beside(Vec2 point, const FreeSpace& free_sp
 }
 
 std::optional<LatticeGoal> LocalPlan::choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
-                                                  double inscribed_radius_m, const std::vector<Vec2>& path) {
+                                                  double inscribed_radius_m, const std::vector<Vec2>& path,
+                                                  bool ends_beside) {
   lay_lattice(robot, field, free_space, inscribed_radius_m);
   const auto can_stand = [&](Vec2 point) { return free_space.is_free({point, any_heading}); };
-  if (!can_stand(path.back())) {
+  if (ends_beside && !can_stand(path.back())) {
     const std::optional<Vec2> beside = place_beside(path.back(), free_space);
     if (beside && can_reach(*beside)) return LatticeGoal{*beside, false, true, path.size() - 1};
   }

@@ -24,10 +24,10 @@ class LocalPlan {
   void prepare(const Limits& limits, double resolution_m, const ClearanceField& field);
 
   // Lays the lattice about the robot and chooses the last point of the global path where the robot can stand and that
-  // it can reach, according to the heuristic's grid. Nothing if it can reach none. Where the path's end is too close to
-  // an obstacle, a free cell at most a cell and a half beside counts as the end.
+  // it can reach, according to the heuristic's grid. Nothing if it can reach none. If `ends_beside`, and the path's end
+  // is too close to an obstacle, a free cell at most a cell and a half beside counts as the end.
   std::optional<LatticeGoal> choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
-                                         double inscribed_radius_m, const std::vector<Vec2>& path);
+                                         double inscribed_radius_m, const std::vector<Vec2>& path, bool ends_beside);
 
   // Searches for the path to the goal chosen. The result is valid until the next search.
   const SearchResult& search(const Pose& robot, const FreeSpace& free_space, const SearchSettings& settings);

@@ -13,9 +13,8 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// A robot that stands for this time, slower than these speeds, looks for a way out.
+// A robot that stands for this time, and turns more slowly than this, looks for a way out.
 constexpr double patience_s = 1.0;
-constexpr double standing_m_s = 0.02;
 constexpr double standing_rad_s = 0.1;
 
 // The way out is straight and free for `reach_m`; the robot drives `driven_m` of it, at `speed`.

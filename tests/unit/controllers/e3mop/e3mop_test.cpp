@@ -118,7 +118,12 @@ TEST_CASE("A path that ends too close to an obstacle leads to a place beside its
   plan.prepare(dmrp::Limits(e3mop_limits), 0.1, wall.field);
   const dmrp_vec2 end = {0.51, 0.37};
   REQUIRE_FALSE(space.is_free({end, {1.0, 0.0}}));
-  const auto goal = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, {{0.0, 0.0}, {0.2, 0.0}, {0.4, 0.2}, end});
+  const std::vector<dmrp_vec2> path = {{0.0, 0.0}, {0.2, 0.0}, {0.4, 0.2}, end};
+  const auto as_published = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, path, false);
+  REQUIRE(as_published);
+  CHECK_FALSE(as_published->is_path_end);
+  CHECK(as_published->index == 2);
+  const auto goal = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, path, true);
   REQUIRE(goal);
   CHECK((goal->is_path_end && !goal->is_cut));
   CHECK(space.is_free({goal->at, {1.0, 0.0}}));
