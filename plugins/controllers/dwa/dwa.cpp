@@ -64,6 +64,7 @@ Status Dwa::start(const Start& start) {
   standing_ns_ = 0;
   turn_to_.reset();
   leaving_ = false;
+  stalled_at_.reset();
   return Status::ok;
 }
 
@@ -109,7 +110,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   update_oscillation(now, stalled);
   const std::optional<FootprintCheck> room = room_to_leave_for(now, map, stalled && !goal.is_cut);
   // paths are not replanned around people: past an obstacle on the path, the goal critics alone guide the robot
-  const bool follow = goal.path_is_free || !lead_around;
+  const bool follow = (goal.path_is_free || !lead_around) && !leaves_path(robot, stalled && !goal.is_cut);
   const bool align = to_goal_m > forward_point_distance;
   const dwa::Ramp ramp = {
       {now.velocity.v_x, now.velocity.omega, now.velocity.v_y}, now.limits.a_max, now.limits.alpha_max};
@@ -214,6 +215,14 @@ bool Dwa::is_stalled(const Observation& now) {
   if (standing_ns_ < stall_ns) return false;
   standing_ns_ = 0;
   return true;
+}
+
+// Before a right angle of the path, path critics that weigh more than twice the goal critics hold the robot one nose's
+// length before it. From a stall until it has driven that far, they do not count.
+bool Dwa::leaves_path(Vec2 robot, bool stalled) {
+  if (stalled && leave_path_if_stalled) stalled_at_ = robot;
+  if (stalled_at_ && toolkit::distance(robot, *stalled_at_) > forward_point_distance) stalled_at_.reset();
+  return stalled_at_.has_value();
 }
 
 // Called if standing still scores best: the slow arcs of the window may be too short to show a way on. Scores a

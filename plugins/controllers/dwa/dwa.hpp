@@ -83,6 +83,10 @@ class Dwa final : public LocalController {
           .doc("departure: if standing still scores best, turn in place to a heading that scores better");
   Param<bool> release_stalled =
       param("release_stalled", true).doc("departure: after standing for 2 s, the robot may reverse again");
+  Param<bool> leave_path_if_stalled =
+      param("leave_path_if_stalled", true)
+          .doc(
+              "departure: after standing for 2 s before a free path, the goal critics alone count for a nose's length");
   Param<bool> extend_path =
       param("extend_path", true).doc("departure: the path goes straight on beyond its end, by the nose's length");
 
@@ -95,6 +99,7 @@ class Dwa final : public LocalController {
   void sample_window(const Observation& now);
   std::array<dwa::Box, 2> reachable_boxes(const Observation& now) const;
   bool is_stalled(const Observation& now);
+  bool leaves_path(Vec2 robot, bool stalled);
   void update_oscillation(const Observation& now, bool stalled);
   std::optional<FootprintCheck> room_to_leave_for(const Observation& now, const CostmapView& map, bool begins);
   std::optional<double> better_heading(const dwa::Scene& scene, FootprintCheck& footprint) const;
@@ -111,8 +116,9 @@ class Dwa final : public LocalController {
   StopAndRotate at_goal_;
   dwa::OscillationGuard oscillation_;
   std::int64_t standing_ns_ = 0;
-  std::optional<double> turn_to_;  // the heading of a turn in place
-  bool leaving_ = false;           // driving clear of an obstacle
+  std::optional<double> turn_to_;   // the heading of a turn in place
+  bool leaving_ = false;            // driving clear of an obstacle
+  std::optional<Vec2> stalled_at_;  // where the robot stood while the path critics held it
 
   // buffers, filled anew in every cycle
   dwa::VelocityWindow window_;

@@ -78,3 +78,24 @@ TEST_CASE("DWA leaves the end of a wall that it stands beside") {
   CHECK(arrivals(wall_end) == starts);
   CHECK(arrivals(wall_end, "leave_padding") < starts);
 }
+
+TEST_CASE("DWA turns at a right angle of a path that weighs most") {
+  const auto arrivals_with = [](bool leaves_path) {
+    dmrp::toolkit::Stream random(19, "corner");
+    int arrived = 0;
+    for (int i = 0; i < starts; ++i) {
+      Course course;
+      const double corner_m = random.uniform(3.0, 5.0);
+      course.path = metre_path({{0.0, 0.0}, {corner_m, 0.0}, {corner_m, 4.0}});
+      course.start = jittered({0.0, 0.0, 0.0}, random);
+      course.time_limit_s = 60.0;
+      const ParamOverrides parameters = {
+          {"sim_time", 1.0},      {"vx_samples", int64_t{20}},      {"path_distance_bias", 5.0},
+          {"occdist_scale", 2.0}, {"forward_point_distance", 0.28}, {"leave_path_if_stalled", leaves_path}};
+      arrived += run("dmrp.controller.dwa", course, parameters).arrived;
+    }
+    return arrived;
+  };
+  CHECK(arrivals_with(true) == starts);
+  CHECK(arrivals_with(false) < starts);
+}
