@@ -72,12 +72,14 @@ Status E3mop::start(const Start& start) {
   limits_ = {};
   turning_ = false;
   way_out_.reset();
+  detour_.clear();
   path_.clear();
   return Status::ok;
 }
 
 void E3mop::set_path(Path path, std::uint64_t) {
   tracker_.set_path(path);
+  detour_.clear();
 }
 
 Status E3mop::step(const Observation& now, Command& command) {
@@ -125,7 +127,13 @@ Command E3mop::drive(const Observation& now) {
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   lay_out_global_path();
   if (way_out_.is_taken()) return way_out_.drive(now, seen);
-  const std::optional<Plan> plan = choose_plan(now, outline, has_agents);
+  std::optional<Plan> plan = choose_plan(now, outline, has_agents);
+  if (keep_detour && !follows_path(plan, now)) {
+    ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
+    global_path_ = ahead_.points();
+    plan = choose_plan(now, outline, has_agents);
+    if (!plan || plan->goal.is_cut) detour_.clear();
+  }
   if (!plan) {
     path_.clear();
     return braking(now);
@@ -205,6 +213,25 @@ void E3mop::lay_out_global_path() {
     }
     global_path_.push_back(points[i]);
   }
+}
+
+// Whether the robot is to follow a plan along the path; not if it has kept a detour that leads farther. If there is an
+// obstacle on the path before the plan's end, keeps the plan's way as a detour.
+bool E3mop::follows_path(const std::optional<Plan>& plan, const Observation& now) {
+  detour_.update(toolkit::position(now.pose), tracker_.progress_m());
+  const bool leads_on = plan && !plan->goal.is_cut;
+  const std::size_t last = leads_on ? plan->goal.index : 0;
+  const double end_m = tracker_.progress_m() + PathAhead::spacing_m * static_cast<double>(last);
+  if (detour_.leads_beyond(end_m)) return false;
+  detour_.clear();
+  if (!leads_on || !plan->found->found) return true;
+  const auto is_free = [&](Vec2 point) { return plan->free_space.is_free({point, {1.0, 0.0}}); };
+  if (std::all_of(global_path_.begin(), global_path_.begin() + static_cast<std::ptrdiff_t>(last), is_free)) return true;
+  way_.clear();
+  for (const Pose& pose : plan->found->poses) way_.push_back(toolkit::position(pose));
+  way_.push_back(plan->goal.at);
+  detour_.keep(way_, end_m);
+  return true;
 }
 
 // Begins rough_ with the part of the last path that the robot is about to drive, or with the robot's position if there

@@ -61,6 +61,9 @@ class E3mop final : public LocalController {
   Param<bool> leave_padding =
       param("leave_padding", true)
           .doc("departure: a robot that the collision check stops first drives clear, aside of its path");
+  Param<bool> keep_detour =
+      param("keep_detour", true)
+          .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
   Param<bool> end_beside_obstacles =
       param("end_beside_obstacles", true)
           .doc("departure: where the path's end is too close to an obstacle, a free cell beside it counts as its end");
@@ -87,6 +90,7 @@ class E3mop final : public LocalController {
   Command drive(const Observation& now);
   bool read_fields(const Observation& now);
   void lay_out_global_path();
+  bool follows_path(const std::optional<Plan>& plan, const Observation& now);
   Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
   std::optional<Plan> choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents);
   std::optional<Plan> plan(const Observation& now, const e3mop::FreeSpace& free_space);
@@ -106,6 +110,7 @@ class E3mop final : public LocalController {
   std::vector<e3mop::PathPoint> path_;  // the path in use; empty if there is none
   bool turning_ = false;                // in place
   e3mop::WayOut way_out_;
+  Detour detour_;
   Limits limits_{};  // for which the lattice was built
 
   // buffers, filled anew in every cycle
@@ -113,6 +118,7 @@ class E3mop final : public LocalController {
   e3mop::ClearanceField foreseen_;  // with the predicted motion of visible agents
   PathAhead ahead_;
   std::vector<Vec2> global_path_;  // the part of the path ahead that is planned to
+  std::vector<Vec2> way_;          // to keep as a detour
   e3mop::LocalPlan local_plan_;
   e3mop::RoughPath rough_;
   e3mop::PathShaper shaper_;

@@ -92,11 +92,13 @@ Status Mpc::start(const Start& start) {
   trajectory_.reserve(states);
   trajectory_.clear();
   turn_to_.reset();
+  detour_.clear();
   return Status::ok;
 }
 
 void Mpc::set_path(Path path, std::uint64_t) {
   tracker_.set_path(path);
+  detour_.clear();
 }
 
 Status Mpc::step(const Observation& now, Command& command) {
@@ -186,11 +188,36 @@ void Mpc::look_ahead(const Observation& now, const CostmapView& map, FootprintCh
   }
 }
 
+// If a detour is kept and the path in the window has no free point where the detour ends or beyond, the detour counts
+// as the path ahead.
+void Mpc::look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
+  detour_.update(toolkit::position(now.pose), tracker_.progress_m());
+  const std::vector<Vec2>& points = ahead_.points();
+  std::size_t last = points.size() - 1;
+  while (last > 0 && footprint.cost(directed(points[last], ahead_.goal().theta)) == in_collision) --last;
+  const double short_m = PathAhead::spacing_m * static_cast<double>(points.size() - 1 - last);
+  if (!detour_.leads_beyond(ahead_.end_m() - short_m)) {
+    detour_.clear();
+    return;
+  }
+  const auto is_free = [&](Vec2 point) { return footprint.cost(directed(point, now.pose.theta)) != in_collision; };
+  ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist);
+  if (std::all_of(points.begin(), points.end(), is_free)) return;
+  spread_guide(now, map, points.back());
+  if (detour_.mend(guide_, map)) {
+    ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist);
+  } else {
+    detour_.clear();
+    look_ahead(now, map, footprint);
+  }
+}
+
 // The end of the path ahead; if the path is blocked, its last point that can be reached. Nothing if the robot already
 // stands there. Sets route_.
 std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const CostmapView& map,
                                               FootprintCheck& footprint) {
   look_ahead(now, map, footprint);
+  if (keep_detour) look_along_detour(now, map, footprint);
   const std::vector<Vec2>& points = ahead_.points();
   Target target;
   target.goal = ahead_.goal();
@@ -216,8 +243,10 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   while (last > 0 && !can_stop_at(points[last])) --last;
   const bool is_cut = last + 1 < points.size();
   if (!guide_.reaches(map, points[last]) ||
-      (is_cut && toolkit::distance(toolkit::position(now.pose), points[last]) < wait_within_m))
+      (is_cut && toolkit::distance(toolkit::position(now.pose), points[last]) < wait_within_m)) {
+    detour_.clear();
     return {};
+  }
   if (is_cut) {
     target.goal.x = points[last].x;
     target.goal.y = points[last].y;
@@ -225,6 +254,10 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
     target.fixes_heading = false;
   }
   guide_.path_to(map, points[last], route_);
+  if (is_cut)
+    detour_.clear();
+  else if (keep_detour && !detour_.is_kept())
+    detour_.keep(route_, ahead_.end_m());
   return target;
 }
 

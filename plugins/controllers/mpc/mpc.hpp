@@ -43,6 +43,9 @@ class Mpc : public LocalController {
   Param<bool> share_evasion =
       param("share_evasion", true)
           .doc("departure: a contact with a moving robot counts within the braking time and a second: it evades too");
+  Param<bool> keep_detour =
+      param("keep_detour", true)
+          .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -113,6 +116,7 @@ class Mpc : public LocalController {
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const Target& target);
@@ -138,6 +142,7 @@ class Mpc : public LocalController {
   SteeringEstimate steering_;
   mpc::Trajectory trajectory_;     // the warm start; empty if there is none
   std::optional<double> turn_to_;  // the heading of a turn in place
+  Detour detour_;
 
   // buffers, filled anew in every cycle
   PathAhead ahead_;

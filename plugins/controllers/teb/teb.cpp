@@ -35,6 +35,10 @@ constexpr double turn_begin_rad = 0.5;
 // Occupied cells within this distance of an agent's disc count as the agent's.
 constexpr double agent_cells_m = 0.2;
 
+// A way around an obstacle keeps so much free if there is one so wide, otherwise the padding; it prefers more.
+constexpr double wide_m = 0.08;
+constexpr double easy_beyond_m = 0.15;
+
 // After this many consecutive cycles without a feasible band, the horizon shrinks less.
 constexpr int shrink_less_after = 10;
 
@@ -63,6 +67,7 @@ Status Teb::start(const Start& start) {
   tracker_.clear();
   at_goal_.reset();
   steering_.reset();
+  detour_.clear();
   obstacles_.clear();
   parameters_ = parameters();
   const double periods = parameters_.oscillation_filter_duration / seconds(start.world->control_period_ns);
@@ -78,6 +83,7 @@ Status Teb::start(const Start& start) {
 
 void Teb::set_path(Path path, std::uint64_t) {
   tracker_.set_path(path);
+  detour_.clear();
 }
 
 Status Teb::step(const Observation& now, Command& command) {
@@ -152,6 +158,7 @@ Status Teb::drive(const Observation& now, const CostmapView& map, Command& comma
 // returns true then.
 bool Teb::look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
   path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
+  if (parameters_.take_detour && take_detour(now, map, footprint)) return false;
   if (!parameters_.end_before_obstacles) return false;
   const std::size_t whole = path_.points().size();
   path_.retreat(footprint);
@@ -161,6 +168,44 @@ bool Teb::look_along_path(const Observation& now, const CostmapView& map, Footpr
   return true;
 }
 
+// A robot without a feasible band may have to leave a dead end, while bands lead forward: if an obstacle blocks the path
+// ahead and there is a way to its end, that way counts as the path until it is driven or blocked.
+bool Teb::take_detour(const Observation& now, const CostmapView& map, const FootprintCheck& footprint) {
+  const Vec2 robot = toolkit::position(now.pose);
+  if (detour_.is_kept()) {
+    detour_.update(robot, tracker_.progress_m());
+  } else if (was_infeasible_lately(now.t_ns) && !is_path_free(footprint)) {
+    const Vec2 end = path_.points().back();
+    spread_guide(now, map, wide_m);
+    if (!guide_.reaches(map, end)) spread_guide(now, map, padding_m);
+    if (!guide_.reaches(map, end)) return false;
+    guide_.path_to(map, end, route_);
+    if (route_.size() > 1) detour_.keep(route_, path_.end_m());
+  }
+  if (!detour_.is_kept()) return false;
+  path_.look_along(detour_, tracker_, now, map, parameters_.max_global_plan_lookahead_dist);
+  if (is_path_free(footprint)) return true;
+  for (const double beyond_m : {wide_m, padding_m}) {
+    spread_guide(now, map, beyond_m);
+    if (!detour_.mend(guide_, map)) continue;
+    path_.look_along(detour_, tracker_, now, map, parameters_.max_global_plan_lookahead_dist);
+    return true;
+  }
+  detour_.clear();
+  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
+  return false;
+}
+
+bool Teb::is_path_free(const FootprintCheck& footprint) const {
+  return std::all_of(path_.points().begin(), path_.points().end(),
+                     [&](Vec2 point) { return footprint.cost(directed(point, path_.goal().theta)) != in_collision; });
+}
+
+void Teb::spread_guide(const Observation& now, const CostmapView& map, double beyond_m) {
+  const double needed_m = now.footprint.inscribed_radius_m + beyond_m;
+  guide_.spread(map, toolkit::position(now.pose), needed_m, needed_m + easy_beyond_m);
+}
+
 // The number of points of the path ahead up to the last one that can be reached. Searches only after a cycle without a
 // feasible band and while the path is cut off. Without this check a robot before a wall across its path would turn back
 // and forth for ever.
@@ -168,12 +213,8 @@ std::size_t Teb::reachable_points(const Observation& now, const CostmapView& map
   const std::vector<Vec2>& points = path_.points();
   if (!is_cut_off_ && !was_infeasible_lately(now.t_ns)) return points.size();
   is_cut_off_ = false;
-  const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
-    return footprint.cost(directed(point, path_.goal().theta)) != in_collision;
-  });
-  if (is_free) return points.size();
-  const double needed_m = now.footprint.inscribed_radius_m + padding_m;
-  guide_.spread(map, toolkit::position(now.pose), needed_m, needed_m);
+  if (is_path_free(footprint)) return points.size();
+  spread_guide(now, map, padding_m);
   std::size_t count = points.size();
   while (count > 1 && !guide_.reaches(map, points[count - 1])) --count;
   is_cut_off_ = count < points.size();

@@ -33,6 +33,9 @@ class Teb final : public teb::DeclaredParameters {
   void watch_for_oscillation(const Observation& now);
   Status drive(const Observation& now, const CostmapView& map, Command& command);
   bool look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  bool take_detour(const Observation& now, const CostmapView& map, const FootprintCheck& footprint);
+  bool is_path_free(const FootprintCheck& footprint) const;
+  void spread_guide(const Observation& now, const CostmapView& map, double beyond_m);
   std::size_t reachable_points(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   teb::Task task(const Observation& now, bool is_cut);
   Status wait(const Observation& now, FootprintCheck& footprint, Command& command);
@@ -47,6 +50,7 @@ class Teb final : public teb::DeclaredParameters {
   Annotations annotations_;
   PathTracker tracker_;
   PathAhead path_;
+  Detour detour_;
   Guide guide_;
   StopAndRotate at_goal_;
   SteeringEstimate steering_;
@@ -55,6 +59,7 @@ class Teb final : public teb::DeclaredParameters {
   teb::Parameters parameters_;
   teb::ClassPlanner planner_;
   std::vector<Vec2> via_points_;
+  std::vector<Vec2> route_;  // of the guide
   teb::Turn preferred_turn_ = teb::Turn::any;
   std::int64_t oscillated_ns_ = 0;  // the last time an oscillation was detected
   std::int64_t infeasible_ns_ = 0;  // the last time no band was feasible
