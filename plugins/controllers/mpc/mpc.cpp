@@ -125,7 +125,7 @@ Status Mpc::step(const Observation& now, Command& command) {
     return Status::ok;
   }
   if (is_standing && begins_facing(now) && turns(now, footprint, command)) return Status::ok;
-  pose_problem(now, *target);
+  pose_problem(now, map, *target);
   const Cycle cycle = {{now, obstacles, footprint, share_evasion}, map};
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
@@ -279,7 +279,7 @@ void Mpc::spread_guide(const Observation& now, const CostmapView& map, Vec2 to) 
   }
 }
 
-void Mpc::pose_problem(const Observation& now, const Target& target) {
+void Mpc::pose_problem(const Observation& now, const CostmapView& map, const Target& target) {
   const Limits& limits = now.limits;
   problem_.start = now.pose;
   problem_.before = {std::clamp(now.applied.v_x, limits.v_min, limits.v_max),
@@ -308,7 +308,21 @@ void Mpc::pose_problem(const Observation& now, const Target& target) {
   problem_.dt_min_s = min_dt;
   problem_.dt_max_s = longest_step_s(now);
   problem_.min_obstacle_dist_m = min_obstacle_dist;
+  problem_.static_share = ease_in_gaps ? share_in_gaps(now, map, toolkit::position(target.goal)) : 1.0;
   problem_.footprint = &now.footprint;
+}
+
+// The share of min_obstacle_dist that the way to the goal has room for. In a gap too narrow for all of it, each state
+// pays for what is missing, so that a trajectory through the gap costs more than one that ends before it.
+double Mpc::share_in_gaps(const Observation& now, const CostmapView& map, Vec2 goal) {
+  const double needed_m = now.footprint.inscribed_radius_m + map.resolution_m();
+  const std::uint8_t highest = map.highest_cost_at(needed_m + min_obstacle_dist);
+  if (std::all_of(route_.begin(), route_.end(), [&](Vec2 point) { return map.cost(point) <= highest; })) return 1.0;
+  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+    guide_.spread(map, toolkit::position(now.pose), needed_m + share * min_obstacle_dist, needed_m + easy_beyond_m);
+    if (guide_.reaches(map, goal)) return share;
+  }
+  return 1.0;
 }
 
 // With a step in which the robot drives farther than its own width, states may stand on both sides of an obstacle and

@@ -46,6 +46,9 @@ class Mpc : public LocalController {
   Param<bool> keep_detour =
       param("keep_detour", true)
           .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
+  Param<bool> ease_in_gaps =
+      param("ease_in_gaps", true)
+          .doc("departure: a way through a gap too narrow for min_obstacle_dist keeps as much as there is room for");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -119,7 +122,8 @@ class Mpc : public LocalController {
   void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
-  void pose_problem(const Observation& now, const Target& target);
+  void pose_problem(const Observation& now, const CostmapView& map, const Target& target);
+  double share_in_gaps(const Observation& now, const CostmapView& map, Vec2 goal);
   double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);

@@ -61,7 +61,7 @@ Constraint keep_away(const Problem& problem, const Obstacle& obstacle, std::size
   const Separation apart = separation(*problem.footprint, {w[at_x], w[at_y], w[at_theta]}, obstacle, ahead_s);
   Constraint c;
   c.is_elastic = true;
-  c.value = problem.min_obstacle_dist_m - apart.distance_m;
+  c.value = (obstacle.is_agent ? 1.0 : problem.static_share) * problem.min_obstacle_dist_m - apart.distance_m;
   c.gradient[at_x] = -apart.gradient.x;
   c.gradient[at_y] = -apart.gradient.y;
   c.gradient[at_theta] = -apart.gradient_theta;

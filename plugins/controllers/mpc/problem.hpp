@@ -73,6 +73,7 @@ struct Problem {
   bool keeps_heading = false;
   double dt_min_s = 0.0, dt_max_s = 10.0;
   double min_obstacle_dist_m = 0.1;  // between the outlines
+  double static_share = 1.0;         // of it, that obstacles demand which are no agents
 
   double obstacle_weight = 50.0;  // s/m
   double position_weight = 20.0;  // s/m

@@ -95,3 +95,28 @@ TEST_CASE("Two MPC robots meet head-on where they have to share the room") {
   // at 1.6 m, a pair may still end face to face in the middle, where there is room on neither side
   CHECK(arrived >= (tracking ? 18 : 20));
 }
+
+TEST_CASE("MPC drives through doors 20 to 25 cm wider than itself") {
+  const auto arrivals = [](bool eases) {
+    ParamOverrides parameters = mpc.tuned;
+    parameters["ease_in_gaps"] = eases;
+    Stream random(14, "doors");
+    int arrived = 0;
+    for (int round = 0; round < 20; ++round) {
+      Course course;
+      const double half_m = 0.5 * random.uniform(0.7, 0.75);
+      const double aside_m = random.uniform(-1.5, 1.5);
+      course.path = metre_path({{0.0, aside_m}, {3.0, 0.0}, {4.5, 0.0}, {7.0, aside_m}});
+      course.start = jittered({0.0, aside_m, 0.0}, random);
+      course.boxes = {{{3.6, half_m}, {3.8, 3.0}}, {{3.6, -3.0}, {3.8, -half_m}}};
+      course.sight = Sight::scan;
+      course.time_limit_s = 30.0;
+      const Drive drive = run(mpc.id, course, parameters);
+      CHECK(drive.static_clearance_m > 0.0);
+      arrived += drive.arrived;
+    }
+    return arrived;
+  };
+  CHECK(arrivals(true) == 20);
+  CHECK(arrivals(false) < 20);
+}
