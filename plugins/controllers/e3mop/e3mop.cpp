@@ -116,6 +116,7 @@ void E3mop::prepare(const Observation& now) {
   path_.reserve(2 * path_.size());
   path_.clear();
   intended_.reserve(64);
+  way_.reserve(512);
 }
 
 // Plans a path on the lattice, shapes it and follows it; turns in place if the path leads aside.

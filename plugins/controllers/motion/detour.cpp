@@ -20,10 +20,18 @@ constexpr double driven_m = 0.3;
 constexpr double joint_within_m = 0.6;
 constexpr double joint_step_m = 0.2;
 
+// Longer ways allocate: one across a window of usual size, in steps of a lattice, is shorter.
+constexpr std::size_t usual_points = 512;
+
 // A shorter gain along the path is none.
 constexpr double gain_m = 0.02;
 
 }  // namespace
+
+Detour::Detour() {
+  for (std::vector<Vec2>* points : {&points_, &mended_}) points->reserve(usual_points);
+  arcs_.reserve(usual_points);
+}
 
 void Detour::keep(const std::vector<Vec2>& way, double end_m) {
   points_ = way;

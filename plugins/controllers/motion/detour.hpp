@@ -14,6 +14,8 @@ namespace dmrp::controllers {
 // way that it has found is kept, and counts as its path as long as it leads farther than the path in the window.
 class Detour {
  public:
+  Detour();
+
   void clear() { points_.clear(); }
 
   // Keeps a way of at least two points from the robot to the path's point at this arc length.
