@@ -238,6 +238,15 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
           },
           "the map of this trial with the robots' plans and ways, as an SVG figure")
       ->type_name("TRIAL");
+  formats
+      ->add_option_function<std::string>(
+          "--table",
+          [&options](const std::string& name) {
+            options.format = ExportFormat::table;
+            options.table = name;
+          },
+          "a table of the report as an SVG figure: plans, driving, ...; own: one of --rows and --columns")
+      ->type_name("NAME");
   formats->require_option(1);
   command->add_option("--rows", options.rows, "scenario, robots, planner, controller, people")->delimiter(',');
   command->add_option("--columns", options.columns, "the same, across")->delimiter(',');
@@ -268,6 +277,8 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& options) {
                    "decide")
       ->allow_extra_args(false)
       ->type_name("\"METRIC < X\"");
+  command->add_option("--report", options.report, "write the comparison as a page, by combination, too")
+      ->type_name("FILE.html");
   return command;
 }
 

@@ -99,13 +99,16 @@ int plan_command(const PlanOptions& options);
 // Writes report.html into the run directory. `replayed`: trials to replay, besides those that the report chooses.
 int report_command(const std::filesystem::path& run_directory, const std::vector<std::uint64_t>& replayed);
 
-enum class ExportFormat { latex, csv, svg, thresholds, map };
+enum class ExportFormat { latex, csv, table, svg, thresholds, map };
+inline constexpr const char* own_table = "own";
+
 struct ExportOptions {
   std::filesystem::path run_directory;
   ExportFormat format = ExportFormat::latex;
   std::vector<std::string> rows;     // labels; empty with the others: the tables of the report
   std::vector<std::string> columns;  // labels
   std::vector<std::string> metrics;
+  std::string table;            // table: one of the report's, or own_table, of rows, columns and metrics
   std::string over = "robots";  // svg: what the metric is drawn over
   std::uint64_t trial = 0;      // map: the trial
   std::filesystem::path out;    // empty: standard output; figures also to a .png or .pdf
@@ -116,6 +119,7 @@ struct CompareOptions {
   std::vector<std::filesystem::path> runs;  // at least two; each is compared with the first
   std::vector<std::string> metrics;         // empty: those that the report compares
   std::vector<std::string> fail_if;         // "success < -0.02"
+  std::filesystem::path report;             // empty: no page is written
 };
 int compare_command(const CompareOptions& options);
 

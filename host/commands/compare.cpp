@@ -7,9 +7,11 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
+#include "host/compare/comparison_data.hpp"
 #include "host/compare/run_comparison.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
+#include "host/report/report_page.hpp"
 #include "host/terminal/display_width.hpp"
 #include "host/toml/nearest_name.hpp"
 
@@ -110,24 +112,31 @@ int judge_conditions(const RunComparison& comparison, std::span<const FailCondit
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
+  check_output_file("--report", options.report);
   std::vector<FailCondition> conditions;
   for (const std::string& text : options.fail_if) conditions.push_back(parse_fail_condition(text));
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
   const ReportRun before = read_report_run(options.runs.front());
   check_measured(options, conditions, before, options.runs.front());
   const std::vector<std::string> metrics = metrics_of(options, layouts, conditions);
+  ComparedRuns compared{{options.runs.front().string(), before}, {}};
   int status = exit_status::done;
   for (std::size_t i = 1; i < options.runs.size(); ++i) {
-    const ReportRun after = read_report_run(options.runs[i]);
+    ReportRun after = read_report_run(options.runs[i]);
     check_measured(options, conditions, after, options.runs[i]);
-    const RunComparison comparison = compare_runs(before, after, layouts, metrics);
+    RunComparison comparison = compare_runs(before, after, layouts, metrics);
     if (comparison.pairs == 0)
       throw InputError(fmt::format("{}: no trial has scenario, robots, seed and labels of one in {}",
                                    options.runs[i].string(), options.runs.front().string()));
     print_comparison(comparison, options.runs.front(), options.runs[i]);
     const int of_run = judge_conditions(comparison, conditions);
     if (of_run == exit_status::worse || status == exit_status::done) status = of_run;
+    after.trials.clear();  // one run is in memory at a time
+    compared.others.push_back({{options.runs[i].string(), std::move(after)}, std::move(comparison)});
   }
+  if (!options.report.empty())
+    write_output("--report", options.report,
+                 report_page(shared_data_path() / "report", "compare", comparison_data_json(compared, layouts), {}));
   return status;
 }
 

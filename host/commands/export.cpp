@@ -13,6 +13,7 @@
 #include "host/export/layout_tables.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
+#include "host/export/table_figure.hpp"
 #include "host/export/threshold_chart.hpp"
 #include "host/export/trial_map.hpp"
 #include "host/export/trials_table.hpp"
@@ -60,6 +61,25 @@ std::string latex(const ExportOptions& options, const ReportRun& run, const Repo
   return text;
 }
 
+TableSpec chosen_table(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
+  if (options.table == own_table) return spec_of(options, layouts.report.json);
+  std::vector<std::string> known = {own_table};
+  for (TableSpec& spec : layout_tables(layouts.report.json, run.trials)) {
+    if (spec.id == options.table) return std::move(spec);
+    known.push_back(spec.id);
+  }
+  throw InputError(fmt::format("--table: '{}' is none of {}{}", options.table, fmt::join(known, ", "),
+                               did_you_mean(options.table, known)));
+}
+
+std::string table_svg(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
+  const MeanTable table =
+      make_mean_table(chosen_table(options, run, layouts), layouts.summary, run.metrics, run.trials);
+  if (table.rows.empty() || table.spec.metrics.empty())
+    throw InputError(fmt::format("--table {}: {} has no values for it", options.table, options.run_directory.string()));
+  return table_figure(table);
+}
+
 std::string figure(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts,
                    const RunSettings& settings) {
   if (options.metrics.size() > 1) throw InputError("--svg: draws one --metric");
@@ -89,7 +109,8 @@ std::string map_of(const ExportOptions& options) {
 }
 
 bool is_figure(ExportFormat format) {
-  return format == ExportFormat::svg || format == ExportFormat::thresholds || format == ExportFormat::map;
+  return format == ExportFormat::table || format == ExportFormat::svg || format == ExportFormat::thresholds ||
+         format == ExportFormat::map;
 }
 
 }  // namespace
@@ -108,6 +129,8 @@ int export_command(const ExportOptions& options) {
     text = latex(options, run, layouts);
   } else if (options.format == ExportFormat::thresholds) {
     text = thresholds(options, run, layouts);
+  } else if (options.format == ExportFormat::table) {
+    text = table_svg(options, run, layouts);
   } else {
     const RunSettings settings(run.effective_toml, run.trials);
     text = options.format == ExportFormat::csv

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <regex>
 #include <tuple>
 
@@ -55,6 +57,14 @@ std::vector<TrialPair> pairs_of(const std::map<TrialKey, std::size_t>& before,
   return pairs;
 }
 
+// The trials and values of both runs.
+struct ComparedFrames {
+  ReportFrame before;
+  ReportFrame after;
+  const ExperimentFacts& facts_before;
+  const ExperimentFacts& facts_after;
+};
+
 // How values of a metric count, by the layouts.
 CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
   CountedValue rule;
@@ -68,16 +78,37 @@ CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
   return rule;
 }
 
-MetricComparison compare_metric(const MetricColumn& column, const CountedValue& rule_before, const ReportFrame& before,
-                                const ExperimentFacts& facts_before, const CountedValue& rule_after,
-                                const ReportFrame& after, const ExperimentFacts& facts_after,
+// The values of one metric in both runs.
+class ComparedMetricValues {
+ public:
+  ComparedMetricValues(std::size_t before, std::size_t after, const CountedValue& rule)
+      : rule_before_(rule), rule_after_(rule) {
+    rule_before_.metric = before;
+    rule_after_.metric = after;
+  }
+
+  const CountedValue& rule() const { return rule_before_; }
+
+  std::optional<double> before(const ComparedFrames& frames, const TrialPair& pair) const {
+    return counted_value(frames.before, frames.facts_before, rule_before_, pair.before);
+  }
+  std::optional<double> after(const ComparedFrames& frames, const TrialPair& pair) const {
+    return counted_value(frames.after, frames.facts_after, rule_after_, pair.after);
+  }
+
+ private:
+  CountedValue rule_before_;
+  CountedValue rule_after_;
+};
+
+MetricComparison compare_metric(const ComparedMetricValues& metric, const ComparedFrames& frames,
                                 std::span<const TrialPair> pairs) {
   std::vector<double> befores;
   std::vector<double> afters;
   std::map<Situation, std::vector<double>> by_situation;
   for (const TrialPair& pair : pairs) {
-    const auto a = counted_value(before, facts_before, rule_before, pair.before);
-    const auto b = counted_value(after, facts_after, rule_after, pair.after);
+    const auto a = metric.before(frames, pair);
+    const auto b = metric.after(frames, pair);
     if (!a || !b) continue;
     befores.push_back(*a);
     afters.push_back(*b);
@@ -89,6 +120,7 @@ MetricComparison compare_metric(const MetricColumn& column, const CountedValue& 
     differences.push_back(core::mean(values));
     clusters.push_back({differences.back()});
   }
+  const MetricColumn& column = frames.before.metrics[metric.rule().metric];
   MetricComparison result;
   result.metric = column.name;
   result.unit = column.unit;
@@ -100,10 +132,53 @@ MetricComparison compare_metric(const MetricColumn& column, const CountedValue& 
   result.difference = core::mean(differences);
   result.interval = core::cluster_bootstrap_interval(clusters);
   const bool equal = std::all_of(differences.begin(), differences.end(), [](double one) { return one == 0.0; });
-  result.p =
-      equal ? std::numeric_limits<double>::quiet_NaN()
-            : paired_test(differences, rule_before.counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank).p;
+  const PairedTest test = metric.rule().counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank;
+  result.p = equal ? std::numeric_limits<double>::quiet_NaN() : paired_test(differences, test).p;
   return result;
+}
+
+void adjust_by_holm(std::span<MetricComparison* const> family) {
+  std::vector<double> p_values;
+  for (const MetricComparison* one : family) p_values.push_back(one->p);
+  const std::vector<double> adjusted = core::holm_adjusted(p_values);
+  for (std::size_t i = 0; i < adjusted.size(); ++i) family[i]->p_holm = adjusted[i];
+}
+
+std::vector<CombinationComparison> compare_combinations(std::span<const ComparedMetricValues> metrics,
+                                                        const ComparedFrames& frames,
+                                                        std::span<const TrialPair> pairs) {
+  std::map<std::size_t, std::vector<TrialPair>> of_combination;
+  for (const TrialPair& pair : pairs) of_combination[frames.before.combination_of[pair.before]].push_back(pair);
+  std::vector<CombinationComparison> combinations;
+  for (const auto& [combination, own] : of_combination) {
+    combinations.push_back({frames.before.combinations[combination], {}});
+    for (const ComparedMetricValues& metric : metrics)
+      combinations.back().metrics.push_back(compare_metric(metric, frames, own));
+  }
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    std::vector<MetricComparison*> family;
+    for (CombinationComparison& one : combinations) family.push_back(&one.metrics[i]);
+    adjust_by_holm(family);
+  }
+  return combinations;
+}
+
+std::vector<ComparedLibrary> libraries_of(const Manifest& before, const Manifest& after) {
+  std::map<std::string, ComparedLibrary> libraries;
+  const auto add = [&](const Manifest& manifest, std::string ComparedLibrary::*hash) {
+    for (const HashedFile& file : manifest.files) {
+      if (file.role != "plugin library") continue;
+      const std::string name = std::filesystem::path(file.path).filename().string();
+      ComparedLibrary& library = libraries[name];
+      library.name = name;
+      (library.*hash) += ((library.*hash).empty() ? "" : ", ") + file.sha256;
+    }
+  };
+  add(before, &ComparedLibrary::before);
+  add(after, &ComparedLibrary::after);
+  std::vector<ComparedLibrary> list;
+  for (auto& [name, library] : libraries) list.push_back(std::move(library));
+  return list;
 }
 
 // One line each; of the keys, the first ones.
@@ -131,24 +206,22 @@ RunComparison compare_runs(const ReportRun& before, const ReportRun& after, cons
   result.only_after = static_cast<std::uint32_t>(trials_after.size() - pairs.size());
   result.changes = changes_between(before.manifest, after.manifest);
 
-  const ReportFrame frame_before = make_report_frame(before.metrics, before.trials);
-  const ReportFrame frame_after = make_report_frame(after.metrics, after.trials);
-  std::vector<double> p_values;
+  result.libraries = libraries_of(before.manifest, after.manifest);
+
+  const ComparedFrames frames{make_report_frame(before.metrics, before.trials),
+                              make_report_frame(after.metrics, after.trials), before.manifest.experiment,
+                              after.manifest.experiment};
+  std::vector<ComparedMetricValues> compared;
   for (const std::string& metric : metrics) {
-    const auto index_before = frame_before.metric(metric);
-    const auto index_after = frame_after.metric(metric);
-    if (!index_before || !index_after) continue;
-    CountedValue rule_before = rule_of(metric, layouts);
-    CountedValue rule_after = rule_before;
-    rule_before.metric = *index_before;
-    rule_after.metric = *index_after;
-    result.metrics.push_back(compare_metric(before.metrics[*index_before], rule_before, frame_before,
-                                            before.manifest.experiment, rule_after, frame_after,
-                                            after.manifest.experiment, pairs));
-    p_values.push_back(result.metrics.back().p);
+    const auto index_before = frames.before.metric(metric);
+    const auto index_after = frames.after.metric(metric);
+    if (index_before && index_after) compared.emplace_back(*index_before, *index_after, rule_of(metric, layouts));
   }
-  const std::vector<double> adjusted = core::holm_adjusted(p_values);
-  for (std::size_t i = 0; i < adjusted.size(); ++i) result.metrics[i].p_holm = adjusted[i];
+  for (const ComparedMetricValues& metric : compared) result.metrics.push_back(compare_metric(metric, frames, pairs));
+  std::vector<MetricComparison*> family;
+  for (MetricComparison& one : result.metrics) family.push_back(&one);
+  adjust_by_holm(family);
+  result.combinations = compare_combinations(compared, frames, pairs);
   return result;
 }
 

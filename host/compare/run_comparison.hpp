@@ -10,6 +10,7 @@
 #include "core/statistics/bootstrap.hpp"
 #include "host/report/data/report_data.hpp"
 #include "host/report/data/report_run.hpp"
+#include "host/results/summary.hpp"
 
 namespace dmrp::host {
 
@@ -28,12 +29,27 @@ struct MetricComparison {
   double p_holm = 1.0;        // over the metrics of the comparison
 };
 
+// A plugin library of either run, known by its file's name.
+struct ComparedLibrary {
+  std::string name;
+  std::string before;  // SHA-256, of each file of this name; empty if the run did not have it
+  std::string after;
+};
+
+// The trials of one combination.
+struct CombinationComparison {
+  CombinationLabels combination;
+  std::vector<MetricComparison> metrics;  // p_holm: over the combinations, for the metric
+};
+
 struct RunComparison {
   std::uint32_t pairs = 0;
   std::uint32_t only_before = 0;  // trials without a partner
   std::uint32_t only_after = 0;
   std::vector<std::string> changes;  // another program, machine or plugin library, other settings
-  std::vector<MetricComparison> metrics;
+  std::vector<ComparedLibrary> libraries;
+  std::vector<MetricComparison> metrics;              // over all pairs
+  std::vector<CombinationComparison> combinations{};  // in order of the first run's trials
 };
 
 // `metrics`: names. The rules of the report's comparisons hold: a trial that ended in a fault failed, times of failed

@@ -116,6 +116,31 @@ void check_bound(const TomlTable& table, const std::vector<PluginUse>& others, c
                                            made.bound == Bound::lower ? "lower" : "upper"));
 }
 
+// Where an experiment names its bounds. A place between them needs both.
+class NamedBounds {
+ public:
+  void add(const TomlTable& table, const PluginUse& made) {
+    if (made.bound == Bound::none) return;
+    ++count_;
+    place_ = table.need("bound").place();
+    is_lower_ = made.bound == Bound::lower;
+  }
+
+  void warn_of_one(Experiment& experiment) const {
+    if (count_ != 1) return;  // two are never the same bound
+    const char* const other = is_lower_ ? "upper" : "lower";
+    experiment.warnings.push_back(
+        fmt::format("{}: no controller is the {} bound, so no result says where the others stand between the two: give "
+                    "another [[local_controller]] bound = \"{}\"",
+                    place_, other, other));
+  }
+
+ private:
+  int count_ = 0;
+  std::string place_;
+  bool is_lower_ = false;
+};
+
 }  // namespace
 
 std::vector<TomlKey> plugin_use_keys(std::uint32_t kind) {
@@ -130,6 +155,7 @@ std::vector<TomlKey> plugin_use_keys(std::uint32_t kind) {
 
 void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, Experiment& experiment,
                       std::vector<PluginUse>& uses) {
+  NamedBounds named_bounds;
   root.read_tables(kind_name(kind), [&](const TomlTable& table) {
     Mistakes mistakes;
     PluginUse common;
@@ -159,9 +185,11 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
       made.parameters = std::move(variant.values);
       check_names(table, kind, uses, made);
       check_bound(table, uses, made);
+      named_bounds.add(table, made);
       uses.push_back(std::move(made));
     }
   });
+  named_bounds.warn_of_one(experiment);
 }
 
 // Whether robots of a scenario have recoveries.

@@ -42,8 +42,8 @@ std::string number(double value, std::uint32_t decimals) {
 }
 
 std::string cell_words(const TableCell& cell, const SummaryTableColumn& column) {
-  if (!cell.mean) return "--";
-  std::string text = number(*cell.mean, column.decimals);
+  if (!cell.value) return "--";
+  std::string text = number(*cell.value, column.decimals);
   if (cell.spread) text += " $\\pm$ " + number(*cell.spread, column.decimals);
   if (cell.best) text = "\\textbf{" + text + "}";
   return cell.defined < cell.trials ? fmt::format("{}\\,({}/{})", text, cell.defined, cell.trials) : text;
@@ -87,25 +87,15 @@ std::string body(const MeanTable& table, std::size_t columns) {
   return lines;
 }
 
-bool any_cell(const MeanTable& table, bool (*holds)(const TableCell&)) {
-  return std::any_of(table.rows.begin(), table.rows.end(),
-                     [&](const TableRow& row) { return std::any_of(row.cells.begin(), row.cells.end(), holds); });
-}
-
 }  // namespace
 
 std::string latex_table(const MeanTable& table) {
   if (table.rows.empty() || table.spec.metrics.empty()) return "";
   const std::size_t columns = table.rows.front().cells.size();
-  std::string caption = escaped(table.spec.title) + ": means over trials.";
-  if (any_cell(table, [](const TableCell& cell) { return cell.best; }))
-    caption += " Bold: told apart from all others of its column by paired tests (Holm, 5\\,\\%).";
-  if (any_cell(table, [](const TableCell& cell) { return cell.mean && cell.defined < cell.trials; }))
-    caption += " In parentheses: trials in which the value is defined, of all.";
   return fmt::format(
       "\\begin{{table*}}\n\\centering\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\begin{{tabular}}{{l{}}}\n\\toprule\n"
       "{}\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n\\end{{table*}}\n",
-      caption, table.spec.id, std::string(columns, 'r'), head(table), body(table, columns));
+      escaped(table_caption(table)), table.spec.id, std::string(columns, 'r'), head(table), body(table, columns));
 }
 
 }  // namespace dmrp::host

@@ -15,6 +15,7 @@ SummaryTableColumn parse_column(const Json& json) {
   column.header = json.value("header", column.metric);
   column.decimals = json.value("decimals", 2u);
   column.spread = json.value("spread", "");
+  column.median = json.value("median", false);
   return column;
 }
 

@@ -103,6 +103,23 @@ std::optional<Label> label_named(const std::string& name) {
   return found == names.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::string table_caption(const MeanTable& table) {
+  const auto any_cell = [&](bool (*holds)(const TableCell&)) {
+    return std::any_of(table.rows.begin(), table.rows.end(),
+                       [&](const TableRow& row) { return std::any_of(row.cells.begin(), row.cells.end(), holds); });
+  };
+  std::string medians;
+  for (const SummaryTableColumn& column : table.spec.metrics)
+    if (column.median) append(medians, " and ", column.header);
+  std::string words =
+      table.spec.title + ": means over trials" + (medians.empty() ? "" : ", medians of ") + medians + ".";
+  if (any_cell([](const TableCell& cell) { return cell.best; }))
+    words += " Bold: told apart from all others of its column by paired tests (Holm, 5 %).";
+  if (any_cell([](const TableCell& cell) { return cell.value && cell.defined < cell.trials; }))
+    words += " In parentheses: trials in which the value is defined, of all.";
+  return words;
+}
+
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                           std::span<const TrialRecord> trials) {
   std::erase_if(spec.metrics, [&](const auto& column) { return !index_of(metrics, column.metric); });
@@ -144,7 +161,7 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
         shown.trials = static_cast<std::uint32_t>(cell.size());
         const auto found = values.of(cell, *index_of(metrics, column.metric), column.metric);
         shown.defined = static_cast<std::uint32_t>(found.size());
-        if (!found.empty()) shown.mean = core::mean(found);
+        if (!found.empty()) shown.value = column.median ? core::median(found) : core::mean(found);
         if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())
           if (const auto spreads = values.of(cell, *spread, column.spread); !spreads.empty())
             shown.spread = core::mean(spreads);

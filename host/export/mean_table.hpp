@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mean_table.hpp: means of metrics by the labels of trials, as tables of papers have them.
+// mean_table.hpp: means (or medians) of metrics by the labels of trials, as tables of papers have them.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct TableSpec {
 };
 
 struct TableCell {
-  std::optional<double> mean;  // none: undefined or no trial
+  std::optional<double> value;  // the mean of the trials, or their median by the column; none: undefined or no trial
   std::optional<double> spread;
   std::uint32_t defined = 0;
   std::uint32_t trials = 0;
@@ -52,6 +52,9 @@ struct MeanTable {
 
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                           std::span<const TrialRecord> trials);
+
+// The title, and what the marks in the cells mean.
+std::string table_caption(const MeanTable& table);
 
 // A table environment with booktabs, for \input.
 std::string latex_table(const MeanTable& table);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string part(const fs::path& folder, const char* name) {
+std::string part(const fs::path& folder, const std::string& name) {
   const fs::path file = folder / name;
   return read_file(file, file.string());
 }
@@ -54,14 +54,15 @@ void replace_line(std::string& page, const std::string& line, const std::string&
 
 }  // namespace
 
-std::string report_page(const fs::path& folder, const std::string& data_json, std::span<const EmbeddedReplay> replays) {
-  const fs::path file = folder / "page.html";
-  std::string page = part(folder, "page.html");
-  const std::string styles = "<style>\n" + part(folder, "page.css") + "</style>\n";
+std::string report_page(const fs::path& folder, const std::string& name, const std::string& data_json,
+                        std::span<const EmbeddedReplay> replays) {
+  const fs::path file = folder / (name + ".html");
+  std::string page = part(folder, name + ".html");
+  const std::string styles = "<style>\n" + part(folder, name + ".css") + "</style>\n";
   std::string data = "<script type=\"application/json\" id=\"dmrp-data\">" + json_text(data_json) + "</script>\n";
   for (const EmbeddedReplay& replay : replays) data += packed_element(replay.element, replay.base64);
   if (!replays.empty()) data += packed_element("dmrp-three", base64(gzip(part(folder, "three.min.js"))));
-  const std::string scripts = "<script>\n" + script_text(part(folder, "page.js")) + "</script>\n";
+  const std::string scripts = "<script>\n" + script_text(part(folder, name + ".js")) + "</script>\n";
 
   // from the end of the page, so that inserted text is not searched
   replace_line(page, "<!-- dmrp:scripts -->", scripts, file);

@@ -42,7 +42,8 @@ void write_report(const std::filesystem::path& run_directory, const std::vector<
     embedded.push_back({element, replay.packed});
   }
   const std::string data = report_data_json(run, layouts, index);
-  write_file_atomically(run_directory / "report.html", report_page(shared_data_path() / "report", data, embedded));
+  write_file_atomically(run_directory / "report.html",
+                        report_page(shared_data_path() / "report", "page", data, embedded));
 }
 
 }  // namespace dmrp::host

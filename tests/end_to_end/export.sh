@@ -42,6 +42,14 @@ for look in plan way robot; do
   [[ $(grep -c "class=\"$look\"" "$scratch/map.svg") == "$robots" ]] || fail "the map should show $robots of $look"
 done
 grep -q '<text[^>]*class="axis">' "$scratch/map.svg" || fail "the map has no coordinates"
+grep -q 'class="walk"' "$scratch/map.svg" || fail "the map shows nobody who walks"
+
+# tables as figures: one of the report, and one of rows and columns
+expect_status 0 "$host" export "$run" --table driving --out "$scratch/driving.svg"
+grep -q 'class="[^"]*">PFD</text>' "$scratch/driving.svg" || fail "the table has no column PFD"
+expect_status 0 "$host" export "$run" --table own --rows controller --columns planner --metric success,pfd
+grep -q '>each alone</text>' "$scratch/stdout" || fail "the table has no column for each planner"
+[[ $(grep -c 'sim_time' "$scratch/stdout") == 2 ]] || fail "not a row for each controller"
 
 # a run over people and a setting: columns, an axis, and the same when its effective.toml is run
 cat >"$scratch/crowd.toml" <<EOF
@@ -66,16 +74,22 @@ refused() {
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
+refused "did you mean 'driving'" --table drivin
 refused "did you mean 'success'" --latex --metric sucess
 refused "none of scenario, robots, planner" --latex --rows planet
 refused "did you mean 'simulation.step_s'" --svg --over simulation.step
 refused "do not differ in the number 'simulation.step_s'" --svg --over simulation.step_s
 refused "^--map 99: .* has [0-9]+ finished trials, from 0 to" --map 99
-refused "xactly 1 option from \[--latex,--csv,--svg,--thresholds,--map\]" --latex --csv
+refused "xactly 1 option from \[--latex,--csv,--svg,--thresholds,--map,--table\]" --latex --csv
 
 if command -v rsvg-convert >/dev/null; then
   expect_status 0 "$host" export "$run" --svg --metric pfd --over local_controller.sim_time --out "$scratch/pfd.pdf"
   expect_status 0 "$host" export "$run" --map 1 --out "$scratch/map.pdf"
+  expect_status 0 "$host" export "$run" --table driving --out "$scratch/driving.pdf"
+  [[ $(head -c 5 "$scratch/driving.pdf") == %PDF- ]] || fail "no PDF file of the table"
+  if command -v pdftotext >/dev/null; then
+    pdftotext "$scratch/driving.pdf" - | grep -qx 'PFD' || fail "the PDF of the table does not say PFD"
+  fi
   [[ $(head -c 5 "$scratch/pfd.pdf") == %PDF- && $(head -c 5 "$scratch/map.pdf") == %PDF- ]] || fail "no PDF files"
 fi
 if command -v pdflatex >/dev/null; then

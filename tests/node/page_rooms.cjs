@@ -7,11 +7,12 @@ const fs = require('node:fs');
 const os = require('node:os');
 const path = require('node:path');
 
-// Lowest first: a module imports from its own room and from those before it. start.js imports from all of them.
-const ORDER = ['.', 'run', 'plots', 'tables', 'replay', 'replay_3d', 'start.js'];
+// Lowest first: a module imports from its own room and from those before it. The pages' starts import from all of them.
+const STARTS = ['start.js', 'start_compare.js'];
+const ORDER = ['.', 'run', 'plots', 'tables', 'replay', 'replay_3d', 'compare', ...STARTS];
 
 const is_own = (file) => !path.isAbsolute(file) && !file.startsWith('..') && file.endsWith('.js');
-const room_of = (file) => (file === 'start.js' ? file : path.dirname(file));
+const room_of = (file) => (STARTS.includes(file) ? file : path.dirname(file));
 
 // inputs: {file: [files that it imports]}. Returns the breaches as text.
 function breaches(inputs) {
@@ -45,7 +46,7 @@ function read_imports(folder) {
     const account = path.join(scratch, 'meta.json');
     execFileSync(
       process.env.DMRP_ESBUILD,
-      ['start.js', '--bundle', '--log-level=warning', `--metafile=${account}`, `--outfile=${scratch}/page.js`],
+      [...STARTS, '--bundle', '--log-level=warning', `--metafile=${account}`, `--outdir=${scratch}`],
       {cwd: folder, env: {...process.env, NODE_PATH: process.env.DMRP_D3_MODULES}, stdio: 'inherit'}
     );
     const inputs = {};

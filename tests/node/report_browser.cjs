@@ -67,9 +67,13 @@ function scratch_folder() {
   return folder;
 }
 
-// Opens a report and waits for its last section. `said` collects console messages, errors and requests: it must stay
+// Opens a report, or another page, and waits for its last section. `said` collects console messages, errors and requests: it must stay
 // empty.
-async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'light'} = {}) {
+async function open_report(
+  browser,
+  report,
+  {viewport = LAPTOP, colorScheme = 'light', last = '#provenance.ready'} = {}
+) {
   const context = await browser.newContext({
     viewport,
     colorScheme,
@@ -89,7 +93,7 @@ async function open_report(browser, report, {viewport = LAPTOP, colorScheme = 'l
     if (request.url() !== url && !/^(data|blob):/.test(request.url())) said.push(`request: ${request.url()}`);
   });
   await page.goto(url);
-  await page.locator('#provenance.ready').waitFor({state: 'attached'});
+  await page.locator(last).waitFor({state: 'attached'});
   return {page, said};
 }
 

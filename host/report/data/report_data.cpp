@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/data/report_data.hpp"
 
-#include <dmrp/descriptor.h>
-
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "host/files/read_file.hpp"
+#include "host/ranking/bounds.hpp"
 #include "host/ranking/graded_series.hpp"
 #include "host/report/data/report_curves.hpp"
 #include "host/report/data/report_frame.hpp"
+#include "host/report/data/report_json.hpp"
 #include "host/report/data/report_statistics.hpp"
 #include "host/results/arrivals_by_type.hpp"
 #include "host/results/summary.hpp"
@@ -21,8 +21,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// With seven significant digits: a page shows fewer, and long numbers were a third of it.
+double for_display(double value) {
+  constexpr int digits = 7;
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (decimals < 0 || decimals > 15) return value;
+  const double power = std::pow(10.0, decimals);
+  return std::round(value * power) / power;
+}
+
 Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
+  return value ? Json(for_display(*value)) : Json();
 }
 
 std::uint64_t finished(std::span<const TrialRecord> trials) {
@@ -42,18 +52,6 @@ Json run_json(const ReportRun& run) {
           {"command_line", run.manifest.command_line},
           {"effective_toml", run.effective_toml},
           {"manifest", Json::parse(run.manifest_json)}};
-}
-
-Json scenarios_json(const ExperimentFacts& facts) {
-  Json json = Json::array();
-  for (const ScenarioFacts& scenario : facts.scenarios)
-    json.push_back({{"name", scenario.name},
-                    {"robots", scenario.robots},
-                    {"title", scenario.title},
-                    {"description", scenario.description},
-                    {"people", scenario.people},
-                    {"time_limit_s", scenario.time_limit_s}});
-  return json;
 }
 
 Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
@@ -78,14 +76,6 @@ Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
   return json;
 }
 
-Json labels_json(const CombinationLabels& labels) {
-  return {{"scenario", labels.scenario},
-          {"robots", labels.robots},
-          {"global_planner", labels.global_planner},
-          {"local_controller", labels.local_controller},
-          {"pedestrian_model", labels.pedestrian_model}};
-}
-
 // Of the combinations whose robots are of several types.
 Json arrivals_by_type_json(const ReportFrame& frame, const ExperimentFacts& facts, const std::string& arrived) {
   std::vector<std::vector<TypeArrivals>> counts(frame.combinations.size());
@@ -99,18 +89,6 @@ Json arrivals_by_type_json(const ReportFrame& frame, const ExperimentFacts& fact
       types.push_back({{"type", one.type}, {"robots", one.robots}, {"arrived", one.arrived}});
     json.push_back({{"combination", labels_json(frame.combinations[i])}, {"types", std::move(types)}});
   }
-  return json;
-}
-
-Json metrics_json(std::span<const MetricColumn> metrics) {
-  static constexpr std::array<const char*, 3> directions{"none", "lower", "higher"};  // by DMRP_DIRECTION_*
-  Json json = Json::array();
-  for (const MetricColumn& metric : metrics)
-    json.push_back({{"name", metric.name},
-                    {"unit", metric.unit},
-                    {"direction", directions.at(metric.direction)},
-                    {"wall_clock", metric.wall_clock},
-                    {"description", metric.description}});
   return json;
 }
 
@@ -262,21 +240,36 @@ std::set<std::size_t> curve_metrics(const ReportFrame& frame) {
 
 namespace {
 
+// A table of these metrics by combination.
+Json table_of(const char* id, const char* title, const std::string& note, std::span<const MetricColumn> metrics) {
+  Json columns = Json::array();
+  for (const MetricColumn& metric : metrics)
+    columns.push_back({{"metric", metric.name}, {"header", metric.name}, {"decimals", 3}});
+  return {{"id", id},
+          {"title", title},
+          {"note", note},
+          {"rows", {"global_planner", "local_controller", "pedestrian_model"}},
+          {"columns", std::move(columns)}};
+}
+
+// The places between the experiment's two bounds.
+Json places_table(std::span<const MetricColumn> places) {
+  std::string note;
+  for (const MetricColumn& place : places) note += (note.empty() ? "" : "; ") + place.name + ": " + place.description;
+  return table_of("places", "Between two bounds",
+                  note + ". A dash: the bounds themselves, and where they cannot be told apart.", places);
+}
+
 // The report's layout with a table of the metrics that plugins beside the built-in ones added and that no table has.
 Json with_added_table(Json layout, const std::vector<MetricColumn>& metrics) {
   std::set<std::string> shown;
   for (const Json& table : layout["tables"])
     for (const Json& column : table["columns"]) shown.insert(column["metric"].get<std::string>());
-  Json columns = Json::array();
+  std::vector<MetricColumn> added;
   for (const MetricColumn& metric : metrics)
-    if (metric.added && shown.count(metric.name) == 0)
-      columns.push_back({{"metric", metric.name}, {"header", metric.name}, {"decimals", 3}});
-  if (!columns.empty())
-    layout["tables"].push_back({{"id", "added"},
-                                {"title", "Added metrics"},
-                                {"note", "Of plugins that are not built in."},
-                                {"rows", {"global_planner", "local_controller", "pedestrian_model"}},
-                                {"columns", std::move(columns)}});
+    if (metric.added && shown.count(metric.name) == 0) added.push_back(metric);
+  if (!added.empty())
+    layout["tables"].push_back(table_of("added", "Added metrics", "Of plugins that are not built in.", added));
   return layout;
 }
 
@@ -291,16 +284,18 @@ ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
   const ReportFrame frame = make_report_frame(run.metrics, run.trials);
   const std::vector<std::string>& counts_failures = layouts.summary.counts_failures;
+  std::vector<MetricColumn> metrics = run.metrics;
+  std::vector<CombinationSummary> summaries = summarise(run.metrics, run.trials, counts_failures);
+  add_places(bounds_of(run.effective_toml), layouts.summary, run.trials, metrics, summaries);
   Json json;
   json["format"] = 1;
   json["run"] = run_json(run);
-  json["scenarios"] = scenarios_json(run.manifest.experiment);
-  json["metrics"] = metrics_json(run.metrics);
+  json["scenarios"] = scenarios_json(run.manifest.experiment.scenarios);
+  json["metrics"] = metrics_json(metrics);
   json["combinations"] = combinations_json(frame);
   json["trials"] = trials_json(frame);
   json["values"] = values_json(frame, curve_metrics(frame));
-  json["summaries"] =
-      summaries_json(frame.combinations, summarise(run.metrics, run.trials, counts_failures), run.metrics.size());
+  json["summaries"] = summaries_json(frame.combinations, summaries, metrics.size());
   add_planners(json, frame, counts_failures);
   json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
@@ -311,6 +306,8 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["faults"] = faults_json(run.trials);
   json["layouts"] = {{"summary", Json::parse(layouts.summary_json)},
                      {"report", with_added_table(Json::parse(layouts.report.json), run.metrics)}};
+  if (metrics.size() > run.metrics.size())
+    json["layouts"]["report"]["tables"].push_back(places_table(std::span(metrics).subspan(run.metrics.size())));
   add_replays(json, replays);
   // labels and details need not be UTF-8
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -9,7 +9,8 @@
 //   metrics           [{name, unit, direction: higher | lower | none, wall_clock, description}]
 //   combinations      [{scenario, robots, global_planner, local_controller, pedestrian_model}]; the index is its id
 //   trials            columns: {id, combination, repetition, seed, outcome, repeatable, sim_time_s, wall_time_s}
-//   values            {metric: [the system's value of each trial]}; without metrics that have curves only
+//   values            {metric: [the system's value of each trial]}, to seven significant digits; without metrics that
+//                     have curves only
 //   summaries         [combination][metric]: {trials, defined, mean, sd, median, low, high, paper_mean, paper_count,
 //                     paper_trimmed_all_nonzero}: the numbers of summary.csv
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all

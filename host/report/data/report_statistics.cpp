@@ -11,6 +11,7 @@
 #include "host/report/data/report_completion.hpp"
 #include "host/report/data/report_correlations.hpp"
 #include "host/report/data/report_delay.hpp"
+#include "host/report/data/report_json.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -93,14 +94,6 @@ Json delay_json(const PedestrianDelay& one) {
           {"mean_s", one.mean_s},
           {"low", one.interval.low},
           {"high", one.interval.high}};
-}
-
-Json labels_json(const CombinationLabels& labels) {
-  return {{"scenario", labels.scenario},
-          {"robots", labels.robots},
-          {"global_planner", labels.global_planner},
-          {"local_controller", labels.local_controller},
-          {"pedestrian_model", labels.pedestrian_model}};
 }
 
 Json ranked_json(const Answer& answer, const RankedCombination& one) {

@@ -11,7 +11,7 @@
 // every locale.
 //
 // Elements have a CSS class: `free`, `wall`, `furniture`, `region`, `grid`, `path`, `robot`, `person`, `start`, `goal`,
-// `label`, `heading`, `flow`, `name`, `plan`, `way`, `contact`; the document has a style for each of these, and none for other names. Line widths and text sizes
+// `label`, `heading`, `flow`, `name`, `plan`, `way`, `walk`, `contact`; the document has a style for each of these, and none for other names. Line widths and text sizes
 // are in pixels of the page, not in metres.
 #pragma once
 
@@ -194,6 +194,7 @@ class SvgPlan {
       "  text.name { font-size: 10px; fill: #1f5f85; }\n"
       "  .plan { stroke-width: 1; stroke-opacity: 0.6; stroke-dasharray: 4 3; }\n"
       "  .way { stroke-width: 2; }\n"
+      "  .walk { stroke: #8a6d3b; stroke-width: 0.75; stroke-opacity: 0.55; }\n"
       "  .contact { fill: #a63c00; }\n"
       "  .path { stroke-width: 2.5; stroke-opacity: 0.8; }\n"
       "  .robot { fill: #0072b2; stroke: #fff; stroke-width: 1; }\n"

@@ -86,6 +86,43 @@ TEST_CASE("combinations under the same seed are one observation", "[compare]") {
   CHECK(found.metrics[0].seeds == 6);
 }
 
+TEST_CASE("each combination is compared on its own", "[compare]") {
+  const auto both = [](std::uint32_t failing) {
+    auto trials = with_failures(0);
+    for (const TrialRecord& trial : with_failures(failing)) {
+      trials.push_back(trial);
+      trials.back().local_controller = "d";
+    }
+    return run_of(trials);
+  };
+  const RunComparison found = compare_runs(both(0), both(8), layouts(), names);
+  REQUIRE(found.combinations.size() == 2);
+  CHECK(found.combinations[0].combination.local_controller == "c");
+  CHECK(found.combinations[0].metrics[0].difference == 0.0);
+  CHECK(std::isnan(found.combinations[0].metrics[0].p_holm));
+  const MetricComparison& changed = found.combinations[1].metrics[0];
+  CHECK(found.combinations[1].combination.local_controller == "d");
+  CHECK(changed.pairs == 10);
+  CHECK(changed.difference == Approx(-0.4));
+  CHECK(changed.p < 0.05);
+  CHECK(changed.p_holm >= changed.p);
+}
+
+TEST_CASE("plugin libraries are compared by name and hash", "[compare]") {
+  ReportRun before = run_of(with_failures(0));
+  ReportRun after = before;
+  before.manifest.files = {
+      {"plugin library", "/a/libone.so", "11"}, {"plugin library", "/a/libtwo.so", "22"}, {"scenario", "x", "0"}};
+  after.manifest.files = {{"plugin library", "/b/libone.so", "11"}, {"plugin library", "/b/libthree.so", "33"}};
+  const auto libraries = compare_runs(before, after, layouts(), names).libraries;
+  REQUIRE(libraries.size() == 3);
+  CHECK(libraries[0].name == "libone.so");
+  CHECK(libraries[0].before == libraries[0].after);
+  CHECK(libraries[1].name == "libthree.so");
+  CHECK(libraries[1].before.empty());
+  CHECK(libraries[2].after.empty());
+}
+
 TEST_CASE("a condition fails, holds, or cannot be decided", "[compare]") {
   CHECK(verdict("done < -0.02", compare(0, 0)) == Verdict::holds);
   CHECK(verdict("done < -0.02", compare(0, 10)) == Verdict::fails);

@@ -611,6 +611,16 @@ TEST_CASE("a controller may be a bound for the others") {
              Catch::EndsWith("'second' and 'third' cannot both be the lower bound"));
 }
 
+TEST_CASE("one bound without the other is warned about") {
+  const ExperimentFolder folder;
+  const std::string second = "[[local_controller]]\nuse = \"test.controller\"\nlabel = \"second\"\n";
+  const std::string third = "[[local_controller]]\nuse = \"test.controller\"\nlabel = \"third\"\n";
+  const Experiment lone = load(experiment_text + second + "bound = \"lower\"\n" + third);
+  REQUIRE(lone.warnings.size() == 1);
+  CHECK_THAT(lone.warnings[0], Catch::Contains(": no controller is the upper bound"));
+  CHECK(load(experiment_text + second + "bound = \"lower\"\n" + third + "bound = \"upper\"\n").warnings.empty());
+}
+
 TEST_CASE("imperfections are off by default") {
   const ExperimentFolder folder;
   const Experiment off = load(experiment_text);

@@ -4,6 +4,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
+#include "host/export/table_figure.hpp"
 #include "host/export/trials_table.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
@@ -85,15 +86,31 @@ TEST_CASE("a table has the means of the trials that agree in its labels", "[expo
   CHECK(table.spans == std::vector<std::string>{"2 robots", "4 robots"});
   REQUIRE(table.rows.size() == 2);
   CHECK(table.rows[0].name == "slow");
-  CHECK(*table.rows[0].cells[0].mean == Approx(0.75));
-  CHECK(*table.rows[0].cells[1].mean == Approx(47.0));  // of the five trials in which both arrive: 45 to 49
+  CHECK(*table.rows[0].cells[0].value == Approx(0.75));
+  CHECK(*table.rows[0].cells[1].value == Approx(47.0));  // of the five trials in which both arrive: 45 to 49
   CHECK(table.rows[0].cells[1].defined == 5);
-  CHECK_FALSE(table.rows[0].cells[2].mean);  // no trials with four robots
-  CHECK(*table.rows[1].cells[2].mean == Approx(0.75));
+  CHECK_FALSE(table.rows[0].cells[2].value);  // no trials with four robots
+  CHECK(*table.rows[1].cells[2].value == Approx(0.75));
 
   const std::string latex = latex_table(table);
   CHECK_THAT(latex, Contains("\\multicolumn{2}{c}{2 robots} & \\multicolumn{2}{c}{4 robots}"));
   CHECK_THAT(latex, Contains("slow & 0.75 & 47.0\\,(5/10) & -- & -- \\\\"));
+}
+
+TEST_CASE("a column of medians is not moved by one slow trial", "[export]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "steady", 5, [](std::uint32_t i) { return std::vector<RobotResult>{{i == 2 ? 90.0 : 45.0}}; });
+  SummaryTableColumn time{"time", "time", 1, "", false, ""};
+  const TableSpec mean = {"t", "Results", {Label::local_controller}, {}, {time}};
+  TableSpec median = mean;
+  median.metrics[0].median = true;
+  const auto table_of = [&](const TableSpec& spec) {
+    return make_mean_table(spec, ranking_layout(), ranking_metrics(), trials);
+  };
+  CHECK(*table_of(mean).rows[0].cells[0].value == Approx(54.0));
+  CHECK(*table_of(median).rows[0].cells[0].value == Approx(45.0));
+  CHECK_THAT(latex_table(table_of(median)), Contains("means over trials, medians of time."));
+  CHECK_THAT(latex_table(table_of(mean)), Contains("means over trials."));
 }
 
 TEST_CASE("names are escaped for LaTeX", "[export]") {
@@ -156,4 +173,19 @@ TEST_CASE("swept values of scenarios are columns and axes", "[export]") {
   CHECK(chart.lines[0].points[1].x == 12.0);
   CHECK_THROWS_AS(metric_over("done", "simulation.tracking", ranking_layout(), ranking_metrics(), trials, settings),
                   InputError);
+}
+
+TEST_CASE("a table as a figure has the values of the LaTeX table", "[export]") {
+  SummaryTableColumn done{"done", "success", 2, "", false, ""};
+  SummaryTableColumn time{"time", "time", 1, "", false, ""};
+  const MeanTable table = make_mean_table({"t", "A < B", {Label::local_controller}, {Label::robots}, {done, time}},
+                                          ranking_layout(), ranking_metrics(), example());
+  const std::string svg = table_figure(table);
+  CHECK_THAT(svg, Contains(">2 robots</text>"));
+  CHECK_THAT(svg, Contains(">slow</text>"));
+  CHECK_THAT(svg, Contains(">47.0 (5/10)</text>"));
+  CHECK_THAT(svg, Contains(">\u2013</text>"));  // no trials with four robots
+  CHECK_THAT(svg, Contains(">A &lt; B: means over trials."));
+  CHECK(count_of(svg, "class=\"unit\">s</text>") == 2);
+  CHECK(count_of(svg, "<path class=\"rule \"") == 2);
 }

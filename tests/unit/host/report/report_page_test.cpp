@@ -20,13 +20,13 @@ TEST_CASE("the page contains its parts, and no part ends another", "[report]") {
   const std::string styles = "<style>\ns</style>\n|";
   const std::string data = "<script type=\"application/json\" id=\"dmrp-data\">{\"x\":\"\\u003c/script>\"}</script>\n";
   const std::string scripts = "|<script>\n'<\\/script>'</script>\n";
-  CHECK(report_page(folder.path(), R"({"x":"</script>"})", {}) == styles + data + scripts);
+  CHECK(report_page(folder.path(), "page", R"({"x":"</script>"})", {}) == styles + data + scripts);
   const std::vector<EmbeddedReplay> replays{{"dmrp-replay-3", "QUJD"}};
-  CHECK(report_page(folder.path(), R"({"x":"</script>"})", replays) ==
+  CHECK(report_page(folder.path(), "page", R"({"x":"</script>"})", replays) ==
         styles + data + "<script type=\"application/gzip\" id=\"dmrp-replay-3\">QUJD</script>\n" +
             "<script type=\"application/gzip\" id=\"dmrp-three\">" + base64(gzip("three")) + "</script>\n" + scripts);
   write("page.html", "<!-- dmrp:styles -->|<!-- dmrp:scripts -->");
-  CHECK_THROWS_WITH(report_page(folder.path(), "{}", {}), Catch::Contains("has no line <!-- dmrp:data -->"));
+  CHECK_THROWS_WITH(report_page(folder.path(), "page", "{}", {}), Catch::Contains("has no line <!-- dmrp:data -->"));
   std::filesystem::remove(folder / "page.js");
-  CHECK_THROWS_AS(report_page(folder.path(), "{}", {}), InputError);
+  CHECK_THROWS_AS(report_page(folder.path(), "page", "{}", {}), InputError);
 }

@@ -11,6 +11,7 @@
 
 #include "host/results/csv.hpp"
 #include "host/results/summary.hpp"
+#include "tests/unit/host/ranking/ranking_example.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
 using namespace dmrp::host;
@@ -135,6 +136,35 @@ TEST_CASE("a report counts arrivals by type of robot where there are several", "
   CHECK(rows[1]["types"][1]["robots"] == 1);
 }
 
+TEST_CASE("a report has the places between two bounds", "[report]") {
+  ReportRun run = example_run({});
+  run.metrics = dmrp::test::ranking_metrics();
+  const auto add = [&](const std::string& controller, double time_s) {
+    dmrp::test::add_trials(run.trials, controller, 20, [=](std::uint32_t i) {
+      return std::vector<dmrp::test::RobotResult>(2, {time_s + 0.1 * i, controller == "high"});
+    });
+  };
+  add("low", 40.0);
+  add("middle", 35.0);
+  add("high", 20.0);
+  const ReportLayouts layouts = {dmrp::test::ranking_layout(), "{}", parse_report_layout("{\"tables\": []}", "report")};
+  const auto with = [&](const std::string& toml) {
+    run.effective_toml = toml;
+    return json::parse(report_data_json(run, layouts, {}));
+  };
+  const json data = with(
+      "[[local_controller]]\nlabel = \"low\"\nbound = \"lower\"\n"
+      "[[local_controller]]\nlabel = \"high\"\nbound = \"upper\"\n");
+  const json table = data["layouts"]["report"]["tables"].back();
+  CHECK(table["id"] == "places");
+  REQUIRE(table["columns"].size() == 2);
+  CHECK(table["columns"][1]["metric"] == "place_time");
+  CHECK(data["metrics"].back()["name"] == "place_time");
+  CHECK(data["summaries"][1].back()["mean"].get<double>() == Approx(0.25));
+  CHECK(data["summaries"][0].back()["mean"].is_null());
+  CHECK(with("")["layouts"]["report"]["tables"].empty());
+}
+
 TEST_CASE("a report describes the run", "[report]") {
   const json data = data_of(trials_of({{"A", {40.0, 43.0}}, {"B", {50.0}}}));
   CHECK(data["format"] == 1);
@@ -149,6 +179,16 @@ TEST_CASE("a report describes the run", "[report]") {
   CHECK(data["planner_summaries"][0] == data["summaries"][0]);  // one controller
   CHECK(data["metrics"][1]["direction"] == "lower");
   CHECK(data["layouts"]["report"]["completion"]["metric"] == "time");
+}
+
+TEST_CASE("values of trials have seven significant digits", "[report]") {
+  const auto written = [](double time) {
+    return data_of({example_trial(0, "P", 0, time, 0.5)})["values"]["time"].dump();
+  };
+  CHECK(written(100.0 / 3.0) == "[33.33333]");
+  CHECK(written(-2e-3 / 3.0) == "[-0.0006666667]");
+  CHECK(written(12345678.25) == "[12345678.25]");
+  CHECK(written(40.0) == "[40.0]");
 }
 
 TEST_CASE("a report lists faults and counts skipped trials", "[report]") {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// report_json.hpp: what the data of all pages have in common, as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "host/results/manifest.hpp"
+#include "host/results/summary.hpp"
+#include "host/results/trial_record.hpp"
+
+namespace dmrp::host {
+
+// {scenario, robots, global_planner, local_controller, pedestrian_model}
+nlohmann::ordered_json labels_json(const CombinationLabels& labels);
+
+// [{name, unit, direction: higher | lower | none, wall_clock, description}]
+nlohmann::ordered_json metrics_json(std::span<const MetricColumn> metrics);
+
+// [{name, robots, title, description, people, time_limit_s}]
+nlohmann::ordered_json scenarios_json(std::span<const ScenarioFacts> scenarios);
+
+}  // namespace dmrp::host

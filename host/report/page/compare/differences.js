@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// differences.js: paired differences between two runs, after minus before: of each metric over all trials, and of one
+// metric for each combination.
+import * as controls from '../controls.js';
+import {element, fill, group_row, head_row} from '../elements.js';
+import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
+import {scroll_box} from '../scroll_box.js';
+import * as interval_rows from '../tables/interval_rows.js';
+import * as judgement from './judgement.js';
+
+const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+
+// The cells that all differences have, behind the name and the picture of the interval.
+function cells(data, difference) {
+  const digits = judgement.decimals(data, difference);
+  const number = (label, ...content) => element('td', {class: 'number', 'data-label': label}, content);
+  const judged = judgement.of(data, difference);
+  return [
+    number('before', numbers.fixed(difference.before, digits)),
+    number('after', numbers.fixed(difference.after, digits)),
+    number(
+      'difference',
+      element('span', {class: 'mean'}, numbers.signed(difference.difference, digits)),
+      element('span', {class: 'interval'}, numbers.interval(difference.low, difference.high, digits, numbers.signed))
+    ),
+    number('p (Holm)', numbers.p_value(difference.p_holm)),
+    number('pairs', `${difference.pairs}`),
+    element('td', {class: `judged ${judged}`}, judgement.WORDS[judged]),
+  ];
+}
+
+const HEADS = ['before', 'after', 'difference', 'p (Holm)', 'pairs'];
+
+function metrics_table(data, run) {
+  const rows = run.differences.map((difference) => {
+    const {description, direction} = labels.metric(data, difference.metric);
+    const about = `${description} (${labels.direction_words(direction)})`;
+    const name = element('span', {'data-about': about, tabindex: '0'}, labels.metric_with_unit(data, difference.metric));
+    return element('tr', {}, element('th', {scope: 'row'}, name), cells(data, difference));
+  });
+  return element(
+    'table',
+    {class: 'forest with-intervals'},
+    head_row(element('th', {scope: 'col'}, 'metric'), HEADS.map((head) => column(head)), element('th', {scope: 'col'}, '')),
+    element('tbody', {}, rows)
+  );
+}
+
+export function mount_metrics(body, data, run) {
+  fill(
+    body,
+    scroll_box({'aria-label': 'Differences over all trials'}, metrics_table(data, run)),
+    element(
+      'p',
+      {class: 'note'},
+      'Means over the trials that both runs have. Difference: after minus before, in pairs, with its 95 % interval; ' +
+        'trials with the same scenario, robots and seed count together. p (Holm): corrected for the number of metrics; ' +
+        'better, worse and changed are below 0.05. A trial that ended in a fault failed, the time of a failed trial is ' +
+        'the time limit, lengths are compared where both trials succeeded.'
+    )
+  );
+}
+
+// The data as the modules of a report expect them: with the combinations of this comparison.
+export function with_combinations(data, run) {
+  return {...data, combinations: run.combinations};
+}
+
+// The metric that differs in most combinations, else the first.
+export function default_metric(data, run) {
+  const clear = (index) =>
+    run.of_combinations.filter((of) => ['better', 'worse', 'changed'].includes(judgement.of(data, of[index]))).length;
+  const counts = run.differences.map((_, index) => clear(index));
+  return counts.indexOf(Math.max(...counts));
+}
+
+function combinations_table(data, run, index) {
+  const own = run.of_combinations.map((of) => of[index]);
+  const x = interval_rows.scale(
+    own.map((one) => ({estimate: one.difference, low: one.low, high: one.high})).filter((one) => one.estimate !== undefined)
+  );
+  const made = element(
+    'table',
+    {class: 'forest with-intervals'},
+    head_row(
+      element('th', {scope: 'col'}, 'combination'),
+      interval_rows.axis(x, '', ''),
+      HEADS.map((head) => column(head)),
+      element('th', {scope: 'col'}, '')
+    )
+  );
+  for (const variant of labels.variants(data)) {
+    if (variant.combinations.length === 0) continue;
+    const rows = variant.combinations.map((combination) => {
+      const difference = own[combination];
+      const estimate = {estimate: difference.difference, low: difference.low, high: difference.high};
+      const sure = ['better', 'worse', 'changed'].includes(judgement.of(data, difference));
+      return element(
+        'tr',
+        {class: sure ? 'sure' : null},
+        element('th', {scope: 'row'}, labels.combination(data, combination)),
+        interval_rows.cell(estimate, x, sure),
+        cells(data, difference)
+      );
+    });
+    made.append(element('tbody', {}, data.scenarios.length > 1 && group_row(variant.label, 8), rows));
+  }
+  return scroll_box({'aria-label': 'Differences by combination'}, made);
+}
+
+export function mount_combinations(body, whole, run) {
+  const data = with_combinations(whole, run);
+  const holder = element('div');
+  const note = element('p', {class: 'note'});
+  const show = (index) => {
+    const {direction, description, name} = labels.metric(data, run.differences[index].metric);
+    fill(holder, combinations_table(data, run, index));
+    fill(
+      note,
+      `${labels.metric_with_unit(data, name)}: ${description}; ${labels.direction_words(direction)}. Bars: 95 % ` +
+        'intervals. Filled: p (Holm) below 0.05, corrected for the number of combinations.'
+    );
+  };
+  const first = default_metric(data, run);
+  show(first);
+  const options = run.differences.map((one, index) => ({
+    value: String(index),
+    label: labels.metric_with_unit(data, one.metric),
+  }));
+  fill(
+    body,
+    controls.row(controls.select('Metric', options, String(first), (value) => show(Number(value)))),
+    holder,
+    note
+  );
+}
