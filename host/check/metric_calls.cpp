@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A metric measures a trial in which robots and people go straight on.
+#include <dmrp/draft/processor_time.h>
+
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -66,7 +68,10 @@ class MetricCalls {
     std::vector<dmrp_robot_sample> robots;
     std::vector<dmrp_call> calls;
     const std::int32_t planned = stage_.settings.fails_to_plan ? DMRP_NO_SOLUTION : DMRP_OK;
-    if (step_ == 0 && robot_count_ > 0) calls.push_back({DMRP_CALL_PLAN, 0, planned, 0, 5'000'000});
+    if (step_ == 0 && robot_count_ > 0) {
+      calls.push_back({DMRP_CALL_PLAN, 0, planned, 0, 5'000'000});
+      calls.push_back({DMRP_CALL_PLAN_PROCESSOR_TIME, 0, planned, 0, 4'000'000});
+    }
     for (std::uint32_t i = 0; i < robot_count_; ++i) {
       const core::RobotState& robot = world.robots()[i];
       const double progress_m = std::abs(robot.pose.x - stage_.variant.scenario.robots[i].start.x);

@@ -11,6 +11,7 @@
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/host_callback.hpp"
 #include "host/plugins/v1_sizes.hpp"
+#include "host/program/processor_time.hpp"
 
 namespace dmrp::host {
 
@@ -158,12 +159,18 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
   collected.given.resize(problem.robot_count);
   GrownStruct<dmrp_plan_sink> sink(sink_into(collected), planner.grown_bytes());
   const auto table = planner.table<dmrp_global_planner>();
+  std::int64_t processor_ns = 0;
   const auto call = [&] {
-    return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout,
-                        [&] { return table.plan(planner.self(), &problem, &sink.c); });
+    return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout, [&] {
+      const std::int64_t before_ns = processor_time_ns();
+      const std::int32_t status = table.plan(planner.self(), &problem, &sink.c);
+      processor_ns = processor_time_ns() - before_ns;
+      return status;
+    });
   };
   const auto result = with_reason(call, collected.refused);
-  PlannerAnswer answer{result.status, result.duration_ns, planner.guard().error(), {}, std::move(collected.statistics)};
+  PlannerAnswer answer{
+      result.status, result.duration_ns, processor_ns, planner.guard().error(), {}, std::move(collected.statistics)};
   if (result.status == DMRP_NO_SOLUTION) return answer;
   if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
     answer.paths = std::move(collected.paths);
@@ -218,6 +225,7 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
   PlannerAnswer answer = call_planner(planner, problem.c, step);
   plan.status = answer.status;
   plan.planning_ns = answer.planning_ns;
+  plan.processor_ns = answer.processor_ns;
   plan.statistics = std::move(answer.statistics);
   if (answer.paths.empty()) return plan;
   const PlanVerdict verdict = validate_plan(

@@ -33,9 +33,10 @@ class Plan {
   std::int32_t status = DMRP_NO_SOLUTION;
   std::int64_t from_ns = 0;
   std::int64_t step_duration_ns = 0;
-  std::int64_t planning_ns = 0;
-  std::uint32_t conflicts = 0;  // of an uncoordinated planner
-  bool planner_called = false;  // false where the robots cannot be put on distinct cells
+  std::int64_t planning_ns = 0;   // wall time
+  std::int64_t processor_ns = 0;  // of all threads of the process
+  std::uint32_t conflicts = 0;    // of an uncoordinated planner
+  bool planner_called = false;    // false where the robots cannot be put on distinct cells
 
   bool exists() const { return !paths.empty(); }
 
@@ -82,9 +83,10 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
 // The result of one call of plan(), not yet validated.
 struct PlannerAnswer {
   std::int32_t status = DMRP_NO_SOLUTION;
-  std::int64_t planning_ns = 0;
-  std::string text;    // of set_error()
-  PlannedPaths paths;  // one per robot; empty if there is no plan
+  std::int64_t planning_ns = 0;   // wall time
+  std::int64_t processor_ns = 0;  // of all threads of the process
+  std::string text;               // of set_error()
+  PlannedPaths paths;             // one per robot; empty if there is no plan
   std::vector<PlanStatistic> statistics;
 };
 

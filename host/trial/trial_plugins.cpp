@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/trial_plugins.hpp"
 
+#include <dmrp/draft/processor_time.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -135,7 +136,10 @@ void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const Call
 Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   Plan plan = make_plan(*planner_, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
-  if (plan.planner_called) note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
+  if (plan.planner_called) {
+    note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
+    note_call(DMRP_CALL_PLAN_PROCESSOR_TIME, 0, {plan.status, plan.processor_ns});
+  }
   return plan;
 }
 

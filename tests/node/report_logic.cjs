@@ -243,6 +243,15 @@ const tests = {
       ]
     );
   },
+  'a column of medians shows the median, without the interval of the mean'() {
+    const data = sample();
+    const [layout] = data.layouts.report.tables;
+    layout.columns[0].median = true;
+    data.planner_summaries[0][1] = {...data.planner_summaries[0][1], mean: 4.21, median: 0.14, low: 0.1, high: 9};
+    const model = table_model.make(data, layout, labels.variants(data));
+    const [cell] = model.groups[0].rows[0].cells;
+    same([cell.mean, cell.low, cell.high], [0.14, null, null]);
+  },
   'scenarios without robots have no rows'() {
     const data = sample();
     data.scenarios.push({name: 'mall', robots: 0, people: 3});

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
-// planning_time.hpp: the wall time of the first planner call.
+// planning_time.hpp: the processor time of the first planner call.
 #pragma once
 
-#include "metrics/measure/first_plan_metric.hpp"
+#include <cstdint>
+#include <dmrp/plugin.hpp>
+#include <optional>
 
 namespace dmrp::metrics {
 
-class PlanningTime final : public FirstPlanMetric {
+class PlanningTime final : public Metric {
  public:
   static Descriptor describe();
+  void begin(const dmrp_plan* plan) override;
+  void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
+
+ private:
+  bool planned_ = false;
+  std::optional<std::int64_t> first_ns_;
 };
 
 }  // namespace dmrp::metrics

@@ -191,7 +191,7 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
   trial.end(3.0, {never, never});
   const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan"};
   const std::set<std::string> no_motion = {"ttc_min", "path_irregularity", "schedule_error_s", "schedule_deviation_s"};
-  const std::set<std::string> no_calls = {"plan_call_mean",    "plan_call_p99",    "plan_missed",
+  const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                           "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> nobody = {"clearance_person_min",     "clearance_person_mean", "danger_time_person",
                                         "proxemics_intimate",       "proxemics_personal",    "proxemics_social",

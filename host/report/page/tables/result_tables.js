@@ -88,6 +88,11 @@ function field_buttons(model, sort_by) {
   );
 }
 
+function unit_words(column) {
+  const words = [numbers.unit(column.metric.unit), column.median && 'median'].filter(Boolean);
+  return words.join(', ') || '\u2013';
+}
+
 function column_button(column, c, starts, sort_by) {
   const about = `${column.metric.description} (${labels.direction_words(column.metric.direction)})`;
   return element(
@@ -97,7 +102,7 @@ function column_button(column, c, starts, sort_by) {
       'button',
       {type: 'button', class: 'sort', 'data-sort': c, 'data-about': about, onclick: () => sort_by(c)},
       element('span', {class: 'header'}, column.header),
-      element('span', {class: 'unit'}, numbers.unit(column.metric.unit) || '\u2013')
+      element('span', {class: 'unit'}, unit_words(column))
     )
   );
 }

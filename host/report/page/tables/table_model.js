@@ -24,7 +24,7 @@ function source(data, layout) {
   };
 }
 
-// The layout's columns whose metrics the run has: [{metric, index, header, decimals, spread_index, variant}].
+// The layout's columns whose metrics the run has: [{metric, index, header, decimals, median, spread_index, variant}].
 function columns_of(data, layout, variant) {
   const index_of = (name) => data.metrics.findIndex((metric) => metric.name === name);
   return layout.columns
@@ -34,6 +34,7 @@ function columns_of(data, layout, variant) {
       index: index_of(column.metric),
       header: column.header,
       decimals: column.decimals,
+      median: column.median === true,
       spread_index: column.spread ? index_of(column.spread) : -1,
       variant,
     }));
@@ -52,7 +53,8 @@ function cell_of(data, from, row, column) {
   const summary = from.summaries[row][column.index];
   const spread = column.spread_index >= 0 ? from.summaries[row][column.spread_index].mean : null;
   const best = ranking.is_best(data, from.rows[row], column.metric.name);
-  return {...summary, spread, trials: from.trials[row], best};
+  const shown = column.median ? {...summary, mean: summary.median, low: null, high: null} : summary;
+  return {...shown, spread, trials: from.trials[row], best};
 }
 
 // One group of rows for each variant, as in Table III of the paper.

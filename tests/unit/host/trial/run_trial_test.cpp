@@ -2,6 +2,7 @@
 // A trial and its metrics in this process, with plugins that check their inputs (trial_plugins.cpp).
 #include "host/trial/run_trial.hpp"
 
+#include <dmrp/draft/processor_time.h>
 #include <dmrp/ext/annotate.h>
 
 #include <catch2/catch.hpp>
@@ -130,10 +131,24 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   CHECK(system_of(stage.measured(), "samples") == 1.0);
   stage.reader->rewind();
   const dmrp_sample* sample = stage.reader->next_sample();
-  REQUIRE(sample->call_count == 1);
+  REQUIRE(sample->call_count == 2);
   CHECK(sample->calls->kind == DMRP_CALL_PLAN);
   CHECK(sample->calls->status == stage.reader->plans()[0].plan.status);
   CHECK(sample->calls->duration_ns == stage.reader->plans()[0].plan.planning_ns);
+}
+
+TEST_CASE("the processor time of planning leaves out what the planner waits for") {
+  CheckedStage stage(1, "sleep");
+  stage.run();
+  const dmrp_plan* plan = stage.reader->first_plan();
+  REQUIRE(plan);
+  stage.reader->rewind();
+  const dmrp_sample* sample = stage.reader->next_sample();
+  REQUIRE(sample->call_count >= 2);
+  CHECK(sample->calls[1].kind == DMRP_CALL_PLAN_PROCESSOR_TIME);
+  CHECK(sample->calls[1].duration_ns > 0);
+  CHECK(plan->planning_ns >= 50'000'000);
+  CHECK(sample->calls[1].duration_ns < plan->planning_ns / 2);
 }
 
 TEST_CASE("a trial without robots plans nothing, and is over when everybody has left") {

@@ -7,6 +7,7 @@
 #include <dmrp/ext/obstacle_clusters.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/random.hpp>
@@ -15,6 +16,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 template <>
@@ -39,7 +41,7 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
         .uses(DMRP_EXT_ANNOTATE)
         .uses(DMRP_EXT_LIDAR);
   }
-  dmrp::Param<std::string> does = param("does", "plan").doc("plan, half, nothing, timeout, late, wait or fatal");
+  dmrp::Param<std::string> does = param("does", "plan").doc("plan, half, nothing, timeout, late, wait, sleep or fatal");
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     expect(problem.revision == 1 && problem.in_force.empty(), "the first plan");
@@ -52,6 +54,7 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
     if (*does == "timeout") return dmrp::Status::timeout;
     while (*does == "wait" && !should_stop()) {
     }
+    if (*does == "sleep") std::this_thread::sleep_for(std::chrono::milliseconds(50));
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
       if (*does == "half" && i > 0) break;
       const dmrp::PlanningRobot& robot = problem.robots[i];

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Success, path length, planning time, completion time, speed: cases computed by hand.
+#include <dmrp/draft/processor_time.h>
+
 #include <catch2/catch.hpp>
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
@@ -149,13 +151,22 @@ TEST_CASE("planned length and turns come from the first plan, without waits") {
   CHECK(m.system("plan_turns") == 4.0);
 }
 
-TEST_CASE("planning time is the time of the first plan, in milliseconds") {
+TEST_CASE("planning time is the processor time of the first plan, in milliseconds") {
   SyntheticTrial trial(1);
-  trial.plan({{{0, 0}, {1, 0}}}, 12'500'000);
+  trial.plan({{{0, 0}, {1, 0}}}, 40'000'000);
   trial.sample(0.0, {at(0, 0)});
+  trial.calls(
+      {{DMRP_CALL_PLAN, 0, DMRP_OK, 0, 40'000'000}, {DMRP_CALL_PLAN_PROCESSOR_TIME, 0, DMRP_OK, 0, 12'500'000}});
   trial.plan({{{0, 0}, {1, 0}}}, 99'000'000);
-  trial.sample(1.0, {at(1, 0)}).end(1.0);
+  trial.sample(1.0, {at(1, 0)});
+  trial.calls({{DMRP_CALL_PLAN_PROCESSOR_TIME, 0, DMRP_OK, 0, 98'000'000}}).end(1.0);
   CHECK(measure("dmrp.metric.planning_time", trial).system("planning_time") == 12.5);
+}
+
+TEST_CASE("planning time is undefined where the processor time was not measured") {
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}, {1, 0}}}, 40'000'000).sample(0.0, {at(0, 0)}).end(1.0);
+  CHECK(std::isnan(measure("dmrp.metric.planning_time", trial).system("planning_time")));
 }
 
 TEST_CASE("completion time is the last arrival") {
