@@ -96,7 +96,7 @@ export function mount(body, data) {
       element('div', {}, element('p', {class: 'kicker'}, 'dmrp comparison of runs'), element('h1', {}, title)),
       theme.button()
     ),
-    element('p', {class: 'subtitle'}, `${pairs} with the same scenario, robots, seed and plugins' labels in both runs`),
+    element('p', {class: 'subtitle'}, `${pairs} with the same scenario, robots, seed and labels of plugins in both runs`),
     choices(data),
     data.runs.map((run) => [data.runs.length > 1 && element('h3', {class: 'compared'}, run.path), verdict(data, run)])
   );

@@ -47,7 +47,7 @@ export function mount(body, data, run) {
       ? element('p', {class: 'lead'}, 'Program, machine, plugin libraries and settings are the same.')
       : element(
           'ul',
-          {class: 'answer-lines'},
+          {class: 'answer-lines changes'},
           run.changes.map((change) => element('li', {}, change))
         ),
     run.libraries.length > 0 && titled_table(id, 'Plugin libraries', 'The first digits of the SHA-256 of each.', libraries_table(run))
