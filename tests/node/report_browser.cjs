@@ -126,6 +126,15 @@ async function check_layout(page, where) {
       if (first.some((cell) => getComputedStyle(cell).position !== 'sticky'))
         problems.push(`${table} loses its first column when it scrolls`);
     }
+    for (const facet of document.querySelectorAll('.facet')) {
+      const [title, button] = [facet.querySelector('h4'), facet.querySelector('.figure-tools')];
+      if (!title || !button) continue;
+      const words = document.createRange();
+      words.selectNodeContents(title);
+      const of = button.getBoundingClientRect();
+      const covers = (line) => line.right > of.left && line.left < of.right && line.bottom > of.top && line.top < of.bottom;
+      if ([...words.getClientRects()].some(covers)) problems.push(`a button covers the title '${title.textContent}'`);
+    }
     for (const attribute of document.querySelectorAll('svg [d], svg [transform], svg [x], svg [x1], svg [cx]'))
       for (const {name, value} of attribute.attributes)
         if (/NaN|undefined/.test(value)) problems.push(`${name}="${value}" in ${attribute.closest('section').id}`);
