@@ -29,7 +29,8 @@ params_file = "controllers/tuned/mpc.toml"
 bound = "upper"
 EOT
 expect_status 0 "$host" "$scratch/bounds.toml" --out "$scratch/run"
-grep -q 'place_safe_success: from low (0) to high (1) in safe_success' "$scratch/stdout" || fail "the table has no place"
+tr -s '\n ' ' ' <"$scratch/stdout" | grep -q 'place_safe_success: from low (0) to high (1) in safe_success' ||
+  fail "the table has no place"
 
 # place CONTROLLER: mean, ci_low, ci_high
 place() { awk -F, -v of="$1" '$4 == of && $6 == "place_safe_success" { print $10, $13, $14 }' "$scratch/run/summary.csv"; }
