@@ -7,7 +7,7 @@
 #include <set>
 
 #include "host/check/case_functions.hpp"
-#include "host/check/rehearsal.hpp"
+#include "host/check/rehearsal/rehearsal.hpp"
 #include "host/plugins/offered_extensions.hpp"
 
 namespace dmrp::host::descriptor_cases {

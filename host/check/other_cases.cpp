@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "host/check/case_functions.hpp"
-#include "host/check/rehearsal.hpp"
+#include "host/check/rehearsal/rehearsal.hpp"
 #include "host/process/sanitized.hpp"
 
 namespace dmrp::host {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "host/check/case_functions.hpp"
-#include "host/check/rehearsal.hpp"
+#include "host/check/rehearsal/rehearsal.hpp"
 #include "host/plugins/parameter_text.hpp"
 
 namespace dmrp::host::parameter_cases {

@@ -10,7 +10,7 @@
 
 #include "host/check/case_functions.hpp"
 #include "host/check/process_state.hpp"
-#include "host/check/rehearsal.hpp"
+#include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/symbol_hooks.hpp"
 #include "host/process/sanitized.hpp"
 

@@ -15,7 +15,7 @@
 #include <ctime>
 #include <string_view>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 
 namespace dmrp::host {
 

@@ -6,13 +6,13 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/run_description.hpp"
-#include "host/commands/run_directory.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/read_file.hpp"
 #include "host/results/database.hpp"
 #include "host/results/sqlite.hpp"
+#include "host/run/run_description.hpp"
+#include "host/run/run_directory.hpp"
 #include "host/verify/stored_digests.hpp"
 
 namespace dmrp::host {

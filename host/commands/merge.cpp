@@ -11,8 +11,6 @@
 #include <system_error>
 
 #include "host/commands/commands.hpp"
-#include "host/commands/run_directory.hpp"
-#include "host/commands/run_results.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
@@ -22,6 +20,8 @@
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trace_path.hpp"
+#include "host/run/run_directory.hpp"
+#include "host/run/run_results.hpp"
 
 namespace dmrp::host {
 

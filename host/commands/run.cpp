@@ -7,9 +7,6 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/run_description.hpp"
-#include "host/commands/run_directory.hpp"
-#include "host/commands/run_results.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
@@ -20,6 +17,9 @@
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
+#include "host/run/run_description.hpp"
+#include "host/run/run_directory.hpp"
+#include "host/run/run_results.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/workers/supervisor.hpp"
 

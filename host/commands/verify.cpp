@@ -9,10 +9,10 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/run_description.hpp"
-#include "host/commands/run_directory.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/results/database.hpp"
+#include "host/run/run_description.hpp"
+#include "host/run/run_directory.hpp"
 #include "host/verify/stored_digests.hpp"
 #include "host/verify/trial_differences.hpp"
 #include "host/workers/supervisor.hpp"

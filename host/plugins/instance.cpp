@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/plugins/output.hpp"
+#include "host/plugins/calls/output.hpp"
 #include "host/plugins/parameter_table.hpp"
 
 namespace dmrp::host {

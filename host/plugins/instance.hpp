@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 #include "host/plugins/library.hpp"
 #include "host/plugins/plugin_host.hpp"
 #include "host/plugins/plugin_use.hpp"

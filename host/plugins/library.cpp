@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"
+#include "host/plugins/calls/fp_control.hpp"
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
-#include "host/plugins/fp_control.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/plugins/v1_sizes.hpp"
 #include "host/program/executable.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 #include "host/plugins/grown_struct.hpp"
 
 namespace dmrp::host {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/plugins/timing_reason.hpp"
+#include "host/plugins/calls/timing_reason.hpp"
 #include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {

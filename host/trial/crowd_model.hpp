@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/world/world.hpp"
-#include "host/plugins/input_copy.hpp"
+#include "host/plugins/calls/input_copy.hpp"
+#include "host/plugins/calls/output.hpp"
 #include "host/plugins/instance.hpp"
-#include "host/plugins/output.hpp"
 
 namespace dmrp::host {
 

@@ -12,8 +12,8 @@
 #include "core/execution/action_dependencies.hpp"
 #include "core/execution/progress.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/planning.hpp"
-#include "host/trial/variant_world.hpp"
+#include "host/trial/plans/planning.hpp"
+#include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
 

@@ -13,7 +13,7 @@
 #include <tuple>
 
 #include "host/errors/escaped_text.hpp"
-#include "host/plugins/host_callback.hpp"
+#include "host/plugins/calls/host_callback.hpp"
 #include "host/plugins/v1_sizes.hpp"
 #include "host/results/result_bytes.hpp"
 

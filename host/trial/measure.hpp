@@ -10,7 +10,7 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/results/trial_record.hpp"
 #include "host/trial/instance_pool.hpp"
-#include "host/trial/walking_grids.hpp"
+#include "host/trial/world/walking_grids.hpp"
 
 namespace dmrp::host {
 

@@ -12,7 +12,7 @@
 
 #include "core/world/world.hpp"
 #include "host/trial/crowd_model.hpp"
-#include "host/trial/variant_world.hpp"
+#include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
 

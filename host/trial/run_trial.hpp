@@ -7,7 +7,7 @@
 #include "core/trace/trace_encoder.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/trial/instance_pool.hpp"
-#include "host/trial/variant_world.hpp"
+#include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
 

@@ -15,17 +15,17 @@
 
 #include "core/sensors/lidar.hpp"
 #include "core/world/world.hpp"
-#include "host/plugins/input_copy.hpp"
-#include "host/plugins/output.hpp"
+#include "host/plugins/calls/input_copy.hpp"
+#include "host/plugins/calls/output.hpp"
 #include "host/trial/annotations.hpp"
 #include "host/trial/crowd_model.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
 #include "host/trial/people_future.hpp"
-#include "host/trial/planning.hpp"
+#include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
-#include "host/trial/variant_world.hpp"
+#include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
 

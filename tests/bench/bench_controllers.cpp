@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 #include "host/workers/supervisor.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"
 #include "tests/bench/bench_controllers_trial.hpp"

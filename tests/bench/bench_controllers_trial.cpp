@@ -14,7 +14,7 @@
 #include "core/execution/ending.hpp"
 #include "core/execution/progress.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/planning.hpp"
+#include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"

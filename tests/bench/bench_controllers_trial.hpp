@@ -8,7 +8,7 @@
 
 #include "host/experiment/experiment.hpp"
 #include "host/trial/instance_pool.hpp"
-#include "host/trial/variant_world.hpp"
+#include "host/trial/world/variant_world.hpp"
 #include "tests/bench/bench_controllers_tape.hpp"
 
 namespace dmrp::bench {

@@ -15,7 +15,7 @@
 #include "core/trace/trace_encoder.hpp"
 #include "core/world/world.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/trial_plugins.hpp"
 #include "tests/bench/bench_rows.hpp"

@@ -39,6 +39,9 @@ forbid core/scene/broken_f.cpp '#include "core/world/world_probe.hpp"'
 forbid host/files/broken_f.cpp '#include "host/trial/trial_probe.hpp"'
 forbid plugins/planners/mapf/broken_f.cpp '#include "planners/cbs/cbs.hpp"'
 forbid core/cellar/f.cpp '#include <vector>'
+# a room that is too full
+for ((source = 1; source < 33; ++source)); do add "host/program/full_$source.cpp" ''; done
+forbid host/program/full_33.cpp ''
 # link lines, plugin ids, and what core leaves to the host
 forbid plugins/planners/cbs/CMakeLists.txt 'target_link_libraries(broken PRIVATE dmrp::core)'
 forbid core/statistics/CMakeLists.txt 'target_link_libraries(broken PRIVATE dmrp_host)'

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/plugins/call_guard.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 #include "host/program/monotonic_time.hpp"
-#include "host/trial/planning.hpp"
+#include "host/trial/plans/planning.hpp"
 
 using namespace dmrp::host;
 

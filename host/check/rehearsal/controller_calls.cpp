@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// A controller drives the first robot along a straight plan among people, or all robots if it is central.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "host/check/rehearsal/rehearsal.hpp"
+#include "host/check/rehearsal/stage_extensions.hpp"
+#include "host/plugins/calls/output.hpp"
+#include "host/trial/dispatcher.hpp"
+#include "host/trial/observation.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+class ControllerCalls {
+ public:
+  ControllerCalls(Instance& instance, const PluginInfo& info, Stage& stage)
+      : instance_(instance),
+        stage_(stage),
+        central_(info.has_flag(DMRP_FLAG_CENTRAL)),
+        driven_(central_ ? static_cast<std::uint32_t>(stage.world.robots().size()) : 1),
+        table_(instance.table<dmrp_local_controller>()),
+        extensions_(instance, info, stage, driven_),
+        dispatcher_(stage.variant, stage.world),
+        inputs_(stage.settings.grown_bytes),
+        revisions_(driven_) {
+    Plan plan = stage.straight_plan();
+    dispatcher_.set_plan(plan);
+  }
+
+  bool next(Outputs& outputs) {
+    if (tick_++ >= stage_.settings.ticks) return end();
+    dispatcher_.update_targets();
+    std::vector<std::uint32_t> active;
+    for (std::uint32_t i = 0; i < driven_; ++i)
+      if (stage_.world.robots()[i].state == DMRP_ROBOT_ACTIVE) active.push_back(i);
+    if (active.empty()) return end();
+    extensions_.foresee_people();
+    for (const std::uint32_t robot : active) {
+      extensions_.sensors(robot).tick();
+      if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) set_path(robot, path);
+    }
+    central_ ? step_all(active, outputs) : step(outputs);
+    const auto& settings = stage_.variant.simulation;
+    for (std::int64_t t_ns = 0; t_ns < settings.control_period_ns; t_ns += settings.step_ns) {
+      stage_.step();
+      dispatcher_.update_progress();
+    }
+    return true;
+  }
+
+ private:
+  bool end() {
+    const dmrp_trial_end end = {sizeof(end), DMRP_ENDING_TIME_LIMIT, stage_.world.t_ns(), nullptr,
+                                0,           sizeof(dmrp_robot_end)};
+    instance_.end_trial(end, tick_, stage_budget_ns);
+    return false;
+  }
+
+  void set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints) {
+    inputs_.clear();
+    const dmrp_path path = {0, static_cast<std::uint32_t>(waypoints.size()), inputs_.stride<dmrp_waypoint>(), 0,
+                            inputs_.array(waypoints.data(), waypoints.size())};
+    const dmrp_path_update* const update =
+        inputs_.one(dmrp_path_update{0, robot, ++revisions_[robot], inputs_.one(path)});
+    inputs_.seal();
+    instance_.call("set_path", tick_, stage_budget_ns, Answers::no_other,
+                   [&] { return table_.set_path(instance_.self(), update); });
+    inputs_.check(instance_.site("set_path", tick_));
+  }
+
+  dmrp_observation grown_observation(std::uint32_t robot, const Guidance& guidance) {
+    dmrp_observation seen = observation_of(robot, guidance, stage_.variant, stage_.world, extensions_.sensors(robot));
+    seen.struct_size = inputs_.stride<dmrp_observation>();
+    seen.goal = inputs_.array(seen.goal, 1);
+    seen.limits = inputs_.one(*seen.limits);
+    seen.footprint = inputs_.one(*seen.footprint);
+    seen.agents = inputs_.array(seen.agents, seen.agent_count);
+    seen.agent_stride = inputs_.stride<dmrp_agent>();
+    return seen;
+  }
+
+  void step(Outputs& outputs) {
+    inputs_.clear();
+    const Guidance guidance = dispatcher_.guidance(0);
+    const dmrp_observation* const seen = inputs_.one(grown_observation(0, guidance));
+    inputs_.seal();
+    Output<dmrp_command> command;
+    const auto result = instance_.call("step", tick_, stage_budget_ns, Answers::no_solution,
+                                       [&] { return table_.step(instance_.self(), seen, &command.value); });
+    command.check(instance_.site("step", tick_), "dmrp_command");
+    inputs_.check(instance_.site("step", tick_));
+    drive(0, command.value, result.status, "step", outputs);
+  }
+
+  void step_all(const std::vector<std::uint32_t>& active, Outputs& outputs) {
+    inputs_.clear();
+    std::vector<Guidance> guidance;
+    for (const std::uint32_t robot : active) guidance.push_back(dispatcher_.guidance(robot));
+    std::vector<dmrp_observation> seen;
+    for (std::size_t i = 0; i < active.size(); ++i) seen.push_back(grown_observation(active[i], guidance[i]));
+    // commands are the plugin's to write to: not part of the inputs that are compared
+    Inputs commands_memory(stage_.settings.grown_bytes);
+    const std::vector<dmrp_command> empty(active.size());
+    dmrp_command* const commands = commands_memory.array(empty.data(), empty.size());
+    for (std::size_t i = 0; i < active.size(); ++i)
+      commands_memory.at(commands, i).struct_size = commands_memory.stride<dmrp_command>();
+    const dmrp_fleet* const fleet =
+        inputs_.one(dmrp_fleet{0, static_cast<std::uint32_t>(active.size()), inputs_.array(seen.data(), seen.size()),
+                               inputs_.stride<dmrp_observation>(), inputs_.stride<dmrp_command>(), commands});
+    inputs_.seal();
+    instance_.call("step_all", tick_, stage_budget_ns, Answers::no_other,
+                   [&] { return table_.step_all(instance_.self(), fleet); });
+    inputs_.check(instance_.site("step_all", tick_));
+    commands_memory.check_output<dmrp_command>(active.size(), instance_.site("step_all", tick_));
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      const dmrp_command& command = commands_memory.at(commands, i);
+      drive(active[i], command, command.status, "step_all", outputs);
+    }
+  }
+
+  void drive(std::uint32_t robot, const dmrp_command& command, std::int32_t status, const char* function,
+             Outputs& outputs) {
+    outputs.push_back(status);
+    dmrp_twist twist{};
+    if (status != DMRP_NO_SOLUTION) {
+      twist = {command.v_x, command.v_y, command.omega};
+      if (!std::isfinite(twist.v_x) || !std::isfinite(twist.v_y) || !std::isfinite(twist.omega))
+        throw PluginFault(fault_kind::bad_output, instance_.site(function, tick_),
+                          fmt::format("gave the command ({}, {}, {})", twist.v_x, twist.v_y, twist.omega));
+      outputs.insert(outputs.end(), {twist.v_x, twist.v_y, twist.omega});
+    }
+    stage_.world.set_command(robot, twist);
+  }
+
+  Instance& instance_;
+  Stage& stage_;
+  bool central_;
+  std::uint32_t driven_;  // robots
+  dmrp_local_controller table_;
+  StageExtensions extensions_;
+  Dispatcher dispatcher_;
+  Inputs inputs_;
+  std::vector<std::uint64_t> revisions_;  // of paths, by robot
+  std::int64_t tick_ = 0;
+};
+
+}  // namespace
+
+Calls controller_calls(Instance& instance, const PluginInfo& info, Stage& stage) {
+  return [calls = std::make_shared<ControllerCalls>(instance, info, stage)](Outputs& outputs) {
+    return calls->next(outputs);
+  };
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// inputs.hpp: what a case passes to a plugin function: copies, as long as a later minor version would make them, that are
+// compared after the call.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <vector>
+
+#include "host/plugins/calls/plugin_fault.hpp"
+
+namespace dmrp::host {
+
+class Inputs {
+ public:
+  // `grown_bytes`, a multiple of 8: what structs and array elements have beyond this host's fields.
+  explicit Inputs(std::uint32_t grown_bytes) : grown_bytes_(grown_bytes) {}
+
+  template <class Element>
+  std::uint32_t stride() const {
+    return static_cast<std::uint32_t>(sizeof(Element)) + grown_bytes_;
+  }
+
+  // Elements with that stride. Write to them before the call only.
+  template <class Element>
+  Element* array(const Element* elements, std::size_t count) {
+    std::uint8_t* const bytes = add(std::max<std::size_t>(count, 1) * stride<Element>());
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(bytes + i * stride<Element>(), elements + i, sizeof(Element));
+    return reinterpret_cast<Element*>(bytes);
+  }
+
+  // A struct with struct_size.
+  template <class Struct>
+  Struct* one(Struct value) {
+    value.struct_size = stride<Struct>();
+    return array(&value, 1);
+  }
+
+  template <class Element>
+  Element& at(Element* base, std::size_t index) const {
+    return *reinterpret_cast<Element*>(reinterpret_cast<std::uint8_t*>(base) + index * stride<Element>());
+  }
+
+  // Before and after a call: that the plugin has written to nothing of it. Throws PluginFault.
+  void seal() { sealed_ = blocks_; }
+  void check(const CallSite& site) const {
+    if (sealed_ != blocks_) throw PluginFault(fault_kind::abi_breach, site, "wrote to its input");
+  }
+  void clear() { blocks_.clear(); }
+
+  // Of the first array, if it is a plugin's output: that only the fields of `count` elements were written to.
+  template <class Element>
+  void check_output(std::size_t count, const CallSite& site) const {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(blocks_.front().data());
+    for (std::size_t i = 0; i < blocks_.front().size() * sizeof(std::uint64_t); ++i) {
+      const bool is_field = i / stride<Element>() < count && i % stride<Element>() < sizeof(Element);
+      if (!is_field && bytes[i] != static_cast<std::uint8_t>(unknown))
+        throw PluginFault(fault_kind::abi_breach, site, "wrote beyond the end of its output");
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t unknown = 0xa5a5a5a5a5a5a5a5;  // in the fields that no plugin knows
+
+  static constexpr std::size_t margin_words = 32;
+
+  std::uint8_t* add(std::size_t bytes) {
+    return reinterpret_cast<std::uint8_t*>(blocks_.emplace_back(bytes / 8 + margin_words, unknown).data());
+  }
+
+  std::uint32_t grown_bytes_;
+  std::deque<std::vector<std::uint64_t>> blocks_;  // aligned as the structs are
+  std::deque<std::vector<std::uint64_t>> sealed_;
+};
+
+}  // namespace dmrp::host

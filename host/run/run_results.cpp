@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "host/run/run_results.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/errors/machine_error.hpp"
+#include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
+#include "host/program/executable.hpp"
+#include "host/ranking/answer.hpp"
+#include "host/ranking/answer_text.hpp"
+#include "host/ranking/best_marks.hpp"
+#include "host/ranking/bounds.hpp"
+#include "host/ranking/failure_causes.hpp"
+#include "host/ranking/tested_worlds.hpp"
+#include "host/report/write_report.hpp"
+#include "host/results/trials_csv.hpp"
+#include "host/terminal/answer_block.hpp"
+#include "host/terminal/closing_line.hpp"
+#include "host/terminal/colors.hpp"
+#include "host/terminal/graded_table.hpp"
+#include "host/terminal/progress.hpp"
+#include "host/terminal/summary_table.hpp"
+#include "host/terminal/wrapped_text.hpp"
+
+namespace dmrp::host {
+
+namespace fs = std::filesystem;
+
+RunResults read_results(ResultsDatabase database, const SummaryLayout& layout, const fs::path& directory) {
+  database.finish();
+  RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}, {}};
+  results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
+  results.summarised = results.metrics;
+  const fs::path effective = directory / "effective.toml";
+  add_places(bounds_of(read_file(effective, effective.string())), layout, results.trials, results.summarised,
+             results.summaries);
+  return results;
+}
+
+void write_tables(const RunResults& results, const fs::path& directory) {
+  write_file_atomically(directory / "trials.csv", trials_csv(results.metrics, results.trials));
+  write_file_atomically(directory / "summary.csv", summary_csv(results.summarised, results.summaries));
+}
+
+bool try_to_report(const RunResults& results, const fs::path& directory) {
+  if (results.trials.empty()) return false;
+  try {
+    write_report(directory);
+    return true;
+  } catch (const std::exception& error) {
+    if (is_machine_failure(error)) throw;
+    fmt::print(stderr, "warning: no report.html: {}\n", error.what());
+    return false;
+  }
+}
+
+namespace {
+
+constexpr std::uint32_t few_trials = 5;
+
+std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
+  std::uint32_t least = few_trials;
+  for (const CombinationSummary& summary : summaries) least = std::min(least, summary.trials);
+  return least < few_trials ? fmt::format("caution: {}: means of so few can mislead",
+                                          least == 1 ? "1 trial each" : fmt::format("{} trials each", least))
+                            : "";
+}
+
+}  // namespace
+
+void print_results(const RunResults& results, const SummaryLayout& own_layout, const fs::path& directory, bool reported,
+                   std::span<const ScenarioFacts> scenarios) {
+  const SummaryLayout layout = with_added_columns(own_layout, results.summarised);
+  const std::vector<GradedSeries> graded = graded_series(layout, scenarios, results.trials);
+  const bool all_graded = !graded.empty() && std::all_of(scenarios.begin(), scenarios.end(),
+                                                         [](const auto& facts) { return !facts.series.empty(); });
+  constexpr std::size_t text_width = 120;  // of sentences where no terminal limits them
+  TableStyle style;
+  style.width = terminal_width();
+  style.ansi = has_colors(STDOUT_FILENO);
+  const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
+  const std::size_t width = style.width > 0 ? style.width : text_width;
+  if (!all_graded) {
+    fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
+    fmt::print("{}\n", table_legend(layout, results.summarised, marks, {width, style.ansi}));
+  }
+  if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
+    fmt::print("{}\n", wrapped_text(drawn, width, "  "));
+  fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
+  if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
+    fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
+  const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
+  for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
+    fmt::print("{}\n", wrapped_text(sentence, width, "  "));
+  const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
+    fmt::print("{}\n", answer_block(found.front(), failures, width));
+  fmt::print("  {}\n", closing_line(layout, results.trials));
+  if (const std::string by_type = arrivals_line(layout.arrived, scenarios, results.trials); !by_type.empty())
+    fmt::print("  {}\n", by_type);
+  if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
+  std::vector<std::string> files = {"results.sqlite"};
+  if (reported) files.insert(files.begin(), "report.html");
+  if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");
+  fmt::print("  {}\n", files_line(directory, files));
+}
+
+void print_results_as_json(const RunResults& results, const SummaryLayout& layout, const fs::path& directory) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"run_directory", fs::absolute(directory).string()}};
+  for (const char* outcome :
+       {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault, trial_outcome::skipped})
+    json["trials"][outcome] = std::count_if(results.trials.begin(), results.trials.end(),
+                                            [&](const TrialRecord& trial) { return trial.outcome == outcome; });
+  json["answer"] = Json::array();
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty())
+    json["answer"] = answer_lines(found.front(), failure_causes(layout, results.trials));
+  json["combinations"] = Json::array();
+  for (const CombinationSummary& summary : results.summaries) {
+    const CombinationLabels& labels = summary.combination;
+    Json& one = json["combinations"].emplace_back(Json{{"scenario", labels.scenario},
+                                                       {"robots", labels.robots},
+                                                       {"global_planner", labels.global_planner},
+                                                       {"local_controller", labels.local_controller},
+                                                       {"pedestrian_model", labels.pedestrian_model},
+                                                       {"trials", summary.trials}});
+    for (std::size_t i = 0; i < results.summarised.size(); ++i)
+      one["metrics"][results.summarised[i].name] = {{"unit", results.summarised[i].unit},
+                                                    {"defined", summary.metrics[i].defined},
+                                                    {"mean", summary.metrics[i].mean},
+                                                    {"low", summary.metrics[i].interval.low},
+                                                    {"high", summary.metrics[i].interval.high}};
+  }
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/plans/planning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/snap.hpp>
+
+#include "host/errors/escaped_text.hpp"
+#include "host/plugins/calls/host_callback.hpp"
+#include "host/plugins/v1_sizes.hpp"
+#include "host/program/processor_time.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+// The largest distance of a robot from the cell that its plan starts in, in cells.
+constexpr double snap_reach_cells = 2.0;
+
+struct Collected {
+  PlannedPaths paths;
+  std::vector<bool> given;
+  std::vector<PlanStatistic> statistics;
+  std::string refused;  // why the last path was
+};
+
+std::int32_t refuse(Collected& collected, std::uint32_t robot, const std::string& why) {
+  collected.refused = fmt::format(" (the host refused a path for robot {}: {})", robot, why);
+  return DMRP_ERROR;
+}
+
+Collected& collected_by(dmrp_plan_sink* sink) {
+  return *static_cast<Collected*>(sink->context);
+}
+
+std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_path& theirs) {
+  if (robot >= collected.paths.size())
+    return refuse(collected, robot, fmt::format("there are {} robots", collected.paths.size()));
+  if (collected.given[robot]) return refuse(collected, robot, "it has a path already");
+  if (!has_v1_0<dmrp_path>(theirs.struct_size))
+    return refuse(collected, robot,
+                  fmt::format("its struct_size is {}, at least {}", theirs.struct_size, size_v1_0<dmrp_path>));
+  const dmrp_path path = copy_struct(theirs);
+  if (path.count > 0 && !path.waypoints) return refuse(collected, robot, "its waypoints are NULL");
+  if (path.count > 0 && !has_v1_0<dmrp_waypoint>(path.stride))
+    return refuse(collected, robot,
+                  fmt::format("its stride is {}, at least {}", path.stride, size_v1_0<dmrp_waypoint>));
+  std::vector<dmrp_waypoint> waypoints;
+  waypoints.reserve(path.count);
+  for (std::uint32_t i = 0; i < path.count; ++i) waypoints.push_back(copy_element(path.waypoints, path.stride, i));
+  collected.paths[robot] = std::move(waypoints);
+  collected.given[robot] = true;
+  return DMRP_OK;
+}
+
+dmrp_plan_sink sink_into(Collected& collected) {
+  dmrp_plan_sink sink{};
+  sink.struct_size = sizeof(sink);
+  sink.context = &collected;
+  sink.path = [](dmrp_plan_sink* self, std::uint32_t robot, const dmrp_path* path) noexcept -> std::int32_t {
+    return path ? or_out_of_memory([&] { return collect_path(collected_by(self), robot, *path); }) : DMRP_ERROR;
+  };
+  sink.statistic = [](dmrp_plan_sink* self, const char* name, double value) noexcept -> std::int32_t {
+    if (!name) return DMRP_ERROR;
+    return or_out_of_memory([&] { return collected_by(self).statistics.push_back({escaped(name), value}), DMRP_OK; });
+  };
+  return sink;
+}
+
+// Planners work on cells: moves a goal to the centre of its cell.
+dmrp_goal on_grid(const toolkit::GridView& grid, dmrp_goal goal) {
+  const dmrp_vec2 center = grid.center(grid.cell_of({goal.pose.x, goal.pose.y}));
+  goal.pose.x = center.x;
+  goal.pose.y = center.y;
+  return goal;
+}
+
+// False if the robots cannot be put on distinct cells.
+bool put_on_cells(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
+                  const InForce* in_force, StagedProblem& problem) {
+  // a robot in contact can still leave the obstacle
+  const auto can_move = [&](std::size_t robot, dmrp_vec2 from, dmrp_vec2 to) {
+    const double radius_m = world.robot_settings(static_cast<std::uint32_t>(robot)).radius_m;
+    return variant.geometry->sweep_is_free(from, to, std::min(radius_m, variant.geometry->clearance(from)));
+  };
+  std::vector<toolkit::SnapRequest> requests;
+  for (std::size_t i = 0; i < world.robots().size(); ++i) {
+    const dmrp_vec2 position = toolkit::position(world.robots()[i].pose);
+    if (!in_force) {
+      requests.push_back({position, toolkit::no_cell});
+      continue;
+    }
+    // a robot that cannot return straight to its path will not be where the path predicts
+    const PathPosition& on_path = in_force->robots[i];
+    requests.push_back({can_move(i, position, on_path.next_waypoint) ? on_path.position_then : position,
+                        grid.index_of(on_path.next_waypoint_then)});
+  }
+  const auto grid_of = [&](std::size_t robot) { return toolkit::GridView(*problem.robots[robot].grid); };
+  const auto cells = toolkit::snap_to_own_cells(grid_of, requests, snap_reach_cells * grid.resolution_m(), can_move);
+  if (!cells) return false;
+  for (std::size_t i = 0; i < problem.robots.size(); ++i) problem.robots[i].start = grid.center((*cells)[i]);
+  return true;
+}
+
+void describe_robots(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
+                     StagedProblem& problem) {
+  const dmrp_world& view = variant.view.world();
+  problem.goals.resize(world.robots().size());
+  for (const core::RobotSettings& type : variant.types.all())
+    problem.grids[type.type] = variant.planning_grids->of(type.type).view();
+  for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
+    const core::RobotState& state = world.robots()[i];
+    const auto goals = world.goals(i);
+    for (std::size_t g = state.goal_index; g < goals.size(); ++g) problem.goals[i].push_back(on_grid(grid, goals[g]));
+    dmrp_planning_robot robot{};
+    robot.state = state.state;
+    robot.goal_count = static_cast<std::uint32_t>(problem.goals[i].size());
+    robot.goals = problem.goals[i].data();
+    robot.goal_stride = sizeof(dmrp_goal);
+    robot.first_goal_index = state.goal_index;
+    robot.grid = &problem.grids.at(world.robot_settings(i).type);
+    robot.robot = DMRP_AT(dmrp_robot, view.robots, view.robot_stride, i);
+    robot.pose = state.pose;
+    robot.velocity = state.velocity;
+    problem.robots.push_back(robot);
+  }
+}
+
+}  // namespace
+
+const dmrp_plan& Plan::view() {
+  c_paths_.clear();
+  for (const auto& path : paths)
+    c_paths_.push_back(
+        {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
+  c_statistics_.clear();
+  for (const PlanStatistic& statistic : statistics) c_statistics_.push_back({statistic.name.c_str(), statistic.value});
+  c_ = {sizeof(dmrp_plan),
+        static_cast<std::uint32_t>(c_paths_.size()),
+        c_paths_.data(),
+        sizeof(dmrp_path),
+        static_cast<std::uint32_t>(c_statistics_.size()),
+        c_statistics_.data(),
+        sizeof(dmrp_statistic),
+        status,
+        revision,
+        from_ns,
+        step_duration_ns,
+        planning_ns};
+  return c_;
+}
+
+PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step) {
+  Collected collected;
+  collected.paths.resize(problem.robot_count);
+  collected.given.resize(problem.robot_count);
+  GrownStruct<dmrp_plan_sink> sink(sink_into(collected), planner.grown_bytes());
+  const auto table = planner.table<dmrp_global_planner>();
+  std::int64_t processor_ns = 0;
+  const auto call = [&] {
+    return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout, [&] {
+      const std::int64_t before_ns = processor_time_ns();
+      const std::int32_t status = table.plan(planner.self(), &problem, &sink.c);
+      processor_ns = processor_time_ns() - before_ns;
+      return status;
+    });
+  };
+  const auto result = with_reason(call, collected.refused);
+  PlannerAnswer answer{
+      result.status, result.duration_ns, processor_ns, planner.guard().error(), {}, std::move(collected.statistics)};
+  if (result.status == DMRP_NO_SOLUTION) return answer;
+  if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
+    answer.paths = std::move(collected.paths);
+  else if (result.status != DMRP_TIMEOUT)
+    throw PluginFault(fault_kind::bad_output, planner.site("plan", step),
+                      "returned OK without a path for every robot" + collected.refused);
+  return answer;
+}
+
+std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info) {
+  if (!verdict.error.empty()) return "invalid plan: " + verdict.error;
+  if (verdict.conflicts == 0 || info.has_flag(DMRP_FLAG_UNCOORDINATED)) return "";
+  return fmt::format("invalid plan: {} ({} conflicts)", verdict.first_conflict, verdict.conflicts);
+}
+
+bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
+                   std::int64_t time_budget_ns, StagedProblem& problem) {
+  problem.grid = variant.planning_grid.view();
+  const toolkit::GridView grid(problem.grid);
+  describe_robots(variant, world, grid, problem);
+  if (!put_on_cells(variant, world, grid, in_force, problem)) return false;
+
+  dmrp_planning_problem& c = problem.c;
+  c.struct_size = sizeof(c);
+  c.robot_count = static_cast<std::uint32_t>(problem.robots.size());
+  c.robots = problem.robots.data();
+  c.robot_stride = sizeof(dmrp_planning_robot);
+  c.revision = in_force ? in_force->plan.revision + 1 : 1;
+  c.now_ns = world.t_ns();
+  c.effective_from_ns = world.t_ns() + variant.simulation.planning_latency_ns;
+  c.step_duration_ns = variant.simulation.step_duration_ns;
+  c.time_budget_ns = time_budget_ns;
+  c.grid = &problem.grid;
+  if (in_force) {
+    c.in_force = in_force->plan.paths;
+    c.in_force_count = in_force->plan.path_count;
+    c.in_force_stride = in_force->plan.path_stride;
+  }
+  return true;
+}
+
+Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+               const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step) {
+  Plan plan;
+  plan.revision = in_force ? in_force->plan.revision + 1 : 1;
+  plan.from_ns = world.t_ns() + variant.simulation.planning_latency_ns;
+  plan.step_duration_ns = variant.simulation.step_duration_ns;
+
+  StagedProblem problem;
+  if (!stage_problem(variant, world, in_force, time_budget_ns, problem)) return plan;
+  plan.planner_called = true;
+  PlannerAnswer answer = call_planner(planner, problem.c, step);
+  plan.status = answer.status;
+  plan.planning_ns = answer.planning_ns;
+  plan.processor_ns = answer.processor_ns;
+  plan.statistics = std::move(answer.statistics);
+  if (answer.paths.empty()) return plan;
+  const PlanVerdict verdict = validate_plan(
+      problem.c, answer.paths, info.connectivity,
+      [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); });
+  if (const std::string breach = breach_of(verdict, info); !breach.empty())
+    throw PluginFault(fault_kind::bad_output, planner.site("plan", step), breach);
+  plan.paths = std::move(answer.paths);
+  plan.conflicts = verdict.conflicts;
+  return plan;
+}
+
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
+                                         std::int64_t step_duration_ns) {
+  std::vector<dmrp_waypoint> path;
+  std::int64_t later_ns = 0;  // the duration of the legs that were inserted so far
+  const auto add_leg = [&](dmrp_pose to, std::uint32_t goal_index) {
+    later_ns += step_duration_ns;
+    path.push_back({to.x, to.y, to.theta, path.back().t_ns + step_duration_ns, goal_index, 0});
+  };
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    path.push_back(planned[i]);
+    path.back().t_ns += later_ns;
+    const std::uint32_t heads_for = planned[i].goal_index;
+    const bool is_last = i + 1 == planned.size();
+    if (!is_last && planned[i + 1].goal_index == heads_for) continue;
+    // this waypoint reaches the goal
+    const dmrp_pose& goal = goals[heads_for].pose;
+    if (std::hypot(planned[i].x - goal.x, planned[i].y - goal.y) > 1e-9) {
+      add_leg(goal, heads_for);
+      if (!is_last) add_leg({planned[i].x, planned[i].y, planned[i].theta}, planned[i + 1].goal_index);
+    } else {
+      path.back().theta = goal.theta;
+    }
+  }
+  return path;
+}
+
+}  // namespace dmrp::host

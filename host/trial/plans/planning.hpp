@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// planning.hpp: states the planning problem, calls the global planner and validates its plan.
+#pragma once
+
+#include <dmrp/global_planner.h>
+#include <dmrp/metric.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/world/world.hpp"
+#include "host/plugins/instance.hpp"
+#include "host/trial/plans/plan_validator.hpp"
+#include "host/trial/world/variant_world.hpp"
+
+namespace dmrp::host {
+
+// A named number that a planner reports of a call.
+struct PlanStatistic {
+  std::string name;
+  double value;
+};
+
+// A plan, and the C structs that view it.
+class Plan {
+ public:
+  PlannedPaths paths;  // empty if there is no plan
+  std::vector<PlanStatistic> statistics;
+  std::uint64_t revision = 0;
+  std::int32_t status = DMRP_NO_SOLUTION;
+  std::int64_t from_ns = 0;
+  std::int64_t step_duration_ns = 0;
+  std::int64_t planning_ns = 0;   // wall time
+  std::int64_t processor_ns = 0;  // of all threads of the process
+  std::uint32_t conflicts = 0;    // of an uncoordinated planner
+  bool planner_called = false;    // false where the robots cannot be put on distinct cells
+
+  bool exists() const { return !paths.empty(); }
+
+  // Valid until the plan changes or moves.
+  const dmrp_plan& view();
+
+ private:
+  std::vector<dmrp_path> c_paths_;
+  std::vector<dmrp_statistic> c_statistics_;
+  dmrp_plan c_{};
+};
+
+// A planning problem and its arrays; `c` points into this struct.
+struct StagedProblem {
+  StagedProblem() = default;
+  StagedProblem(const StagedProblem&) = delete;
+  StagedProblem& operator=(const StagedProblem&) = delete;
+
+  std::vector<std::vector<dmrp_goal>> goals;
+  std::vector<dmrp_planning_robot> robots;
+  dmrp_grid grid{};                        // for all robots
+  std::map<std::string, dmrp_grid> grids;  // by type of robot
+  dmrp_planning_problem c{};
+};
+
+// A robot on its path: now, and when a plan that is made now takes effect, as the times of the path predict.
+struct PathPosition {
+  dmrp_vec2 next_waypoint{};
+  dmrp_vec2 position_then{};  // its position now, if the plan takes effect at once
+  dmrp_vec2 next_waypoint_then{};
+};
+
+// The plan in force while the next one is made.
+struct InForce {
+  const dmrp_plan& plan;
+  std::span<const PathPosition> robots;
+};
+
+// States the problem for the robots' positions when the plan takes effect. `in_force` is nullptr for the first plan.
+// False if the robots cannot be put on distinct cells.
+bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
+                   std::int64_t time_budget_ns, StagedProblem& problem);
+
+// The result of one call of plan(), not yet validated.
+struct PlannerAnswer {
+  std::int32_t status = DMRP_NO_SOLUTION;
+  std::int64_t planning_ns = 0;   // wall time
+  std::int64_t processor_ns = 0;  // of all threads of the process
+  std::string text;               // of set_error()
+  PlannedPaths paths;             // one per robot; empty if there is no plan
+  std::vector<PlanStatistic> statistics;
+};
+
+// Calls plan() once; `step`: the physics steps since the trial's start. Throws PluginFault.
+PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step);
+
+// How a plan breaks the contract, or a promise of its planner, in one line; "" if it does not.
+std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info);
+
+// Makes a plan. `time_budget_ns` is wall time, `step` the physics steps since the start. The plan does not exist() after
+// NO_SOLUTION or TIMEOUT, or if the robots cannot be put on distinct cells. Throws PluginFault, of kind bad_output if the
+// plan breaks the contract.
+Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+               const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step);
+
+// The path that a robot's controller follows. Plans lead to the centre of a goal's cell: where the goal is not there, this
+// appends a leg to the goal and, on a tour, a leg back to the centre. Each takes `step_duration_ns`. `planned` has one
+// waypoint at least; `goals` are all of the robot's, by index.
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
+                                         std::int64_t step_duration_ns);
+
+}  // namespace dmrp::host

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "host/trial/world/variant_world.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/random.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/scene/footprint.hpp"
+#include "core/scene/robot_task.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+core::SimulationSettings with_time_limit(const Experiment& experiment, const ScenarioVariant& variant) {
+  core::SimulationSettings settings = simulation_of(experiment, variant);
+  if (!experiment.time_limit_set) settings.time_limit_ns = nanoseconds(variant.scenario.time_limit_s);
+  return settings;
+}
+
+// The scenario with the trial's robots. It draws for the variant with the most robots, and keeps people clear of the other
+// starts too: the first robots and the people are the same in all variants.
+core::Scenario with_drawn_robots(const ScenarioVariant& variant, const core::PlanningGrids& grids, std::uint64_t seed) {
+  core::Scenario scenario = variant.scenario;
+  std::vector<core::RobotTask> drawn = core::draw_tasks(grids, task_request(variant), seed).tasks;
+  if (drawn.size() < variant.most_drawn)
+    throw std::runtime_error(fmt::format("scenario '{}' has no room for {} robots", scenario.name, variant.most_drawn));
+  for (std::size_t i = variant.drawn_robots; i < drawn.size(); ++i)
+    scenario.other_starts.push_back({drawn[i].start.x, drawn[i].start.y});
+  drawn.resize(variant.drawn_robots);
+  scenario.robots.insert(scenario.robots.end(), drawn.begin(), drawn.end());
+  return scenario;
+}
+
+// Whether a robot of this type can begin there: free, and on the way from the centre of the same cell.
+bool can_begin(const core::StaticGeometry& geometry, const core::PlanningGrid& planning,
+               const core::RobotSettings& type, const dmrp_pose& listed, dmrp_vec2 place) {
+  const dmrp_grid view = planning.view();
+  const toolkit::GridView grid(view);
+  if (!grid.contains(place) || grid.index_of(place) != grid.index_of({listed.x, listed.y})) return false;
+  return geometry.disc_is_free(place, type.radius_m) &&
+         geometry.sweep_is_free(grid.center(grid.cell_of(place)), place, core::inscribed_radius(type));
+}
+
+// Displaces the listed robots' starts, uniformly in a disc, and turns them. A robot that finds no free place near its
+// own stays there.
+void jitter_starts(const ScenarioVariant& variant, const core::StaticGeometry& geometry,
+                   const core::PlanningGrids& grids, std::uint64_t seed, core::Scenario& scenario) {
+  constexpr int most_tries = 50;
+  for (std::size_t robot = 0; robot < variant.scenario.robots.size(); ++robot) {
+    core::RobotTask& task = scenario.robots[robot];
+    const dmrp_pose listed = core::start_of(task);
+    toolkit::Stream stream(seed, "robots.jitter", robot);
+    task.start.theta = listed.theta + stream.uniform(-variant.jitter.heading_rad, variant.jitter.heading_rad);
+    for (int tries = 0; tries < most_tries; ++tries) {
+      const double distance_m = variant.jitter.position_m * std::sqrt(stream.uniform());
+      const double angle = stream.uniform(0.0, 2.0 * std::numbers::pi);
+      const dmrp_vec2 place = {listed.x + distance_m * std::cos(angle), listed.y + distance_m * std::sin(angle)};
+      if (!can_begin(geometry, grids.of(task.type), variant.types.of(task), listed, place)) continue;
+      task.start.x = place.x;
+      task.start.y = place.y;
+      break;
+    }
+  }
+}
+
+core::Scenario scenario_of_trial(const ScenarioVariant& variant, const VariantWorld& shared, std::uint64_t seed) {
+  core::Scenario scenario =
+      variant.most_drawn > 0 ? with_drawn_robots(variant, *shared.planning_grids, seed) : variant.scenario;
+  if (variant.jitter.position_m > 0.0 || variant.jitter.heading_rad > 0.0)
+    jitter_starts(variant, *shared.geometry, *shared.planning_grids, seed, scenario);
+  return scenario;
+}
+
+}  // namespace
+
+VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant)
+    : scenario(variant.scenario),
+      simulation(with_time_limit(experiment, variant)),
+      geometry(std::make_shared<core::StaticGeometry>(scenario)),
+      types(variant.types),
+      planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation.grid_resolution_m,
+                                                           simulation.planning_margin_m)),
+      planning_grid(planning_grids->common(types_in_use(variant))),
+      walking_grids(std::make_shared<WalkingGrids>(geometry)),
+      routes(
+          core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
+
+VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
+                           std::uint64_t seed)
+    : scenario(scenario_of_trial(variant, shared, seed)),
+      simulation(shared.simulation),
+      geometry(shared.geometry),
+      types(shared.types),
+      planning_grids(shared.planning_grids),
+      planning_grid(shared.planning_grid),
+      walking_grids(shared.walking_grids),
+      routes(shared.routes),
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
+
+}  // namespace dmrp::host

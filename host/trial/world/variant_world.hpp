@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// variant_world.hpp: the data that all trials of a scenario variant share: static geometry, grids, the contract's view.
+// If the variant draws robots at random, each trial has its own.
+#pragma once
+
+#include <memory>
+
+#include "core/people/flow_routes.hpp"
+#include "core/scene/planning_grids.hpp"
+#include "core/scene/settings.hpp"
+#include "core/scene/static_geometry.hpp"
+#include "core/scene/world_view.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/trial/world/walking_grids.hpp"
+
+namespace dmrp::host {
+
+struct VariantWorld {
+  // Without random robots.
+  VariantWorld(const Experiment& experiment, const ScenarioVariant& variant);
+
+  // With the robots that this task_seed() draws or displaces.
+  VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
+               std::uint64_t seed);
+
+  core::Scenario scenario;
+  core::SimulationSettings simulation;  // with the time limit of this scenario
+  std::shared_ptr<const core::StaticGeometry> geometry;
+  core::RobotTypes types;
+  std::shared_ptr<const core::PlanningGrids> planning_grids;
+  core::PlanningGrid planning_grid;  // free and open for all robots
+  std::shared_ptr<WalkingGrids> walking_grids;
+  core::FlowRoutes routes;  // of the people
+  core::WorldView view;
+};
+
+// Seconds of the experiment file, in the contract's unit.
+inline std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(seconds * 1e9 + 0.5);
+}
+
+}  // namespace dmrp::host
