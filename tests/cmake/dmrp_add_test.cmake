@@ -20,7 +20,8 @@ function(dmrp_add_test name)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME area)
 
   add_executable(${name} ${test_SOURCES})
-  target_compile_definitions(${name} PRIVATE DMRP_TEST_DATA="${DMRP_TEST_DATA}")
+  target_compile_definitions(${name} PRIVATE DMRP_TEST_DATA="${DMRP_TEST_DATA}"
+                                             $<$<BOOL:${DMRP_FEWER_DRAWS}>:DMRP_FEWER_DRAWS>)
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} dmrp_test_settings Catch2::Catch2WithMain)
   dmrp_use_precompiled_headers(dmrp_test_headers ${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

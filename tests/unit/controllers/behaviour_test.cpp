@@ -98,7 +98,7 @@ TEST_CASE("A goal beside a wall") {
   check_arrives(run(controller, course), 13.0);
 }
 
-TEST_CASE("A path that an unseen wall cuts off ends before it") {
+TEST_CASE("A path that an unseen wall cuts off ends before it", "[slow]") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   CAPTURE(controller);
   Course course;

@@ -5,6 +5,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 using namespace dmrp::test;
@@ -56,7 +57,7 @@ void check_drives(const Driven& driven, Course course, double within_s) {
   const std::string id = "dmrp.controller." + driven.controller;
   dmrp::toolkit::Stream random(7, driven.controller + driven.body);
   const bool is_slow = driven.controller == "dwa" && driven.body == "holonomic rectangle";  // 300 outlines a step
-  for (int i = 0; i < (is_slow ? 1 : 2); ++i) {
+  for (int i = 0; i < draws(is_slow ? 1 : 2); ++i) {
     course.start = {random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), random.uniform(-0.2, 0.2)};
     CAPTURE(driven, i, course.start.x, course.start.y, course.start.theta);
     check_arrives(run(id, course, tuned_parameters(id)), within_s);

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 using namespace dmrp::test;
@@ -21,7 +22,7 @@ bool same_bits(const std::vector<dmrp_command>& a, const std::vector<dmrp_comman
 TEST_CASE("In random worlds commands respect the limits, and a reused instance gives the same bits") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   PluginUnderTest used(library, controller.id);
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(10u); ++seed) {
     CAPTURE(controller, seed);
     PluginUnderTest fresh(library, controller.id);
     const RandomDrive drive = drive_at_random(fresh, seed, 40);

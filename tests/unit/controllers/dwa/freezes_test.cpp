@@ -50,7 +50,7 @@ Course wall_end(dmrp::toolkit::Stream& random) {
 
 }  // namespace
 
-TEST_CASE("DWA drives a path that steps aside and comes back") {
+TEST_CASE("DWA drives a path that steps aside and comes back", "[slow]") {
   const auto draw = [](dmrp::toolkit::Stream& random) {
     Course course;
     course.path = metre_path({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {0.0, -4.0}});
@@ -62,7 +62,7 @@ TEST_CASE("DWA drives a path that steps aside and comes back") {
   CHECK(arrivals(draw, "enforce_path_inversion") < starts);
 }
 
-TEST_CASE("DWA returns to a path that its window does not hold") {
+TEST_CASE("DWA returns to a path that its window does not hold", "[slow]") {
   const auto draw = [](dmrp::toolkit::Stream& random) {
     Course course;
     course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
@@ -74,7 +74,7 @@ TEST_CASE("DWA returns to a path that its window does not hold") {
   CHECK(arrivals(draw, "return_to_path") == 0);
 }
 
-TEST_CASE("DWA leaves the end of a wall that it stands beside") {
+TEST_CASE("DWA leaves the end of a wall that it stands beside", "[slow]") {
   CHECK(arrivals(wall_end) == starts);
   CHECK(arrivals(wall_end, "leave_padding") < starts);
 }
