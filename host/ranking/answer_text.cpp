@@ -88,7 +88,7 @@ std::string worse_line(const Answer& answer) {
   return "Worse: " + list_words(names) + ".";
 }
 
-// "Of the 240 robots of SIPP + E3MoP, 20 did not arrive safely: 14 deadlock, 6 contact." "" if none did.
+// "Of the 240 robots of SIPP + E3MoP, 20 did not arrive safely: 14 deadlock, 6 after a contact at fault." "" if none did.
 std::string cause_line(const Answer& answer, const RankedCombination& one,
                        std::span<const CombinationFailures> failures) {
   std::uint32_t robots = 0;
@@ -100,7 +100,7 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
     if (std::find(answer.cells.begin(), answer.cells.end(), cell) == answer.cells.end()) continue;
     robots += other.robots;
     for (const FailureCause& cause : other.causes) add_cause(causes, cause);
-    add_cause(causes, other.contact);
+    add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials});
   }
   std::uint32_t unsafe = 0;
   for (const FailureCause& cause : causes) unsafe += cause.robots;

@@ -171,7 +171,7 @@ TEST_CASE("swapped labels swap the answer", "[ranking]") {
   CHECK_THAT(lines[1], Contains("Worse: P + B (safe 0.50 lower"));
   CHECK_THAT(swapped[0], Contains("Best: P + B"));
   CHECK_THAT(swapped[1], Contains("Worse: P + A (safe 0.50 lower"));
-  CHECK_THAT(lines[2], Contains("Of the 40 robots of P + B, 20 did not arrive safely: 20 contact."));
+  CHECK_THAT(lines[2], Contains("Of the 40 robots of P + B, 20 did not arrive safely: 20 after a contact at fault."));
   CHECK_THAT(swapped[2], Contains("Of the 40 robots of P + A, 20"));
 }
 
