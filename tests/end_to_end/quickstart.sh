@@ -27,3 +27,7 @@ arrived=$(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'suc
 [[ -z $(query "$scratch/run" "SELECT metric FROM value WHERE value IS NULL AND metric NOT IN ('completion_time', 'person_standoff')
    AND metric NOT LIKE 'group_%'") ]] ||
   fail "a value is undefined that should not be"
+
+# planning takes fractions of a millisecond: no clock of the box that moves in ticks measures it
+[[ $(query "$scratch/run" "SELECT count(*) FROM value WHERE metric = 'planning_time' AND value > 0.02 AND value < 100") == 3 ]] ||
+  fail "a planning time is not that of planning"
