@@ -36,7 +36,7 @@ TEST_CASE("the data of a comparison's page have both runs and the differences", 
   const ReportLayouts layouts = {ranking_layout(), "{}", parse_report_layout("{}", "report")};
   const auto json = nlohmann::json::parse(comparison_data_json(runs, layouts));
   CHECK(json["before"]["path"] == "runs/a");
-  CHECK(json["metrics"][1]["name"] == "done");
+  CHECK(json["metrics"][2]["name"] == "done");
   const auto& run = json["runs"][0];
   CHECK(run["path"] == "runs/b");
   CHECK(run["differences"][0]["difference"] == 0.25);
