@@ -28,12 +28,8 @@ std::int64_t case_limit_s() {
   return sanitizer_is_loaded() ? 300 : 30;
 }
 
-// On a loaded machine a case waits for a processor longer than it computes: that does not count, within reason.
-constexpr std::int64_t longest_wait_factor = 20;
-
 bool is_late(const ChildProcess& child, std::int64_t elapsed_ns) {
-  const std::int64_t limit_ns = case_limit_s() * 1'000'000'000;
-  return elapsed_ns - child.waited_for_processor_ns() > limit_ns || elapsed_ns > longest_wait_factor * limit_ns;
+  return child.is_late(elapsed_ns, 0, case_limit_s() * 1'000'000'000);
 }
 
 // A line of the answer. Texts of plugins need not be UTF-8: invalid bytes are replaced.

@@ -80,6 +80,8 @@ void execute_program(const char* const* arguments, const ChildProcess::Program& 
   _exit(start_failed_exit);
 }
 
+constexpr int longest_wait_factor = 20;  // no limit is exceeded more often than this, however loaded the machine is
+
 }  // namespace
 
 const char* ProcessEnding::fault_kind() const {
@@ -175,6 +177,12 @@ std::int64_t ChildProcess::waited_for_processor_ns() const {
   std::int64_t waited_ns = 0;
   if (pid_ >= 0) std::ifstream(fmt::format("/proc/{}/schedstat", pid_)) >> ran_ns >> waited_ns;
   return waited_ns;
+}
+
+bool ChildProcess::is_late(std::int64_t elapsed_ns, std::int64_t waited_before_ns, std::int64_t limit_ns) const {
+  if (elapsed_ns <= limit_ns) return false;
+  const std::int64_t waited_ns = waited_for_processor_ns() - waited_before_ns;
+  return elapsed_ns - waited_ns > limit_ns || elapsed_ns / longest_wait_factor > limit_ns;
 }
 
 void ChildProcess::allow_cpu(double s) {

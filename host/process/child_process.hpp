@@ -89,6 +89,10 @@ class ChildProcess {
   // How long its main thread has waited for a processor while others used all; 0 where the kernel does not count it.
   std::int64_t waited_for_processor_ns() const;
 
+  // Whether it has taken longer than the limit for what began `elapsed_ns` ago, when it had waited for `waited_before_ns`.
+  // On a loaded machine it waits for a processor: that does not count, up to 20 times the limit.
+  bool is_late(std::int64_t elapsed_ns, std::int64_t waited_before_ns, std::int64_t limit_ns) const;
+
   // From now on, it and each process that it starts may take so many seconds of processor time; then the kernel kills it with
   // SIGXCPU.
   void allow_cpu(double s);

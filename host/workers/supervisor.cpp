@@ -42,7 +42,6 @@ constexpr int start_attempts = 3;
 constexpr int most_kills = 4;  // of one trial: then a plugin of it is to blame, not somebody outside
 constexpr int most_kills_between_trials = 20;
 constexpr std::int64_t long_call_ns = second_ns;
-constexpr int longest_wait_factor = 20;  // no limit is exceeded more often than this, however loaded the machine is
 constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
 
 std::string quoted_for_shell(const std::string& word) {
@@ -52,7 +51,7 @@ std::string quoted_for_shell(const std::string& word) {
   return quoted + "'";
 }
 
-// Something of a worker that may take so long. On a loaded machine it waits for a processor: that does not count.
+// Something of a worker that may take so long.
 struct Watch {
   std::int64_t start_ns = 0;
   std::int64_t waited_before_ns = 0;  // by the worker, before the start
@@ -341,10 +340,7 @@ class Supervisor {
   }
 
   bool is_late(Slot& slot, const Watch& watch, std::int64_t limit_ns) const {
-    const std::int64_t elapsed_ns = watchdog_.elapsed_ns(watch.start_ns);
-    if (elapsed_ns <= limit_ns) return false;
-    const std::int64_t waited_ns = slot.worker->process().waited_for_processor_ns() - watch.waited_before_ns;
-    return elapsed_ns - waited_ns > limit_ns || elapsed_ns / longest_wait_factor > limit_ns;
+    return slot.worker->process().is_late(watchdog_.elapsed_ns(watch.start_ns), watch.waited_before_ns, limit_ns);
   }
 
   bool is_overdue(Slot& slot, const NotedCall& call, std::int64_t limit_ns) const {

@@ -3,6 +3,8 @@
 // compared after the call.
 #pragma once
 
+#include <dmrp/path.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -36,6 +38,18 @@ class Inputs {
   Struct* one(Struct value) {
     value.struct_size = stride<Struct>();
     return array(&value, 1);
+  }
+
+  // Paths and their waypoints.
+  dmrp_path* paths(const dmrp_path* first, std::uint32_t count) {
+    dmrp_path* const copies = array(first, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      dmrp_path& path = at(copies, i);
+      path.struct_size = stride<dmrp_path>();
+      path.waypoints = array(path.waypoints, path.count);
+      path.stride = stride<dmrp_waypoint>();
+    }
+    return copies;
   }
 
   template <class Element>

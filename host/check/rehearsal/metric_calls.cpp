@@ -50,15 +50,8 @@ class MetricCalls {
 
   const dmrp_plan& grown_plan(const dmrp_plan& plan) {
     dmrp_plan& grown = *plans_.one(plan);
-    dmrp_path* const paths = plans_.array(plan.paths, plan.path_count);
-    grown.paths = paths;
+    grown.paths = plans_.paths(plan.paths, plan.path_count);
     grown.path_stride = plans_.stride<dmrp_path>();
-    for (std::uint32_t i = 0; i < plan.path_count; ++i) {
-      dmrp_path& path = plans_.at(paths, i);
-      path.struct_size = plans_.stride<dmrp_path>();
-      path.waypoints = plans_.array(path.waypoints, path.count);
-      path.stride = plans_.stride<dmrp_waypoint>();
-    }
     return grown;
   }
 

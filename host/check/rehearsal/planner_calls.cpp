@@ -75,15 +75,8 @@ class PlannerCalls {
       robot.grid = inputs_.one(*robot.grid);
     }
     if (problem.in_force_count == 0) return out;
-    dmrp_path* const paths = inputs_.array(problem.in_force, problem.in_force_count);
-    out.in_force = paths;
+    out.in_force = inputs_.paths(problem.in_force, problem.in_force_count);
     out.in_force_stride = inputs_.stride<dmrp_path>();
-    for (std::uint32_t i = 0; i < problem.in_force_count; ++i) {
-      dmrp_path& path = inputs_.at(paths, i);
-      path.struct_size = inputs_.stride<dmrp_path>();
-      path.waypoints = inputs_.array(path.waypoints, path.count);
-      path.stride = inputs_.stride<dmrp_waypoint>();
-    }
     return out;
   }
 
