@@ -23,10 +23,6 @@ constexpr double lane_half_width_m = 1.5;  // largest distance of first position
 constexpr int tries_along_flow = 64;
 constexpr int tries_anywhere = 2000;
 
-dmrp_vec2 middle_of(const Region& region) {
-  return 0.5 * (region.lower + region.upper);
-}
-
 // A point on a route of several legs.
 struct RoutePlace {
   dmrp_vec2 point{};

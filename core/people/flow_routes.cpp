@@ -7,10 +7,6 @@
 namespace dmrp::core {
 namespace {
 
-dmrp_vec2 middle_of(const Region& region) {
-  return 0.5 * (region.lower + region.upper);
-}
-
 // Follows the field from `from` into the target.
 Route walk_down(const toolkit::NavigationField& field, dmrp_vec2 from, const Region& target) {
   const toolkit::Rectangle goal = {target.lower, target.upper};

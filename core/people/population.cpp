@@ -193,7 +193,7 @@ void Population::set_target(dmrp_person& person, std::uint32_t slot) const {
   dmrp_vec2 middle = draw_in(middles, stream);
   int tries = 1;
   for (; tries < tries_in_region && !is_free(middle); ++tries) middle = draw_in(middles, stream);
-  if (tries == tries_in_region) middle = 0.5 * (region.lower + region.upper);
+  if (tries == tries_in_region) middle = middle_of(region);
 
   person.target = toolkit::closest_point(area, middle + offsets[slot - group.who.first_slot]);
   person.target_id = index;

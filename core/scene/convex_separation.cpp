@@ -7,10 +7,10 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
+#include "core/scene/touching.hpp"
+
 namespace dmrp::core {
 namespace {
-
-constexpr double touching_m = 1e-9;
 
 dmrp_vec2 outward_normal(const dmrp_segment& edge) {
   return -toolkit::perpendicular(toolkit::normalized(edge.to - edge.from));

@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/touching.hpp"
+
 namespace dmrp::core {
 namespace {
 
-constexpr double touching_m = 1e-9;
 constexpr dmrp_vec2 origin = {0.0, 0.0};
 
 // The stretch of the edge that lies inside the polygon, as shares of its length; empty (first > second) if none. An

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/scene/footprint.hpp"
+#include "core/scene/touching.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -22,7 +23,6 @@ using toolkit::GridView;
 constexpr int axes = 4;  // the directions 0 to 3; each axis also has the opposite direction
 constexpr int any_axis = axes;
 constexpr int no_axis = -1;
-constexpr double touching_m = 1e-9;
 
 // The number of cells in each connected part of a growing graph.
 class Parts {

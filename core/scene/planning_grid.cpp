@@ -4,14 +4,13 @@
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 
+#include "core/scene/touching.hpp"
+
 namespace dmrp::core {
 namespace {
 
 using toolkit::Cell;
 using toolkit::GridView;
-
-// Rounding must not close a gap of exactly the size needed.
-constexpr double touching_m = 1e-9;
 
 // The number of cells that cover a length. An excess of at most 1e-6 cells does not need another cell.
 std::uint32_t cells_across(double length_m, double resolution_m) {

@@ -6,7 +6,6 @@
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -55,7 +54,6 @@ class TaskSampler {
     const double apart_m = std::max(task_separation_m, grids_[kind].radius_m + largest_m_ + task_gap_m);
     take(grid, *start, apart_m, start_is_taken_);
     take(grid, *goal, apart_m, goal_is_taken_);
-    constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
     tasks.push_back({"robot " + std::to_string(tasks.size()),
                      {from.x, from.y, free_heading},
                      {{to.x, to.y, free_heading}},

@@ -6,6 +6,8 @@
 #include <dmrp/values.h>
 
 #include <cstdint>
+#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,9 @@ struct Shape {
   double height_m = 2.0;
 };
 
-// A robot's task. A heading of NaN is free; for a start see start_of() in robot_task.hpp.
+inline constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
+
+// A robot's task. Headings may be free; for a start see start_of() in robot_task.hpp.
 struct RobotTask {
   std::string name;
   dmrp_pose start{};
@@ -38,6 +42,10 @@ struct Region {
   dmrp_vec2 lower{};
   dmrp_vec2 upper{};
 };
+
+inline dmrp_vec2 middle_of(const Region& region) {
+  return 0.5 * (region.lower + region.upper);
+}
 
 // The positions of a flow's people at t = 0: spread along the whole route, or all in the first region.
 enum class FlowStart { along, from };

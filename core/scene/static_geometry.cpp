@@ -13,14 +13,12 @@
 
 #include "core/scene/cell_map.hpp"
 #include "core/scene/convex_separation.hpp"
+#include "core/scene/touching.hpp"
 
 namespace dmrp::core {
 namespace {
 
 constexpr std::size_t circle_sides = 24;
-
-// Tolerance for rounding: a disc fits into a gap of exactly its size.
-constexpr double touching_m = 1e-9;
 
 void append_outline(toolkit::PolygonView polygon, std::vector<dmrp_segment>& segments) {
   for (std::size_t i = 0; i < polygon.size(); ++i) segments.push_back(polygon.edge(i));

@@ -4,14 +4,11 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/statistics/descriptive.hpp"
 
 namespace dmrp::core {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 double distribution(double f, double df_entries, double df_rest, double noncentrality) {
   if (noncentrality <= 0.0) return boost::math::cdf(boost::math::fisher_f(df_entries, df_rest), f);

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/statistics/descriptive.hpp"
+
 namespace dmrp::core {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // The same as quantile_of_sorted (descriptive.hpp), without sorting all values.
 double quantile(std::vector<double>& values, double p) {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// descriptive.hpp: descriptive statistics for the summaries of a run. Undefined results (too few values) are NaN.
+// descriptive.hpp: descriptive statistics for the summaries of a run.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace dmrp::core {
 
-double mean(std::span<const double> values);       // needs one value
+// The statistic of too few values.
+inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+double mean(std::span<const double> values);       // undefined without one
 double sample_sd(std::span<const double> values);  // with n - 1; needs two values
 double median(std::span<const double> values);     // needs one value; the mean of the middle two of an even number
 

@@ -2,15 +2,14 @@
 #include "core/statistics/kaplan_meier.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "core/statistics/descriptive.hpp"
+
 namespace dmrp::core {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<TimeToEvent> by_time(std::span<const TimeToEvent> cases) {
   std::vector<TimeToEvent> sorted(cases.begin(), cases.end());

@@ -5,19 +5,18 @@
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/random.hpp>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/statistics/descriptive.hpp"
 #include "core/statistics/ranks.hpp"
 
 namespace dmrp::core {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_exact = 8;
+constexpr std::size_t most_exact_points = 8;
 constexpr std::uint64_t draws = 5'000;
 constexpr std::uint32_t resamples = 1'000;
 
@@ -216,7 +215,7 @@ RankCorrelation rank_correlation(std::span<const double> x, std::span<const doub
   }
   result.rho = correlation_of(product(ranks_x, ranks_x), product(ranks_x, ranks_y), product(ranks_y, ranks_y));
   if (std::isnan(result.rho)) return result;
-  result.exact = x.size() <= most_exact && members.size() == 1;
+  result.exact = x.size() <= most_exact_points && members.size() == 1;
   result.p = result.exact ? exact_p(ranks_x[0], ranks_y[0]) : drawn_p(ranks_x, ranks_y, seed);
   result.interval = bootstrap(x, y, cluster, members, seed);
   return result;

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
-#include <limits>
 #include <vector>
 
 #include "core/statistics/descriptive.hpp"
@@ -12,7 +11,7 @@
 namespace dmrp::core {
 namespace {
 
-constexpr std::size_t most_exact = 20;  // differences other than zero
+constexpr std::size_t most_exact_differences = 20;  // other than zero
 constexpr std::uint64_t draws = 10'000;
 constexpr double equal_within = 1e-9;  // of the sum of absolute differences
 
@@ -53,10 +52,7 @@ double drawn_share(std::span<const double> differences, double least, std::uint6
 }  // namespace
 
 SignFlipTest sign_flip_test(std::span<const double> differences, std::uint64_t seed) {
-  if (differences.empty()) {
-    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-    return {undefined, undefined, true};
-  }
+  if (differences.empty()) return {undefined, undefined, true};
   std::vector<double> other_than_zero;
   double sum = 0.0;
   double size = 0.0;
@@ -68,7 +64,8 @@ SignFlipTest sign_flip_test(std::span<const double> differences, std::uint64_t s
   const double average = mean(differences);
   if (other_than_zero.empty()) return {average, 1.0, true};
   const double least = std::abs(sum) - equal_within * size;
-  if (other_than_zero.size() > most_exact) return {average, drawn_share(other_than_zero, least, seed), false};
+  if (other_than_zero.size() > most_exact_differences)
+    return {average, drawn_share(other_than_zero, least, seed), false};
   return {average, exact_share(other_than_zero, least), true};
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -14,9 +13,8 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_exact = 100;  // pairs
-constexpr double tied_within = 1e-9;     // of the largest difference
+constexpr std::size_t most_exact_pairs = 100;
+constexpr double tied_within = 1e-9;  // of the largest difference
 constexpr double significance = 0.05;
 
 // The probability of each sum of positive ranks if all signs are equally likely.
@@ -79,7 +77,7 @@ SignedRankTest signed_rank_test(std::span<const double> differences) {
   test.zeros = static_cast<std::uint32_t>(differences.size() - ranks.size());
   test.positive_rank_sum = 0.5 * static_cast<double>(positive);
   if (ranks.empty()) return test;
-  test.exact = ranks.size() <= most_exact;
+  test.exact = ranks.size() <= most_exact_pairs;
   test.p = test.exact ? exact_p(ranks, positive) : normal_p(ranks, positive);
   const std::int64_t signed_sum = 2 * positive - std::accumulate(ranks.begin(), ranks.end(), std::int64_t{0});
   const std::int64_t total = std::accumulate(all_ranks.begin(), all_ranks.end(), std::int64_t{0});
@@ -98,7 +96,7 @@ HodgesLehmann hodges_lehmann(std::span<const double> differences) {
 
   // The number of Walsh averages to skip at either end.
   std::size_t left_out = 0;
-  if (n <= most_exact) {
+  if (n <= most_exact_pairs) {
     std::vector<std::int64_t> ranks(n);
     std::iota(ranks.begin(), ranks.end(), 1);
     const std::vector<double> probability = signed_rank_distribution(ranks);

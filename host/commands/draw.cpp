@@ -39,10 +39,6 @@ void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   }
 }
 
-dmrp_vec2 middle_of(const core::Region& region) {
-  return {0.5 * (region.lower.x + region.upper.x), 0.5 * (region.lower.y + region.upper.y)};
-}
-
 void draw_regions(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
   for (const core::Region& region : scenario.regions)
     picture.rectangle({region.lower, region.upper}, {"region"}, region.name);

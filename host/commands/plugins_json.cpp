@@ -15,10 +15,10 @@ namespace dmrp::host {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Names = std::vector<std::pair<std::uint32_t, const char*>>;
+using BitNames = std::vector<std::pair<std::uint32_t, const char*>>;
 
 // The names of the bits that are set; a bit without a name as a number.
-Json bits(std::uint32_t set, const Names& names) {
+Json bits(std::uint32_t set, const BitNames& names) {
   Json out = Json::array();
   for (const auto& [bit, name] : names) {
     if ((set & bit) != 0) out.push_back(name);

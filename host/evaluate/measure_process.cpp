@@ -26,7 +26,7 @@ struct Position {
   std::uint32_t metric = 0;
 };
 
-void log_line(std::int32_t level, const std::string& plugin, const std::string& text) {
+void log_warning(std::int32_t level, const std::string& plugin, const std::string& text) {
   if (level >= DMRP_LOG_WARNING) std::fprintf(stderr, "%s: %s\n", plugin.c_str(), text.c_str());
 }
 
@@ -43,7 +43,7 @@ class Measurer {
         trials_(trials),
         channel_(channel),
         guard_(note),
-        pool_(evaluation.libraries, guard_, &log_line) {}
+        pool_(evaluation.libraries, guard_, &log_warning) {}
 
   void measure_from(Position position) {
     for (; position.trial < trials_.size(); position = {position.trial + 1, 0})

@@ -19,8 +19,6 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double max_length_m = 1e4;
-
 // At the first of these keys that the table has, or at the table.
 [[noreturn]] void fail_at_one(const TomlTable& table, std::initializer_list<const char*> keys,
                               const std::string& text) {

@@ -35,16 +35,16 @@ std::string unit_words(const std::string& unit) {
   return out;
 }
 
-std::string number(double value, std::uint32_t decimals) {
+std::string latex_number(double value, std::uint32_t decimals) {
   const std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-') return text.substr(1);
   return text.front() == '-' ? "$-$" + text.substr(1) : text;
 }
 
-std::string cell_words(const TableCell& cell, const SummaryTableColumn& column) {
+std::string latex_cell(const TableCell& cell, const SummaryTableColumn& column) {
   if (!cell.value) return "--";
-  std::string text = number(*cell.value, column.decimals);
-  if (cell.spread) text += " $\\pm$ " + number(*cell.spread, column.decimals);
+  std::string text = latex_number(*cell.value, column.decimals);
+  if (cell.spread) text += " $\\pm$ " + latex_number(*cell.spread, column.decimals);
   if (cell.best) text = "\\textbf{" + text + "}";
   return cell.defined < cell.trials ? fmt::format("{}\\,({}/{})", text, cell.defined, cell.trials) : text;
 }
@@ -81,7 +81,7 @@ std::string body(const MeanTable& table, std::size_t columns) {
     }
     lines += escaped(row.name);
     for (std::size_t c = 0; c < row.cells.size(); ++c)
-      lines += " & " + cell_words(row.cells[c], table.spec.metrics[c % per_span]);
+      lines += " & " + latex_cell(row.cells[c], table.spec.metrics[c % per_span]);
     lines += " \\\\\n";
   }
   return lines;

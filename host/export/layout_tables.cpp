@@ -7,9 +7,7 @@
 namespace dmrp::host {
 namespace {
 
-using Json = nlohmann::json;
-
-SummaryTableColumn parse_column(const Json& json) {
+SummaryTableColumn parse_column(const nlohmann::json& json) {
   SummaryTableColumn column;
   column.metric = json.at("metric");
   column.header = json.value("header", column.metric);
@@ -29,24 +27,24 @@ bool several_models(std::span<const TrialRecord> trials) {
 
 std::vector<TableSpec> layout_tables(const std::string& report_layout_json, std::span<const TrialRecord> trials) {
   std::vector<TableSpec> specs;
-  const Json layout = Json::parse(report_layout_json);
-  for (const Json& table : layout.value("tables", Json::array())) {
+  const nlohmann::json layout = nlohmann::json::parse(report_layout_json);
+  for (const nlohmann::json& table : layout.value("tables", nlohmann::json::array())) {
     TableSpec spec{table.at("id"), table.at("title"), {}, {}, {}};
     std::vector<Label>& places = table.contains("across") ? spec.columns : spec.rows;
     places = {Label::scenario, Label::robots};
     for (const std::string row : table.at("rows"))
       if (const auto label = label_named(row); label && (label != Label::pedestrian_model || several_models(trials)))
         spec.rows.push_back(*label);
-    for (const Json& column : table.at("columns")) spec.metrics.push_back(parse_column(column));
+    for (const nlohmann::json& column : table.at("columns")) spec.metrics.push_back(parse_column(column));
     specs.push_back(std::move(spec));
   }
   return specs;
 }
 
 SummaryTableColumn column_of(const std::string& report_layout_json, const std::string& metric) {
-  const Json layout = Json::parse(report_layout_json);
-  for (const Json& table : layout.value("tables", Json::array()))
-    for (const Json& column : table.at("columns"))
+  const nlohmann::json layout = nlohmann::json::parse(report_layout_json);
+  for (const nlohmann::json& table : layout.value("tables", nlohmann::json::array()))
+    for (const nlohmann::json& column : table.at("columns"))
       if (column.at("metric") == metric) return parse_column(column);
   SummaryTableColumn column;
   column.metric = metric;

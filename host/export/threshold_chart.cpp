@@ -16,7 +16,7 @@ constexpr double axis_width = 270.0;
 constexpr double gap = 26.0;     // between panels, and around all
 constexpr double beyond = 14.0;  // of the axis at both ends, for what lies beyond the levels
 constexpr double title_height = 22.0;
-constexpr double row_height = 15.0;
+constexpr double bar_height = 15.0;
 constexpr double ticks_height = 34.0;
 
 // The combinations of all series, in order of first appearance.
@@ -81,7 +81,7 @@ std::string row_svg(const Panel& panel, const GradedResult& result, const std::s
 std::string panel_svg(const Panel& panel, std::span<const GradedSeries> all, const std::vector<std::string>& names) {
   const GradedSeries& series = panel.series;
   const double rows_top = panel.top + title_height;
-  const double rows_end = rows_top + static_cast<double>(names.size()) * row_height;
+  const double rows_end = rows_top + static_cast<double>(names.size()) * bar_height;
   std::string svg = fmt::format("<text class=\"title\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", panel.left,
                                 panel.top + 12.0, toolkit::escape_xml(series.title));
   for (std::size_t i = 0; i < series.levels.size(); ++i) {
@@ -97,7 +97,7 @@ std::string panel_svg(const Panel& panel, std::span<const GradedSeries> all, con
   for (const GradedResult& result : series.results) {
     const std::string name = combination_name(all, result);
     const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    svg += row_svg(panel, result, name, index, rows_top + (static_cast<double>(index) + 0.5) * row_height);
+    svg += row_svg(panel, result, name, index, rows_top + (static_cast<double>(index) + 0.5) * bar_height);
   }
   return svg;
 }
@@ -107,7 +107,7 @@ std::string panel_svg(const Panel& panel, std::span<const GradedSeries> all, con
 std::string threshold_chart(std::span<const GradedSeries> all) {
   const std::vector<std::string> names = names_of(all);
   const double panel_width = name_width + axis_width;
-  const double panel_height = title_height + static_cast<double>(names.size()) * row_height + ticks_height;
+  const double panel_height = title_height + static_cast<double>(names.size()) * bar_height + ticks_height;
   const std::size_t rows = (all.size() + columns - 1) / columns;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "

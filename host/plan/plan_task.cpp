@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace dmrp::host {
@@ -19,7 +18,7 @@ core::Scenario scenario_of(const core::CellMap& map, const std::vector<MovingAiT
   scenario.shapes = core::boxes_of(map, cell_m, scenario.lower);
   const auto pose_of = [&](MovingAiCell cell) {
     const dmrp_vec2 center = center_of(cell, map, cell_m);
-    return dmrp_pose{center.x, center.y, std::numeric_limits<double>::quiet_NaN()};
+    return dmrp_pose{center.x, center.y, core::free_heading};
   };
   for (const MovingAiTask& task : tasks)
     scenario.robots.push_back(

@@ -67,7 +67,7 @@ nlohmann::json head_of(const char* fault, const std::string& detail) {
   return {{"fault", fault}, {"detail", detail}};
 }
 
-void log_line(std::int32_t level, const std::string& plugin, const std::string& text) {
+void log_to_stderr(std::int32_t level, const std::string& plugin, const std::string& text) {
   if (level != DMRP_LOG_DEBUG) std::fprintf(stderr, "%s: %s\n", plugin.c_str(), text.c_str());
 }
 
@@ -75,7 +75,7 @@ void log_line(std::int32_t level, const std::string& plugin, const std::string& 
 void plan(const Experiment& experiment, const PlanTask& task, CallNote& note, const MemoryFile& file) {
   try {
     CallGuard guard(note);
-    InstancePool pool(experiment.libraries, guard, &log_line);
+    InstancePool pool(experiment.libraries, guard, &log_to_stderr);
     try {
       Instance& planner = pool.get(experiment.global_planners[0], DMRP_NO_ROBOT);
       planner.start(task.world(), experiment.seed, task.problem.c.time_budget_ns);

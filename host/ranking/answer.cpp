@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/statistics/descriptive.hpp"
@@ -14,13 +13,6 @@
 
 namespace dmrp::host {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounding = 1e-9;  // sums in another order differ by less
-
-double mean_or_undefined(const std::vector<double>& values) {
-  return values.empty() ? undefined : core::mean(values);
-}
 
 RankedCombination ranked(const Contest& contest, std::size_t contestant, const Measures& measures) {
   RankedCombination result;
@@ -40,12 +32,13 @@ AgainstFirst compare(const std::vector<double>& differences, bool share) {
   result.observations = static_cast<std::uint32_t>(differences.size());
   std::vector<std::vector<double>> clusters;
   for (const double difference : differences) clusters.push_back({difference});
-  result.mean = mean_or_undefined(differences);
+  result.mean = core::mean(differences);
   result.interval = core::cluster_bootstrap_interval(clusters);
   result.sd = core::sample_sd(differences);
   const bool equal =
       std::all_of(differences.begin(), differences.end(), [](double one) { return std::fabs(one) < rounding; });
-  result.p = equal ? undefined : paired_test(differences, share ? PairedTest::sign_flip : PairedTest::signed_rank).p;
+  result.p =
+      equal ? core::undefined : paired_test(differences, share ? PairedTest::sign_flip : PairedTest::signed_rank).p;
   return result;
 }
 

@@ -19,8 +19,6 @@
 namespace dmrp::host {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 // In one situation; none unless all three are defined.
 using Find = std::function<std::optional<BoundedValue>(std::size_t lower, std::size_t upper, std::size_t trial)>;
 
@@ -88,10 +86,10 @@ MetricSummary summary_of(const Place& place, std::uint32_t trials) {
   MetricSummary summary;
   summary.defined = std::isnan(place.place) ? 0 : trials;
   summary.mean = place.place;
-  summary.sd = undefined;
-  summary.median = undefined;
+  summary.sd = core::undefined;
+  summary.median = core::undefined;
   summary.interval = place.interval;
-  summary.paper.mean = undefined;
+  summary.paper.mean = core::undefined;
   return summary;
 }
 
@@ -128,7 +126,7 @@ Place place_between(std::span<const BoundedValue> observations, bool higher_is_b
       of_value += observations[i].value - observations[i].lower;
       of_upper += gains[i];
     }
-    return of_upper != 0.0 && (of_upper > 0.0) == higher_is_better ? of_value / of_upper : undefined;
+    return of_upper != 0.0 && (of_upper > 0.0) == higher_is_better ? of_value / of_upper : core::undefined;
   };
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < observations.size(); ++i) all.push_back(i);

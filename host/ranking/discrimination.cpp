@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -20,8 +19,6 @@
 namespace dmrp::host {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounding = 1e-9;
 constexpr std::uint64_t halvings = 100;
 
 // The criterion that counts as the share, and the time; its index.
@@ -42,7 +39,7 @@ std::vector<std::vector<double>> by_task(const Contest& contest, const Measures&
         if (const auto value = measures.value(trial, criterion))
           values[positions.at(contest.situations[i].task)].push_back(*value);
     std::vector<double>& row = table.emplace_back();
-    for (const auto& of_task : values) row.push_back(of_task.empty() ? undefined : core::mean(of_task));
+    for (const auto& of_task : values) row.push_back(core::mean(of_task));
   }
   return table;
 }
@@ -59,9 +56,9 @@ std::vector<std::vector<double>> complete(const std::vector<std::vector<double>>
 
 // A pair of entries in one criterion.
 struct PairTest {
-  double p = undefined;  // NaN: nothing differs
+  double p = core::undefined;  // NaN: nothing differs
   bool is_large = false;
-  double deviation = undefined;
+  double deviation = core::undefined;
 };
 
 PairTest test_pair(const Contest& contest, const Measures& measures, std::size_t criterion, std::size_t a,
@@ -101,7 +98,7 @@ void test_pairs(const Contest& contest, const Measures& measures, const Criteria
       separated = separated || (tests[i].is_large && adjusted[i] < significant);
     result.separated += separated ? 1 : 0;
   }
-  result.median_deviation = deviations.empty() ? undefined : core::median(deviations);
+  result.median_deviation = deviations.empty() ? core::undefined : core::median(deviations);
   result.tasks_needed = core::pairs_needed(result.median_deviation, least_share_difference, significant);
 }
 
@@ -113,7 +110,7 @@ std::vector<double> positions_over(const Measures& measures, const Criteria& cri
     std::vector<double> values;
     for (std::size_t task = 0; task < row.size(); ++task)
       if (chosen[task] && !std::isnan(row[task])) values.push_back(row[task]);
-    return values.empty() ? undefined : core::mean(values);
+    return core::mean(values);
   };
   std::vector<Criterion> order = {measures.criteria()[criteria.share]};
   if (criteria.time) order.push_back(measures.criteria()[*criteria.time]);
@@ -132,7 +129,7 @@ std::vector<double> positions_over(const Measures& measures, const Criteria& cri
 double half_agreement(const Measures& measures, const Criteria& criteria,
                       const std::vector<std::vector<double>>& shares, const std::vector<std::vector<double>>& times) {
   const std::size_t tasks = shares.front().size();
-  if (tasks < 2) return undefined;
+  if (tasks < 2) return core::undefined;
   std::vector<double> found;
   for (std::uint64_t i = 0; i < halvings; ++i) {
     toolkit::Stream stream(i, "discrimination.halves");
@@ -147,7 +144,7 @@ double half_agreement(const Measures& measures, const Criteria& criteria,
                                          positions_over(measures, criteria, shares, times, second));
     if (!std::isnan(tau)) found.push_back(tau);
   }
-  return found.empty() ? undefined : core::mean(found);
+  return core::mean(found);
 }
 
 Discrimination discrimination_of(const Contest& contest, const Measures& measures, const Criteria& criteria) {
@@ -166,7 +163,7 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
     const CombinationLabels& labels = contest.contestants[entry];
     result.entries.push_back(
         {labels.global_planner + " + " + labels.local_controller, measures.mean(trials, criteria.share),
-         criteria.time ? measures.mean(trials, *criteria.time) : undefined, complete_shares[entry]});
+         criteria.time ? measures.mean(trials, *criteria.time) : core::undefined, complete_shares[entry]});
     means.push_back(result.entries.back().share);
     result.at_ceiling += means.back() >= DiscriminationBars().ceiling - rounding ? 1 : 0;
   }

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/statistics/descriptive.hpp"
 
 namespace dmrp::host {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // The series with its levels from the hardest to the easiest.
 std::vector<GradedSeries> empty_series(std::span<const ScenarioFacts> scenarios) {
@@ -56,9 +53,8 @@ Collected& collected_for(std::vector<Collected>& all, const TrialRecord& trial, 
 
 // A repetition passes if all of its robots do: with a helper in the test, half of the robots is nobody's success.
 void take(const TrialRecord& trial, std::size_t level, const std::string& share, Collected& into) {
-  constexpr double rounding = 1e-9;
   std::vector<double>& values = into.levels[level].by_repetition;
-  if (values.size() <= trial.repetition) values.resize(trial.repetition + 1, undefined);
+  if (values.size() <= trial.repetition) values.resize(trial.repetition + 1, core::undefined);
   const auto value = system_value(trial, share);
   if (value) values[trial.repetition] = *value >= 1.0 - rounding ? 1.0 : 0.0;
   if (!value && trial.outcome == trial_outcome::fault) values[trial.repetition] = 0.0;
@@ -68,11 +64,11 @@ GradedResult finished(Collected& one) {
   std::size_t repetitions = 0;
   for (const core::LevelOutcomes& level : one.levels) repetitions = std::max(repetitions, level.by_repetition.size());
   for (core::LevelOutcomes& level : one.levels) {
-    level.by_repetition.resize(repetitions, undefined);
+    level.by_repetition.resize(repetitions, core::undefined);
     std::vector<double> defined;
     for (const double value : level.by_repetition)
       if (!std::isnan(value)) defined.push_back(value);
-    one.result.means.push_back(defined.empty() ? undefined : core::mean(defined));
+    one.result.means.push_back(core::mean(defined));
   }
   one.result.estimate = core::estimate_threshold(one.levels);
   return one.result;

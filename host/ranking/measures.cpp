@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/statistics/descriptive.hpp"
 
 namespace dmrp::host {
 namespace {
-
-constexpr double rounding = 1e-9;  // sums in another order differ by less
 
 // None: it was not measured.
 std::optional<std::size_t> column_of(std::span<const MetricColumn> metrics, const std::string& name) {
@@ -22,10 +19,6 @@ std::optional<std::size_t> column_of(std::span<const MetricColumn> metrics, cons
 Criterion share_of(std::string metric) {
   std::replace(metric.begin(), metric.end(), '_', ' ');
   return {metric, true};
-}
-
-double mean_or_undefined(const std::vector<double>& values) {
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : core::mean(values);
 }
 
 }  // namespace
@@ -68,7 +61,7 @@ double Measures::mean(std::span<const std::size_t> trials, std::size_t criterion
   for (const std::size_t trial : trials) {
     if (const auto found = value(trial, criterion)) values.push_back(*found);
   }
-  return mean_or_undefined(values);
+  return core::mean(values);
 }
 
 double Measures::stricter_mean(std::span<const std::size_t> trials) const {
@@ -76,7 +69,7 @@ double Measures::stricter_mean(std::span<const std::size_t> trials) const {
   for (const std::size_t trial : trials) {
     if (const auto found = share(trial, stricter_metric_)) values.push_back(*found);
   }
-  return mean_or_undefined(values);
+  return core::mean(values);
 }
 
 std::optional<double> Measures::value(std::size_t trial, std::size_t criterion) const {

@@ -14,6 +14,9 @@
 
 namespace dmrp::host {
 
+// Sums in another order differ by less.
+inline constexpr double rounding = 1e-9;
+
 // Something in which combinations are compared: a share of robots (higher is better), or the time of arrival over the
 // length of the robot's shortest way (lower is better), of robots that arrive with both.
 struct Criterion {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "host/maps/movingai.hpp"
@@ -97,7 +96,6 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
 
 void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const fs::path& file,
                 const std::string& shown_path, ScenarioFile& out) {
-  constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
   table.allow_only_keys(tasks_keys());
   const TomlValue name = table.need("scen");
   if (!map) name.fail("'scen' needs a [map] of MovingAI that its tasks are for");
@@ -112,7 +110,7 @@ void read_tasks(const TomlTable& table, const std::optional<TaskMap>& map, const
   }
   const auto pose_of = [&](MovingAiCell cell) {
     const dmrp_vec2 center = center_of(cell, map->cells, map->cell_m);
-    return dmrp_pose{out.scenario.lower.x + center.x, out.scenario.lower.y + center.y, free_heading};
+    return dmrp_pose{out.scenario.lower.x + center.x, out.scenario.lower.y + center.y, core::free_heading};
   };
   for (std::size_t i = 0; i < count; ++i) {
     out.scenario.robots.push_back(

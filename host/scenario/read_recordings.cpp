@@ -14,6 +14,7 @@
 #include "host/files/read_file.hpp"
 #include "host/files/text_lines.hpp"
 #include "host/scenario/named_file.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
@@ -21,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double max_time_s = 1e6;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some spreadsheets write it
 constexpr std::array<std::string_view, 4> columns = {"time", "id", "x", "y"};
 

@@ -19,8 +19,6 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double max_time_s = 1e6;
-
 const std::vector<TomlKey> root_keys = {{"scenario"}, {"map"},       {"box"},        {"circle"}, {"polygon"},
                                         {"robot"},    {"robots"},    {"people"},     {"region"}, {"flow"},
                                         {"tiles"},    {"recording"}, {"robot_type"}, {"grade"}};

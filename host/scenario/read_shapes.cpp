@@ -25,7 +25,7 @@ core::Shape read_box(const TomlTable& table) {
   mistakes.attempt([&] { extent = size(table.need("size_m")); });
   double theta = 0.0;
   mistakes.attempt([&] {
-    if (const auto angle = table.find("angle_rad")) theta = angle->number(-max_length_m, max_length_m);
+    if (const auto angle = table.find("angle_rad")) theta = angle->number(-max_coordinate_m, max_coordinate_m);
   });
   mistakes.end();
   const double c = std::cos(theta);
@@ -42,7 +42,7 @@ core::Shape read_circle(const TomlTable& table) {
   core::Shape shape;
   shape.kind = core::Shape::Kind::circle;
   mistakes.attempt([&] { shape.center = point(table.need("center_m")); });
-  mistakes.attempt([&] { shape.radius_m = positive(table.need("radius_m"), max_length_m); });
+  mistakes.attempt([&] { shape.radius_m = positive(table.need("radius_m"), max_coordinate_m); });
   mistakes.end();
   return shape;
 }
@@ -78,7 +78,7 @@ void read_kind(const TomlTable& root, const std::string& kind, Read&& read, Scen
         if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
     });
     mistakes.attempt([&] {
-      if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_length_m);
+      if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_coordinate_m);
     });
     mistakes.end();
     out.scenario.shapes.push_back(std::move(shape));
@@ -91,19 +91,19 @@ std::vector<TomlKey> box_keys() {
   return {{"name"},
           {"center_m", point_range()},
           {"size_m", size_range()},
-          {"angle_rad", range_text(-max_length_m, max_length_m)},
-          {"height_m", positive_text(max_length_m)}};
+          {"angle_rad", range_text(-max_coordinate_m, max_coordinate_m)},
+          {"height_m", positive_text(max_coordinate_m)}};
 }
 
 std::vector<TomlKey> circle_keys() {
   return {{"name"},
           {"center_m", point_range()},
-          {"radius_m", positive_text(max_length_m)},
-          {"height_m", positive_text(max_length_m)}};
+          {"radius_m", positive_text(max_coordinate_m)},
+          {"height_m", positive_text(max_coordinate_m)}};
 }
 
 std::vector<TomlKey> polygon_keys() {
-  return {{"name"}, {"vertices_m", point_range()}, {"height_m", positive_text(max_length_m)}};
+  return {{"name"}, {"vertices_m", point_range()}, {"height_m", positive_text(max_coordinate_m)}};
 }
 
 void read_shapes(const TomlTable& root, ScenarioFile& out) {

@@ -12,12 +12,12 @@
 #include "core/scene/footprint.hpp"
 #include "host/errors/mistakes.hpp"
 #include "host/toml/nearest_name.hpp"
+#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-constexpr double max_length_m = 1e4;
 constexpr double min_radius_m = 0.01;
 constexpr double max_radius_m = 10.0;
 constexpr double max_noise = 100.0;           // of odometry

@@ -4,18 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 namespace {
 
-constexpr double free_heading = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
-  for (const TomlValue& element : value.array()) out.push_back(element.number(-max_length_m, max_length_m));
+  for (const TomlValue& element : value.array()) out.push_back(element.number(-max_coordinate_m, max_coordinate_m));
   if (out.size() < least || out.size() > most)
     value.fail(fmt::format("'{}' must be {}, not {} number{}", value.key(),
                            least == most ? "[x, y]" : "[x, y] or [x, y, theta]", out.size(),
@@ -26,11 +23,11 @@ std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size
 }  // namespace
 
 std::string point_range() {
-  return "each " + range_text(-max_length_m, max_length_m);
+  return "each " + range_text(-max_coordinate_m, max_coordinate_m);
 }
 
 std::string size_range() {
-  return "each " + positive_text(max_length_m);
+  return "each " + positive_text(max_coordinate_m);
 }
 
 dmrp_vec2 point(const TomlValue& value) {
@@ -47,7 +44,7 @@ dmrp_vec2 size(const TomlValue& value) {
 
 dmrp_pose pose(const TomlValue& value) {
   const auto xyt = numbers(value, 2, 3);
-  return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : free_heading};
+  return {xyt[0], xyt[1], xyt.size() == 3 ? xyt[2] : core::free_heading};
 }
 
 double positive(const TomlValue& value, double maximum) {

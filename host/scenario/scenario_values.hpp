@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-inline constexpr double max_length_m = 1e6;  // of a coordinate
+inline constexpr double max_coordinate_m = 1e6;
 
 dmrp_vec2 point(const TomlValue& value);                  // [x, y]
 dmrp_vec2 size(const TomlValue& value);                   // [x, y], both above 0

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/terminal/wrapped_text.hpp"
+
 namespace dmrp::host {
 namespace {
-
-constexpr const char* separator = " · ";
 
 std::string counted(std::uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

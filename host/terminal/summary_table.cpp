@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t indent = 2;
 constexpr std::size_t gap = 3;
 constexpr const char* undefined_cell = "–";
-constexpr const char* separator = " · ";
 constexpr const char* bold = "\x1b[1m";
 constexpr const char* plain = "\x1b[0m";
 

@@ -48,6 +48,8 @@ Setting integer(const std::string& key, Integer& to, std::int64_t minimum, std::
       [&to] { return std::to_string(to); }, range_text(minimum, maximum)};
 }
 
+inline constexpr double max_length_m = 1e4;
+
 // Seconds in the file, nanoseconds in memory.
 inline constexpr double max_time_s = 1e6;
 inline constexpr double min_time_s = 1e-3;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -11,7 +10,6 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr double cell_m = 1.0;
 
 core::Shape box(const char* name, dmrp_vec2 lower, dmrp_vec2 upper) {
@@ -41,7 +39,7 @@ core::Scenario hall(const StageSettings& settings) {
     task.name = "robot " + std::to_string(i);
     task.start = {c + 1.5, y, 0.0};
     const double x = i == 0 && settings.starts_at_goal ? task.start.x : c + size.x - 1.5;
-    task.goals = {{x, y, settings.goals_have_headings ? 0.5 * std::numbers::pi : any_heading}};
+    task.goals = {{x, y, settings.goals_have_headings ? 0.5 * std::numbers::pi : core::free_heading}};
     scenario.robots.push_back(task);
   }
   const double margin_m = 0.5;
@@ -103,7 +101,8 @@ Plan Stage::straight_plan() const {
     const auto cells = static_cast<std::int64_t>(std::lround(std::abs(to.x - from.x) / cell_m));
     std::vector<dmrp_waypoint> path;
     for (std::int64_t k = 0; k <= cells; ++k)
-      path.push_back({from.x + static_cast<double>(k) * cell_m, from.y, any_heading, k * plan.step_duration_ns, 0, 0});
+      path.push_back(
+          {from.x + static_cast<double>(k) * cell_m, from.y, core::free_heading, k * plan.step_duration_ns, 0, 0});
     plan.paths.push_back(std::move(path));
   }
   return plan;

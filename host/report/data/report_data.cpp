@@ -19,8 +19,6 @@
 namespace dmrp::host {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // With seven significant digits: a page shows fewer, and long numbers were a third of it.
 double for_display(double value) {
   constexpr int digits = 7;

@@ -5,8 +5,6 @@
 
 namespace dmrp::host {
 
-using Json = nlohmann::ordered_json;
-
 Json labels_json(const CombinationLabels& labels) {
   return {{"scenario", labels.scenario},
           {"robots", labels.robots},

@@ -11,13 +11,15 @@
 
 namespace dmrp::host {
 
+using Json = nlohmann::ordered_json;
+
 // {scenario, robots, global_planner, local_controller, pedestrian_model}
-nlohmann::ordered_json labels_json(const CombinationLabels& labels);
+Json labels_json(const CombinationLabels& labels);
 
 // [{name, unit, direction: higher | lower | none, wall_clock, description}]
-nlohmann::ordered_json metrics_json(std::span<const MetricColumn> metrics);
+Json metrics_json(std::span<const MetricColumn> metrics);
 
 // [{name, robots, title, description, people, time_limit_s}]
-nlohmann::ordered_json scenarios_json(std::span<const ScenarioFacts> scenarios);
+Json scenarios_json(std::span<const ScenarioFacts> scenarios);
 
 }  // namespace dmrp::host

@@ -11,13 +11,11 @@
 namespace dmrp::host {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::array<const char*, 9> known_keys{"replays",       "tables",           "heat_map",
                                                 "distributions", "diagnosis",        "comparisons",
                                                 "completion",    "pedestrian_delay", "curves"};
 
-ComparedMetric parse_comparison(const Json& json) {
+ComparedMetric parse_comparison(const nlohmann::json& json) {
   ComparedMetric compared;
   for (const auto& [key, value] : json.items()) {
     if (key == "metric")
@@ -42,7 +40,7 @@ ComparedMetric parse_comparison(const Json& json) {
 }
 
 ReportLayout parse(std::string_view text) {
-  const Json json = Json::parse(text);
+  const nlohmann::json json = nlohmann::json::parse(text);
   if (!json.is_object()) throw std::runtime_error("not a table of keys");
   for (const auto& [key, value] : json.items())
     if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end())
@@ -50,7 +48,7 @@ ReportLayout parse(std::string_view text) {
 
   ReportLayout layout;
   layout.json = text;
-  for (const Json& comparison : json.value("comparisons", Json::array()))
+  for (const nlohmann::json& comparison : json.value("comparisons", nlohmann::json::array()))
     layout.comparisons.push_back(parse_comparison(comparison));
   if (json.contains("diagnosis")) {
     json["diagnosis"].at("x").get_to(layout.diagnosis.x);
@@ -61,7 +59,7 @@ ReportLayout parse(std::string_view text) {
     json["pedestrian_delay"].at("progress").get_to(layout.pedestrian_delay.progress);
     json["pedestrian_delay"].at("desired_speed").get_to(layout.pedestrian_delay.desired_speed);
   }
-  for (const Json& curve : json.value("curves", Json::array()))
+  for (const nlohmann::json& curve : json.value("curves", nlohmann::json::array()))
     layout.curves.push_back({curve.at("metric"), curve.at("coordinate"), curve.at("coordinate_unit")});
   if (json.contains("replays")) {
     json["replays"].at("rank_by").get_to(layout.replays.rank_by);

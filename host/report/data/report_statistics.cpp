@@ -16,8 +16,6 @@
 namespace dmrp::host {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Choice {
   Varied varied;
   const char* name;

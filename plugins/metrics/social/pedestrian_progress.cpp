@@ -10,7 +10,7 @@
 namespace dmrp::metrics {
 namespace {
 
-constexpr std::int64_t period_ns = 1'000'000'000;
+constexpr std::int64_t sample_period_ns = 1'000'000'000;
 
 double distance_to_target(const Person& person) {
   return toolkit::distance(toolkit::Rectangle{person.area_lower, person.area_upper}, person.position);
@@ -53,7 +53,7 @@ void PedestrianProgress::observe(const Sample& sample) {
     desired_speed_.add(person.desired_speed, sample.dt_ns);
   }
   // an instant between two samples belongs to the step that contains it
-  while (static_cast<std::int64_t>(gained_m_.size()) * period_ns <= sample.t_ns) gained_m_.push_back(gained_m());
+  while (static_cast<std::int64_t>(gained_m_.size()) * sample_period_ns <= sample.t_ns) gained_m_.push_back(gained_m());
 }
 
 PedestrianProgress::Leg PedestrianProgress::begin_leg(const Person& person) {

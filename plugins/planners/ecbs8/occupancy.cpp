@@ -29,8 +29,8 @@ Occupancy::Step Occupancy::step_of(Location from, Location to, Direction d) cons
 }
 
 Occupancy::Step Occupancy::step_of(PathView path, std::int32_t t) const {
-  const Location from = where(path, t - 1);
-  const Location to = where(path, t);
+  const Location from = location_at(path, t - 1);
+  const Location to = location_at(path, t);
   const std::int32_t from_column = graph_.column(from);
   const std::int32_t to_column = graph_.column(to);
   const std::int32_t from_row = graph_.row(from);
@@ -152,7 +152,7 @@ void Occupancy::visit_met(const Step& step, std::int32_t t, Visit visit) const {
   if (step.from == step.to) return;
   visit_passing(step.from, t, visit);
   visit_here(step.to, t - 1, [&](std::int32_t other) {
-    if (where(path(other), t) == step.from) visit(other);
+    if (location_at(path(other), t) == step.from) visit(other);
   });
   if (!step.is_diagonal) return;
   for (const Location beside : step.beside) {

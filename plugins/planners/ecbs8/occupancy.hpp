@@ -86,9 +86,6 @@ class Occupancy {
   const Links& links(std::int32_t agent, std::int32_t t) const {
     return links_[static_cast<std::size_t>(agent)][static_cast<std::size_t>(t)];
   }
-  static Location where(PathView path, std::int32_t t) {
-    return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-  }
   Step step_of(PathView path, std::int32_t t) const;
   Step step_of(Location from, Location to, Direction d) const;
 

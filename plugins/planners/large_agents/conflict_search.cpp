@@ -16,10 +16,6 @@ constexpr std::int32_t impossible_rise = 1'000'000;
 constexpr std::int32_t splits_of_a_pair = 8;
 constexpr std::size_t pair_nodes = 300'000;
 
-Location at(const std::vector<Location>& path, std::int32_t t) {
-  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-}
-
 // Whether the paths of a child prove no more than those of its parent, so that they may stand for them without its bans.
 template <class Node>
 bool has_bounds_of(const Node& child, const Node& parent) {
@@ -226,8 +222,8 @@ std::vector<LargeAgentSearch::Split> LargeAgentSearch::splits_of(const Node& nod
   std::vector<Split> splits;
   for (const auto& [one, other] : {std::pair(conflict.a, conflict.b), std::pair(conflict.b, conflict.a)}) {
     const std::vector<Location>& path = node.paths[static_cast<std::size_t>(one)]->locations;
-    const Location from = at(path, conflict.t - 1);
-    const Location to = at(path, conflict.t);
+    const Location from = location_at(path, conflict.t - 1);
+    const Location to = location_at(path, conflict.t);
     const Ban here{own, one, -1, from, to, conflict.t};
     const Ban around{near, other, one, from, to, conflict.t};
     splits.push_back({{one, {here}}, {other, {around}}});
@@ -337,7 +333,7 @@ bool LargeAgentSearch::obeys(const Node& node, AgentIndex agent) const {
   const std::int32_t end = cost_of(path);
   if (end < table.finish_from() || end > table.finish_until()) return false;
   for (std::int32_t t = 0; t <= end; ++t)
-    if (!table.allows(at(path, std::max(t - 1, 0)), at(path, t), t)) return false;
+    if (!table.allows(location_at(path, std::max(t - 1, 0)), location_at(path, t), t)) return false;
   return true;
 }
 
@@ -362,7 +358,8 @@ std::optional<LargeAgentSearch::Conflict> LargeAgentSearch::find_conflict(const 
   const std::vector<Location>& path_b = node.paths[static_cast<std::size_t>(b)]->locations;
   const std::int32_t end = std::max(cost_of(path_a), cost_of(path_b));
   for (std::int32_t t = 1; t <= end; ++t) {
-    const Clash clash = fleet_.clash(a, at(path_a, t - 1), at(path_a, t), b, at(path_b, t - 1), at(path_b, t));
+    const Clash clash = fleet_.clash(a, location_at(path_a, t - 1), location_at(path_a, t), b,
+                                     location_at(path_b, t - 1), location_at(path_b, t));
     if (clash != Clash::none) return Conflict{a, b, clash, t, -1, 0, 0, {}, {}};
   }
   return std::nullopt;

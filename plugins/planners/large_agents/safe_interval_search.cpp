@@ -5,14 +5,6 @@
 
 namespace dmrp::planners {
 
-namespace {
-
-Location at(PathView path, std::int32_t t) {
-  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-}
-
-}  // namespace
-
 FleetSipp::Result FleetSipp::search(AgentIndex agent, const TourTable& table, const std::vector<PathView>& others,
                                     std::int32_t delay, StopSignal& stop, std::vector<Location>& path) {
   reset(agent, table, others);
@@ -57,8 +49,8 @@ void FleetSipp::reset(AgentIndex agent, const TourTable& table, const std::vecto
 bool FleetSipp::is_blocked(Location from, Location to, std::int32_t t) const {
   for (AgentIndex other = 0; other < fleet_.size(); ++other) {
     const PathView path = (*others_)[static_cast<std::size_t>(other)];
-    if (!path.empty() &&
-        fleet_.clash(agent_, from, to, other, at(path, std::max(t - 1, 0)), at(path, t)) != Clash::none)
+    if (!path.empty() && fleet_.clash(agent_, from, to, other, location_at(path, std::max(t - 1, 0)),
+                                      location_at(path, t)) != Clash::none)
       return true;
   }
   return false;
@@ -73,7 +65,7 @@ const std::vector<FleetSipp::Interval>& FleetSipp::intervals(Location location) 
   const auto is_occupied = [&](std::int32_t t) {
     for (AgentIndex other = 0; other < fleet_.size(); ++other) {
       const PathView path = (*others_)[static_cast<std::size_t>(other)];
-      if (!path.empty() && fleet_.exclude(agent_, location, other, at(path, t))) return true;
+      if (!path.empty() && fleet_.exclude(agent_, location, other, location_at(path, t))) return true;
     }
     return false;
   };

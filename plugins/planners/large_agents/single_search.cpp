@@ -8,14 +8,6 @@
 
 namespace dmrp::planners {
 
-namespace {
-
-Location at(PathView path, std::int32_t t) {
-  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-}
-
-}  // namespace
-
 SingleSearch::Result SingleSearch::search(const SingleRequest& request, StopSignal& stop, SinglePath& found) {
   reset(request);
   const BanTable& bans = request.bans;
@@ -98,7 +90,8 @@ std::int32_t SingleSearch::count_conflicts(Location from, Location to, std::int3
   std::int32_t count = 0;
   for (AgentIndex other = 0; other < fleet_.size(); ++other) {
     const PathView path = request_->others[static_cast<std::size_t>(other)];
-    if (!path.empty() && fleet_.clash(request_->agent, from, to, other, at(path, t - 1), at(path, t)) != Clash::none)
+    if (!path.empty() &&
+        fleet_.clash(request_->agent, from, to, other, location_at(path, t - 1), location_at(path, t)) != Clash::none)
       ++count;
   }
   return count;

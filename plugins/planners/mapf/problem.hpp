@@ -2,6 +2,7 @@
 // problem.hpp: the planning problem on the graph, and the conversion of paths to waypoints.
 #pragma once
 
+#include <algorithm>
 #include <dmrp/plugin.hpp>
 #include <limits>
 #include <optional>
@@ -49,6 +50,11 @@ using PathView = std::span<const Location>;
 
 inline std::int32_t cost_of(PathView path) {
   return static_cast<std::int32_t>(path.size()) - 1;
+}
+
+// An agent stays where its path ends.
+inline Location location_at(PathView path, std::int32_t t) {
+  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
 }
 
 // Of paths or views of them.

@@ -7,14 +7,10 @@ namespace dmrp::planners {
 
 namespace {
 
-Location place_at(PathView path, std::int32_t t) {
-  return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
-}
-
 bool avoids(PathView path, const Constraint& constraint) {
   const std::int32_t last = cost_of(path);
   for (std::int32_t t = constraint.t; t < constraint.until && t <= std::max(last, constraint.t); ++t)
-    if (place_at(path, t) == constraint.location) return false;
+    if (location_at(path, t) == constraint.location) return false;
   return true;
 }
 
@@ -34,10 +30,10 @@ bool satisfies(PathView path, const Constraint& constraint) {
     case Constraint::Kind::avoid_vertex:
       return avoids(path, constraint);
     case Constraint::Kind::avoid_move:
-      return constraint.t > cost_of(path) || place_at(path, constraint.t) != constraint.location ||
-             place_at(path, constraint.t - 1) != constraint.from;
+      return constraint.t > cost_of(path) || location_at(path, constraint.t) != constraint.location ||
+             location_at(path, constraint.t - 1) != constraint.from;
     case Constraint::Kind::pass_vertex:
-      return place_at(path, constraint.t) == constraint.location;
+      return location_at(path, constraint.t) == constraint.location;
     case Constraint::Kind::finish_after:
       return cost_of(path) > constraint.t;
     case Constraint::Kind::finish_by:
