@@ -43,7 +43,35 @@ bool may_be_event(const MetricEvent& event, std::uint32_t robots) {
          std::all_of(event.robots.begin(), event.robots.end(), [&](std::uint32_t robot) { return robot < robots; });
 }
 
+// The record of a trial that has not run: its place in the experiment.
+TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
+  const auto all = combinations(experiment);
+  const TrialId id = trial_id(trial, all.size());
+  const Combination& combination = all[id.combination];
+  const ScenarioVariant& variant = experiment.scenarios[combination.scenario];
+  TrialRecord record;
+  record.id = trial;
+  record.scenario = result_name(variant);
+  record.robots = robot_count(variant);
+  record.swept = variant.swept;
+  const auto label = [&record](const std::vector<PluginUse>& uses, std::int32_t index) {
+    if (index < 0) return std::string();
+    const PluginUse& use = uses[static_cast<std::size_t>(index)];
+    record.swept.insert(record.swept.end(), use.swept.begin(), use.swept.end());
+    return use.label;
+  };
+  record.global_planner = label(experiment.global_planners, combination.global_planner);
+  record.local_controller = label(experiment.local_controllers, combination.local_controller);
+  record.pedestrian_model = label(experiment.pedestrian_models, combination.pedestrian_model);
+  record.repetition = id.repetition;
+  record.seed = trial_seed(experiment, trial);
+  return record;
+}
+
 }  // namespace
+
+OpenTrial::OpenTrial(const Experiment& experiment, std::uint64_t trial)
+    : experiment_(&experiment), record_(blank_record(experiment, trial)) {}
 
 std::optional<std::string> breach_of(const MetricResult& result, const PluginInfo& metric, std::uint32_t robots) {
   std::set<std::tuple<std::string_view, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>> given;

@@ -16,7 +16,7 @@ namespace dmrp::host {
 
 class OpenTrial {
  public:
-  OpenTrial(const Experiment& experiment, TrialRecord blank) : experiment_(&experiment), record_(std::move(blank)) {}
+  OpenTrial(const Experiment& experiment, std::uint64_t trial);
 
   // Begins an attempt: the job for a worker, without its files.
   Job begin(std::uint64_t stamp);

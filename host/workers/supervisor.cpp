@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <dmrp/toolkit/random.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,6 +24,7 @@
 #include "host/results/trace_path.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/open_trial.hpp"
+#include "host/workers/rerun_command.hpp"
 #include "host/workers/scratch_folder.hpp"
 #include "host/workers/stored_trace.hpp"
 #include "host/workers/whole_number.hpp"
@@ -43,13 +43,6 @@ constexpr int most_kills = 4;  // of one trial: then a plugin of it is to blame,
 constexpr int most_kills_between_trials = 20;
 constexpr std::int64_t long_call_ns = second_ns;
 constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
-
-std::string quoted_for_shell(const std::string& word) {
-  if (word.find_first_of(" \t\"'\\$&;()<>|*?`~#!") == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 // Something of a worker that may take so long.
 struct Watch {
@@ -143,7 +136,7 @@ class Supervisor {
   }
 
   OpenTrial next_trial() {
-    if (again_.empty()) return OpenTrial(experiment_, blank_record(experiment_, *planned_.next()));
+    if (again_.empty()) return OpenTrial(experiment_, *planned_.next());
     OpenTrial trial = std::move(again_.back());
     again_.pop_back();
     return trial;
@@ -281,7 +274,7 @@ class Supervisor {
     }
     TrialRecord record = slot.trial->take_record();
     record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
-    for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(record.id);
+    for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(experiment_, record.id, settings_.trial_count);
     slot.trial.reset();
     slot.last_trial = record.id;
     --open_trials_;
@@ -311,12 +304,6 @@ class Supervisor {
   void run_again(Slot& slot) {
     again_.push_back(std::move(*slot.trial));
     slot.trial.reset();
-  }
-
-  std::string rerun_command(std::uint64_t trial) const {
-    return fmt::format("dmrp-host run {} --trials {} --shard {}/{} --out rerun-{}",
-                       quoted_for_shell(experiment_.file.string()), experiment_.trials, trial, settings_.trial_count,
-                       trial);
   }
 
   // Ends a worker whose call, trial or start takes too long.
@@ -418,7 +405,7 @@ class Supervisor {
   // The worker ended between two trials.
   void blame_last_trial(const Slot& slot, FaultRecord fault) {
     if (slot.last_trial) {
-      fault.rerun = rerun_command(*slot.last_trial);
+      fault.rerun = rerun_command(experiment_, *slot.last_trial, settings_.trial_count);
       return sinks_.on_late_fault(*slot.last_trial, fault);
     }
     if ((fault.kind == fault_kind::hang && !slot.ready) || ++failed_starts_ >= start_attempts)
@@ -473,30 +460,6 @@ class Supervisor {
 RunEnding supervise(const Experiment& experiment, PlannedTrials trials, const SupervisorSettings& settings,
                     const SupervisorSinks& sinks) {
   return Supervisor(experiment, std::move(trials), settings, sinks).run();
-}
-
-TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
-  const auto all = combinations(experiment);
-  const TrialId id = trial_id(trial, all.size());
-  const Combination& combination = all[id.combination];
-  const ScenarioVariant& variant = experiment.scenarios[combination.scenario];
-  TrialRecord record;
-  record.id = trial;
-  record.scenario = result_name(variant);
-  record.robots = robot_count(variant);
-  record.swept = variant.swept;
-  const auto label = [&record](const std::vector<PluginUse>& uses, std::int32_t index) {
-    if (index < 0) return std::string();
-    const PluginUse& use = uses[static_cast<std::size_t>(index)];
-    record.swept.insert(record.swept.end(), use.swept.begin(), use.swept.end());
-    return use.label;
-  };
-  record.global_planner = label(experiment.global_planners, combination.global_planner);
-  record.local_controller = label(experiment.local_controllers, combination.local_controller);
-  record.pedestrian_model = label(experiment.pedestrian_models, combination.pedestrian_model);
-  record.repetition = id.repetition;
-  record.seed = trial_seed(experiment, trial);
-  return record;
 }
 
 }  // namespace dmrp::host

@@ -3,8 +3,8 @@
 //
 // Each job has one worker, which runs many trials under resource limits. If a worker dies, hangs or sends a message that
 // its state does not allow, another worker takes its place. Workers write in scratch folders; this process alone puts
-// traces into the run directory, each before its trial is reported. A trial that was killed from outside, or whose worker had run
-// other trials before, is run again by a fresh worker; otherwise it ends as a fault.
+// traces into the run directory, each before its trial is reported. A trial that was killed from outside, or whose
+// worker had run other trials before, is run again by a fresh worker; otherwise it ends as a fault.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,5 @@ enum class RunEnding { done, interrupted };
 // Runs these trials. Throws InputError if the experiment's files change during the run, and MachineError.
 RunEnding supervise(const Experiment& experiment, PlannedTrials trials, const SupervisorSettings& settings,
                     const SupervisorSinks& sinks);
-
-// The record of a trial that has not run: its place in the experiment.
-TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial);
 
 }  // namespace dmrp::host
