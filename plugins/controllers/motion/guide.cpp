@@ -93,6 +93,35 @@ void Guide::spread(const CostmapView& map, Vec2 robot, double needed_m, double e
   }
 }
 
+bool Guide::connects(const CostmapView& map, Vec2 robot, Vec2 point, double needed_m) {
+  read(map, robot, needed_m, needed_m);
+  const std::int32_t start = map.index_of(robot);
+  const std::int32_t end = map.index_of(point);
+  if (start < 0 || end < 0 || efforts_[static_cast<std::size_t>(end)] == escape_effort) return false;
+  if (start == end) return true;
+  if (efforts_[static_cast<std::size_t>(end)] == 0) return false;
+  // fills from the robot; a cell that has been filled counts as blocked, so that from_ has room for all of them
+  from_.resize(efforts_.size());
+  std::size_t pending = 0;
+  from_[pending++] = start;
+  efforts_[static_cast<std::size_t>(start)] = 0;
+  while (pending > 0) {
+    const std::int32_t cell = from_[--pending];
+    const std::int32_t column = cell % map.width();
+    const std::int32_t row = cell / map.width();
+    for (const Step& step : steps) {
+      if (!map.contains(column + step.columns, row + step.rows)) continue;
+      const std::int32_t next = cell + step.rows * map.width() + step.columns;
+      if (next == end) return true;
+      std::uint8_t& effort = efforts_[static_cast<std::size_t>(next)];
+      if (effort == 0) continue;
+      effort = 0;
+      from_[pending++] = next;
+    }
+  }
+  return false;
+}
+
 bool Guide::reaches(const CostmapView& map, Vec2 point) const {
   const std::int32_t index = map.index_of(point);
   return index >= 0 && costs_[static_cast<std::size_t>(index)] != unreached &&

@@ -26,6 +26,9 @@ class Guide {
   // not lethal is allowed.
   void spread(const CostmapView& map, Vec2 robot, double needed_m, double easy_m);
 
+  // Whether a search with this clearance would reach a point, sooner found than by spread(), whose result is lost.
+  bool connects(const CostmapView& map, Vec2 robot, Vec2 point, double needed_m);
+
   // Whether the search reached a point. After spread(), on the same map.
   bool reaches(const CostmapView& map, Vec2 point) const;
 

@@ -318,10 +318,8 @@ double Mpc::share_in_gaps(const Observation& now, const CostmapView& map, Vec2 g
   const double needed_m = now.footprint.inscribed_radius_m + map.resolution_m();
   const std::uint8_t highest = map.highest_cost_at(needed_m + min_obstacle_dist);
   if (std::all_of(route_.begin(), route_.end(), [&](Vec2 point) { return map.cost(point) <= highest; })) return 1.0;
-  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
-    guide_.spread(map, toolkit::position(now.pose), needed_m + share * min_obstacle_dist, needed_m + easy_beyond_m);
-    if (guide_.reaches(map, goal)) return share;
-  }
+  for (const double share : {1.0, 0.5, 0.25, 0.0})
+    if (guide_.connects(map, toolkit::position(now.pose), goal, needed_m + share * min_obstacle_dist)) return share;
   return 1.0;
 }
 

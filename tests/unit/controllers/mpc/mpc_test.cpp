@@ -465,6 +465,27 @@ TEST_CASE("The guide leads around obstacles and reports unreachable points") {
   CHECK_FALSE(guide.reaches(map, to));
 }
 
+TEST_CASE("The guide connects exactly the points that its search reaches") {
+  dmrp::toolkit::Stream random(16, "connects");
+  int connected = 0;
+  for (int round = 0; round < 10; ++round) {
+    FakeCostmap fake(60);
+    for (int i = 0; i < 12; ++i) fake.mark(random.uniform(0.0, 3.0), random.uniform(0.0, 3.0));
+    dmrp_costmap c = fake.c();
+    const CostmapView map(c);
+    const dmrp_vec2 from = {random.uniform(0.0, 3.0), random.uniform(0.0, 3.0)};
+    Guide searching, filling;
+    searching.spread(map, from, 0.3, 0.4);
+    for (int k = 0; k < 40; ++k) {
+      const dmrp_vec2 to = {random.uniform(-0.1, 3.1), random.uniform(-0.1, 3.1)};
+      CHECK(filling.connects(map, from, to, 0.3) == searching.reaches(map, to));
+      connected += searching.reaches(map, to);
+    }
+  }
+  CHECK(connected > 50);
+  CHECK(connected < 350);
+}
+
 namespace {
 
 // Agents, a wall along x = 1 and a corner at (0.6, 0.28); the robot stands at the origin.
