@@ -38,6 +38,12 @@ constexpr double slow_share = 0.5;
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
+// A trajectory that ends farther from the goal misses it.
+constexpr double short_m = 0.1;
+
+// It waits at most so far beside its path.
+constexpr double aside_m = 1.0;
+
 // Below both, the states of a trajectory count as waiting at its start.
 constexpr double idle_m = 0.01;
 constexpr double idle_rad = 0.02;
@@ -242,23 +248,38 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   std::size_t last = points.size() - 1;
   while (last > 0 && !can_stop_at(points[last])) --last;
   const bool is_cut = last + 1 < points.size();
-  if (!guide_.reaches(map, points[last]) ||
-      (is_cut && toolkit::distance(toolkit::position(now.pose), points[last]) < wait_within_m)) {
+  const Vec2 end = is_cut && make_room && !is_car_like(now.limits) ? place_to_wait(map, last) : points[last];
+  if (!guide_.reaches(map, end) || (is_cut && toolkit::distance(toolkit::position(now.pose), end) < wait_within_m)) {
     detour_.clear();
     return {};
   }
   if (is_cut) {
-    target.goal.x = points[last].x;
-    target.goal.y = points[last].y;
+    target.goal.x = end.x;
+    target.goal.y = end.y;
     target.ends_at_rest = true;
     target.fixes_heading = false;
   }
-  guide_.path_to(map, points[last], route_);
+  guide_.path_to(map, end, route_);
   if (is_cut)
     detour_.clear();
   else if (keep_detour && !detour_.is_kept())
     detour_.keep(route_, ahead_.end_m());
   return target;
+}
+
+// What cuts off a planned path is not on the map: a robot or a person, who may come this way as fast as this robot, and
+// who sees no more of it. If each of two stops within half of the distance, they do not touch. If each waits on its right
+// of the path, they have left room to pass.
+Vec2 Mpc::place_to_wait(const CostmapView& map, std::size_t last) const {
+  const std::vector<Vec2>& points = ahead_.points();
+  const Vec2 ahead = points[last / 2 + 1] - points[last / 2];
+  const Vec2 on_path = last % 2 == 0 ? points[last / 2] : points[last / 2] + 0.5 * ahead;
+  if (!guide_.reaches(map, on_path)) return points[last];
+  const Vec2 step = -map.resolution_m() * toolkit::perpendicular(toolkit::normalized(ahead));
+  const int most = static_cast<int>(aside_m / map.resolution_m());
+  int steps = 0;
+  while (steps < most && guide_.reaches(map, on_path + (steps + 1) * step)) ++steps;
+  return on_path + steps * step;
 }
 
 // The guide knows of a disc only. A car-like robot, which cannot turn in place, stops only where its outline keeps the
@@ -363,7 +384,7 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
 
   if (can_continue()) {
     optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
-    if (is_solved(barrier_warm)) return solver_iterations;
+    if (is_solved(barrier_warm) && !stands_short(now)) return solver_iterations;
   }
   if (is_solved_along_route()) return solver_iterations;
   if (target.is_guided) return {};  // route_ was the guide's already
@@ -436,6 +457,14 @@ bool Mpc::can_continue() const {
   if (std::hypot(goal.x - end.x, goal.y - end.y) > force_reinit_new_goal_dist) return false;
   return !problem_.fixes_heading ||
          std::abs(toolkit::difference(end.theta, goal.theta)) <= force_reinit_new_goal_angular;
+}
+
+// The terminal state is elastic, so beside its goal a robot may stand for ever in a local minimum that misses it. In
+// upstream, this trajectory is infeasible, and the controller starts anew.
+bool Mpc::stands_short(const Observation& now) const {
+  const mpc::State& end = trajectory_.states.back();
+  return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s &&
+         std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > short_m;
 }
 
 // Of trajectory_ from its state `first` on.

@@ -49,6 +49,9 @@ class Mpc : public LocalController {
   Param<bool> ease_in_gaps =
       param("ease_in_gaps", true)
           .doc("departure: a way through a gap too narrow for min_obstacle_dist keeps as much as there is room for");
+  Param<bool> make_room =
+      param("make_room", true)
+          .doc("departure: where its way is cut off, the robot waits on the right and within half of the distance");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -120,6 +123,7 @@ class Mpc : public LocalController {
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  Vec2 place_to_wait(const CostmapView& map, std::size_t last) const;
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const CostmapView& map, const Target& target);
@@ -132,6 +136,7 @@ class Mpc : public LocalController {
   void begin_turn(const Observation& now);
   bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);
   bool can_continue() const;
+  bool stands_short(const Observation& now) const;
   bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
   void skip_waiting(const mpc::Surroundings& around);
   void annotate(int solver_iterations) const;

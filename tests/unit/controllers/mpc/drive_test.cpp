@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Known failures of the MPC, in closed loop.
+#include <array>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
-#include <utility>
 
 #include "tests/unit/controllers/controllers.hpp"
 
@@ -70,30 +70,55 @@ TEST_CASE("MPC leaves a corner that it stands beside") {
   }
 }
 
-TEST_CASE("Two MPC robots meet head-on where they have to share the room") {
-  const auto [width_m, tracking] = GENERATE(std::pair{1.6, true}, std::pair{1.8, false});
-  Stream random(14, "head-on");
-  int arrived = 0;
-  for (int round = 0; round < 10; ++round) {
-    CAPTURE(width_m, round);
-    Course east;
-    east.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
-    east.start = jittered({0.0, 0.0, 0.0}, random);
-    east.boxes = corridor(width_m);
-    east.tracking = tracking;
-    east.sight = Sight::scan;
-    east.time_limit_s = 45.0;
-    Course west = east;
-    west.path = metre_path({{8.0, 0.0}, {0.0, 0.0}});
-    west.start = jittered({8.0, 0.0, dmrp::toolkit::pi}, random);
-    for (const Drive& drive : drive_two(mpc.id, east, west, mpc.tuned)) {
-      check_sound(drive);
-      CHECK(drive.walker_clearance_m > 0.0);
-      arrived += drive.arrived;
+TEST_CASE("Two MPC robots meet head-on where neither can pass the other alone") {
+  const bool tracking = GENERATE(true, false);
+  CAPTURE(tracking);
+  int touched = 0;
+  const auto arrivals = [&](int rounds, bool makes_room) {
+    ParamOverrides parameters = mpc.tuned;
+    parameters["make_room"] = makes_room;
+    Stream random(14, "head-on");
+    int arrived = 0;
+    for (int round = 0; round < rounds; ++round) {
+      Course east;
+      east.path = metre_path({{0.0, 0.0}, {7.0, 0.0}});
+      east.start = jittered({0.0, 0.0, 0.0}, random);
+      east.boxes = corridor(random.uniform(1.4, 1.6));
+      east.tracking = tracking;
+      east.sight = Sight::scan;
+      east.time_limit_s = makes_room ? 40.0 : 20.0;
+      Course west = east;
+      west.path = metre_path({{7.0, 0.0}, {0.0, 0.0}});
+      west.start = jittered({7.0, 0.0, dmrp::toolkit::pi}, random);
+      const std::array<Drive, 2> drives = drive_two(mpc.id, east, west, parameters);
+      for (const Drive& drive : drives) check_sound(drive);
+      arrived += drives[0].arrived && drives[1].arrived;
+      touched += drives[0].walker_clearance_m <= 0.0;
     }
+    return arrived;
+  };
+  CHECK(arrivals(20, true) == 20);
+  // two that turn back to their path at once may graze each other: each takes the other for slower than it will be
+  CHECK(touched <= 1);
+  CHECK(arrivals(5, false) < 5);
+}
+
+TEST_CASE("MPC reaches a goal that another robot crosses as it arrives") {
+  Stream random(17, "crossed");
+  for (int round = 0; round < 20; ++round) {
+    CAPTURE(round);
+    Course course;
+    course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
+    course.start = jittered({0.0, 0.0, 0.0}, random);
+    const double across_x = 3.0 + random.uniform(-0.1, 0.1);
+    const double start_s = random.uniform(0.2, 0.9);
+    Walker other = walking({across_x, 3.0}, {across_x, -4.5}, 0.8, start_s);
+    other.radius_m = 0.25;
+    other.kind = DMRP_AGENT_ROBOT;
+    course.walkers = {other};
+    course.sight = Sight::scan;
+    check_arrives(run(mpc, course), 20.0);
   }
-  // at 1.6 m, a pair may still end face to face in the middle, where there is room on neither side
-  CHECK(arrived >= (tracking ? 18 : 20));
 }
 
 TEST_CASE("MPC drives through doors 20 to 25 cm wider than itself") {
