@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "controllers/e3mop/guarded_motion.hpp"
+#include "controllers/e3mop/lay_by.hpp"
 #include "controllers/e3mop/path_follower.hpp"
 #include "controllers/e3mop/velocity_profile.hpp"
 #include "controllers/motion/unicycle.hpp"
@@ -32,8 +33,18 @@ constexpr double lead_m = 0.25;
 constexpr double leads_on_m = 1.0;
 constexpr std::size_t points_short = 5;
 
+// A way that keeps the margin does not count if it takes this many times as long as one without it.
+constexpr double far_factor = 1.5;
+
+bool is_far(Ticks cost, Ticks other) {
+  return static_cast<double>(cost) > far_factor * static_cast<double>(other);
+}
+
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.2;
+
+// Where it lets somebody pass, it comes as close as this to the place beside its path.
+constexpr double lay_by_reached_m = 0.02;
 
 // The last cycle's path is kept for this time and at least this distance ahead of the robot, so that its next motion
 // does not change in every cycle.
@@ -126,14 +137,14 @@ Command E3mop::drive(const Observation& now) {
   const bool has_agents = read_fields(now);
   const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
   ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
-  lay_out_global_path();
+  lay_out_global_path(now, map);
   if (way_out_.is_taken()) return way_out_.drive(now, seen);
   std::optional<Plan> plan = choose_plan(now, outline, has_agents);
   if (keep_detour && !follows_path(plan, now)) {
     ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
     global_path_ = ahead_.points();
     plan = choose_plan(now, outline, has_agents);
-    if (!plan || plan->goal.is_cut) detour_.clear();
+    if (!plan || plan->goal.is_cut || !plan->found->found) detour_.clear();
   }
   if (!plan) {
     path_.clear();
@@ -158,21 +169,41 @@ Command E3mop::drive(const Observation& now) {
 }
 
 // Plans with the margin, as long as there is a way so wide; otherwise without it; and with the agents' current
-// positions, if their predicted motion blocks every path.
+// positions, if their predicted motion blocks every path. To where the robot lets somebody pass who leaves it no way.
 std::optional<E3mop::Plan> E3mop::choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents) {
-  const auto plan_with = [&](double margin_m) {
-    return plan(now, FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline, margin_m));
-  };
   std::optional<Plan> chosen;
-  if (clearance_margin > 0.0) {
-    chosen = plan_with(clearance_margin);
-    const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
-    if (chosen && leads_on(*chosen, now, foreseen)) return chosen;
+  if (clearance_margin > 0.0) chosen = plan_clear(now, outline);
+  if (chosen) return chosen;
+  chosen = plan_with(0.0, now, outline);
+  if (!(chosen && chosen->found->found) && has_agents) {
+    foreseen_ = field_;
+    chosen = plan_with(0.0, now, outline);
   }
-  chosen = plan_with(0.0);
-  if ((chosen && chosen->found->found) || !has_agents) return chosen;
-  foreseen_ = field_;
-  return plan_with(0.0);
+  const bool is_open = chosen && chosen->found->found && !chosen->goal.is_cut;
+  if (is_open || !keep_right || !has_agents) return chosen;
+  const FreeSpace free_space(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+  const std::optional<Vec2> place = lay_by(now, global_path_, prediction_time, free_space);
+  if (!place || !local_plan_.can_reach(*place)) return chosen;
+  if (toolkit::distance(toolkit::position(now.pose), *place) < lay_by_reached_m) return {};
+  return plan_to({*place, true, false, 0}, keep_path(now, free_space), now, free_space);
+}
+
+std::optional<E3mop::Plan> E3mop::plan_with(double margin_m, const Observation& now, const FootprintCheck& outline) {
+  return plan(now, FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline, margin_m));
+}
+
+// The plan that keeps the margin; the one without it, if that is much shorter. Nothing if the margin leaves no way.
+// Where the margin hardly fits, the search finds the short way from one pose and only a long one from the next: the robot
+// would turn to one and the other for ever.
+std::optional<E3mop::Plan> E3mop::plan_clear(const Observation& now, const FootprintCheck& outline) {
+  std::optional<Plan> chosen = plan_with(clearance_margin, now, outline);
+  const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
+  if (!chosen || !leads_on(*chosen, now, foreseen)) return {};
+  const Ticks cost = chosen->found->cost;
+  if (!is_far(cost, chosen->found->least_cost)) return chosen;
+  chosen = plan_with(0.0, now, outline);
+  if (chosen && chosen->found->found && !chosen->goal.is_cut && is_far(cost, chosen->found->cost)) return chosen;
+  return plan_with(clearance_margin, now, outline);
 }
 
 // Whether a plan that keeps the margin leads where any plan would, or nearly so.
@@ -201,9 +232,12 @@ bool E3mop::read_fields(const Observation& now) {
   return has_agents;
 }
 
-// The path ahead up to a turning point: the robot has to reach the tip of an excursion before the way back counts.
-void E3mop::lay_out_global_path() {
+// The path ahead up to a turning point: the robot has to reach the tip of an excursion before the way back counts. If
+// the window holds none of the path, the straight line to it.
+void E3mop::lay_out_global_path(const Observation& now, const CostmapView& map) {
   global_path_.clear();
+  returns_ = return_to_path && map.index_of(ahead_.points().front()) < 0;
+  if (returns_) return lay_out_return(now, map);
   const std::vector<Vec2>& points = ahead_.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i >= 2) {
@@ -216,16 +250,26 @@ void E3mop::lay_out_global_path() {
   }
 }
 
+// A robot that a detour has led so far from its path that the window holds none of it has nothing else to plan to.
+void E3mop::lay_out_return(const Observation& now, const CostmapView& map) {
+  const Vec2 from = toolkit::position(now.pose);
+  const Vec2 to = ahead_.points().front();
+  const Vec2 step = PathAhead::spacing_m * toolkit::normalized(to - from);
+  const auto steps = static_cast<int>(max_global_plan_lookahead_dist / PathAhead::spacing_m);
+  global_path_.push_back(from);
+  for (int i = 1; i <= steps && map.index_of(from + i * step) >= 0; ++i) global_path_.push_back(from + i * step);
+}
+
 // Whether the robot is to follow a plan along the path; not if it has kept a detour that leads farther. If there is an
 // obstacle on the path before the plan's end, keeps the plan's way as a detour.
 bool E3mop::follows_path(const std::optional<Plan>& plan, const Observation& now) {
   detour_.update(toolkit::position(now.pose), tracker_.progress_m());
   const bool leads_on = plan && !plan->goal.is_cut;
-  const std::size_t last = leads_on ? plan->goal.index : 0;
+  const std::size_t last = leads_on && !returns_ ? plan->goal.index : 0;
   const double end_m = tracker_.progress_m() + PathAhead::spacing_m * static_cast<double>(last);
   if (detour_.leads_beyond(end_m)) return false;
   detour_.clear();
-  if (!leads_on || !plan->found->found) return true;
+  if (!leads_on || !plan->found->found || returns_) return true;
   const auto is_free = [&](Vec2 point) { return plan->free_space.is_free({point, {1.0, 0.0}}); };
   if (std::all_of(global_path_.begin(), global_path_.begin() + static_cast<std::ptrdiff_t>(last), is_free)) return true;
   way_.clear();
@@ -270,12 +314,17 @@ std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const FreeSpace& 
                               global_path_, end_beside_obstacles);
   if (!goal) return {};
   if (goal->is_cut && toolkit::distance(toolkit::position(now.pose), goal->at) < wait_within_m) return {};
+  return plan_to(*goal, from, now, free_space);
+}
+
+std::optional<E3mop::Plan> E3mop::plan_to(const LatticeGoal& goal, const Pose& from, const Observation& now,
+                                          const FreeSpace& free_space) {
   SearchSettings settings;
   settings.v_max = now.limits.v_max;
   settings.omega_max = now.limits.omega_max;
   settings.pruning = pruning;
   settings.first_turn_s = std::abs(now.velocity.v_x) / now.limits.a_max;
-  const Plan plan = {*goal, &local_plan_.search(from, free_space, settings), from, free_space};
+  const Plan plan = {goal, &local_plan_.search(from, free_space, settings), from, free_space};
   append_points(plan);
   if (rough_.points.size() <= 1) return {};
   return plan;

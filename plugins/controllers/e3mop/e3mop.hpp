@@ -64,6 +64,11 @@ class E3mop final : public LocalController {
   Param<bool> keep_detour =
       param("keep_detour", true)
           .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
+  Param<bool> return_to_path =
+      param("return_to_path", true).doc("departure: drive straight to a path that lies outside the window; off: stand");
+  Param<bool> keep_right =
+      param("keep_right", true)
+          .doc("departure: a robot that somebody leaves no way moves to its right-hand side to let them pass");
   Param<bool> end_beside_obstacles =
       param("end_beside_obstacles", true)
           .doc("departure: where the path's end is too close to an obstacle, a free cell beside it counts as its end");
@@ -89,11 +94,16 @@ class E3mop final : public LocalController {
   void prepare(const Observation& now);
   Command drive(const Observation& now);
   bool read_fields(const Observation& now);
-  void lay_out_global_path();
+  void lay_out_global_path(const Observation& now, const CostmapView& map);
+  void lay_out_return(const Observation& now, const CostmapView& map);
   bool follows_path(const std::optional<Plan>& plan, const Observation& now);
   Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
   std::optional<Plan> choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents);
+  std::optional<Plan> plan_clear(const Observation& now, const FootprintCheck& outline);
+  std::optional<Plan> plan_with(double margin_m, const Observation& now, const FootprintCheck& outline);
   std::optional<Plan> plan(const Observation& now, const e3mop::FreeSpace& free_space);
+  std::optional<Plan> plan_to(const e3mop::LatticeGoal& goal, const Pose& from, const Observation& now,
+                              const e3mop::FreeSpace& free_space);
   bool leads_on(const Plan& plan, const Observation& now, const e3mop::FreeSpace& free_space) const;
   void append_points(const Plan& plan);
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
@@ -118,6 +128,7 @@ class E3mop final : public LocalController {
   e3mop::ClearanceField foreseen_;  // with the predicted motion of visible agents
   PathAhead ahead_;
   std::vector<Vec2> global_path_;  // the part of the path ahead that is planned to
+  bool returns_ = false;           // the window holds none of the path: global_path_ leads straight to it
   std::vector<Vec2> way_;          // to keep as a detour
   e3mop::LocalPlan local_plan_;
   e3mop::RoughPath rough_;

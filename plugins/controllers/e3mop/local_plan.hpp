@@ -29,12 +29,14 @@ class LocalPlan {
   std::optional<LatticeGoal> choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
                                          double inscribed_radius_m, const std::vector<Vec2>& path, bool ends_beside);
 
+  // Takes another goal; false if the robot cannot reach it.
+  bool can_reach(Vec2 goal);
+
   // Searches for the path to the goal chosen. The result is valid until the next search.
   const SearchResult& search(const Pose& robot, const FreeSpace& free_space, const SearchSettings& settings);
 
  private:
   void lay_lattice(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space, double inscribed_radius_m);
-  bool can_reach(Vec2 goal);
   std::optional<Vec2> place_beside(Vec2 point, const FreeSpace& free_space) const;
 
   MotionSet motions_;

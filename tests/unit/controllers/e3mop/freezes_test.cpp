@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How E3MoP keeps its distance where there is room, and leaves an obstacle that it stands at: each world is driven from
-// 20 starts, with and without the switch.
+// How E3MoP keeps its distance where there is room, leaves an obstacle that it stands at, comes back to a path that has
+// left its window, and lets another robot pass: each world is driven from 20 starts, with and without the switch.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <functional>
 #include <memory>
@@ -71,6 +72,50 @@ Course at_contact(Stream& random) {
   return course;
 }
 
+// Beside the path, so far that the window does not show it, behind a shelf.
+Course beside_the_window(Stream& random) {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}});
+  course.start = jittered({random.uniform(0.0, 2.0), random.uniform(3.3, 4.3), random.uniform(-3.0, 3.0)}, random);
+  course.boxes = {{{-0.5, 1.5}, {1.0, 1.8}}};
+  course.time_limit_s = 25.0;
+  return course;
+}
+
+// The path leads through a gap in which the margin just fits, or just does not; around the block is room, and a way three
+// times as long.
+Course gap_as_wide_as_the_margin(Stream& random) {
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+  course.start = jittered({0.0, 0.0, 0.0}, random);
+  const double half_m = 0.5 * random.uniform(0.78, 0.86);
+  course.boxes = {{{-1.0, half_m}, {8.0, half_m + 0.2}}, {{2.5, -half_m - 1.0}, {3.5, -half_m}}};
+  course.sight = Sight::scan;
+  course.time_limit_s = 25.0;
+  return course;
+}
+
+// Pairs of robots that pass each other head-on in corridors 1.25 to 1.45 m wide; counts at most one that does not.
+int pairs_that_pass(bool keeps_right) {
+  ParamOverrides parameters = tuned_parameters("dmrp.controller.e3mop");
+  parameters["keep_right"] = keeps_right;
+  Stream random(29, "corridors");
+  for (int round = 0; round < starts; ++round) {
+    Course east;
+    east.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
+    east.start = jittered({0.0, 0.0, 0.0}, random);
+    east.boxes = corridor(random.uniform(1.25, 1.45));
+    east.sight = Sight::scan;
+    east.time_limit_s = 25.0;
+    Course west = east;
+    west.path = metre_path({{6.0, 0.0}, {0.0, 0.0}});
+    west.start = jittered({6.0, 0.0, dmrp::toolkit::pi}, random);
+    for (const Drive& drive : drive_two("dmrp.controller.e3mop", east, west, parameters))
+      if (!drive.arrived || drive.walker_clearance_m <= 0.0 || drive.static_clearance_m <= 0.0) return round;
+  }
+  return starts;
+}
+
 }  // namespace
 
 TEST_CASE("E3MoP keeps a decimetre from a person who appears before it", "[slow]") {
@@ -85,4 +130,22 @@ TEST_CASE("E3MoP leaves a wall that it stands at", "[slow]") {
   CHECK(mended.arrived == starts);
   CHECK(mended.static_clearance_m > 0.0);
   CHECK(drive_all(at_contact, {{"leave_padding", false}}).arrived < starts);
+}
+
+TEST_CASE("E3MoP passes a gap in which its margin hardly fits", "[slow]") {
+  const Outcome mended = drive_all(gap_as_wide_as_the_margin);
+  CHECK(mended.arrived == starts);
+  CHECK(mended.static_clearance_m > 0.0);
+}
+
+TEST_CASE("E3MoP returns to a path that lies outside its window", "[slow]") {
+  const Outcome mended = drive_all(beside_the_window);
+  CHECK(mended.arrived == starts);
+  CHECK(mended.static_clearance_m > 0.0);
+  CHECK(drive_all(beside_the_window, {{"return_to_path", false}}).arrived < starts);
+}
+
+TEST_CASE("Two E3MoP robots pass each other in a corridor where each has to keep to its wall", "[slow]") {
+  CHECK(pairs_that_pass(true) == starts);
+  CHECK(pairs_that_pass(false) < starts);
 }
