@@ -193,8 +193,8 @@ std::optional<E3mop::Plan> E3mop::plan_with(double margin_m, const Observation& 
 }
 
 // The plan that keeps the margin; the one without it, if that is much shorter. Nothing if the margin leaves no way.
-// Where the margin hardly fits, the search finds the short way from one pose and only a long one from the next: the robot
-// would turn to one and the other for ever.
+// Where the margin hardly fits, the search finds the short way from one pose and only a long one from the next: the
+// robot would turn to one and the other for ever.
 std::optional<E3mop::Plan> E3mop::plan_clear(const Observation& now, const FootprintCheck& outline) {
   std::optional<Plan> chosen = plan_with(clearance_margin, now, outline);
   const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);

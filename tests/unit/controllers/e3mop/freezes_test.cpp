@@ -82,8 +82,8 @@ Course beside_the_window(Stream& random) {
   return course;
 }
 
-// The path leads through a gap in which the margin just fits, or just does not; around the block is room, and a way three
-// times as long.
+// The path leads through a gap in which the margin just fits, or just does not; around the block is room, and a longer
+// way.
 Course gap_as_wide_as_the_margin(Stream& random) {
   Course course;
   course.path = metre_path({{0.0, 0.0}, {6.0, 0.0}});
