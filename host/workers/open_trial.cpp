@@ -43,7 +43,8 @@ bool may_be_event(const MetricEvent& event, std::uint32_t robots) {
          std::all_of(event.robots.begin(), event.robots.end(), [&](std::uint32_t robot) { return robot < robots; });
 }
 
-// The record of a trial that has not run: its place in the experiment.
+}  // namespace
+
 TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
   const auto all = combinations(experiment);
   const TrialId id = trial_id(trial, all.size());
@@ -67,11 +68,6 @@ TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial) {
   record.seed = trial_seed(experiment, trial);
   return record;
 }
-
-}  // namespace
-
-OpenTrial::OpenTrial(const Experiment& experiment, std::uint64_t trial)
-    : experiment_(&experiment), record_(blank_record(experiment, trial)) {}
 
 std::optional<std::string> breach_of(const MetricResult& result, const PluginInfo& metric, std::uint32_t robots) {
   std::set<std::tuple<std::string_view, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>> given;

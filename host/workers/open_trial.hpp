@@ -14,9 +14,12 @@
 
 namespace dmrp::host {
 
+// The record of a trial that has not run: its place in the experiment.
+TrialRecord blank_record(const Experiment& experiment, std::uint64_t trial);
+
 class OpenTrial {
  public:
-  OpenTrial(const Experiment& experiment, std::uint64_t trial);
+  OpenTrial(const Experiment& experiment, TrialRecord blank) : experiment_(&experiment), record_(std::move(blank)) {}
 
   // Begins an attempt: the job for a worker, without its files.
   Job begin(std::uint64_t stamp);

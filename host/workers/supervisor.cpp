@@ -136,7 +136,7 @@ class Supervisor {
   }
 
   OpenTrial next_trial() {
-    if (again_.empty()) return OpenTrial(experiment_, *planned_.next());
+    if (again_.empty()) return OpenTrial(experiment_, blank_record(experiment_, *planned_.next()));
     OpenTrial trial = std::move(again_.back());
     again_.pop_back();
     return trial;
