@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace dmrp::controllers::mppi {
 
@@ -56,10 +57,13 @@ void move(State& s, float step_s, bool holonomic) {
   }
 }
 
-// The next control of one axis: mean and noise, within reach of the velocity, which it becomes.
-void choose(float mean, float deviation, const float* noise, float reach, Lanes& velocity, float* control) {
+constexpr float unbounded = -std::numeric_limits<float>::infinity();
+
+// The next control of one axis: mean and noise, at least `least`, within reach of the velocity, which it becomes.
+void choose(float mean, float deviation, const float* noise, float reach, float least, Lanes& velocity,
+            float* control) {
   for (int l = 0; l < lanes; ++l) {
-    const float wanted = mean + deviation * noise[l];
+    const float wanted = std::max(mean + deviation * noise[l], least);
     velocity[l] = std::min(std::max(wanted, velocity[l] - reach), velocity[l] + reach);
     control[l] = velocity[l];
   }
@@ -100,10 +104,12 @@ void sample(const Model& model, const Sequence& mean, const Noise& noise, std::u
       store(s.theta, batch.theta.row(block, i));
       const Velocity& m = mean[static_cast<std::size_t>(i)];
       const NoiseRows& row = rows[static_cast<std::size_t>(i)];
-      choose(m.v_x, deviation.v_x, noise.block(row.v_x, block), reach, s.v_x, batch.v_x.row(block, i));
-      choose(m.omega, deviation.omega, noise.block(row.omega, block), turn_reach, s.omega, batch.omega.row(block, i));
+      choose(m.v_x, deviation.v_x, noise.block(row.v_x, block), reach, model.slowest_m_s, s.v_x,
+             batch.v_x.row(block, i));
+      choose(m.omega, deviation.omega, noise.block(row.omega, block), turn_reach, unbounded, s.omega,
+             batch.omega.row(block, i));
       if (model.holonomic)
-        choose(m.v_y, deviation.v_y, noise.block(row.v_y, block), reach, s.v_y, batch.v_y.row(block, i));
+        choose(m.v_y, deviation.v_y, noise.block(row.v_y, block), reach, unbounded, s.v_y, batch.v_y.row(block, i));
     }
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "controllers/mppi/noise.hpp"
@@ -32,6 +33,7 @@ struct Model {
   bool holonomic = false;
   Velocity deviation;  // standard deviations
   Limits limits;
+  float slowest_m_s = -std::numeric_limits<float>::infinity();  // no sample drives forward more slowly than this
 };
 
 // A velocity per step.

@@ -98,6 +98,7 @@ Status Mppi::start(const Start& start) {
   // a robot that may not drive backward has to face its path
   if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
     path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
+  model_.slowest_m_s = robot.limits->v_min == 0.0 && sample_forward ? 0.0f : mppi::Model{}.slowest_m_s;
   annotations_ = {find_extension<dmrp_annotate>(), start.robot};
   tracker_.clear();
   at_goal_.reset();
@@ -203,8 +204,10 @@ void Mppi::look_at_path(const Observation& now) {
     const bool turns_back = std::abs(toolkit::difference(heading, next_heading)) > 0.5 * toolkit::pi;
     if (i == 0) first_heading = next_heading;
     const bool comes_back = std::abs(toolkit::difference(first_heading, next_heading)) > comes_back_rad;
-    if (((enforce_path_inversion && turns_back) || (end_at_hairpins && comes_back)) && ahead_m > inversion_xy_tolerance)
-      break;
+    if ((enforce_path_inversion && turns_back) || (end_at_hairpins && comes_back)) {
+      if (ahead_m > inversion_xy_tolerance) break;
+      first_heading = next_heading;  // the robot is there: what counts is how the path goes on
+    }
     heading = next_heading;
     add_path_point(point - robot, heading, !field_.is_blocked(point));
   }

@@ -58,6 +58,8 @@ class Mppi final : public LocalController {
   Param<bool> end_at_hairpins =
       param("end_at_hairpins", false)
           .doc("departure: consider the path only up to where it comes back in several corners, too");
+  Param<bool> sample_forward =
+      param("sample_forward", false).doc("departure: a robot that may not drive backward samples no speeds below zero");
   Param<double> inversion_xy_tolerance = param("inversion_xy_tolerance", 0.2)
                                              .unit("m")
                                              .range(0.0, 5.0)

@@ -63,7 +63,7 @@ TEST_CASE("MPPI goes round a person on its path by a detour; nav2's own formula 
   course.walkers = {standing({4.0, 0.0})};
   course.time_limit_s = 40.0;
   CHECK(run(mppi, course, tuned_parameters(mppi)).arrived);
-  CHECK_FALSE(run(mppi, course, tuned_with({{"detour", false}})).arrived);
+  CHECK_FALSE(run(mppi, course, tuned_with({{"detour", false}, {"sample_forward", false}})).arrived);
 }
 
 TEST_CASE("MPPI drives on from a corner that it has cut") {
@@ -87,10 +87,42 @@ TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to wher
     course.start = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), -1.57 + random.uniform(-0.2, 0.2)};
     course.time_limit_s = 40.0;
     arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
-    arrived_before += run(mppi, course, tuned_with({{"end_at_hairpins", false}})).arrived;
+    arrived_before += run(mppi, course, tuned_with({{"end_at_hairpins", false}, {"sample_forward", false}})).arrived;
   }
   CHECK(arrived == 20);
   CHECK(arrived_before < 20);
+}
+
+// Within the tolerance of that point, the path goes on; its direction before the point no longer counts. (With
+// `sample_forward` the robot leaves even a path that ends there.)
+TEST_CASE("MPPI drives on from the point where its path turns back") {
+  int arrived = 0;
+  dmrp::toolkit::Stream random(31, "starts");
+  for (int i = 0; i < 20; ++i) {
+    Course course;
+    course.path = metre_path({{2.0, 0.0}, {0.0, 0.0}, {2.0, 0.0}});
+    course.start = {0.1 + random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 3.14 + random.uniform(-0.2, 0.2)};
+    course.time_limit_s = 20.0;
+    arrived += run(mppi, course, tuned_with({{"sample_forward", false}})).arrived;
+  }
+  CHECK(arrived == 20);
+}
+
+// As after somebody has stood there. Of samples that drive backward, the mean is a robot that stands.
+TEST_CASE("MPPI turns to a goal that it has passed, if it samples no speeds that it may not drive") {
+  int arrived = 0;
+  int arrived_before = 0;
+  dmrp::toolkit::Stream random(37, "starts");
+  for (int i = 0; i < 20; ++i) {
+    Course course;
+    course.path = metre_path({{-1.0, 0.0}, {0.0, 0.0}});
+    course.start = {0.3 + random.uniform(-0.1, 0.1), 0.2 + random.uniform(-0.1, 0.1), 0.8 + random.uniform(-0.2, 0.2)};
+    course.time_limit_s = 20.0;
+    arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
+    if (i < 3) arrived_before += run(mppi, course, tuned_with({{"sample_forward", false}})).arrived;
+  }
+  CHECK(arrived == 20);
+  CHECK(arrived_before == 0);
 }
 
 TEST_CASE("MPPI knows of agents only if it is to predict them, as nav2 does not") {
