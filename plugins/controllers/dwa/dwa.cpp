@@ -101,7 +101,8 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                                        enforce_path_inversion,
                                        return_to_path,
                                        extend_path,
-                                       lead_around};
+                                       lead_around,
+                                       lean_into_gaps};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
@@ -128,6 +129,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                             use_dwa ? nullptr : &ramp,
                             room ? &*room : nullptr};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
+  if (!choice && brake_in_time && stops_in_time(now, footprint)) return Status::ok;
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
     return Status::no_solution;
@@ -138,7 +140,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
       command = at_goal_.command(tracker_.stop(), now);
       return Status::ok;
     }
-    if (turn_to_better_heading) turn_to_ = better_heading(scene, footprint);
+    if (turn_to_better_heading && !goal.leans) turn_to_ = better_heading(scene, footprint);
     if (turn_to_) {
       command = turn(now, *turn_to_, footprint);
       return Status::ok;
@@ -147,6 +149,22 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   oscillation_.record(now.pose, *choice);
   command = approach(now, *choice);
   return Status::ok;
+}
+
+// Whether the robot stops before it hits anything if it brakes now: then braking is admissible as the dynamic window
+// approach defines it, though every arc hits something within sim_time.
+bool Dwa::stops_in_time(const Observation& now, FootprintCheck& footprint) const {
+  const double speed = speed_of(now.velocity);
+  const double duration_s = 0.5 * speed / now.limits.a_max;  // in which it would come as far without braking
+  const int steps = 1 + static_cast<int>(speed * duration_s / sim_granularity);
+  const ArcStepper stepper(now.velocity.v_x, now.velocity.v_y, now.velocity.omega, duration_s / steps);
+  footprint.scale(1.0);
+  DirectedPoint at = directed(now.pose);
+  for (int i = 0; i < steps; ++i) {
+    stepper.step(at);
+    if (footprint.cost(at) == in_collision) return false;
+  }
+  return true;
 }
 
 void Dwa::sample_window(const Observation& now) {

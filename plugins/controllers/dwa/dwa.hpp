@@ -90,12 +90,23 @@ class Dwa final : public LocalController {
   Param<bool> extend_path =
       param("extend_path", true).doc("departure: the path goes straight on beyond its end, by the nose's length");
 
+  Param<bool> lean_into_gaps = param("lean_into_gaps", false)
+                                   .doc(
+                                       "departure: before a gap that is too narrow, move aside and up to it, so that "
+                                       "there is room once both have");
+
+  Param<bool> brake_in_time = param("brake_in_time", false)
+                                  .doc(
+                                      "departure: if every arc hits within sim_time, but the robot can stop before "
+                                      "that, brake; off: no command");
+
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
   Status step(const Observation& now, Command& command) override;
 
  private:
   Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
+  bool stops_in_time(const Observation& now, FootprintCheck& footprint) const;
   void sample_window(const Observation& now);
   std::array<dwa::Box, 2> reachable_boxes(const Observation& now) const;
   bool is_stalled(const Observation& now);

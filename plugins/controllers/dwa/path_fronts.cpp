@@ -28,9 +28,35 @@ void PathFronts::reserve() {
 LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
                              const std::array<Box, 2>& boxes, const FrontSettings& settings) {
   const double beyond_m = settings.avoids_close_cells ? easy_m : 0.0;
-  terrain_.read(map, map.highest_cost_at(settings.needed_m), map.highest_cost_at(settings.needed_m + beyond_m));
-  request(map, robot, boxes);
+  const std::uint8_t highest_easy = map.highest_cost_at(settings.needed_m + beyond_m);
+  const auto read = [&](std::uint8_t highest_free) {
+    terrain_.read(map, highest_free, highest_easy);
+    request(map, robot, boxes);
+  };
+  read(map.highest_cost_at(settings.needed_m));
   lay_out_plan(tracker, robot, map, settings);
+  const bool ends_on_obstacle = !plan_.empty() && !terrain_.is_free(plan_.back().index);
+  const bool looks_beyond = settings.leans_into_gaps && ends_on_obstacle;
+  if (looks_beyond) lay_out_plan(tracker, robot, map, settings, true);
+  LocalGoal goal = spread_fronts(tracker, robot, heading, map, settings);
+  if (settings.leans_into_gaps && goal.is_cut) {
+    end_on_free_cell();
+    read(DMRP_COST_LETHAL - 1);
+    goal = spread_fronts(tracker, robot, heading, map, settings);
+    goal.path_is_free = false;
+    goal.leans = true;
+    if (!goal.is_cut) return goal;
+    read(map.highest_cost_at(settings.needed_m));
+  } else if (!looks_beyond) {
+    return goal;
+  }
+  lay_out_plan(tracker, robot, map, settings);
+  return spread_fronts(tracker, robot, heading, map, settings);
+}
+
+// All fronts over the terrain, from the plan.
+LocalGoal PathFronts::spread_fronts(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
+                                    const FrontSettings& settings) {
   const std::int32_t home = terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);
   spread_path(tracker, map, home, settings);
 
@@ -51,21 +77,35 @@ void PathFronts::request(const CostmapView& map, Vec2 robot, const std::array<Bo
                      map.row_of(box.lower.y) - margin, map.row_of(box.upper.y) + margin);
 }
 
-// The path ahead in the window, in steps of half a cell.
+// The path ahead in the window, in steps of half a cell. If it ends on an obstacle, `beyond`: to the first free point
+// behind that, if the window holds one.
 void PathFronts::lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map,
-                              const FrontSettings& settings) {
+                              const FrontSettings& settings, bool beyond) {
   plan_.clear();
   const double step_m = 0.5 * map.resolution_m();
-  const double ahead_m = std::min(settings.look_ahead_m, tracker.remaining_m());
+  const double remaining_m = tracker.remaining_m();
+  const double ahead_m = std::min(settings.look_ahead_m, remaining_m);
   const int steps = static_cast<int>(ahead_m / step_m);
-  for (int i = 0; i <= steps + 1; ++i) {
-    const Vec2 at = tracker.point_at(tracker.progress_m() + std::min(i * step_m, ahead_m));
+  const auto add = [&](double at_m) {
+    const Vec2 at = tracker.point_at(tracker.progress_m() + at_m);
     const std::int32_t index = terrain_.index_of(map, at);
-    if (index < 0) break;  // outside the window
-    plan_.push_back({at, index});
+    if (index >= 0) plan_.push_back({at, index});
+    return index >= 0;
+  };
+  for (int i = 0; i <= steps + 1; ++i)
+    if (!add(std::min(i * step_m, ahead_m))) break;  // outside the window
+  const std::size_t looked = plan_.size();
+  for (double at_m = ahead_m + step_m; beyond && !terrain_.is_free(plan_.back().index); at_m += step_m) {
+    if (at_m <= remaining_m && add(at_m)) continue;
+    plan_.resize(looked);
+    break;
   }
   if (settings.ends_at_inversion) end_at_inversion();
   if (settings.returns_to_path && plan_.empty()) lay_out_return(robot, tracker.point_at(tracker.progress_m()), map);
+}
+
+void PathFronts::end_on_free_cell() {
+  while (!plan_.empty() && !terrain_.is_free(plan_.back().index)) plan_.pop_back();
 }
 
 // Ends the plan at its farthest point if it turns back there. Otherwise the local goal of an out-and-back path lies

@@ -18,6 +18,7 @@ struct FrontSettings {
   bool returns_to_path = false;    // a path outside the window is considered from the robot's position on
   bool extends_path = true;        // straight on beyond its end, by the nose's length
   bool avoids_close_cells = true;  // cells close to obstacles cost more
+  bool leans_into_gaps = false;    // where the way past an obstacle is too narrow: over all cells but occupied ones
 };
 
 // An axis-aligned rectangle.
@@ -36,6 +37,7 @@ struct LocalGoal {
   Vec2 at = {0.0, 0.0};      // the last point of the path in the window that the robot can reach; its position if none
   bool is_cut = false;       // obstacles separate the robot from the path's end in the window
   bool path_is_free = true;  // all points of the path in the window lie on free cells
+  bool leans = false;        // the way there leads through a gap that is too narrow
   double front_length_m = 0.0;  // from `at` to the seed of nose()
 };
 
@@ -59,8 +61,12 @@ class PathFronts {
     std::int32_t index;  // on the terrain
   };
 
+  LocalGoal spread_fronts(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
+                          const FrontSettings& settings);
   void request(const CostmapView& map, Vec2 robot, const std::array<Box, 2>& boxes);
-  void lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map, const FrontSettings& settings);
+  void lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map, const FrontSettings& settings,
+                    bool beyond = false);
+  void end_on_free_cell();
   void end_at_inversion();
   void lay_out_return(Vec2 from, Vec2 to, const CostmapView& map);
   void spread_path(const PathTracker& tracker, const CostmapView& map, std::int32_t home,

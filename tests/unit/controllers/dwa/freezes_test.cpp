@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Worlds in which DWA stood for ever with its way free, each driven from 20 starts. Without the switch that mends it,
 // the robot does not arrive from all of them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
@@ -77,6 +78,58 @@ TEST_CASE("DWA returns to a path that its window does not hold", "[slow]") {
 TEST_CASE("DWA leaves the end of a wall that it stands beside", "[slow]") {
   CHECK(arrivals(wall_end) == starts);
   CHECK(arrivals(wall_end, "leave_padding") < starts);
+}
+
+TEST_CASE("Two DWA robots pass each other where neither could pass the other in the middle", "[slow]") {
+  const auto passes_with = [](bool leans) {
+    ParamOverrides parameters = tuned_parameters("dmrp.controller.dwa");
+    parameters["lean_into_gaps"] = leans;
+    dmrp::toolkit::Stream random(23, "head-on");
+    int passed = 0;
+    for (int i = 0; i < starts; ++i) {
+      Course east;
+      east.path = metre_path({{0.0, 0.0}, {7.0, 0.0}});
+      east.boxes = corridor(random.uniform(1.5, 1.6));
+      east.start = jittered({0.0, 0.0, 0.0}, random);
+      east.time_limit_s = 25.0;
+      Course west = east;
+      west.path = metre_path({{7.0, 0.0}, {0.0, 0.0}});
+      west.start = jittered({7.0, 0.0, 3.14}, random);
+      const auto [one, other] = drive_two("dmrp.controller.dwa", east, west, parameters);
+      passed += one.arrived && other.arrived && one.walker_clearance_m > 0.0 && one.static_clearance_m > 0.0;
+    }
+    return passed;
+  };
+  CHECK(passes_with(true) == starts);
+  CHECK(passes_with(false) < starts / 2);
+}
+
+TEST_CASE("DWA has a command where it can stop before what appears ahead") {
+  const auto longest_without_command_s = [](bool brakes) {
+    ParamOverrides parameters = tuned_parameters("dmrp.controller.dwa");
+    parameters["brake_in_time"] = brakes;
+    dmrp::toolkit::Stream random(29, "sudden");
+    double longest_s = 0.0;
+    for (int i = 0; i < starts; ++i) {
+      Course course;
+      course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
+      course.start = jittered({0.0, 0.0, 0.0}, random);
+      course.time_limit_s = 4.0;
+      const double gap_m = random.uniform(0.55, 0.9);  // it stops within 0.32 m
+      course.change = [gap_m, appeared = false](Course& now, double t_s, const dmrp_pose& pose) mutable {
+        if (appeared || t_s < 2.0) return;
+        appeared = true;
+        const double from_x = pose.x + 0.25 + gap_m;
+        now.boxes = {{{from_x, -2.0}, {from_x + 0.2, 2.0}}};
+      };
+      const Drive drive = run("dmrp.controller.dwa", course, parameters);
+      CHECK(drive.static_clearance_m > 0.0);
+      longest_s = std::max(longest_s, drive.longest_no_solution_s);
+    }
+    return longest_s;
+  };
+  CHECK(longest_without_command_s(true) == 0.0);
+  CHECK(longest_without_command_s(false) > 0.3);
 }
 
 TEST_CASE("DWA turns at a right angle of a path that weighs most") {
