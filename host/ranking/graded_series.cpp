@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/statistics/descriptive.hpp"
+#include "host/ranking/measures.hpp"
 
 namespace dmrp::host {
 namespace {

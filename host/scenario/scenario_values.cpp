@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/scene/scenario.hpp"
 #include "host/toml/setting.hpp"
 
 namespace dmrp::host {
