@@ -16,6 +16,9 @@ constexpr double rounding_m = 1e-3;
 // and this ahead. Where two have to share the room, as in a narrow corridor, neither could plan past the other alone.
 constexpr double shared_evasion_s = 1.0;
 
+// A trajectory that turns away from an obstacle comes so much closer to it first.
+constexpr double turning_room_m = 0.05;
+
 // Occupied cells within this distance of an agent count as the agent's.
 constexpr double agent_cells_m = 0.15;
 
@@ -71,9 +74,10 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
   return true;
 }
 
-bool stands_too_close(const Surroundings& around) {
+bool stands_close(const Surroundings& around) {
   return std::any_of(around.obstacles.begin(), around.obstacles.end(), [&](const Obstacle& obstacle) {
-    return separation(around.now.footprint, around.now.pose, obstacle, 0.0).distance_m < needed_from(obstacle);
+    return separation(around.now.footprint, around.now.pose, obstacle, 0.0).distance_m <
+           needed_from(obstacle) + turning_room_m;
   });
 }
 

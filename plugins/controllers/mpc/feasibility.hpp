@@ -24,7 +24,7 @@ struct Surroundings {
 bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::size_t most_states,
                        const Surroundings& around);
 
-// Whether the robot stands closer to an obstacle than the check allows.
-bool stands_too_close(const Surroundings& around);
+// Whether the robot stands so close to an obstacle that a trajectory may have no room to turn away from it.
+bool stands_close(const Surroundings& around);
 
 }  // namespace dmrp::controllers::mpc

@@ -136,8 +136,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
-    if (is_standing && turn_if_stuck && !is_car_like(now.limits) && mpc::stands_too_close(cycle.around))
-      begin_turn(now);
+    if (is_standing && turn_if_stuck && !is_car_like(now.limits) && mpc::stands_close(cycle.around)) begin_turn(now);
     if (is_standing) return Status::ok;
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;

@@ -36,7 +36,7 @@ class Mpc : public LocalController {
           .doc("departure: no time step in which the robot can drive farther than its own width");
   Param<bool> turn_if_stuck =
       param("turn_if_stuck", true)
-          .doc("departure: a robot that stands too close to an obstacle for any trajectory turns toward its way");
+          .doc("departure: a robot that stands close to an obstacle, with no feasible trajectory, turns toward its way");
   Param<bool> drop_waiting =
       param("drop_waiting", true)
           .doc("departure: drops states at rest at the start, unless somebody has to pass first");
