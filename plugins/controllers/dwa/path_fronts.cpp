@@ -29,35 +29,55 @@ LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double head
                              const std::array<Box, 2>& boxes, const FrontSettings& settings) {
   const double beyond_m = settings.avoids_close_cells ? easy_m : 0.0;
   const std::uint8_t highest_easy = map.highest_cost_at(settings.needed_m + beyond_m);
-  const auto read = [&](std::uint8_t highest_free) {
-    terrain_.read(map, highest_free, highest_easy);
+  const std::uint8_t highest_free = map.highest_cost_at(settings.needed_m);
+  const auto spread_all = [&] {
     request(map, robot, boxes);
+    return spread_fronts(tracker, robot, heading, map, settings);
   };
-  read(map.highest_cost_at(settings.needed_m));
+  terrain_.read(map, highest_free, highest_easy);
   lay_out_plan(tracker, robot, map, settings);
   const bool ends_on_obstacle = !plan_.empty() && !terrain_.is_free(plan_.back().index);
   const bool looks_beyond = settings.leans_into_gaps && ends_on_obstacle;
   if (looks_beyond) lay_out_plan(tracker, robot, map, settings, true);
-  LocalGoal goal = spread_fronts(tracker, robot, heading, map, settings);
-  if (settings.leans_into_gaps && goal.is_cut) {
-    end_on_free_cell();
-    read(DMRP_COST_LETHAL - 1);
-    goal = spread_fronts(tracker, robot, heading, map, settings);
-    goal.path_is_free = false;
-    goal.leans = true;
-    if (!goal.is_cut) return goal;
-    read(map.highest_cost_at(settings.needed_m));
-  } else if (!looks_beyond) {
-    return goal;
+  if (!looks_beyond || !is_cut_off(home_of(map, robot))) {
+    if (looks_beyond) lay_out_plan(tracker, robot, map, settings);
+    const LocalGoal goal = spread_all();
+    if (looks_beyond || !settings.leans_into_gaps || !goal.is_cut) return goal;
   }
+  end_on_free_cell();
+  terrain_.read(map, DMRP_COST_LETHAL - 1, highest_easy);
+  LocalGoal goal = spread_all();
+  goal.path_is_free = false;
+  goal.leans = true;
+  if (!goal.is_cut) return goal;
+  terrain_.read(map, highest_free, highest_easy);
   lay_out_plan(tracker, robot, map, settings);
-  return spread_fronts(tracker, robot, heading, map, settings);
+  return spread_all();
+}
+
+// The free cell nearest to the robot; -1 if none is near.
+std::int32_t PathFronts::home_of(const CostmapView& map, Vec2 robot) const {
+  return terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);
+}
+
+// Whether obstacles separate `home` from the plan's last free point. Before anything is requested: the search then ends
+// at `home`, which is a fraction of what a front costs.
+bool PathFronts::is_cut_off(std::int32_t home) {
+  const auto last = std::find_if(plan_.rbegin(), plan_.rend(),
+                                 [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
+  if (last == plan_.rend()) return true;
+  if (home < 0) return false;
+  terrain_.request(home);
+  goal_.begin(terrain_);
+  goal_.seed(last->index);
+  goal_.spread();
+  return !goal_.reached(home);
 }
 
 // All fronts over the terrain, from the plan.
 LocalGoal PathFronts::spread_fronts(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
                                     const FrontSettings& settings) {
-  const std::int32_t home = terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);
+  const std::int32_t home = home_of(map, robot);
   spread_path(tracker, map, home, settings);
 
   LocalGoal goal;

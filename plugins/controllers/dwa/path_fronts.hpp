@@ -63,6 +63,8 @@ class PathFronts {
 
   LocalGoal spread_fronts(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
                           const FrontSettings& settings);
+  std::int32_t home_of(const CostmapView& map, Vec2 robot) const;
+  bool is_cut_off(std::int32_t home);
   void request(const CostmapView& map, Vec2 robot, const std::array<Box, 2>& boxes);
   void lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map, const FrontSettings& settings,
                     bool beyond = false);

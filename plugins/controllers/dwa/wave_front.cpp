@@ -43,6 +43,12 @@ void Terrain::request(std::int32_t first_column, std::int32_t last_column, std::
   }
 }
 
+void Terrain::request(std::int32_t index) {
+  std::uint16_t& mark = marks_[static_cast<std::size_t>(index)];
+  requested_count_ += mark == unreached;
+  mark = requested;
+}
+
 std::int32_t Terrain::nearest_free(std::int32_t index, std::int32_t reach) const {
   if (index < 0 || is_free(index)) return index;
   const std::int32_t column = index % stride_;

@@ -27,6 +27,8 @@ class Terrain {
   // the requested cells. Columns and rows of the costmap; the last ones are included.
   void request(std::int32_t first_column, std::int32_t last_column, std::int32_t first_row, std::int32_t last_row);
 
+  void request(std::int32_t index);  // of a free cell
+
   // The index into marks(); -1 outside the window.
   std::int32_t index_of(const CostmapView& map, Vec2 point) const {
     const std::int32_t column = map.column_of(point.x);
