@@ -180,7 +180,7 @@ std::optional<E3mop::Plan> E3mop::choose_plan(const Observation& now, const Foot
     chosen = plan_with(0.0, now, outline);
   }
   const bool is_open = chosen && chosen->found->found && !chosen->goal.is_cut;
-  if (is_open || !keep_right || !has_agents) return chosen;
+  if (is_open || !keep_right) return chosen;
   const FreeSpace free_space(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
   const std::optional<Vec2> place = lay_by(now, global_path_, prediction_time, free_space);
   if (!place || !local_plan_.can_reach(*place)) return chosen;

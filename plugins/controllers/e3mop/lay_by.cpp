@@ -53,7 +53,9 @@ std::optional<Vec2> lay_by(const Observation& now, const std::vector<Vec2>& path
   const std::size_t next = std::min(base + 1, path.size() - 1);
   const Vec2 forward = toolkit::normalized(path[next] - path[next - 1]);
   const double needed_m = free_space.needed_m();
-  const std::optional<double> radius_m = radius_of_opposite(now, *blocked, forward, prediction_time_s, needed_m);
+  const std::optional<double> radius_m = now.agents.empty()
+                                             ? now.footprint.radius_m
+                                             : radius_of_opposite(now, *blocked, forward, prediction_time_s, needed_m);
   if (!radius_m) return {};
   const Vec2 right = {forward.y, -forward.x};
   for (double aside_m = *radius_m + needed_m + enlarged_m; aside_m > least_m; aside_m -= step_m)
