@@ -233,10 +233,8 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
     target.fixes_heading = false;
   }
   route_ = points;
-  const bool is_free = std::all_of(points.begin(), points.end(), [&](Vec2 point) {
-    return footprint.cost(directed(point, target.goal.theta)) != in_collision;
-  });
-  if (is_free) return target;
+  const auto is_free = [&](Vec2 point) { return footprint.cost(directed(point, target.goal.theta)) != in_collision; };
+  if (std::all_of(points.begin(), points.end(), is_free)) return target;
 
   spread_guide(now, map, points.back());
   target.is_guided = true;
@@ -247,7 +245,8 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   std::size_t last = points.size() - 1;
   while (last > 0 && !can_stop_at(points[last])) --last;
   const bool is_cut = last + 1 < points.size();
-  const Vec2 end = is_cut && make_room && !is_car_like(now.limits) ? place_to_wait(map, last) : points[last];
+  const bool makes_room = is_cut && make_room && !is_car_like(now.limits) && !leads_past(map, points);
+  const Vec2 end = makes_room ? place_to_wait(map, last) : points[last];
   if (!guide_.reaches(map, end) || (is_cut && toolkit::distance(toolkit::position(now.pose), end) < wait_within_m)) {
     detour_.clear();
     return {};
@@ -264,6 +263,14 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   else if (keep_detour && !detour_.is_kept())
     detour_.keep(route_, ahead_.end_m());
   return target;
+}
+
+// Whether the guide reaches a place beside the end of the path. If that end lies on the obstacle, the way is not cut off.
+bool Mpc::leads_past(const CostmapView& map, const std::vector<Vec2>& points) const {
+  const Vec2 aside = toolkit::perpendicular(toolkit::normalized(points.back() - points[points.size() - 2]));
+  for (double offset_m = -aside_m; offset_m <= aside_m; offset_m += map.resolution_m())
+    if (guide_.reaches(map, points.back() + offset_m * aside)) return true;
+  return false;
 }
 
 // What cuts off a planned path is not on the map: a robot or a person, who may come this way as fast as this robot, and

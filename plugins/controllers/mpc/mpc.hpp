@@ -36,7 +36,8 @@ class Mpc : public LocalController {
           .doc("departure: no time step in which the robot can drive farther than its own width");
   Param<bool> turn_if_stuck =
       param("turn_if_stuck", true)
-          .doc("departure: a robot that stands close to an obstacle, with no feasible trajectory, turns toward its way");
+          .doc(
+              "departure: a robot that stands close to an obstacle, with no feasible trajectory, turns toward its way");
   Param<bool> drop_waiting =
       param("drop_waiting", true)
           .doc("departure: drops states at rest at the start, unless somebody has to pass first");
@@ -123,6 +124,7 @@ class Mpc : public LocalController {
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  bool leads_past(const CostmapView& map, const std::vector<Vec2>& points) const;
   Vec2 place_to_wait(const CostmapView& map, std::size_t last) const;
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
