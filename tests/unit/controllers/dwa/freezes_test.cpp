@@ -7,13 +7,14 @@
 #include <dmrp/toolkit/random.hpp>
 #include <functional>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 using namespace dmrp::test;
 
 namespace {
 
-constexpr int starts = 20;
+constexpr int starts = draws(20);
 
 // The number of starts from which the tuned robot arrives without touching anything.
 int arrivals(const std::function<Course(dmrp::toolkit::Stream&)>& draw, const char* switched_off = nullptr) {

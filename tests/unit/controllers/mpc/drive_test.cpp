@@ -4,6 +4,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 using namespace dmrp::test;
@@ -12,6 +13,7 @@ using dmrp::toolkit::Stream;
 namespace {
 
 const Controller mpc = {"dmrp.controller.mpc"};
+constexpr int starts = draws(20);
 
 // Up to 0.1 m and 0.2 rad beside the pose.
 dmrp_pose jittered(dmrp_pose pose, Stream& random) {
@@ -97,7 +99,7 @@ TEST_CASE("Two MPC robots meet head-on where neither can pass the other alone") 
     }
     return arrived;
   };
-  CHECK(arrivals(20, true) == 20);
+  CHECK(arrivals(starts, true) == starts);
   // two that turn back to their path at once may graze each other: each takes the other for slower than it will be
   CHECK(touched <= 1);
   CHECK(arrivals(5, false) < 5);
@@ -105,7 +107,7 @@ TEST_CASE("Two MPC robots meet head-on where neither can pass the other alone") 
 
 TEST_CASE("MPC reaches a goal that another robot crosses as it arrives") {
   Stream random(17, "crossed");
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < starts; ++round) {
     CAPTURE(round);
     Course course;
     course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
@@ -127,7 +129,7 @@ TEST_CASE("MPC drives through doors 20 to 25 cm wider than itself") {
     parameters["ease_in_gaps"] = eases;
     Stream random(14, "doors");
     int arrived = 0;
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < starts; ++round) {
       Course course;
       const double half_m = 0.5 * random.uniform(0.7, 0.75);
       const double aside_m = random.uniform(-1.5, 1.5);
@@ -142,6 +144,6 @@ TEST_CASE("MPC drives through doors 20 to 25 cm wider than itself") {
     }
     return arrived;
   };
-  CHECK(arrivals(true) == 20);
-  CHECK(arrivals(false) < 20);
+  CHECK(arrivals(true) == starts);
+  CHECK(arrivals(false) < starts);
 }

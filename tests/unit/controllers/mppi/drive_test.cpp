@@ -4,6 +4,7 @@
 #include <cstring>
 #include <dmrp/toolkit/random.hpp>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/arena.hpp"
 #include "tests/unit/controllers/tuned_parameters.hpp"
 
@@ -12,6 +13,7 @@ using namespace dmrp::test;
 namespace {
 
 constexpr const char* mppi = "dmrp.controller.mppi";
+constexpr int starts = draws(20);
 
 ParamOverrides tuned_with(ParamOverrides others) {
   ParamOverrides all = tuned_parameters(mppi);
@@ -81,7 +83,7 @@ TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to wher
   int arrived = 0;
   int arrived_before = 0;
   dmrp::toolkit::Stream random(29, "starts");
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < starts; ++i) {
     Course course;
     course.path = metre_path({{0.0, 0.0}, {0.0, -3.0}, {2.0, -3.0}, {2.0, -4.0}, {-2.0, -4.0}});
     course.start = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), -1.57 + random.uniform(-0.2, 0.2)};
@@ -89,8 +91,8 @@ TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to wher
     arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
     arrived_before += run(mppi, course, tuned_with({{"end_at_hairpins", false}, {"sample_forward", false}})).arrived;
   }
-  CHECK(arrived == 20);
-  CHECK(arrived_before < 20);
+  CHECK(arrived == starts);
+  CHECK(arrived_before < starts);
 }
 
 // Within the tolerance of that point, the path goes on; its direction before the point no longer counts. (With
@@ -98,14 +100,14 @@ TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to wher
 TEST_CASE("MPPI drives on from the point where its path turns back") {
   int arrived = 0;
   dmrp::toolkit::Stream random(31, "starts");
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < starts; ++i) {
     Course course;
     course.path = metre_path({{2.0, 0.0}, {0.0, 0.0}, {2.0, 0.0}});
     course.start = {0.1 + random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 3.14 + random.uniform(-0.2, 0.2)};
     course.time_limit_s = 20.0;
     arrived += run(mppi, course, tuned_with({{"sample_forward", false}})).arrived;
   }
-  CHECK(arrived == 20);
+  CHECK(arrived == starts);
 }
 
 // As after somebody has stood there. Of samples that drive backward, the mean is a robot that stands.
@@ -113,7 +115,7 @@ TEST_CASE("MPPI turns to a goal that it has passed, if it samples no speeds that
   int arrived = 0;
   int arrived_before = 0;
   dmrp::toolkit::Stream random(37, "starts");
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < starts; ++i) {
     Course course;
     course.path = metre_path({{-1.0, 0.0}, {0.0, 0.0}});
     course.start = {0.3 + random.uniform(-0.1, 0.1), 0.2 + random.uniform(-0.1, 0.1), 0.8 + random.uniform(-0.2, 0.2)};
@@ -121,7 +123,7 @@ TEST_CASE("MPPI turns to a goal that it has passed, if it samples no speeds that
     arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
     if (i < 3) arrived_before += run(mppi, course, tuned_with({{"sample_forward", false}})).arrived;
   }
-  CHECK(arrived == 20);
+  CHECK(arrived == starts);
   CHECK(arrived_before == 0);
 }
 

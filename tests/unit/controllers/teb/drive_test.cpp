@@ -4,6 +4,7 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 #include "tests/unit/controllers/tuned_parameters.hpp"
 
@@ -154,7 +155,8 @@ TEST_CASE("TEB: two robots pass each other in a corridor 25 cm wider than both")
     }
     return count;
   };
-  CHECK(passed(20, {}) >= 18);
-  CHECK(passed(10, {{"keep_away_between_poses", false}}) <= 5);
-  CHECK(passed(10, {{"share_evasion", false}}) <= 5);
+  const int starts = draws(20);
+  CHECK(passed(starts, {}) >= starts - starts / 10);
+  CHECK(passed(starts / 2, {{"keep_away_between_poses", false}}) <= starts / 4);
+  CHECK(passed(starts / 2, {{"share_evasion", false}}) <= starts / 4);
 }
