@@ -5,6 +5,9 @@
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/unicycle.hpp"
+
 namespace dmrp::controllers::mpc {
 
 namespace {
@@ -16,6 +19,10 @@ constexpr double rounding_m = 1e-3;
 // and this ahead. Where two have to share the room, as in a narrow corridor, neither could plan past the other alone.
 constexpr double shared_evasion_s = 1.0;
 
+// A robot that brakes may come so close to an obstacle, a cell larger than it was seen: a fifth of that cell nearer than
+// trajectories may, so that small errors in following them are none.
+constexpr double stop_m = -0.01;
+
 // A trajectory that turns away from an obstacle comes so much closer to it first.
 constexpr double turning_room_m = 0.05;
 
@@ -26,6 +33,24 @@ double needed_from(const Obstacle& obstacle) {
   return obstacle.is_agent ? least_gap_m : 0.0;
 }
 
+// A robot that already stands closer than it needs may move as long as it comes no closer to this obstacle.
+bool comes_too_close(const Pose& pose, const Obstacle& obstacle, double ahead_s, double needed_m,
+                     const Surroundings& around) {
+  const Footprint& footprint = around.now.footprint;
+  if (least_distance(footprint, toolkit::position(pose), obstacle, ahead_s) >= needed_m) return false;
+  const double distance_m = separation(footprint, pose, obstacle, ahead_s).distance_m;
+  return distance_m < needed_m &&
+         distance_m < separation(footprint, around.now.pose, obstacle, 0.0).distance_m - rounding_m;
+}
+
+// The costmap shows agents at their current positions.
+bool is_beside_agent(const Pose& pose, const Surroundings& around) {
+  return std::any_of(around.obstacles.begin(), around.obstacles.end(), [&](const Obstacle& obstacle) {
+    return obstacle.is_agent &&
+           least_distance(around.now.footprint, toolkit::position(pose), obstacle, 0.0) < agent_cells_m;
+  });
+}
+
 // Against the obstacles at their predicted positions, and against the costmap. The costmap shows the agents at their
 // current positions, so it does not count beside them.
 bool is_free(const Pose& pose, double ahead_s, const Surroundings& around) {
@@ -33,16 +58,9 @@ bool is_free(const Pose& pose, double ahead_s, const Surroundings& around) {
   const Footprint& footprint = around.now.footprint;
   bool beside_agent = false;
   for (const Obstacle& obstacle : around.obstacles) {
-    const double needed_m = needed_from(obstacle);
     const bool evades_too = around.robots_evade && obstacle.is_robot && obstacle.velocity != Vec2{0.0, 0.0} &&
                             ahead_s > around.now.velocity.v_x / around.now.limits.a_max + shared_evasion_s;
-    if (!evades_too && least_distance(footprint, robot, obstacle, ahead_s) < needed_m) {
-      const double distance_m = separation(footprint, pose, obstacle, ahead_s).distance_m;
-      // a robot that already stands closer may move as long as it comes no closer to this obstacle
-      if (distance_m < needed_m &&
-          distance_m < separation(footprint, around.now.pose, obstacle, 0.0).distance_m - rounding_m)
-        return false;
-    }
+    if (!evades_too && comes_too_close(pose, obstacle, ahead_s, needed_from(obstacle), around)) return false;
     beside_agent =
         beside_agent || (obstacle.is_agent && least_distance(footprint, robot, obstacle, 0.0) < agent_cells_m);
   }
@@ -71,6 +89,28 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
     if (!is_leg_free(trajectory.states[first + k], trajectory.states[first + k + 1], from_s, trajectory.dt_s, around))
       return false;
   }
+  return true;
+}
+
+bool stops_in_time(const Command& command, const Surroundings& around, FootprintCheck& padded) {
+  const bool begins_inside = padded.cost(directed(around.now.pose)) == in_collision;
+  Observation at = around.now;
+  const double period_s = seconds(at.dt_ns);
+  Command next = command;
+  do {
+    DirectedPoint point = directed(at.pose);
+    ArcStepper(0.5 * (at.velocity.v_x + next.v_x), 0.5 * (at.velocity.v_y + next.v_y),
+               0.5 * (at.velocity.omega + next.omega), period_s)
+        .step(point);
+    at.pose = pose_of(point);
+    at.velocity = {next.v_x, next.v_y, next.omega};
+    if (std::any_of(around.obstacles.begin(), around.obstacles.end(), [&](const Obstacle& obstacle) {
+          return !obstacle.is_agent && comes_too_close(at.pose, obstacle, 0.0, stop_m, around);
+        }))
+      return false;
+    if (!begins_inside && !is_beside_agent(at.pose, around) && padded.cost(point) == in_collision) return false;
+    next = braking(at);
+  } while (speed_of(at.velocity) > 0.0);
   return true;
 }
 

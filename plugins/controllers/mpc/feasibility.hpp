@@ -24,6 +24,11 @@ struct Surroundings {
 bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::size_t most_states,
                        const Surroundings& around);
 
+// Whether the robot stops before it hits an obstacle other than an agent, if it drives this command for a period and
+// then brakes. States of a trajectory are where the robot would be if it changed its speed at once. `padded`: by half a
+// cell, since clusters are simplified by more than the cell that they are made larger by.
+bool stops_in_time(const Command& command, const Surroundings& around, FootprintCheck& padded);
+
 // Whether the robot stands so close to an obstacle that a trajectory may have no room to turn away from it.
 bool stands_close(const Surroundings& around);
 

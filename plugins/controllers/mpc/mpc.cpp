@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
@@ -143,6 +142,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   }
   if (is_standing && drop_waiting) skip_waiting(cycle.around);
   command = first_command(now);
+  if (brake_in_time) command = slow_enough(command, cycle.around, map);
   annotate(*solver_iterations);
   return Status::ok;
 }
@@ -164,6 +164,20 @@ Command Mpc::first_command(const Observation& now) const {
   command.omega = std::clamp(toward(now.velocity.omega, control.omega, limits.alpha_max * period_s), -limits.omega_max,
                              limits.omega_max);
   return command;
+}
+
+// The command, or a slower one that turns alike, from which the robot stops in time; otherwise braking.
+Command Mpc::slow_enough(const Command& command, const mpc::Surroundings& around, const CostmapView& map) const {
+  const Observation& now = around.now;
+  const Vec2 velocity = {now.velocity.v_x, now.velocity.v_y};
+  FootprintCheck padded(map, now.footprint, 0.5 * map.resolution_m(), now.pose);
+  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+    const Vec2 slower = toward(velocity, share * Vec2{command.v_x, command.v_y}, now.limits.a_max * seconds(now.dt_ns));
+    const Command slow = share == 1.0 ? command : Command{slower.x, slower.y, command.omega};
+    if (mpc::stops_in_time(slow, around, padded)) return slow;
+    if (is_car_like(now.limits)) break;
+  }
+  return braking(now);
 }
 
 const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const CostmapView& map) {

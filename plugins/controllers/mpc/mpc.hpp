@@ -41,6 +41,10 @@ class Mpc : public LocalController {
   Param<bool> drop_waiting =
       param("drop_waiting", true)
           .doc("departure: drops states at rest at the start, unless somebody has to pass first");
+  Param<bool> brake_in_time =
+      param("brake_in_time", true)
+          .doc(
+              "departure: brakes instead of a command after which the robot could not stop before an obstacle at rest");
   Param<bool> share_evasion =
       param("share_evasion", true)
           .doc("departure: a contact with a moving robot counts within the braking time and a second: it evades too");
@@ -119,6 +123,7 @@ class Mpc : public LocalController {
     const CostmapView& map;
   };
 
+  Command slow_enough(const Command& command, const mpc::Surroundings& around, const CostmapView& map) const;
   Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
