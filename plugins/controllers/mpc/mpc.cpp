@@ -38,7 +38,7 @@ constexpr double slow_share = 0.5;
 constexpr double wait_within_m = 0.1;
 
 // A trajectory that ends farther from the goal misses it.
-constexpr double short_m = 0.1;
+constexpr double missed_m = 0.1;
 
 // It waits at most so far beside its path.
 constexpr double aside_m = 1.0;
@@ -484,7 +484,7 @@ bool Mpc::can_continue() const {
 bool Mpc::stands_short(const Observation& now) const {
   const mpc::State& end = trajectory_.states.back();
   return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s &&
-         std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > short_m;
+         std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > missed_m;
 }
 
 // Of trajectory_ from its state `first` on.
