@@ -5,6 +5,7 @@
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
+#include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
 #include "controllers/motion/unicycle.hpp"
 
@@ -112,6 +113,19 @@ bool stops_in_time(const Command& command, const Surroundings& around, Footprint
     next = braking(at);
   } while (speed_of(at.velocity) > 0.0);
   return true;
+}
+
+Command slow_enough(const Command& command, const Surroundings& around, const CostmapView& map) {
+  const Observation& now = around.now;
+  const Vec2 velocity = {now.velocity.v_x, now.velocity.v_y};
+  FootprintCheck padded(map, now.footprint, 0.5 * map.resolution_m(), now.pose);
+  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+    const Vec2 slower = toward(velocity, share * Vec2{command.v_x, command.v_y}, now.limits.a_max * seconds(now.dt_ns));
+    const Command slow = share == 1.0 ? command : Command{slower.x, slower.y, command.omega};
+    if (stops_in_time(slow, around, padded)) return slow;
+    if (is_car_like(now.limits)) break;
+  }
+  return braking(now);
 }
 
 bool stands_close(const Surroundings& around) {

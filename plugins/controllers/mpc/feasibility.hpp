@@ -29,6 +29,9 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
 // cell, since clusters are simplified by more than the cell that they are made larger by.
 bool stops_in_time(const Command& command, const Surroundings& around, FootprintCheck& padded);
 
+// The command, or a slower one that turns alike, from which the robot stops in time; otherwise braking.
+Command slow_enough(const Command& command, const Surroundings& around, const CostmapView& map);
+
 // Whether the robot stands so close to an obstacle that a trajectory may have no room to turn away from it.
 bool stands_close(const Surroundings& around);
 

@@ -7,6 +7,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
+#include "controllers/mpc/place_to_wait.hpp"
+
 namespace dmrp::controllers {
 
 namespace {
@@ -39,9 +41,6 @@ constexpr double wait_within_m = 0.1;
 
 // A trajectory that ends farther from the goal misses it.
 constexpr double missed_m = 0.1;
-
-// It waits at most so far beside its path.
-constexpr double aside_m = 1.0;
 
 // Below both, the states of a trajectory count as waiting at its start.
 constexpr double idle_m = 0.01;
@@ -142,7 +141,7 @@ Status Mpc::step(const Observation& now, Command& command) {
   }
   if (is_standing && drop_waiting) skip_waiting(cycle.around);
   command = first_command(now);
-  if (brake_in_time) command = slow_enough(command, cycle.around, map);
+  if (brake_in_time) command = mpc::slow_enough(command, cycle.around, map);
   annotate(*solver_iterations);
   return Status::ok;
 }
@@ -164,20 +163,6 @@ Command Mpc::first_command(const Observation& now) const {
   command.omega = std::clamp(toward(now.velocity.omega, control.omega, limits.alpha_max * period_s), -limits.omega_max,
                              limits.omega_max);
   return command;
-}
-
-// The command, or a slower one that turns alike, from which the robot stops in time; otherwise braking.
-Command Mpc::slow_enough(const Command& command, const mpc::Surroundings& around, const CostmapView& map) const {
-  const Observation& now = around.now;
-  const Vec2 velocity = {now.velocity.v_x, now.velocity.v_y};
-  FootprintCheck padded(map, now.footprint, 0.5 * map.resolution_m(), now.pose);
-  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
-    const Vec2 slower = toward(velocity, share * Vec2{command.v_x, command.v_y}, now.limits.a_max * seconds(now.dt_ns));
-    const Command slow = share == 1.0 ? command : Command{slower.x, slower.y, command.omega};
-    if (mpc::stops_in_time(slow, around, padded)) return slow;
-    if (is_car_like(now.limits)) break;
-  }
-  return braking(now);
 }
 
 const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const CostmapView& map) {
@@ -259,8 +244,8 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   std::size_t last = points.size() - 1;
   while (last > 0 && !can_stop_at(points[last])) --last;
   const bool is_cut = last + 1 < points.size();
-  const bool makes_room = is_cut && make_room && !is_car_like(now.limits) && !leads_past(map, points);
-  const Vec2 end = makes_room ? place_to_wait(map, last) : points[last];
+  const bool makes_room = is_cut && make_room && !is_car_like(now.limits) && !mpc::leads_past(guide_, map, points);
+  const Vec2 end = makes_room ? mpc::place_to_wait(guide_, map, points, last) : points[last];
   if (!guide_.reaches(map, end) || (is_cut && toolkit::distance(toolkit::position(now.pose), end) < wait_within_m)) {
     detour_.clear();
     return {};
@@ -277,29 +262,6 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   else if (keep_detour && !detour_.is_kept())
     detour_.keep(route_, ahead_.end_m());
   return target;
-}
-
-// Whether the guide reaches a place beside the end of the path. If that end lies on the obstacle, the way is not cut off.
-bool Mpc::leads_past(const CostmapView& map, const std::vector<Vec2>& points) const {
-  const Vec2 aside = toolkit::perpendicular(toolkit::normalized(points.back() - points[points.size() - 2]));
-  for (double offset_m = -aside_m; offset_m <= aside_m; offset_m += map.resolution_m())
-    if (guide_.reaches(map, points.back() + offset_m * aside)) return true;
-  return false;
-}
-
-// What cuts off a planned path is not on the map: a robot or a person, who may come this way as fast as this robot, and
-// who sees no more of it. If each of two stops within half of the distance, they do not touch. If each waits on its right
-// of the path, they have left room to pass.
-Vec2 Mpc::place_to_wait(const CostmapView& map, std::size_t last) const {
-  const std::vector<Vec2>& points = ahead_.points();
-  const Vec2 ahead = points[last / 2 + 1] - points[last / 2];
-  const Vec2 on_path = last % 2 == 0 ? points[last / 2] : points[last / 2] + 0.5 * ahead;
-  if (!guide_.reaches(map, on_path)) return points[last];
-  const Vec2 step = -map.resolution_m() * toolkit::perpendicular(toolkit::normalized(ahead));
-  const int most = static_cast<int>(aside_m / map.resolution_m());
-  int steps = 0;
-  while (steps < most && guide_.reaches(map, on_path + (steps + 1) * step)) ++steps;
-  return on_path + steps * step;
 }
 
 // The guide knows of a disc only. A car-like robot, which cannot turn in place, stops only where its outline keeps the

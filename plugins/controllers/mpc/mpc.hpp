@@ -123,14 +123,11 @@ class Mpc : public LocalController {
     const CostmapView& map;
   };
 
-  Command slow_enough(const Command& command, const mpc::Surroundings& around, const CostmapView& map) const;
   Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool leads_past(const CostmapView& map, const std::vector<Vec2>& points) const;
-  Vec2 place_to_wait(const CostmapView& map, std::size_t last) const;
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const CostmapView& map, const Target& target);
