@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+#include <numbers>
 
 #include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -80,6 +82,19 @@ bool is_leg_free(const State& from, const State& to, double from_s, double dt_s,
   return true;
 }
 
+// Whether the pose is closer to an occupied cell than half of that cell's diagonal, and closer than now. A disc costs as
+// much as the cell of its centre, which is up to that far beside it: where this cost is a collision, the distance counts.
+bool comes_too_close_to_cells(const Pose& pose, const Surroundings& around, const FootprintCheck& padded,
+                              const CostmapView& map) {
+  if (padded.cost(directed(pose)) != in_collision) return false;
+  const Footprint& footprint = around.now.footprint;
+  if (footprint.part_count > 0) return true;
+  const double needed_m = footprint.radius_m + std::numbers::sqrt2 / 2.0 * map.resolution_m();
+  const double distance_m = map.distance_to_lethal(toolkit::position(pose), needed_m);
+  return distance_m < needed_m &&
+         distance_m < map.distance_to_lethal(toolkit::position(around.now.pose), needed_m) - rounding_m;
+}
+
 }  // namespace
 
 bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::size_t most_states,
@@ -93,7 +108,8 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
   return true;
 }
 
-bool stops_in_time(const Command& command, const Surroundings& around, FootprintCheck& padded) {
+bool stops_in_time(const Command& command, const Surroundings& around, const CostmapView& map) {
+  const FootprintCheck padded(map, around.now.footprint, 0.5 * map.resolution_m(), around.now.pose);
   const bool begins_inside = padded.cost(directed(around.now.pose)) == in_collision;
   Observation at = around.now;
   const double period_s = seconds(at.dt_ns);
@@ -109,7 +125,8 @@ bool stops_in_time(const Command& command, const Surroundings& around, Footprint
           return !obstacle.is_agent && comes_too_close(at.pose, obstacle, 0.0, stop_m, around);
         }))
       return false;
-    if (!begins_inside && !is_beside_agent(at.pose, around) && padded.cost(point) == in_collision) return false;
+    if (!begins_inside && !is_beside_agent(at.pose, around) && comes_too_close_to_cells(at.pose, around, padded, map))
+      return false;
     next = braking(at);
   } while (speed_of(at.velocity) > 0.0);
   return true;
@@ -118,12 +135,15 @@ bool stops_in_time(const Command& command, const Surroundings& around, Footprint
 Command slow_enough(const Command& command, const Surroundings& around, const CostmapView& map) {
   const Observation& now = around.now;
   const Vec2 velocity = {now.velocity.v_x, now.velocity.v_y};
-  FootprintCheck padded(map, now.footprint, 0.5 * map.resolution_m(), now.pose);
-  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+  const auto slowed = [&](double share, double omega) {
     const Vec2 slower = toward(velocity, share * Vec2{command.v_x, command.v_y}, now.limits.a_max * seconds(now.dt_ns));
-    const Command slow = share == 1.0 ? command : Command{slower.x, slower.y, command.omega};
-    if (stops_in_time(slow, around, padded)) return slow;
-    if (is_car_like(now.limits)) break;
+    return Command{slower.x, slower.y, omega};
+  };
+  if (stops_in_time(command, around, map)) return command;
+  if (is_car_like(now.limits)) return braking(now);
+  for (const Command& slow : {slowed(0.5, command.omega), slowed(0.25, command.omega), slowed(0.25, braking(now).omega),
+                              slowed(0.0, command.omega)}) {
+    if (stops_in_time(slow, around, map)) return slow;
   }
   return braking(now);
 }
@@ -133,6 +153,19 @@ bool stands_close(const Surroundings& around) {
     return separation(around.now.footprint, around.now.pose, obstacle, 0.0).distance_m <
            needed_from(obstacle) + turning_room_m;
   });
+}
+
+double heading_past_nearest(double way_rad, const Surroundings& around) {
+  Separation nearest = {std::numeric_limits<double>::infinity(), {}, 0.0};
+  for (const Obstacle& obstacle : around.obstacles) {
+    const Separation here = separation(around.now.footprint, around.now.pose, obstacle, 0.0);
+    if (here.distance_m < nearest.distance_m) nearest = here;
+  }
+  const Vec2 way = toolkit::from_angle(way_rad);
+  const double away = toolkit::dot(way, nearest.gradient);
+  if (away >= 0.0) return way_rad;
+  const Vec2 past = way - away * nearest.gradient;
+  return std::atan2(past.y, past.x);
 }
 
 }  // namespace dmrp::controllers::mpc

@@ -25,14 +25,17 @@ bool is_collision_free(const Trajectory& trajectory, std::size_t first, std::siz
                        const Surroundings& around);
 
 // Whether the robot stops before it hits an obstacle other than an agent, if it drives this command for a period and
-// then brakes. States of a trajectory are where the robot would be if it changed its speed at once. `padded`: by half a
-// cell, since clusters are simplified by more than the cell that they are made larger by.
-bool stops_in_time(const Command& command, const Surroundings& around, FootprintCheck& padded);
+// then brakes. States of a trajectory are where the robot would be if it changed its speed at once. The occupied cells
+// count too, since clusters are simplified by more than the cell that they are made larger by.
+bool stops_in_time(const Command& command, const Surroundings& around, const CostmapView& map);
 
-// The command, or a slower one that turns alike, from which the robot stops in time; otherwise braking.
+// The command, or a slower one that turns alike or not at all, from which the robot stops in time; otherwise braking.
 Command slow_enough(const Command& command, const Surroundings& around, const CostmapView& map);
 
 // Whether the robot stands so close to an obstacle that a trajectory may have no room to turn away from it.
 bool stands_close(const Surroundings& around);
+
+// The heading nearest to `way_rad` in which the robot comes no closer to the nearest obstacle at first.
+double heading_past_nearest(double way_rad, const Surroundings& around);
 
 }  // namespace dmrp::controllers::mpc

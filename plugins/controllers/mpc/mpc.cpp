@@ -29,7 +29,7 @@ constexpr double standing_m_s = 0.05;
 // A robot that turns because no trajectory is feasible faces the first point of its route beyond this distance. Its
 // outline must be free for so long in the turn.
 constexpr double face_ahead_m = 0.3;
-constexpr double turned_rad = 0.2;
+constexpr double turned_rad = 0.05;
 constexpr double turn_check_s = 0.5;
 constexpr int turn_check_steps = 5;
 
@@ -134,14 +134,19 @@ Status Mpc::step(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
-    if (is_standing && turn_if_stuck && !is_car_like(now.limits) && mpc::stands_close(cycle.around)) begin_turn(now);
-    if (is_standing) return Status::ok;
+    if (is_standing) {
+      turn_past_nearest(cycle.around);
+      return Status::ok;
+    }
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
   if (is_standing && drop_waiting) skip_waiting(cycle.around);
   command = first_command(now);
-  if (brake_in_time) command = mpc::slow_enough(command, cycle.around, map);
+  if (brake_in_time) {
+    command = mpc::slow_enough(command, cycle.around, map);
+    if (is_standing && command.v_x == 0.0 && command.v_y == 0.0) turn_past_nearest(cycle.around);
+  }
   annotate(*solver_iterations);
   return Status::ok;
 }
@@ -414,6 +419,13 @@ void Mpc::begin_turn(const Observation& now) {
   const auto beyond = std::find_if(route_.begin(), route_.end(),
                                    [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
   if (beyond != route_.end()) turn_to_ = toolkit::bearing(robot, *beyond);
+}
+
+// For a robot that stands beside an obstacle and cannot drive off as it faces. Facing its way, it might come closer still.
+void Mpc::turn_past_nearest(const mpc::Surroundings& around) {
+  if (!turn_if_stuck || is_car_like(around.now.limits) || !mpc::stands_close(around)) return;
+  begin_turn(around.now);
+  if (turn_to_) turn_to_ = mpc::heading_past_nearest(*turn_to_, around);
 }
 
 // Goes on with a turn in place. False if there is none, or if it ends or is blocked.

@@ -138,6 +138,7 @@ class Mpc : public LocalController {
   bool rolls_out_nearer();
   bool begins_facing(const Observation& now);
   void begin_turn(const Observation& now);
+  void turn_past_nearest(const mpc::Surroundings& around);
   bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);
   bool can_continue() const;
   bool stands_short(const Observation& now) const;

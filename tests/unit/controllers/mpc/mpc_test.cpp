@@ -528,7 +528,7 @@ struct Room {
     const dmrp::Observation now(c);
     const dmrp_costmap map = costmap.c();
     FootprintCheck footprint(CostmapView(map), disc, 0.0, now.pose);
-    return stops_in_time({v, 0.0, 0.0}, {now, obstacles, footprint}, footprint);
+    return stops_in_time({v, 0.0, 0.0}, {now, obstacles, footprint}, CostmapView(map));
   }
 
   bool allows(const std::vector<State>& states) const {
