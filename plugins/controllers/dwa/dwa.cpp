@@ -57,7 +57,7 @@ Status Dwa::start(const Start& start) {
   window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
   window_.v_y.reserve(static_cast<std::size_t>(*vy_samples) + 1);
   window_.omega.reserve(static_cast<std::size_t>(*vth_samples) + 1);
-  fronts_.reserve();
+  fronts_.start();
   tracker_.clear();
   at_goal_.reset();
   oscillation_.reset();
@@ -102,7 +102,8 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                                        return_to_path,
                                        extend_path,
                                        lead_around,
-                                       lean_into_gaps};
+                                       lean_into_gaps,
+                                       speed_of(now.velocity) < standing_m_s};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
@@ -140,7 +141,8 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
       command = at_goal_.command(tracker_.stop(), now);
       return Status::ok;
     }
-    if (turn_to_better_heading && !goal.leans) turn_to_ = better_heading(scene, footprint);
+    // a turn before the gap would only swing to and fro, unless the robot has its nose at what narrows the gap
+    if (turn_to_better_heading && (!goal.leans || stalled)) turn_to_ = better_heading(scene, footprint);
     if (turn_to_) {
       command = turn(now, *turn_to_, footprint);
       return Status::ok;

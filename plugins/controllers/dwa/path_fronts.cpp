@@ -19,10 +19,14 @@ constexpr double easy_m = 0.15;
 // The path turns back where it comes nearer to the place reached by more than this. (inversion_xy_tolerance in nav2)
 constexpr double inversion_tolerance_m = 0.2;
 
+// The goal behind an obstacle lies this far to the right of the path.
+constexpr double keep_right_m = 0.2;
+
 }  // namespace
 
-void PathFronts::reserve() {
+void PathFronts::start() {
   plan_.reserve(most_plan_points);
+  passes_ = false;
 }
 
 LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
@@ -38,13 +42,19 @@ LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double head
   lay_out_plan(tracker, robot, map, settings);
   const bool ends_on_obstacle = !plan_.empty() && !terrain_.is_free(plan_.back().index);
   const bool looks_beyond = settings.leans_into_gaps && ends_on_obstacle;
+  passes_ = looks_beyond && (passes_ || settings.stands);
   if (looks_beyond) lay_out_plan(tracker, robot, map, settings, true);
   if (!looks_beyond || !is_cut_off(home_of(map, robot))) {
-    if (looks_beyond) lay_out_plan(tracker, robot, map, settings);
+    if (passes_)
+      end_on_the_right(map);
+    else if (looks_beyond)
+      lay_out_plan(tracker, robot, map, settings);
     const LocalGoal goal = spread_all();
     if (looks_beyond || !settings.leans_into_gaps || !goal.is_cut) return goal;
   }
+  passes_ = looks_beyond;
   end_on_free_cell();
+  end_on_the_right(map);
   terrain_.read(map, DMRP_COST_LETHAL - 1, highest_easy);
   LocalGoal goal = spread_all();
   goal.path_is_free = false;
@@ -126,6 +136,23 @@ void PathFronts::lay_out_plan(const PathTracker& tracker, Vec2 robot, const Cost
 
 void PathFronts::end_on_free_cell() {
   while (!plan_.empty() && !terrain_.is_free(plan_.back().index)) plan_.pop_back();
+}
+
+// Moves the plan's end to the right, as far as that is free. Of two sides about equally wide, the robot then passes on
+// the right one, which for two robots head-on are different sides. By the shorter way alone, both choose the side that
+// is wider for both, and stand.
+void PathFronts::end_on_the_right(const CostmapView& map) {
+  if (plan_.size() < 2) return;
+  const double step_m = 0.5 * map.resolution_m();
+  const Vec2 end = plan_.back().at;
+  const Vec2 left = toolkit::perpendicular(toolkit::normalized(end - plan_[plan_.size() - 2].at));
+  const int steps = static_cast<int>(keep_right_m / step_m);
+  for (int i = 1; i <= steps; ++i) {
+    const Vec2 at = end - (i * step_m) * left;
+    const std::int32_t index = terrain_.index_of(map, at);
+    if (!terrain_.is_free(index)) return;
+    plan_.back() = {at, index};
+  }
 }
 
 // Ends the plan at its farthest point if it turns back there. Otherwise the local goal of an out-and-back path lies

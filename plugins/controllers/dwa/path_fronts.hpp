@@ -19,6 +19,7 @@ struct FrontSettings {
   bool extends_path = true;        // straight on beyond its end, by the nose's length
   bool avoids_close_cells = true;  // cells close to obstacles cost more
   bool leans_into_gaps = false;    // where the way past an obstacle is too narrow: over all cells but occupied ones
+  bool stands = false;             // the robot stands
 };
 
 // An axis-aligned rectangle.
@@ -41,10 +42,10 @@ struct LocalGoal {
   double front_length_m = 0.0;  // from `at` to the seed of nose()
 };
 
-// Reuses its buffers from cycle to cycle.
+// Reuses its buffers from cycle to cycle, and remembers whether it passes an obstacle.
 class PathFronts {
  public:
-  void reserve();
+  void start();
 
   // Computes the fronts at least for the cells of `boxes` and those about the robot.
   LocalGoal spread(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
@@ -69,6 +70,7 @@ class PathFronts {
   void lay_out_plan(const PathTracker& tracker, Vec2 robot, const CostmapView& map, const FrontSettings& settings,
                     bool beyond = false);
   void end_on_free_cell();
+  void end_on_the_right(const CostmapView& map);
   void end_at_inversion();
   void lay_out_return(Vec2 from, Vec2 to, const CostmapView& map);
   void spread_path(const PathTracker& tracker, const CostmapView& map, std::int32_t home,
@@ -84,6 +86,11 @@ class PathFronts {
   WaveFront goal_;
   WaveFront nose_;
   std::vector<PlanPoint> plan_;  // the path in the window
+
+  // The goal lies behind the obstacle on the path: since the robot leaned or stood before it, until the path is free.
+  // Of two robots head-on, one sees a way as soon as the other has leaned. Without memory, that one's goal would be the
+  // last free point before the other, and there it would stand in the middle.
+  bool passes_ = false;
 };
 
 }  // namespace dmrp::controllers::dwa

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <functional>
 
@@ -50,6 +51,32 @@ Course wall_end(dmrp::toolkit::Stream& random) {
   return course;
 }
 
+// Two robots head-on, each on the other's path, `beside_m` left of the corridor's middle as the first one sees it.
+struct HeadOn {
+  double width_m = 1.5;
+  double length_m = 7.0;
+  double beside_m = 0.0;
+  dmrp_pose first = {0.0, beside_m, 0.0};
+  dmrp_pose second = {length_m, beside_m, dmrp::toolkit::pi};
+};
+
+bool pass(const HeadOn& pair, bool leans) {
+  ParamOverrides parameters = tuned_parameters("dmrp.controller.dwa");
+  parameters["lean_into_gaps"] = leans;
+  const dmrp_vec2 west_end = {0.0, pair.beside_m};
+  const dmrp_vec2 east_end = {pair.length_m, pair.beside_m};
+  Course east;
+  east.path = metre_path({west_end, east_end});
+  east.boxes = corridor(pair.width_m, -2.0, pair.length_m + 5.0);
+  east.start = pair.first;
+  east.time_limit_s = pair.length_m + 23.0;
+  Course west = east;
+  west.path = metre_path({east_end, west_end});
+  west.start = pair.second;
+  const auto [one, other] = drive_two("dmrp.controller.dwa", east, west, parameters);
+  return one.arrived && other.arrived && one.walker_clearance_m > 0.0 && one.static_clearance_m > 0.0;
+}
+
 }  // namespace
 
 TEST_CASE("DWA drives a path that steps aside and comes back", "[slow]") {
@@ -83,26 +110,32 @@ TEST_CASE("DWA leaves the end of a wall that it stands beside", "[slow]") {
 
 TEST_CASE("Two DWA robots pass each other where neither could pass the other in the middle", "[slow]") {
   const auto passes_with = [](bool leans) {
-    ParamOverrides parameters = tuned_parameters("dmrp.controller.dwa");
-    parameters["lean_into_gaps"] = leans;
     dmrp::toolkit::Stream random(23, "head-on");
     int passed = 0;
     for (int i = 0; i < starts; ++i) {
-      Course east;
-      east.path = metre_path({{0.0, 0.0}, {7.0, 0.0}});
-      east.boxes = corridor(random.uniform(1.5, 1.6));
-      east.start = jittered({0.0, 0.0, 0.0}, random);
-      east.time_limit_s = 25.0;
-      Course west = east;
-      west.path = metre_path({{7.0, 0.0}, {0.0, 0.0}});
-      west.start = jittered({7.0, 0.0, 3.14}, random);
-      const auto [one, other] = drive_two("dmrp.controller.dwa", east, west, parameters);
-      passed += one.arrived && other.arrived && one.walker_clearance_m > 0.0 && one.static_clearance_m > 0.0;
+      HeadOn pair;
+      pair.width_m = random.uniform(1.5, 1.6);
+      pair.first = jittered(pair.first, random);
+      pair.second = jittered({7.0, 0.0, 3.14}, random);
+      passed += pass(pair, leans);
     }
     return passed;
   };
   CHECK(passes_with(true) == starts);
   CHECK(passes_with(false) < starts / 2);
+}
+
+// Beside the middle, the wider side is the same one for both.
+TEST_CASE("Two DWA robots exactly in line pass each other, in the middle and beside it", "[slow]") {
+  const auto passes_with = [](bool leans) {
+    int passed = 0;
+    for (const double width_m : {1.45, 1.5, 1.6, 1.8})
+      for (const double length_m : {7.0, 11.0})
+        for (const double beside_m : {0.0, 0.05}) passed += pass({width_m, length_m, beside_m}, leans);
+    return passed;
+  };
+  CHECK(passes_with(true) == 16);
+  CHECK(passes_with(false) < 12);
 }
 
 TEST_CASE("DWA has a command where it can stop before what appears ahead") {
