@@ -33,6 +33,10 @@ constexpr double turned_rad = 0.05;
 constexpr double turn_check_s = 0.5;
 constexpr int turn_check_steps = 5;
 
+// A robot without a feasible trajectory to its target for so long plans to the middle of its route, else to a quarter.
+constexpr double patience_s = 2.0;
+constexpr int most_halvings = 2;
+
 // A holonomic robot turns first where its speed along its way would be below this share of its greatest.
 constexpr double slow_share = 0.5;
 
@@ -96,6 +100,7 @@ Status Mpc::start(const Start& start) {
   trajectory_.reserve(states);
   trajectory_.clear();
   turn_to_.reset();
+  stuck_s_ = 0.0;
   detour_.clear();
   return Status::ok;
 }
@@ -369,18 +374,38 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
     return is_solved(barrier_cold);
   };
 
-  if (can_continue()) {
-    optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
-    if (is_solved(barrier_warm) && !stands_short(now)) return solver_iterations;
+  const auto is_solved_to_target = [&] {
+    if (can_continue()) {
+      optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
+      if (is_solved(barrier_warm) && !stands_short(now)) return true;
+    }
+    if (is_solved_along_route()) return true;
+    if (target.is_guided) return false;  // route_ was the guide's already
+    const Vec2 goal = toolkit::position(target.goal);
+    spread_guide(now, cycle.map, goal);
+    if (!guide_.reaches(cycle.map, goal)) return false;
+    guide_.path_to(cycle.map, goal, route_);
+    return is_solved_along_route();
+  };
+
+  const bool reaches_target = is_solved_to_target();
+  stuck_s_ = reaches_target ? 0.0 : stuck_s_ + seconds(now.dt_ns);
+  if (reaches_target) return solver_iterations;
+  for (int halvings = 0; aim_nearer && !is_car_like(now.limits) && stuck_s_ > patience_s && halvings < most_halvings;
+       ++halvings) {
+    halve_route();
+    if (is_solved_along_route()) return solver_iterations;
   }
-  if (is_solved_along_route()) return solver_iterations;
-  if (target.is_guided) return {};  // route_ was the guide's already
-  const Vec2 goal = toolkit::position(target.goal);
-  spread_guide(now, cycle.map, goal);
-  if (!guide_.reaches(cycle.map, goal)) return {};
-  guide_.path_to(cycle.map, goal, route_);
-  if (is_solved_along_route()) return solver_iterations;
   return {};
+}
+
+// Ends the route, and the problem, at half of its points.
+void Mpc::halve_route() {
+  route_.resize((route_.size() + 1) / 2);
+  problem_.goal.x = route_.back().x;
+  problem_.goal.y = route_.back().y;
+  problem_.ends_at_rest = true;
+  problem_.fixes_heading = false;
 }
 
 // A holonomic robot keeps its heading in a trajectory. One that would be slow in the direction of its way, because it is

@@ -57,6 +57,9 @@ class Mpc : public LocalController {
   Param<bool> make_room =
       param("make_room", true)
           .doc("departure: where its way is cut off, the robot waits on the right and within half of the distance");
+  Param<bool> aim_nearer =
+      param("aim_nearer", true)
+          .doc("departure: a robot that has had no feasible trajectory for 2 s plans to a nearer point of its route");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -135,6 +138,7 @@ class Mpc : public LocalController {
   double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
+  void halve_route();
   bool rolls_out_nearer();
   bool begins_facing(const Observation& now);
   void begin_turn(const Observation& now);
@@ -156,6 +160,7 @@ class Mpc : public LocalController {
   SteeringEstimate steering_;
   mpc::Trajectory trajectory_;     // the warm start; empty if there is none
   std::optional<double> turn_to_;  // the heading of a turn in place
+  double stuck_s_ = 0.0;           // so long the robot has had no feasible trajectory to its target
   Detour detour_;
 
   // buffers, filled anew in every cycle
