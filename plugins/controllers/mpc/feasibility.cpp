@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
-#include <limits>
 #include <numbers>
 
 #include "controllers/motion/drive_ability.hpp"
@@ -153,19 +152,6 @@ bool stands_close(const Surroundings& around) {
     return separation(around.now.footprint, around.now.pose, obstacle, 0.0).distance_m <
            needed_from(obstacle) + turning_room_m;
   });
-}
-
-double heading_past_nearest(double way_rad, const Surroundings& around) {
-  Separation nearest = {std::numeric_limits<double>::infinity(), {}, 0.0};
-  for (const Obstacle& obstacle : around.obstacles) {
-    const Separation here = separation(around.now.footprint, around.now.pose, obstacle, 0.0);
-    if (here.distance_m < nearest.distance_m) nearest = here;
-  }
-  const Vec2 way = toolkit::from_angle(way_rad);
-  const double away = toolkit::dot(way, nearest.gradient);
-  if (away >= 0.0) return way_rad;
-  const Vec2 past = way - away * nearest.gradient;
-  return std::atan2(past.y, past.x);
 }
 
 }  // namespace dmrp::controllers::mpc

@@ -35,7 +35,4 @@ Command slow_enough(const Command& command, const Surroundings& around, const Co
 // Whether the robot stands so close to an obstacle that a trajectory may have no room to turn away from it.
 bool stands_close(const Surroundings& around);
 
-// The heading nearest to `way_rad` in which the robot comes no closer to the nearest obstacle at first.
-double heading_past_nearest(double way_rad, const Surroundings& around);
-
 }  // namespace dmrp::controllers::mpc

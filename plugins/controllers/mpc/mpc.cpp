@@ -26,19 +26,9 @@ constexpr double most_infeasible = 0.05;
 // Below this speed the robot counts as standing.
 constexpr double standing_m_s = 0.05;
 
-// A robot that turns because no trajectory is feasible faces the first point of its route beyond this distance. Its
-// outline must be free for so long in the turn.
-constexpr double face_ahead_m = 0.3;
-constexpr double turned_rad = 0.05;
-constexpr double turn_check_s = 0.5;
-constexpr int turn_check_steps = 5;
-
 // A robot without a feasible trajectory to its target for so long plans to the middle of its route, else to a quarter.
 constexpr double patience_s = 2.0;
 constexpr int most_halvings = 2;
-
-// A holonomic robot turns first where its speed along its way would be below this share of its greatest.
-constexpr double slow_share = 0.5;
 
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
@@ -99,7 +89,7 @@ Status Mpc::start(const Start& start) {
   route_.reserve(usual_obstacles);
   trajectory_.reserve(states);
   trajectory_.clear();
-  turn_to_.reset();
+  turn_.reset();
   stuck_s_ = 0.0;
   detour_.clear();
   return Status::ok;
@@ -117,13 +107,13 @@ Status Mpc::step(const Observation& now, Command& command) {
   steering_.update(now);
   if (at_goal_.arrived(tracker_.stop(), now)) {
     trajectory_.clear();
-    turn_to_.reset();
+    turn_.reset();
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
   const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
-  if (turns(now, footprint, command)) return Status::ok;
+  if (turn_.goes_on(now, footprint, command)) return Status::ok;
   const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
   const bool is_standing = std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s;
   const std::optional<Target> target = choose_target(now, map, footprint);
@@ -133,14 +123,15 @@ Status Mpc::step(const Observation& now, Command& command) {
     if (is_standing && at_goal_.settles(tracker_.stop(), now)) command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
-  if (is_standing && begins_facing(now) && turns(now, footprint, command)) return Status::ok;
+  if (is_standing && turn_.begin_if_slow(route_, now) && turn_.goes_on(now, footprint, command)) return Status::ok;
   pose_problem(now, map, *target);
   const Cycle cycle = {{now, obstacles, footprint, share_evasion}, map};
+  const auto may_turn = [&] { return turn_if_stuck && !is_car_like(now.limits) && mpc::stands_close(cycle.around); };
   const std::optional<int> solver_iterations = plan(cycle, *target);
   if (!solver_iterations) {
     trajectory_.clear();
     if (is_standing) {
-      turn_past_nearest(cycle.around);
+      if (may_turn()) turn_.begin_past_nearest(route_, cycle.around);
       return Status::ok;
     }
     set_error("every trajectory found runs into an obstacle");
@@ -150,7 +141,8 @@ Status Mpc::step(const Observation& now, Command& command) {
   command = first_command(now);
   if (brake_in_time) {
     command = mpc::slow_enough(command, cycle.around, map);
-    if (is_standing && command.v_x == 0.0 && command.v_y == 0.0) turn_past_nearest(cycle.around);
+    if (is_standing && command.v_x == 0.0 && command.v_y == 0.0 && may_turn())
+      turn_.begin_past_nearest(route_, cycle.around);
   }
   annotate(*solver_iterations);
   return Status::ok;
@@ -408,21 +400,6 @@ void Mpc::halve_route() {
   problem_.fixes_heading = false;
 }
 
-// A holonomic robot keeps its heading in a trajectory. One that would be slow in the direction of its way, because it is
-// slower backwards or sideways, turns toward it first.
-bool Mpc::begins_facing(const Observation& now) {
-  if (!is_holonomic(now.limits)) return false;
-  begin_turn(now);
-  if (!turn_to_) return false;
-  const Vec2 way = toolkit::from_angle(toolkit::difference(now.pose.theta, *turn_to_));
-  const double lengthwise_m_s = way.x > 0.0 ? now.limits.v_max : -now.limits.v_min;
-  constexpr double least = 1e-9;
-  const double speed_m_s = std::min(lengthwise_m_s / std::max(std::abs(way.x), least),
-                                    now.limits.v_y_max / std::max(std::abs(way.y), least));
-  if (speed_m_s >= slow_share * now.limits.v_max) turn_to_.reset();
-  return turn_to_.has_value();
-}
-
 // Beside the corners of an obstacle, the solver may not converge for a long robot. A car-like one, which cannot turn in
 // place instead, then follows the controls that were found. Replaces the states by those that the controls lead to.
 // Returns whether they lead nearer to the goal.
@@ -435,37 +412,6 @@ bool Mpc::rolls_out_nearer() {
   const Vec2 goal = toolkit::position(problem_.goal);
   return toolkit::distance(toolkit::position(trajectory_.states.back()), goal) <
          toolkit::distance(toolkit::position(problem_.start), goal);
-}
-
-// Beside an obstacle, a trajectory that still has to turn may come a little closer to it; once the robot faces its way,
-// it drives straight off.
-void Mpc::begin_turn(const Observation& now) {
-  const Vec2 robot = toolkit::position(now.pose);
-  const auto beyond = std::find_if(route_.begin(), route_.end(),
-                                   [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
-  if (beyond != route_.end()) turn_to_ = toolkit::bearing(robot, *beyond);
-}
-
-// For a robot that stands beside an obstacle and cannot drive off as it faces. Facing its way, it might come closer still.
-void Mpc::turn_past_nearest(const mpc::Surroundings& around) {
-  if (!turn_if_stuck || is_car_like(around.now.limits) || !mpc::stands_close(around)) return;
-  begin_turn(around.now);
-  if (turn_to_) turn_to_ = mpc::heading_past_nearest(*turn_to_, around);
-}
-
-// Goes on with a turn in place. False if there is none, or if it ends or is blocked.
-bool Mpc::turns(const Observation& now, const FootprintCheck& footprint, Command& command) {
-  if (!turn_to_) return false;
-  const double angle = toolkit::difference(now.pose.theta, *turn_to_);
-  const double omega = turning_rate(angle, now);
-  if (std::abs(angle) < turned_rad ||
-      footprint.arc_cost(now.pose, 0.0, omega, turn_check_s, turn_check_steps) == in_collision) {
-    turn_to_.reset();
-    return false;
-  }
-  command = braking(now);
-  command.omega = omega;
-  return true;
 }
 
 // Whether the last trajectory leads near the new goal.

@@ -19,6 +19,7 @@
 #include "controllers/motion/stop_and_rotate.hpp"
 #include "controllers/mpc/feasibility.hpp"
 #include "controllers/mpc/trajectory_optimizer.hpp"
+#include "controllers/mpc/turn_in_place.hpp"
 
 namespace dmrp::controllers {
 
@@ -140,10 +141,6 @@ class Mpc : public LocalController {
   std::optional<int> plan(const Cycle& cycle, const Target& target);
   void halve_route();
   bool rolls_out_nearer();
-  bool begins_facing(const Observation& now);
-  void begin_turn(const Observation& now);
-  void turn_past_nearest(const mpc::Surroundings& around);
-  bool turns(const Observation& now, const FootprintCheck& footprint, Command& command);
   bool can_continue() const;
   bool stands_short(const Observation& now) const;
   bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
@@ -158,9 +155,9 @@ class Mpc : public LocalController {
   PathTracker tracker_;
   StopAndRotate at_goal_;
   SteeringEstimate steering_;
-  mpc::Trajectory trajectory_;     // the warm start; empty if there is none
-  std::optional<double> turn_to_;  // the heading of a turn in place
-  double stuck_s_ = 0.0;           // so long the robot has had no feasible trajectory to its target
+  mpc::Trajectory trajectory_;  // the warm start; empty if there is none
+  mpc::TurnInPlace turn_;
+  double stuck_s_ = 0.0;  // so long the robot has had no feasible trajectory to its target
   Detour detour_;
 
   // buffers, filled anew in every cycle

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "controllers/mpc/turn_in_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/vec2.hpp>
+#include <limits>
+
+#include "controllers/motion/drive_ability.hpp"
+#include "controllers/motion/stop_and_rotate.hpp"
+
+namespace dmrp::controllers::mpc {
+
+namespace {
+
+// A robot faces the first point of its route beyond this distance.
+constexpr double face_ahead_m = 0.3;
+
+// The turn ends so close to its heading. The robot's outline must be free for so long.
+constexpr double turned_rad = 0.05;
+constexpr double turn_check_s = 0.5;
+constexpr int turn_check_steps = 5;
+
+// A holonomic robot turns first where its speed along its way would be below this share of its greatest.
+constexpr double slow_share = 0.5;
+
+// The heading nearest to `way_rad` in which the robot comes no closer to the nearest obstacle at first.
+double heading_past_nearest(double way_rad, const Surroundings& around) {
+  Separation nearest = {std::numeric_limits<double>::infinity(), {}, 0.0};
+  for (const Obstacle& obstacle : around.obstacles) {
+    const Separation here = separation(around.now.footprint, around.now.pose, obstacle, 0.0);
+    if (here.distance_m < nearest.distance_m) nearest = here;
+  }
+  const Vec2 way = toolkit::from_angle(way_rad);
+  const double away = toolkit::dot(way, nearest.gradient);
+  if (away >= 0.0) return way_rad;
+  const Vec2 past = way - away * nearest.gradient;
+  return std::atan2(past.y, past.x);
+}
+
+}  // namespace
+
+void TurnInPlace::begin(const std::vector<Vec2>& route, const Observation& now) {
+  const Vec2 robot = toolkit::position(now.pose);
+  const auto beyond = std::find_if(route.begin(), route.end(),
+                                   [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
+  if (beyond != route.end()) heading_ = toolkit::bearing(robot, *beyond);
+}
+
+void TurnInPlace::begin_past_nearest(const std::vector<Vec2>& route, const Surroundings& around) {
+  begin(route, around.now);
+  if (heading_) heading_ = heading_past_nearest(*heading_, around);
+}
+
+bool TurnInPlace::begin_if_slow(const std::vector<Vec2>& route, const Observation& now) {
+  if (!is_holonomic(now.limits)) return false;
+  begin(route, now);
+  if (!heading_) return false;
+  const Vec2 way = toolkit::from_angle(toolkit::difference(now.pose.theta, *heading_));
+  const double lengthwise_m_s = way.x > 0.0 ? now.limits.v_max : -now.limits.v_min;
+  constexpr double least = 1e-9;
+  const double speed_m_s = std::min(lengthwise_m_s / std::max(std::abs(way.x), least),
+                                    now.limits.v_y_max / std::max(std::abs(way.y), least));
+  if (speed_m_s >= slow_share * now.limits.v_max) heading_.reset();
+  return heading_.has_value();
+}
+
+bool TurnInPlace::goes_on(const Observation& now, const FootprintCheck& footprint, Command& command) {
+  if (!heading_) return false;
+  const double angle = toolkit::difference(now.pose.theta, *heading_);
+  const double omega = turning_rate(angle, now);
+  if (std::abs(angle) < turned_rad ||
+      footprint.arc_cost(now.pose, 0.0, omega, turn_check_s, turn_check_steps) == in_collision) {
+    heading_.reset();
+    return false;
+  }
+  command = braking(now);
+  command.omega = omega;
+  return true;
+}
+
+}  // namespace dmrp::controllers::mpc
