@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "core/trace/record_cursor.hpp"
 
@@ -38,6 +39,13 @@ inline constexpr TraceElementSize trace_element_size<dmrp_call> = {20, 24};
 template <>
 inline constexpr TraceElementSize trace_element_size<dmrp_robot_end> = {16, 16};
 
+// The fields that an older trace does not have: zero, unless the contract names another value.
+template <class Element>
+inline constexpr Element absent_fields = {};
+template <>
+inline constexpr dmrp_contact absent_fields<dmrp_contact> = {
+    0, 0, 0, 0, 0.0, {0.0, 0.0}, std::numeric_limits<double>::quiet_NaN()};
+
 // All at once, unless the owner's version of them is longer.
 template <class Element>
 void put_elements(ByteWriter& out, const Element* elements, std::uint32_t count, std::uint32_t stride) {
@@ -64,12 +72,12 @@ TraceElements take_element_count(RecordCursor& in) {
   return {count, stride};
 }
 
-// `to` has place for them. Fields that the trace does not have become zero; fields that it has beyond ours are skipped.
+// `to` has place for them. Fields that the trace does not have become absent_fields; those beyond ours are skipped.
 template <class Element>
 void take_elements(RecordCursor& in, const TraceElements& elements, Element* to) {
   if (elements.stride == sizeof(Element)) return in.take_array(to, elements.count);
   for (std::uint32_t i = 0; i < elements.count; ++i) {
-    to[i] = Element{};
+    to[i] = absent_fields<Element>;
     std::memcpy(&to[i], in.take_bytes(elements.stride).data(), std::min(elements.stride, sizeof(Element)));
   }
 }

@@ -109,18 +109,24 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
                                    combination_name(one), unsafe, cause_words(causes));
 }
 
-// Pairs of combinations whose order the stricter sibling of the first criterion turns round.
+// Pairs of combinations whose order a sibling of the first criterion turns round.
 std::string flip_line(const Answer& answer) {
-  std::vector<std::string> pairs;
-  for (const OrderFlip& flip : answer.flips) {
-    const RankedCombination& before = answer.ranking[flip.before];
-    const RankedCombination& behind = answer.ranking[flip.behind];
-    pairs.push_back(fmt::format("{} ({:.2f}; {} {:.2f}) is before {} ({:.2f}; {} {:.2f})", combination_name(behind),
-                                behind.stricter_mean, answer.criteria.front().name, behind.means[0],
-                                combination_name(before), before.stricter_mean, answer.criteria.front().name,
-                                before.means[0]));
+  std::vector<std::string> by_sibling;
+  for (std::size_t sibling = 0; sibling < answer.siblings.size(); ++sibling) {
+    std::vector<std::string> pairs;
+    for (const OrderFlip& flip : answer.flips) {
+      if (flip.sibling != sibling) continue;
+      const RankedCombination& before = answer.ranking[flip.before];
+      const RankedCombination& behind = answer.ranking[flip.behind];
+      pairs.push_back(fmt::format("{} ({:.2f}; {} {:.2f}) is before {} ({:.2f}; {} {:.2f})", combination_name(behind),
+                                  behind.sibling_means[sibling], answer.criteria.front().name, behind.means[0],
+                                  combination_name(before), before.sibling_means[sibling], answer.criteria.front().name,
+                                  before.means[0]));
+    }
+    if (!pairs.empty())
+      by_sibling.push_back(fmt::format("by {}, {}", answer.siblings[sibling].name, list_words(pairs)));
   }
-  return fmt::format("The order depends on whose fault contacts are: by {}, {}.", answer.stricter, list_words(pairs));
+  return fmt::format("The order depends on whose fault contacts are: {}.", fmt::join(by_sibling, "; "));
 }
 
 // With n pairs no p is below 2^(1 - n), and Holm multiplies the least one by the number of tests.

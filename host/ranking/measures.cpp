@@ -31,10 +31,13 @@ Measures::Measures(const SummaryLayout& layout, std::span<const MetricColumn> me
     if (!column) continue;
     criteria_.push_back(share_of(share));
     metrics_.push_back(*column);
-    const auto stricter = column_of(metrics, layout.answer.stricter);
-    if (!stricter || share != layout.answer.shares.front()) continue;
-    stricter_ = share_of(layout.answer.stricter);
-    stricter_metric_ = *stricter;
+    if (share != layout.answer.shares.front()) continue;
+    for (const std::string& sibling : layout.answer.siblings) {
+      const auto metric = column_of(metrics, sibling);
+      if (!metric) continue;
+      siblings_.push_back(share_of(sibling));
+      sibling_metrics_.push_back(*metric);
+    }
   }
   ways_ = robot_values(trials, layout.answer.way_length);
   times_ = robot_values(trials, layout.answer.time);
@@ -64,10 +67,10 @@ double Measures::mean(std::span<const std::size_t> trials, std::size_t criterion
   return core::mean(values);
 }
 
-double Measures::stricter_mean(std::span<const std::size_t> trials) const {
+double Measures::sibling_mean(std::span<const std::size_t> trials, std::size_t sibling) const {
   std::vector<double> values;
   for (const std::size_t trial : trials) {
-    if (const auto found = share(trial, stricter_metric_)) values.push_back(*found);
+    if (const auto found = share(trial, sibling_metrics_[sibling])) values.push_back(*found);
   }
   return core::mean(values);
 }

@@ -32,14 +32,14 @@ class Measures {
 
   const std::vector<Criterion>& criteria() const { return criteria_; }
 
-  // The stricter sibling of the first criterion, a share, if both were measured.
-  const std::optional<Criterion>& stricter() const { return stricter_; }
+  // The siblings of the first criterion, shares, as far as they and it were measured.
+  const std::vector<Criterion>& siblings() const { return siblings_; }
   const RobotValues& ways() const { return ways_; }
   const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;
-  double mean(std::span<const std::size_t> trials, std::size_t criterion) const;  // NaN: undefined
-  double stricter_mean(std::span<const std::size_t> trials) const;                // likewise
+  double mean(std::span<const std::size_t> trials, std::size_t criterion) const;        // NaN: undefined
+  double sibling_mean(std::span<const std::size_t> trials, std::size_t sibling) const;  // likewise
   std::optional<double> value(std::size_t trial, std::size_t criterion) const;
 
  private:
@@ -54,8 +54,8 @@ class Measures {
   bool any_time_ = false;
   std::vector<Criterion> criteria_;
   std::vector<std::size_t> metrics_;  // of the criteria that are shares
-  std::optional<Criterion> stricter_;
-  std::size_t stricter_metric_ = 0;
+  std::vector<Criterion> siblings_;
+  std::vector<std::size_t> sibling_metrics_;
 };
 
 // Whether means a come before means b, by criterion. An undefined time comes last.

@@ -30,14 +30,18 @@ const char* reason(std::uint32_t failure) {
 Descriptor Success::describe() {
   return describe_metric("dmrp.metric.success", "Success")
       .summary("robots that reached their last goal in time, and those that did so safely")
-      .source("Hu et al., DMRP-Bench, ICRA 2026: success rate")
+      .source(
+          "success rate: Hu et al., DMRP-Bench, ICRA 2026; passive motion safety: Bouraine, Fraichard, Salhi, "
+          "Autonomous Robots 32, 2012")
       .value(
           "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
           "1 if the robot arrived by the time limit and was not failed by the host, else 0; system: mean over robots")
       .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
              "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without a contact at its fault, else 0; system: mean over robots")
+             "1 if the robot succeeded and at every contact was at rest (below 0.05 m/s) or moving away from the other "
+             "when "
+             "they touched, else 0 (passive motion safety); system: mean over robots")
       .value("contact_free_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
              "1 if the robot succeeded without any contact, whoever was at fault, else 0; system: mean over robots");
 }

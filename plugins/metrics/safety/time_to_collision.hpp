@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "metrics/measure/active_steps.hpp"
-#include "metrics/measure/bodies.hpp"
+#include "metrics/measure/moving.hpp"
 #include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
@@ -22,16 +22,10 @@ class TimeToCollision final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  struct Moving {
-    Disc disc;
-    Vec2 velocity;  // m/s, world frame
-  };
   struct Times {
     double least_s = undefined;
     TimeShare below;
   };
-
-  static double of_pair(const Moving& a, const Moving& b);
 
   ActiveSteps active_;
   std::vector<Times> times_;    // by robot

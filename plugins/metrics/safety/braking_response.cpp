@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "metrics/safety/braking_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "metrics/measure/contact_fault.hpp"
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/hidden_places.hpp"
+#include "metrics/measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+constexpr double rest_speed = 0.05;  // m/s; as for the fault of contacts (sample.h)
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(1e9 * seconds);
+}
+
+}  // namespace
+
+Descriptor BrakingResponse::describe() {
+  return describe_metric("dmrp.metric.braking_response", "Braking response")
+      .summary("robots that arrived and had no contact at their fault but those before which they braked at once")
+      .source("in the spirit of Shalev-Shwartz et al., On a Formal Model of Safe and Scalable Self-driving Cars, 2017")
+      .channels(DMRP_CHANNEL_PEOPLE)
+      .value(
+          "braking_response_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+          "as safe_success, but a contact with a robot or a person is excused if the robot braked at its full "
+          "ability from the first moment of danger, plus reaction_s, until it stood, and did not drive on: the other "
+          "is in sight and both would touch at constant velocities within the robot's stopping time plus reaction_s; "
+          "or it is not, and somebody could come out of a place that the robot does not see at hidden_speed and "
+          "touch it within that time; system: mean over robots");
+}
+
+// Full braking from the greatest speed, and the danger before it.
+void BrakingResponse::begin(const dmrp_plan*) {
+  blamed_.assign(world().robots().size(), false);
+  history_.clear();
+  memory_ns_ = 0;
+  for (const Robot& robot : world().robots()) {
+    const dmrp_limits& limits = *robot.limits;
+    const double braking_s = std::hypot(limits.v_max, limits.v_y_max) / (braking_share * limits.a_max);
+    memory_ns_ = std::max(memory_ns_, nanoseconds(reaction_s + swerve_s + braking_s));
+  }
+}
+
+void BrakingResponse::observe(const Sample& sample) {
+  for (const Contact& contact : sample.contacts) {
+    if (!is_known(contact)) continue;
+    const auto judge = [&](std::size_t robot, const Other& other) {
+      if (!blamed_[robot])
+        blamed_[robot] = contact.kind == DMRP_CONTACT_STATIC || !is_excused(robot, other, sample.t_ns);
+    };
+    const bool is_person = contact.kind == DMRP_CONTACT_PERSON;
+    if (!begins(contact)) continue;
+    if (fault_of_a(contact)) {
+      if (contact.kind == DMRP_CONTACT_STATIC)
+        judge(contact.a, {});
+      else if (is_person)
+        judge(contact.a, {true, sample.people[contact.b].id, sample.people[contact.b].radius_m});
+      else
+        judge(contact.a, {false, contact.b, world().robots()[contact.b].footprint->radius_m});
+    }
+    if (fault_of_b(contact)) judge(contact.b, {false, contact.a, world().robots()[contact.a].footprint->radius_m});
+  }
+  remember(sample);
+}
+
+// Reuses the buffers of moments that are no longer needed.
+void BrakingResponse::remember(const Sample& sample) {
+  Moment moment;
+  while (history_.size() > 1 && history_[1].t_ns <= sample.t_ns - memory_ns_) {
+    moment = std::move(history_.front());
+    history_.pop_front();
+  }
+  moment.t_ns = sample.t_ns;
+  moment.robots.clear();
+  moment.people.clear();
+  for (std::size_t i = 0; i < blamed_.size(); ++i) {
+    const Robot& robot = world().robots()[i];
+    const Moving now = moving(robot, sample.robots[i]);
+    const double turning =
+        robot.footprint->part_count == 0 ? 0.0 : robot.footprint->radius_m * std::abs(sample.robots[i].velocity.omega);
+    moment.robots.push_back({now, toolkit::norm(now.velocity) + turning});
+  }
+  for (const Person& person : sample.people) moment.people.push_back({person.id, moving(person)});
+  history_.push_back(std::move(moment));
+}
+
+std::optional<Moving> BrakingResponse::find(const Moment& moment, const Other& other) {
+  if (!other.is_person) return moment.robots[other.id].moving;
+  for (const PersonMotion& person : moment.people)
+    if (person.id == other.id) return person.moving;
+  return std::nullopt;
+}
+
+double BrakingResponse::horizon_s(std::size_t robot, Vec2 velocity) const {
+  return toolkit::norm(velocity) / world().robots()[robot].limits->a_max + reaction_s;
+}
+
+bool BrakingResponse::is_danger(const Moment& moment, std::size_t robot, const Other& other) const {
+  const Moving& self = moment.robots[robot].moving;
+  const double within_s = horizon_s(robot, self.velocity);
+  const std::optional<Moving> there = find(moment, other);
+  if (there && in_sight(shapes_near(world(), self.disc.center, toolkit::distance(self.disc.center, there->disc.center)),
+                        self.disc.center, there->disc.center))
+    return time_to_contact(self, *there) <= within_s;
+  return may_be_surprised(world(), self, within_s, hidden_speed, other.radius_m);
+}
+
+// In the step after this moment.
+bool BrakingResponse::is_braking(std::size_t moment, std::size_t robot) const {
+  const Moment& before = history_[moment];
+  const Moment& after = history_[moment + 1];
+  const double loss =
+      braking_share * world().robots()[robot].limits->a_max * 1e-9 * static_cast<double>(after.t_ns - before.t_ns);
+  return after.robots[robot].speed <= std::max(before.robots[robot].speed - loss, rest_speed);
+}
+
+// Whether there would be none had the robot kept its velocity.
+bool BrakingResponse::made_the_danger(std::size_t moment, std::size_t robot, const Other& other) const {
+  if (moment == 0) return false;
+  const std::optional<Moving> there = find(history_[moment], other);
+  Moving self = history_[moment].robots[robot].moving;
+  self.velocity = history_[moment - 1].robots[robot].moving.velocity;
+  return there && !(time_to_contact(self, *there) <= horizon_s(robot, self.velocity));
+}
+
+bool BrakingResponse::is_excused(std::size_t robot, const Other& other, std::int64_t contact_ns) const {
+  if (history_.empty()) return false;
+  const std::size_t last = history_.size() - 1;
+  std::size_t braking_from = last;
+  while (braking_from > 0 && is_braking(braking_from - 1, robot)) --braking_from;
+  std::optional<std::size_t> first;  // moment of the danger
+  std::int64_t dangerous_ns = contact_ns;
+  for (std::size_t i = history_.size(); i-- > 0;) {
+    const std::int64_t t_ns = history_[i].t_ns;
+    if (!is_danger(history_[i], robot, other)) {
+      if (dangerous_ns - t_ns >= nanoseconds(swerve_s)) break;
+      continue;
+    }
+    dangerous_ns = t_ns;
+    first = i;
+    if (braking_from > 0 && history_[braking_from - 1].t_ns >= t_ns + nanoseconds(reaction_s)) return false;
+  }
+  // it brakes, or the danger came too late for it
+  return braking_from < last || !first || !made_the_danger(*first, robot, other);
+}
+
+void BrakingResponse::finish(const TrialEnd& end, MetricSink& sink) {
+  std::vector<double> values;
+  for (std::size_t robot = 0; robot < blamed_.size(); ++robot) {
+    const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
+    values.push_back(succeeded && !blamed_[robot] ? 1.0 : 0.0);
+  }
+  give_mean(sink, "braking_response_success", values);
+}
+
+}  // namespace dmrp::metrics
