@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "metrics/measure/moving.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 

@@ -49,24 +49,22 @@ void BrakingResponse::begin(const dmrp_plan*) {
 
 void BrakingResponse::observe(const Sample& sample) {
   for (const Contact& contact : sample.contacts) {
-    if (!is_known(contact)) continue;
-    const auto judge = [&](std::size_t robot, const Other& other) {
-      if (!blamed_[robot])
-        blamed_[robot] = contact.kind == DMRP_CONTACT_STATIC || !is_excused(robot, other, sample.t_ns);
-    };
-    const bool is_person = contact.kind == DMRP_CONTACT_PERSON;
-    if (!begins(contact)) continue;
-    if (fault_of_a(contact)) {
-      if (contact.kind == DMRP_CONTACT_STATIC)
-        judge(contact.a, {});
-      else if (is_person)
-        judge(contact.a, {true, sample.people[contact.b].id, sample.people[contact.b].radius_m});
-      else
-        judge(contact.a, {false, contact.b, world().robots()[contact.b].footprint->radius_m});
-    }
-    if (fault_of_b(contact)) judge(contact.b, {false, contact.a, world().robots()[contact.a].footprint->radius_m});
+    if (!is_known(contact) || !begins(contact)) continue;
+    if (fault_of_a(contact)) judge(contact.a, contact, sample);
+    if (fault_of_b(contact)) judge(contact.b, contact, sample);
   }
   remember(sample);
+}
+
+// A wall excuses nobody.
+void BrakingResponse::judge(std::size_t robot, const Contact& contact, const Sample& sample) {
+  if (blamed_[robot]) return;
+  Other other = {false, robot == contact.a ? contact.b : contact.a, 0.0};
+  if (contact.kind == DMRP_CONTACT_PERSON)
+    other = {true, sample.people[contact.b].id, sample.people[contact.b].radius_m};
+  else if (contact.kind == DMRP_CONTACT_ROBOT)
+    other.radius_m = world().robots()[other.id].footprint->radius_m;
+  blamed_[robot] = contact.kind == DMRP_CONTACT_STATIC || !is_excused(robot, other, sample.t_ns);
 }
 
 // Reuses the buffers of moments that are no longer needed.
@@ -120,7 +118,7 @@ bool BrakingResponse::is_braking(std::size_t moment, std::size_t robot) const {
   return after.robots[robot].speed <= std::max(before.robots[robot].speed - loss, rest_speed);
 }
 
-// Whether there would be none had the robot kept its velocity.
+// Whether the robot would be in no danger had it kept its velocity of the moment before.
 bool BrakingResponse::made_the_danger(std::size_t moment, std::size_t robot, const Other& other) const {
   if (moment == 0) return false;
   const std::optional<Moving> there = find(history_[moment], other);
@@ -134,7 +132,7 @@ bool BrakingResponse::is_excused(std::size_t robot, const Other& other, std::int
   const std::size_t last = history_.size() - 1;
   std::size_t braking_from = last;
   while (braking_from > 0 && is_braking(braking_from - 1, robot)) --braking_from;
-  std::optional<std::size_t> first;  // moment of the danger
+  std::optional<std::size_t> first;  // moment of danger
   std::int64_t dangerous_ns = contact_ns;
   for (std::size_t i = history_.size(); i-- > 0;) {
     const std::int64_t t_ns = history_[i].t_ns;

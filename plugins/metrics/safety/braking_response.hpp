@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "metrics/measure/moving.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 
@@ -54,6 +54,7 @@ class BrakingResponse final : public Metric {
     double radius_m;
   };
 
+  void judge(std::size_t robot, const Contact& contact, const Sample& sample);
   void remember(const Sample& sample);
   bool is_excused(std::size_t robot, const Other& other, std::int64_t contact_ns) const;
   bool is_danger(const Moment& moment, std::size_t robot, const Other& other) const;

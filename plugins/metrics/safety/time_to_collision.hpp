@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "metrics/measure/active_steps.hpp"
-#include "metrics/measure/moving.hpp"
+#include "metrics/measure/bodies.hpp"
 #include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
