@@ -117,15 +117,20 @@ void ActionDependencies::reached(std::size_t robot, std::uint32_t stage) {
 
 std::uint32_t ActionDependencies::released(std::size_t robot) {
   Robot& it = robots_[robot];
-  const auto is_met = [this](const Dependency& dependency) {
-    return robots_[dependency.robot].reached >= dependency.stage;
-  };
   while (it.released + 1 < it.stages.size()) {
     const std::vector<Dependency>& dependencies = it.stages[it.released + 1].dependencies;
-    if (!std::all_of(dependencies.begin(), dependencies.end(), is_met)) break;
+    if (!std::all_of(dependencies.begin(), dependencies.end(), [this](const auto& d) { return is_met(d); })) break;
     ++it.released;
   }
   return it.released;
+}
+
+std::optional<std::uint32_t> ActionDependencies::holder(std::size_t robot) const {
+  const Robot& it = robots_[robot];
+  if (it.released + 1 == it.stages.size()) return std::nullopt;
+  for (const Dependency& dependency : it.stages[it.released + 1].dependencies)
+    if (!is_met(dependency)) return static_cast<std::uint32_t>(dependency.robot);
+  return std::nullopt;
 }
 
 }  // namespace dmrp::core

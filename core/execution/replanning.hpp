@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/execution/progress.hpp"
+#include "core/execution/referee.hpp"
 #include "core/scene/settings.hpp"
 #include "core/world/world.hpp"
 
@@ -19,7 +20,8 @@ class ReplanMonitor {
 
   // Call it at every control tick with the progress of all robots. If it returns true, the planner counts as called,
   // and stall times start again.
-  bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress);
+  bool due(std::int64_t t_ns, std::span<const RobotState> robots, const Referee& referee,
+           std::span<const PathProgress> progress);
 
  private:
   struct Watched {
@@ -27,7 +29,7 @@ class ReplanMonitor {
     std::int64_t since_ns = 0;
   };
 
-  bool off_course(std::int64_t t_ns, const PathProgress& progress, Watched& watched) const;
+  bool off_course(std::int64_t t_ns, double gained_m, const PathProgress& progress, Watched& watched) const;
 
   ReplanSettings settings_;
   std::int64_t asked_ns_ = 0;

@@ -128,6 +128,7 @@ struct SimulationSettings {
   Execution execution = Execution::free;
   ReplanSettings replan;
   RecoverySettings recovery;
+  bool oscillation_fails = false;  // a robot that circled on its way has failed even if it arrives
 };
 
 }  // namespace dmrp::core

@@ -2,6 +2,7 @@
 #include "core/world/world.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -105,7 +106,7 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
       outlines_.push_back({robot_settings(i).parts, robots_[i].pose.theta, 0.0});
   place_bodies_of_people();
   robot_agents_.resize(robots_.size());
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_goal(i);
   update_agents();
 }
 
@@ -175,7 +176,7 @@ std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velo
   motion_.resolve(bodies_, outlines_);
   apply_motion();
   t_ns_ += settings_.step_ns;
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_goal(i);
   advance_people();
   update_agents();
   find_contacts();
@@ -246,24 +247,28 @@ void World::apply_motion() {
   }
 }
 
-void World::check_arrival(std::uint32_t robot) {
+void World::check_goal(std::uint32_t robot) {
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return;
-  const dmrp_goal& goal = goals_[robot][state.goal_index];
-  if (!is_at_goal(state, goal)) {
+  if (!is_at_goal(state, goals_[robot][state.goal_index]))
     state.settling_since_ns = -1;
-    return;
-  }
-  if (state.settling_since_ns < 0) state.settling_since_ns = t_ns_;
-  if (t_ns_ - state.settling_since_ns < goal.settle_ns) return;
-  state.settling_since_ns = -1;
-  if (state.goal_index + 1 < goals_[robot].size()) {
-    ++state.goal_index;
-    return;
-  }
+  else if (state.settling_since_ns < 0)
+    state.settling_since_ns = t_ns_;
+}
+
+void World::visit(std::uint32_t robot) {
+  assert(robots_[robot].state == DMRP_ROBOT_ACTIVE && robots_[robot].goal_index + 1 < goals_[robot].size());
+  ++robots_[robot].goal_index;
+  robots_[robot].settling_since_ns = -1;
+}
+
+void World::park(std::uint32_t robot) {
+  RobotState& state = robots_[robot];
+  assert(state.state == DMRP_ROBOT_ACTIVE);
   state.state = DMRP_ROBOT_FINISHED;
-  stop(robot);
+  state.settling_since_ns = -1;
   state.arrival_ns = t_ns_;
+  stop(robot);
 }
 
 void World::advance_people() {
