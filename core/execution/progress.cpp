@@ -17,8 +17,7 @@ constexpr double return_cells = 0.7;
 
 }  // namespace
 
-void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position, double cell_m) {
-  cell_m_ = cell_m;
+void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position) {
   path_.assign(path.begin(), path.end());
   toolkit::arc_lengths(path_, arcs_);
   last_position_ = position;

@@ -16,8 +16,11 @@ namespace dmrp::core {
 // cell and back drives the loop.
 class PathProgress {
  public:
-  // Begins a new path (at least one waypoint) at the robot's present position. `cell_m`: the width of the grid's cells.
-  void set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position, double cell_m);
+  // `cell_m`: the width of the planning grid's cells.
+  explicit PathProgress(double cell_m = 1.0) : cell_m_(cell_m) {}
+
+  // Begins a new path (at least one waypoint) at the robot's present position.
+  void set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position);
 
   void update(dmrp_vec2 position, std::uint32_t goal_index);
 
@@ -37,7 +40,7 @@ class PathProgress {
   std::vector<dmrp_waypoint> path_;  // with the line to its beginning
   std::vector<double> arcs_;
   std::uint32_t approach_ = 0;  // waypoints of path_ inserted before the path: 0 or 1
-  double cell_m_ = 1.0;
+  double cell_m_;
   double reached_m_ = 0.0;    // along path_
   double travelled_m_ = 0.0;  // since the last progress: bounds the length of a shortcut
   dmrp_vec2 last_position_{};

@@ -12,10 +12,10 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double look_ahead_m = 1.0;    // of the course: who is there blocks it
-constexpr double blocked_gap_m = 0.1;   // from the strip that the body sweeps
-constexpr double still_m = 0.05;        // a robot that moves no farther
-constexpr double still_rad = 0.1;       // and turns no farther stands
+constexpr double look_ahead_m = 1.0;     // of the course: who is there blocks it
+constexpr double blocked_gap_m = 0.1;    // from the strip that the body sweeps
+constexpr double still_m = 0.05;         // a robot that moves no farther
+constexpr double still_rad = 0.1;        // and turns no farther stands
 constexpr double neighbourhood_m = 3.0;  // of standing robots: who moves here may open their way
 
 bool is_settling(const RobotState& robot) {
@@ -59,7 +59,7 @@ double leg_m(const CoursePlace& course, std::uint32_t goal_index) {
 }  // namespace
 
 Referee::Referee(World& world, const PlanningGrids& grids, Settings settings, std::uint64_t seed)
-    : world_(world), grids_(grids), settings_(settings), robots_(world.robots().size()) {
+    : world_(world), grids_(grids), settings_(settings), robots_(world.robots().size()), gained_m_(robots_.size()) {
   toolkit::Stream random(seed, "referee");
   continues_ = random.uniform() < continued_share;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
@@ -83,7 +83,7 @@ void Referee::begin_goal(std::uint32_t robot) {
 void Referee::restart_window(std::uint32_t robot) {
   Watched& it = robots_[robot];
   it.window.clear();
-  it.window.push_back({world_.t_ns(), it.gained_m, it.travelled_m, it.turned_rad});
+  it.window.push_back({world_.t_ns(), gained_m_[robot], it.travelled_m, it.turned_rad});
 }
 
 void Referee::judge_arrivals(std::span<const CoursePlace> courses) {
@@ -96,27 +96,31 @@ void Referee::judge_arrivals(std::span<const CoursePlace> courses) {
       continue;
     }
     const auto goals = world_.goals(i);
-    if (world_.t_ns() - state.settling_since_ns < goals[state.goal_index].settle_ns || it.waits_since_ns >= 0) continue;
-    ++it.visits;
+    if (world_.t_ns() - state.settling_since_ns < goals[state.goal_index].settle_ns) continue;
+    const bool visits = it.waits_since_ns < 0;
+    if (visits) ++it.visits;
     if (state.goal_index + 1 < goals.size()) {
       world_.visit(i);
       begin_goal(i);
     } else if (!courses[i].returns) {
       world_.park(i);
-    } else {
+    } else if (visits) {
       it.waits_since_ns = world_.t_ns();
     }
   }
 }
 
-bool Referee::wants_plan() const {
+bool Referee::wants_plan() {
+  bool wants = false;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
-    const Watched& it = robots_[i];
-    if (is_active(i) && it.waits_since_ns >= 0 && it.verdict.kind != DMRP_CLASS_HELD &&
-        world_.t_ns() - it.waits_since_ns >= progress_window_ns)
-      return true;
+    Watched& it = robots_[i];
+    if (!is_active(i) || it.waits_since_ns < 0 || it.verdict.kind == DMRP_CLASS_HELD ||
+        world_.t_ns() - it.waits_since_ns < progress_window_ns)
+      continue;
+    it.waits_since_ns = world_.t_ns();
+    wants = true;
   }
-  return false;
+  return wants;
 }
 
 void Referee::judge_progress(std::span<const CoursePlace> courses) {
@@ -131,8 +135,8 @@ void Referee::judge_progress(std::span<const CoursePlace> courses) {
     gain(i, courses[i]);
     remember(i);
     const Verdict verdict = classify(i, courses[i]);
-    const bool moves_freely = verdict.kind != DMRP_CLASS_SETTLING && verdict.kind != DMRP_CLASS_RECOVERING &&
-                              verdict.kind != DMRP_CLASS_HELD;
+    const bool moves_freely =
+        verdict.kind != DMRP_CLASS_SETTLING && verdict.kind != DMRP_CLASS_RECOVERING && verdict.kind != DMRP_CLASS_HELD;
     if (moves_freely && !it.was_moving_freely) restart_window(i);
     it.was_moving_freely = moves_freely;
     it.circled = it.circled || verdict.circles;
@@ -160,7 +164,7 @@ void Referee::gain(std::uint32_t robot, const CoursePlace& course) {
   it.arc_m = course.arc_m;
   const double detour_m = std::clamp(advance_m - approach_m, 0.0, it.credit_m.value_or(0.0));
   if (it.credit_m) *it.credit_m -= detour_m;
-  it.gained_m += approach_m + detour_m;
+  gained_m_[robot] += approach_m + detour_m;
 }
 
 // The oldest moment kept is the latest that is a whole window old.
@@ -170,13 +174,13 @@ void Referee::remember(std::uint32_t robot) {
   it.travelled_m += toolkit::distance(toolkit::position(it.pose), toolkit::position(pose));
   it.turned_rad += std::abs(toolkit::difference(it.pose.theta, pose.theta));
   it.pose = pose;
-  it.window.push_back({world_.t_ns(), it.gained_m, it.travelled_m, it.turned_rad});
+  it.window.push_back({world_.t_ns(), gained_m_[robot], it.travelled_m, it.turned_rad});
   while (it.window.size() > 1 && it.window[1].t_ns <= world_.t_ns() - progress_window_ns) it.window.pop_front();
 }
 
-bool Referee::is_moving(const Watched& it) const {
-  const Moment& then = it.window.front();
-  return world_.t_ns() - then.t_ns < progress_window_ns || it.gained_m - then.gained_m >= least_progress_m;
+bool Referee::is_moving(std::uint32_t robot) const {
+  const Moment& then = robots_[robot].window.front();
+  return world_.t_ns() - then.t_ns < progress_window_ns || gained_m_[robot] - then.gained_m >= least_progress_m;
 }
 
 Referee::Verdict Referee::classify(std::uint32_t robot, const CoursePlace& course) const {
@@ -184,11 +188,11 @@ Referee::Verdict Referee::classify(std::uint32_t robot, const CoursePlace& cours
   if (is_settling(world_.robots()[robot])) return {DMRP_CLASS_SETTLING};
   if (it.recovering) return {DMRP_CLASS_RECOVERING};
   if (course.holder) return {DMRP_CLASS_HELD, *course.holder};
-  if (is_moving(it)) return {DMRP_CLASS_MOVING};
+  if (is_moving(robot)) return {DMRP_CLASS_MOVING};
   Verdict verdict = blocked_by(robot, course);
   const Moment& then = it.window.front();
-  verdict.circles = it.travelled_m - then.travelled_m > circling_travel_m ||
-                    it.turned_rad - then.turned_rad > circling_turn_rad;
+  verdict.circles =
+      it.travelled_m - then.travelled_m > circling_travel_m || it.turned_rad - then.turned_rad > circling_turn_rad;
   return verdict;
 }
 
@@ -302,7 +306,7 @@ std::vector<dmrp_robot_end> Referee::robot_ends(std::uint32_t ending) const {
   std::vector<dmrp_robot_end> ends;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
     const std::uint32_t failure = failure_of(i);
-    const std::uint32_t culprit = failure == DMRP_FAILURE_HELD_BEHIND    ? root_of(i)
+    const std::uint32_t culprit = failure == DMRP_FAILURE_HELD_BEHIND     ? root_of(i)
                                   : failure == DMRP_FAILURE_BLOCKED_ROBOT ? robots_[i].verdict.other
                                                                           : DMRP_NOBODY;
     ends.push_back({world_.robots()[i].state, failure, world_.robots()[i].arrival_ns, robots_[i].visits, culprit});

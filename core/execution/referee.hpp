@@ -36,9 +36,9 @@ inline constexpr double continued_share = 0.05;  // of the fixed points: those t
 struct CoursePlace {
   std::uint64_t revision = 0;  // of the course
   std::span<const dmrp_waypoint> path;
-  double arc_m = 0.0;         // of the place reached
-  std::uint32_t passed = 0;   // waypoint
-  bool returns = false;       // it leaves the last goal and comes back to it, after the place reached
+  double arc_m = 0.0;                   // of the place reached
+  std::uint32_t passed = 0;             // waypoint
+  bool returns = false;                 // it leaves the last goal and comes back to it, after the place reached
   std::optional<std::uint32_t> holder;  // the robot for which it waits at the last waypoint that it may pass
 };
 
@@ -84,10 +84,11 @@ class Referee {
   // DMRP_ENDING_*, 0 until the trial is over.
   std::uint32_t ending() const;
 
-  // A robot waits at its last goal to be parked by a plan.
-  bool wants_plan() const;
+  // Whether a robot has waited at its last goal for a window, to be parked by a plan. Once a window.
+  bool wants_plan();
 
-  double gained_m(std::uint32_t robot) const { return robots_[robot].gained_m; }
+  // Of all robots, over the whole trial; never decreases.
+  std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
   // Changes of class and visits since the last call, as records of the trace (dmrp/referee.h).
@@ -111,24 +112,23 @@ class Referee {
   };
   struct Watched {
     std::shared_ptr<const GoalDistances> distances;
-    double nearest_m = 0.0;           // the least distance to the goal so far
-    std::optional<double> credit_m;   // unset until a course leads to the goal
-    double gained_m = 0.0;            // never decreases
-    std::uint64_t course = 0;         // of arc_m
+    double nearest_m = 0.0;          // the least distance to the goal so far
+    std::optional<double> credit_m;  // unset until a course leads to the goal
+    std::uint64_t course = 0;        // of arc_m
     double arc_m = 0.0;
-    std::deque<Moment> window;        // up to the latest moment that is a whole window old
+    std::deque<Moment> window;  // up to the latest moment that is a whole window old
     double travelled_m = 0.0;
     double turned_rad = 0.0;
-    dmrp_pose pose{};                 // at the last control tick
+    dmrp_pose pose{};  // at the last control tick
     Verdict verdict;
-    bool was_moving_freely = true;    // not in a spell that stops the window
+    bool was_moving_freely = true;  // not in a spell that stops the window
     bool recovering = false;
-    bool circled = false;             // at some time
+    bool circled = false;  // at some time
     std::int64_t command_ns = 0;
     std::int64_t waits_since_ns = -1;  // at its last goal, to be parked
     std::uint32_t visits = 0;
     std::uint32_t failure = DMRP_FAILURE_NONE;
-    dmrp_pose still_pose{};           // where it stands since the fixed point may have begun
+    dmrp_pose still_pose{};  // where it stands since the fixed point may have begun
   };
 
   bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
@@ -137,7 +137,7 @@ class Referee {
   void gain(std::uint32_t robot, const CoursePlace& course);
   void remember(std::uint32_t robot);
   Verdict classify(std::uint32_t robot, const CoursePlace& course) const;
-  bool is_moving(const Watched& watched) const;
+  bool is_moving(std::uint32_t robot) const;
   Verdict blocked_by(std::uint32_t robot, const CoursePlace& course) const;
   std::uint32_t root_of(std::uint32_t robot) const;
   void watch_standstill(std::span<const CoursePlace> courses);
@@ -149,6 +149,7 @@ class Referee {
   Settings settings_;
   GoalDistancesCache distances_;
   std::vector<Watched> robots_;
+  std::vector<double> gained_m_;
   std::vector<dmrp_call> changes_;
   std::map<std::uint64_t, dmrp_vec2> people_;  // where each was when it last moved least_progress_m, by id
   std::int64_t still_since_ns_ = 0;

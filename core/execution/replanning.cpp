@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "core/execution/replanning.hpp"
 
+#include "core/execution/referee.hpp"
+
 namespace dmrp::core {
 
 ReplanMonitor::ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count)
     : settings_(settings), robots_(robot_count) {}
 
-bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, const Referee& referee, std::span<const PathProgress> progress) {
+bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
+                        std::span<const PathProgress> progress) {
   bool any_off_course = false;
   bool any_active = false;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
     if (robots[i].state != DMRP_ROBOT_ACTIVE) continue;
     any_active = true;
-    if (off_course(t_ns, referee.gained_m(i), progress[i], robots_[i])) any_off_course = true;
+    if (off_course(t_ns, gained_m[i], progress[i], robots_[i])) any_off_course = true;
   }
   const std::int64_t waited_ns = t_ns - asked_ns_;
   const bool periodic = settings_.period_ns > 0 && waited_ns >= settings_.period_ns;

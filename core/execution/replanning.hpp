@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/execution/progress.hpp"
-#include "core/execution/referee.hpp"
 #include "core/scene/settings.hpp"
 #include "core/world/world.hpp"
 
@@ -18,9 +17,9 @@ class ReplanMonitor {
   // The first call of the planner is at t = 0.
   ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count);
 
-  // Call it at every control tick with the progress of all robots. If it returns true, the planner counts as called,
-  // and stall times start again.
-  bool due(std::int64_t t_ns, std::span<const RobotState> robots, const Referee& referee,
+  // Call it at every control tick with what all robots gained (Referee::gained_m()) and their progress. If it returns
+  // true, the planner counts as called, and stall times start again.
+  bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
            std::span<const PathProgress> progress);
 
  private:

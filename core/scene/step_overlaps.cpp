@@ -129,7 +129,7 @@ bool StepOverlaps::bodies_overlap(const Body& a, Motion a_does, const Body& b, M
   // a relative to b
   const dmrp_vec2 place = {-cell_m_ * b_from_a.column, -cell_m_ * b_from_a.row};
   const dmrp_vec2 way = cell_m_ * (way_of(a_does) - way_of(b_does));
-  if (toolkit::distance({place, place + way}, dmrp_vec2{0.0, 0.0}) >= a.radius_m + b.radius_m - tolerance_m)
+  if (toolkit::distance(dmrp_segment{place, place + way}, dmrp_vec2{0.0, 0.0}) >= a.radius_m + b.radius_m - tolerance_m)
     return false;
   const Cover of_a = cover_of(a, a_does);
   const Cover of_b = cover_of(b, b_does);

@@ -153,7 +153,7 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 TomlKeys root_keys() {
   TomlKeys root = {
       "",
-      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
+      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"ending"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
   return root;

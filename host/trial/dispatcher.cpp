@@ -53,7 +53,7 @@ Dispatcher::Dispatcher(const VariantWorld& variant, const core::World& world)
     : variant_(variant),
       world_(world),
       courses_(world.robots().size()),
-      progress_(world.robots().size()),
+      progress_(world.robots().size(), core::PathProgress(variant.planning_grid.view().resolution_m)),
       places_(world.robots().size()) {}
 
 void Dispatcher::set_plan(const Plan& plan) {
@@ -72,7 +72,7 @@ void Dispatcher::set_plan(const Plan& plan) {
     for (std::uint32_t k = 1; k + 1 < course.path.size(); ++k)
       if (turns_back(course.path, k)) course.turns.push_back(k);
     course.is_new = true;
-    progress_[i].set_path(course.path, positions[i], cell_m);
+    progress_[i].set_path(course.path, positions[i]);
     if (ordered()) find_stages(course);
   }
   if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
@@ -205,8 +205,8 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
     }
     const std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
-    positions.push_back({toolkit::position(path[next]),
-                         later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns)});
+    positions.push_back(
+        {toolkit::position(path[next]), later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns)});
   }
   return positions;
 }

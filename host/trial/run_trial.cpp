@@ -44,7 +44,8 @@ class Run {
         plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),
         dispatcher_(trial.variant, world_),
-        referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)}, trial.seed),
+        referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)},
+                 trial.seed),
         replanning_(settings_.replan, world_.robots().size()),
         recoveries_(world_, robots_with_costmap()) {}
 
@@ -95,7 +96,7 @@ class Run {
 
   bool replan_due() {
     if (!has_plan() || pending_plan_) return false;
-    const bool due = replanning_.due(world_.t_ns(), world_.robots(), referee_, dispatcher_.progress());
+    const bool due = replanning_.due(world_.t_ns(), world_.robots(), referee_.gained_m(), dispatcher_.progress());
     const bool waits = can_replan(settings_) && referee_.wants_plan();
     return std::exchange(recovery_asks_for_plan_, false) || due || waits;
   }
@@ -225,7 +226,8 @@ class Run {
   }
 
   dmrp_trial_end end_without_plan() {
-    for (const core::RobotState& robot : world_.robots()) ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1, 0, DMRP_NOBODY});
+    for (const core::RobotState& robot : world_.robots())
+      ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1, 0, DMRP_NOBODY});
     return end(DMRP_ENDING_NO_PLAN);
   }
 

@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "core/execution/ending.hpp"
 #include "core/execution/progress.hpp"
+#include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
@@ -68,8 +68,8 @@ class Recording {
         world_(trial.variant.scenario, trial.variant.types, trial.variant.simulation, trial.variant.geometry,
                trial.variant.routes, trial.seed),
         lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
-        monitor_(static_cast<std::uint32_t>(world_.robots().size()), trial.variant.simulation.time_limit_ns),
-        gained_m_(world_.robots().size()),
+        referee_(world_, *trial.variant.planning_grids, {}, trial.seed),
+        places_(world_.robots().size()),
         motions_(world_.people().size()),
         velocities_(world_.people().size()) {
     result_.tapes.resize(world_.robots().size());
@@ -85,17 +85,22 @@ class Recording {
 
   RecordedTrial run() {
     const core::SimulationSettings& settings = trial_.variant.simulation;
-    std::uint32_t ending = monitor_.update(0, world_.robots(), gained_m_);
+    std::uint32_t ending = referee_.ending();
     while (ending == 0) {
-      if (world_.t_ns() % settings.control_period_ns == 0) control();
+      if (world_.t_ns() % settings.control_period_ns == 0) {
+        referee_.judge_progress(places_);
+        control();
+      }
       walk();
       world_.step(velocities_);
+      referee_.judge_arrivals(places_);
       for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
         const core::RobotState& robot = world_.robots()[i];
         drivers_[i]->progress.update({robot.pose.x, robot.pose.y}, robot.goal_index);
-        gained_m_[i] = drivers_[i]->progress.gained_m();
+        places_[i].arc_m = drivers_[i]->progress.progress_m();
+        places_[i].passed = drivers_[i]->progress.waypoint();
       }
-      ending = monitor_.update(world_.t_ns(), world_.robots(), gained_m_);
+      ending = referee_.ending();
     }
     const auto& robots = world_.robots();
     result_.arrived = static_cast<std::uint32_t>(std::count_if(
@@ -126,6 +131,7 @@ class Recording {
       const dmrp_pose& pose = world_.robots()[i].pose;
       driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
       driver.progress.set_path(driver.path, {pose.x, pose.y});
+      places_[i].path = driver.path;
       const dmrp_path path = path_of(driver.path);
       const dmrp_path_update update = {sizeof(update), i, 1, &path};
       driver.table.set_path(driver.controller->self(), &update);
@@ -147,9 +153,8 @@ class Recording {
       const bool is_given = frame.status == DMRP_OK || frame.status == DMRP_WARNING;
       if (!is_given && frame.status != DMRP_NO_SOLUTION)
         throw std::runtime_error(fmt::format("step() returned {}", frame.status));
-      if (is_given) monitor_.command_given(i, world_.t_ns());
+      if (is_given) referee_.command_given(i);
       world_.set_command(i, is_given ? dmrp_twist{frame.command.v_x, 0.0, frame.command.omega} : dmrp_twist{});
-      if (monitor_.failure(i) == DMRP_FAILURE_CONTROLLER) world_.fail(i);
     }
   }
 
@@ -200,8 +205,8 @@ class Recording {
   const TrialUnderTest& trial_;
   core::World world_;
   core::Lidar lidar_;
-  core::EndingMonitor monitor_;
-  std::vector<double> gained_m_;
+  core::Referee referee_;
+  std::vector<core::CoursePlace> places_;
   std::vector<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;
   std::vector<std::unique_ptr<Driver>> drivers_;

@@ -20,6 +20,16 @@ const char* reason(std::uint32_t failure) {
       return "no command from its controller";
     case DMRP_FAILURE_NO_PLAN:
       return "no plan";
+    case DMRP_FAILURE_HELD_BEHIND:
+      return "held behind another robot";
+    case DMRP_FAILURE_CIRCLING:
+      return "circling";
+    case DMRP_FAILURE_BLOCKED_PERSON:
+      return "blocked by a person";
+    case DMRP_FAILURE_BLOCKED_ROBOT:
+      return "blocked by a robot";
+    case DMRP_FAILURE_STUCK:
+      return "stuck";
     default:
       return "unknown reason";
   }

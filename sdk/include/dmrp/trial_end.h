@@ -21,10 +21,10 @@ extern "C" {
 
 // Why a robot failed. Open list.
 #define DMRP_FAILURE_NONE 0
-#define DMRP_FAILURE_TIMEOUT 1         // still made progress
-#define DMRP_FAILURE_OSCILLATION 2     // arrived after it circled, where the experiment excludes that
-#define DMRP_FAILURE_DEADLOCK 3        // no host of draft 2 gives it
-#define DMRP_FAILURE_CONTROLLER 4      // no command for 5 s
+#define DMRP_FAILURE_TIMEOUT 1      // still made progress
+#define DMRP_FAILURE_OSCILLATION 2  // arrived after it circled, where the experiment excludes that
+#define DMRP_FAILURE_DEADLOCK 3     // no host of draft 2 gives it
+#define DMRP_FAILURE_CONTROLLER 4   // no command for 5 s
 #define DMRP_FAILURE_NO_PLAN 5
 #define DMRP_FAILURE_HELD_BEHIND 6     // waited, as the plan's order says, behind `culprit`
 #define DMRP_FAILURE_CIRCLING 7        // travelled or turned without progress
