@@ -124,7 +124,7 @@ std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricC
   if (measures.criteria().empty()) return {};
   std::vector<Answer> found;
   const auto add = [&](const std::function<bool(const CombinationLabels&)>& included) {
-    const Contest contest = make_contest(trials, measures.ways(), Contestants::planners_and_controllers, included);
+    const Contest contest = make_contest(trials, Contestants::planners_and_controllers, included);
     if (contest.contestants.size() > 1) found.push_back(answer_of(contest, measures));
     return contest.cells;
   };

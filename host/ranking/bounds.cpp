@@ -160,7 +160,7 @@ void add_places(const Bounds& bounds, const SummaryLayout& layout, std::span<con
   for (CombinationSummary& summary : summaries) {
     const CombinationLabels& labels = summary.combination;
     const Contest contest = make_contest(
-        trials, measures.ways(), Contestants::planners_and_controllers, [&](const CombinationLabels& other) {
+        trials, Contestants::planners_and_controllers, [&](const CombinationLabels& other) {
           return other.scenario == labels.scenario && other.robots == labels.robots &&
                  other.pedestrian_model == labels.pedestrian_model && other.global_planner == labels.global_planner;
         });

@@ -34,7 +34,6 @@ class Measures {
 
   // The stricter sibling of the first criterion, a share, if both were measured.
   const std::optional<Criterion>& stricter() const { return stricter_; }
-  const RobotValues& ways() const { return ways_; }
   const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;
