@@ -124,9 +124,8 @@ std::vector<BestMark> best_marks(const SummaryLayout& layout, std::span<const Me
   const Marker marker(layout, metrics, trials);
   std::vector<BestMark> marks;
   for (const CombinationLabels& group : groups_of(trials, contestants)) {
-    const Contest contest = make_contest(trials, contestants, [&](const CombinationLabels& labels) {
-      return group_of(labels, contestants) == group;
-    });
+    const Contest contest = make_contest(
+        trials, contestants, [&](const CombinationLabels& labels) { return group_of(labels, contestants) == group; });
     for (std::size_t metric = 0; metric < metrics.size(); ++metric)
       if (const auto best = marker.best(contest, metric)) {
         CombinationLabels labels = group;

@@ -213,11 +213,10 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
   }
   std::vector<Discrimination> all;
   for (const CombinationLabels& cell : cells) {
-    const Contest contest =
-        make_contest(trials, Contestants::planners_and_controllers, [&](const auto& labels) {
-          return labels.scenario == cell.scenario && labels.robots == cell.robots &&
-                 labels.pedestrian_model == cell.pedestrian_model;
-        });
+    const Contest contest = make_contest(trials, Contestants::planners_and_controllers, [&](const auto& labels) {
+      return labels.scenario == cell.scenario && labels.robots == cell.robots &&
+             labels.pedestrian_model == cell.pedestrian_model;
+    });
     if (contest.contestants.size() > 1) all.push_back(discrimination_of(contest, measures, criteria));
   }
   return all;
