@@ -79,7 +79,7 @@ bool pass(const HeadOn& pair, bool leans) {
 
 }  // namespace
 
-TEST_CASE("DWA drives a path that steps aside and comes back", "[slow]") {
+TEST_CASE("DWA drives a path that steps aside and comes back") {
   const auto draw = [](dmrp::toolkit::Stream& random) {
     Course course;
     course.path = metre_path({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {0.0, -4.0}});
@@ -91,7 +91,7 @@ TEST_CASE("DWA drives a path that steps aside and comes back", "[slow]") {
   CHECK(arrivals(draw, "enforce_path_inversion") < starts);
 }
 
-TEST_CASE("DWA returns to a path that its window does not hold", "[slow]") {
+TEST_CASE("DWA returns to a path that its window does not hold") {
   const auto draw = [](dmrp::toolkit::Stream& random) {
     Course course;
     course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
@@ -103,12 +103,12 @@ TEST_CASE("DWA returns to a path that its window does not hold", "[slow]") {
   CHECK(arrivals(draw, "return_to_path") == 0);
 }
 
-TEST_CASE("DWA leaves the end of a wall that it stands beside", "[slow]") {
+TEST_CASE("DWA leaves the end of a wall that it stands beside") {
   CHECK(arrivals(wall_end) == starts);
   CHECK(arrivals(wall_end, "leave_padding") < starts);
 }
 
-TEST_CASE("Two DWA robots pass each other where neither could pass the other in the middle", "[slow]") {
+TEST_CASE("Two DWA robots pass each other where neither could pass the other in the middle") {
   const auto passes_with = [](bool leans) {
     dmrp::toolkit::Stream random(23, "head-on");
     int passed = 0;
@@ -126,7 +126,7 @@ TEST_CASE("Two DWA robots pass each other where neither could pass the other in 
 }
 
 // Beside the middle, the wider side is the same one for both.
-TEST_CASE("Two DWA robots exactly in line pass each other, in the middle and beside it", "[slow]") {
+TEST_CASE("Two DWA robots exactly in line pass each other, in the middle and beside it") {
   const auto passes_with = [](bool leans) {
     int passed = 0;
     for (const double width_m : {1.45, 1.5, 1.6, 1.8})

@@ -119,34 +119,34 @@ int pairs_that_pass(bool keeps_right, bool tracking) {
 
 }  // namespace
 
-TEST_CASE("E3MoP keeps a decimetre from a person who appears before it", "[slow]") {
+TEST_CASE("E3MoP keeps a decimetre from a person who appears before it") {
   const Outcome mended = drive_all(person_appears);
   CHECK(mended.arrived == starts);
   CHECK(mended.walker_clearance_m > 0.1);
   CHECK(drive_all(person_appears, {{"clearance_margin", 0.0}}).walker_clearance_m < 0.06);
 }
 
-TEST_CASE("E3MoP leaves a wall that it stands at", "[slow]") {
+TEST_CASE("E3MoP leaves a wall that it stands at") {
   const Outcome mended = drive_all(at_contact);
   CHECK(mended.arrived == starts);
   CHECK(mended.static_clearance_m > 0.0);
   CHECK(drive_all(at_contact, {{"leave_padding", false}}).arrived < starts);
 }
 
-TEST_CASE("E3MoP passes a gap in which its margin hardly fits", "[slow]") {
+TEST_CASE("E3MoP passes a gap in which its margin hardly fits") {
   const Outcome mended = drive_all(gap_as_wide_as_the_margin);
   CHECK(mended.arrived == starts);
   CHECK(mended.static_clearance_m > 0.0);
 }
 
-TEST_CASE("E3MoP returns to a path that lies outside its window", "[slow]") {
+TEST_CASE("E3MoP returns to a path that lies outside its window") {
   const Outcome mended = drive_all(beside_the_window);
   CHECK(mended.arrived == starts);
   CHECK(mended.static_clearance_m > 0.0);
   CHECK(drive_all(beside_the_window, {{"return_to_path", false}}).arrived < starts);
 }
 
-TEST_CASE("Two E3MoP robots pass each other in a corridor where each has to keep to its wall", "[slow]") {
+TEST_CASE("Two E3MoP robots pass each other in a corridor where each has to keep to its wall") {
   const bool tracking = GENERATE(true, false);
   CAPTURE(tracking);
   CHECK(pairs_that_pass(true, tracking) == starts);
