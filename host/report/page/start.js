@@ -72,7 +72,7 @@ function mount_part(part, data) {
   part.done = true;
   const body = part.section.querySelector('.section-body');
   try {
-    part.mount(body, data);
+    part.shown = part.mount(body, data);
   } catch (error) {
     // an error in one section must not stop the others
     console.error(error);
@@ -176,6 +176,17 @@ function mount_when_idle(all, data) {
   );
 }
 
+// Delays the window's load event, and with it printing by a program, until `shown`: an open document holds it back.
+function load_with(shown) {
+  const frame = element('iframe', {hidden: true});
+  document.body.append(frame);
+  frame.contentDocument.open();
+  shown.finally(() => {
+    frame.contentDocument.close();
+    frame.remove();
+  });
+}
+
 function mount_up_to(all, data, id) {
   for (const part of all) {
     mount_part(part, data);
@@ -214,6 +225,9 @@ function begin() {
   });
   window.dmrp = {data, open_replay: (trial) => open_replay(all, data, anchor, trial)};
   mount_up_to(all, data, 'tables');
+  const replay = all.find((part) => part.section.id === 'replay');
+  if (replay) mount_part(replay, data);
+  if (replay && replay.shown) load_with(replay.shown);
   jump_to(all, data, anchor, window.location.hash.slice(1));
   mount_when_near(all, data);
   follow_reading(all, anchor);

@@ -11,6 +11,8 @@ import * as judgement from './judgement.js';
 
 const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
 
+const estimate_of = ({difference, low, high}) => ({estimate: difference, low, high});
+
 // The cells that all differences have, behind the name and the picture of the interval.
 function cells(data, difference) {
   const digits = judgement.decimals(data, difference);
@@ -19,10 +21,11 @@ function cells(data, difference) {
   return [
     number('before', numbers.fixed(difference.before, digits)),
     number('after', numbers.fixed(difference.after, digits)),
-    number(
+    interval_rows.difference_cell(
       'difference',
-      element('span', {class: 'mean'}, numbers.signed(difference.difference, digits)),
-      element('span', {class: 'interval'}, numbers.interval(difference.low, difference.high, digits, numbers.signed))
+      estimate_of(difference),
+      digits,
+      difference.pairs > 0 && numbers.counted(difference.seeds, 'seed')
     ),
     number('p (Holm)', numbers.p_value(difference.p_holm)),
     number('pairs', `${difference.pairs}`),
@@ -77,9 +80,7 @@ export function default_metric(data, run) {
 
 function combinations_table(data, run, index) {
   const own = run.of_combinations.map((of) => of[index]);
-  const x = interval_rows.scale(
-    own.map((one) => ({estimate: one.difference, low: one.low, high: one.high})).filter((one) => one.estimate !== undefined)
-  );
+  const x = interval_rows.scale(own.map(estimate_of));
   const made = element(
     'table',
     {class: 'forest with-intervals'},
@@ -94,13 +95,12 @@ function combinations_table(data, run, index) {
     if (variant.combinations.length === 0) continue;
     const rows = variant.combinations.map((combination) => {
       const difference = own[combination];
-      const estimate = {estimate: difference.difference, low: difference.low, high: difference.high};
       const sure = ['better', 'worse', 'changed'].includes(judgement.of(data, difference));
       return element(
         'tr',
         {class: sure ? 'sure' : null},
         element('th', {scope: 'row'}, labels.combination(data, combination)),
-        interval_rows.cell(estimate, x, sure),
+        interval_rows.cell(estimate_of(difference), x, sure),
         cells(data, difference)
       );
     });

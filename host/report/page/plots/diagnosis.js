@@ -35,9 +35,14 @@ export function correlation_of(data, stratum, x, y) {
   );
 }
 
+// Why a correlation has no value.
+function reason(found) {
+  return found.n < numbers.FEWEST ? numbers.too_few(found.n) : `equal values (${found.n})`;
+}
+
 function correlation_words(found) {
   if (!found) return '';
-  if (!numbers.is_number(found.rho)) return `no correlation: too few trials, or equal values (n ${found.n})`;
+  if (!numbers.is_number(found.rho)) return `ρ: ${reason(found)}`;
   const {interval, signed} = numbers;
   return `ρ ${signed(found.rho, 2)} ${interval(found.low, found.high, 2, signed)}, n ${found.n}`;
 }
@@ -58,14 +63,8 @@ function draw_panel(data, trials, chosen, domains, holder, width, detail) {
 }
 
 function correlation_cell(found) {
-  if (!found || !numbers.is_number(found.rho)) {
-    return element(
-      'td',
-      {class: 'number', 'data-about': found ? `too few trials, or equal values (n ${found.n})` : null},
-      numbers.UNDEFINED,
-      found && element('span', {class: 'interval'}, `n ${found.n}`)
-    );
-  }
+  if (!found) return element('td', {class: 'number'}, numbers.UNDEFINED);
+  if (!numbers.is_number(found.rho)) return element('td', {class: 'number'}, reason(found));
   return element(
     'td',
     {class: 'number'},
@@ -130,7 +129,7 @@ function first_choice(data, measured) {
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.trials.id.length < 3)
+  if (data.trials.id.length < numbers.FEWEST)
     return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be computed`;
   return labels.measured_metrics(data).length < 2 ? 'fewer than two metrics have values' : null;
 }

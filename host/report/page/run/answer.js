@@ -28,6 +28,7 @@ export function scope_words(data, answer) {
 export function difference_words(against) {
   if (against.observations === 0) return numbers.UNDEFINED;
   if (against.p_holm === null && against.mean === 0) return '=';
+  if (against.observations < numbers.FEWEST) return numbers.too_few(against.observations);
   const interval = numbers.interval(against.low, against.high, DECIMALS, numbers.signed);
   return [numbers.signed(against.mean, DECIMALS), interval].filter(Boolean).join(' ');
 }

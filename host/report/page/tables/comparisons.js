@@ -57,11 +57,7 @@ function row_element(data, comparison, x, decimals) {
       given && element('span', {class: 'given'}, ` with ${given}`)
     ),
     interval_rows.cell(estimate, x, sure),
-    number(
-      'difference',
-      element('span', {class: 'mean'}, numbers.signed(estimate.estimate, decimals)),
-      element('span', {class: 'interval'}, numbers.interval(estimate.low, estimate.high, decimals, numbers.signed))
-    ),
+    interval_rows.difference_cell('difference', estimate, decimals, comparison.pairs),
     number('p', numbers.p_value(comparison.p)),
     number('p (Holm)', numbers.p_value(comparison.p_holm)),
     number('effect', numbers.signed(comparison.effect, 2)),
@@ -124,7 +120,6 @@ function table(data, rows, chosen) {
 function note_words(data, rows, chosen) {
   const metric = labels.metric(data, chosen.metric);
   const test = TESTS[rows[0].test];
-  const empty = rows.filter((row) => row.pairs === 0).length;
   const declared = (data.layouts.report.comparisons || []).filter((one) => one.metric === chosen.metric);
   const censored = declared.some((one) => one.censored);
   const successes = declared.some((one) => one.both_succeeded);
@@ -136,7 +131,7 @@ function note_words(data, rows, chosen) {
     'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
     `\u22121 to 1. Pairs: seeds ${successes ? 'with which both trials succeeded' : 'with values in both trials'}.` +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
-    (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed with values of both.` : '')
+    ` Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
   );
 }
 
@@ -145,14 +140,15 @@ export function default_metric(data) {
   const first = (holds) => (data.comparisons.find(holds) || {}).metric;
   return (
     first((one) => one.p_holm !== null && one.p_holm < SIGNIFICANT) ||
-    first((one) => one.mean_difference !== 0) ||
+    first((one) => one.mean_difference) ||
     data.comparisons[0].metric
   );
 }
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.comparisons.length > 0) return null;
+  if (data.comparisons.some((one) => one.pairs >= numbers.FEWEST)) return null;
+  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} seeds`;
   return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
 }
 

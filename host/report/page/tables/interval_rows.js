@@ -62,6 +62,17 @@ export function cell(row, x, sure) {
   return holder;
 }
 
+// The numbers of a row, `estimate` and its interval; without them, that `count` is too few.
+export function difference_cell(label, {estimate, low, high}, decimals, count) {
+  const few = count && !numbers.is_number(estimate);
+  return element(
+    'td',
+    {class: 'number', 'data-label': label},
+    element('span', {class: 'mean'}, few ? numbers.too_few(count) : numbers.signed(estimate, decimals)),
+    element('span', {class: 'interval'}, numbers.interval(low, high, decimals, numbers.signed))
+  );
+}
+
 // The axis above the column: ticks, and the meaning of both sides of zero.
 export function axis(x, left_words, right_words) {
   const holder = element('th', {class: 'interval-plot'});

@@ -8,8 +8,6 @@ import {scroll_box} from '../scroll_box.js';
 import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
-const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
-
 function table_of(data, rows, variants) {
   const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
   const x = interval_rows.scale(estimates);
@@ -37,17 +35,8 @@ function table_of(data, rows, variants) {
             'tr',
             {},
             element('th', {scope: 'row'}, labels.combination(data, rows[i].combination)),
-            interval_rows.cell(
-              estimates[i],
-              x,
-              rows[i].pairs >= fewest_to_judge && (rows[i].low > 0 || rows[i].high < 0)
-            ),
-            element(
-              'td',
-              {class: 'number', 'data-label': 'delay'},
-              element('span', {class: 'mean'}, numbers.signed(rows[i].mean_s, 2)),
-              element('span', {class: 'interval'}, numbers.interval(rows[i].low, rows[i].high, 2, numbers.signed))
-            ),
+            interval_rows.cell(estimates[i], x, rows[i].low > 0 || rows[i].high < 0),
+            interval_rows.difference_cell('delay', estimates[i], 2, rows[i].pairs),
             element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)
           )
         )
@@ -57,13 +46,14 @@ function table_of(data, rows, variants) {
   return with_svg_button(scroll_box({'aria-label': 'Pedestrian delay'}, table));
 }
 
-const measured_rows = (data) => data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
+const measured_rows = (data) => data.pedestrian_delay.filter((row) => row.pairs > 0);
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  return measured_rows(data).length > 0
-    ? null
-    : 'the experiment has no variant of the scenario with robots = 0 as a reference';
+  const rows = measured_rows(data);
+  if (rows.length === 0) return 'the experiment has no variant of the scenario with robots = 0 as a reference';
+  const enough = rows.some((row) => row.pairs >= numbers.FEWEST);
+  return enough ? null : `no combination has ${numbers.FEWEST} pairs with the variant without robots`;
 }
 
 export function mount(body, data) {
@@ -88,8 +78,8 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero and is from at least six pairs; ' +
-        'intervals from fewer pairs are too narrow.'
+      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero. ' +
+        `Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
     )
   );
 }
