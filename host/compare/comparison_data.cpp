@@ -35,9 +35,10 @@ Json differences_json(const std::vector<MetricComparison>& metrics) {
   Json json = Json::array();
   for (const MetricComparison& one : metrics) {
     Json difference = {{"metric", one.metric}, {"pairs", one.pairs}, {"seeds", one.seeds}};
-    if (one.pairs > 0) difference.update({{"before", one.before}, {"after", one.after}});
-    if (one.can_be_judged())
-      difference.update({{"difference", one.difference},
+    if (one.pairs > 0)
+      difference.update({{"before", one.before},
+                         {"after", one.after},
+                         {"difference", one.difference},
                          {"low", one.interval.low},
                          {"high", one.interval.high},
                          {"p", one.p},

@@ -9,8 +9,7 @@
 //                 changes: [text], libraries: [{name, before, after}] with SHA-256s, or null where the run has none,
 //                 differences: [difference], combinations: [{scenario, robots, global_planner, local_controller,
 //                 pedestrian_model}], of_combinations: [combination][metric]: difference}
-//   difference    {metric, pairs, seeds, before, after, difference, low, high, p, p_holm}, those from `difference` on
-//                 only where can_be_judged()
+//   difference    {metric, pairs, seeds, before, after, difference, low, high, p, p_holm}
 #pragma once
 
 #include <string>

@@ -193,10 +193,6 @@ std::vector<std::string> changes_between(const Manifest& before, const Manifest&
 
 }  // namespace
 
-bool MetricComparison::can_be_judged() const {
-  return seeds >= fewest_observations || (seeds > 0 && std::isnan(p));
-}
-
 RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
                            std::span<const std::string> metrics) {
   const auto trials_before = trials_by_key(before.trials);

@@ -27,9 +27,6 @@ struct MetricComparison {
   core::Interval interval{};  // 95 %, bootstrap over observations
   double p = 1.0;             // NaN: no pair differs
   double p_holm = 1.0;        // over the metrics of the comparison
-
-  // Whether difference, interval and p are worth showing: with enough seeds, or if no pair differs.
-  bool can_be_judged() const;
 };
 
 // A plugin library of either run, known by its file's name.

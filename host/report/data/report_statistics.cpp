@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/data/report_statistics.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/failure_causes.hpp"
-#include "host/ranking/paired_test.hpp"
 #include "host/report/data/report_comparisons.hpp"
 #include "host/report/data/report_completion.hpp"
 #include "host/report/data/report_correlations.hpp"
@@ -45,8 +43,6 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
   json["combinations"] = {one.a, one.b};
   json["pairs"] = one.pairs;
   json["ties"] = one.ties;
-  json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "sign_flip";
-  if (one.pairs < fewest_observations) return json;
   json["median_difference"] = one.median_difference;
   json["low"] = one.median_interval.low;
   json["high"] = one.median_interval.high;
@@ -54,6 +50,7 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
   json["mean_low"] = one.mean_interval.low;
   json["mean_high"] = one.mean_interval.high;
   json["effect"] = one.effect;
+  json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "sign_flip";
   json["exact"] = one.exact;
   json["p"] = one.p;
   json["p_holm"] = one.p_holm;
@@ -61,21 +58,19 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
 }
 
 Json correlation_json(const ReportFrame& frame, const StratumCorrelation& one) {
-  Json json = {{"scenario", one.stratum.scenario},
-               {"robots", one.stratum.robots},
-               {"global_planner", one.stratum.global_planner},
-               {"pedestrian_model", one.stratum.pedestrian_model},
-               {"x", frame.metrics[one.x].name},
-               {"y", frame.metrics[one.y].name},
-               {"n", one.correlation.n}};
-  if (one.correlation.n >= fewest_observations)
-    json.update({{"rho", one.correlation.rho},
-                 {"low", one.correlation.interval.low},
-                 {"high", one.correlation.interval.high},
-                 {"p", one.correlation.p},
-                 {"exact", one.correlation.exact},
-                 {"ties_share", one.correlation.ties_share}});
-  return json;
+  return {{"scenario", one.stratum.scenario},
+          {"robots", one.stratum.robots},
+          {"global_planner", one.stratum.global_planner},
+          {"pedestrian_model", one.stratum.pedestrian_model},
+          {"x", frame.metrics[one.x].name},
+          {"y", frame.metrics[one.y].name},
+          {"n", one.correlation.n},
+          {"rho", one.correlation.rho},
+          {"low", one.correlation.interval.low},
+          {"high", one.correlation.interval.high},
+          {"p", one.correlation.p},
+          {"exact", one.correlation.exact},
+          {"ties_share", one.correlation.ties_share}};
 }
 
 Json completion_json(const ArrivalTimes& one) {
@@ -92,10 +87,11 @@ Json completion_json(const ArrivalTimes& one) {
 }
 
 Json delay_json(const PedestrianDelay& one) {
-  Json json = {{"combination", one.combination}, {"pairs", one.pairs}};
-  if (one.pairs >= fewest_observations)
-    json.update({{"mean_s", one.mean_s}, {"low", one.interval.low}, {"high", one.interval.high}});
-  return json;
+  return {{"combination", one.combination},
+          {"pairs", one.pairs},
+          {"mean_s", one.mean_s},
+          {"low", one.interval.low},
+          {"high", one.interval.high}};
 }
 
 Json ranked_json(const Answer& answer, const RankedCombination& one) {
@@ -108,14 +104,12 @@ Json ranked_json(const Answer& answer, const RankedCombination& one) {
                {"decided", one.decided ? Json(*one.decided) : Json()},
                {"words", one.decided ? Json(difference_words(answer, one, *one.decided)) : Json()}};
   json["against"] = Json::array();
-  for (const AgainstFirst& against : one.against) {
-    Json& json_against = json["against"].emplace_back(Json{{"observations", against.observations}});
-    if (against.observations >= fewest_observations || std::isnan(against.p))  // NaN: all are equal
-      json_against.update({{"mean", against.mean},
-                           {"low", against.interval.low},
-                           {"high", against.interval.high},
-                           {"p_holm", against.p_holm}});
-  }
+  for (const AgainstFirst& against : one.against)
+    json["against"].push_back({{"observations", against.observations},
+                               {"mean", against.mean},
+                               {"low", against.interval.low},
+                               {"high", against.interval.high},
+                               {"p_holm", against.p_holm}});
   return json;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_statistics.hpp: adds the statistics to the data of a report (report_data.hpp). What is
-// estimated from fewer pairs or values than fewest_observations (paired_test.hpp) is left out:
+// report_statistics.hpp: adds the statistics to the data of a report (report_data.hpp):
 //
 //   comparisons       [{metric, scenario, robots, varied: global_planner | local_controller | pedestrian_model, a, b,
 //                     given: {the other two labels}, combinations: [of a, of b], pairs, ties, median_difference, low,

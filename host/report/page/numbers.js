@@ -2,7 +2,7 @@
 // numbers.js: formats numbers, intervals and units.
 
 export const UNDEFINED = '—';
-export const FEWEST = 6; // pairs or values whose difference or correlation the host gives (paired_test.hpp)
+export const FEWEST = 6; // pairs or values of which a difference or correlation is shown (paired_test.hpp)
 
 export function is_number(value) {
   return typeof value === 'number' && Number.isFinite(value);

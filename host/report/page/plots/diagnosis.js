@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // diagnosis.js: scatter plots of two metrics, one panel for each scenario and planner, with rank correlations.
 import * as controls from '../controls.js';
-import {element, fill, head_row} from '../elements.js';
+import {element, fill, head_row, number_cell, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -65,16 +65,11 @@ function draw_panel(data, trials, chosen, domains, holder, width, detail) {
 function correlation_cell(found) {
   if (!found) return element('td', {class: 'number'}, numbers.UNDEFINED);
   if (!numbers.is_number(found.rho)) return element('td', {class: 'number'}, reason(found));
-  return element(
-    'td',
-    {class: 'number'},
-    element('span', {class: 'mean'}, numbers.signed(found.rho, 2)),
-    element('span', {class: 'interval'}, numbers.interval(found.low, found.high, 2, numbers.signed)),
-    element(
-      'span',
-      {class: 'interval'},
-      `p ${numbers.p_value(found.p)} · n ${found.n} · ties ${numbers.percent(found.ties_share)}`
-    )
+  return number_cell(
+    null,
+    numbers.signed(found.rho, 2),
+    numbers.interval(found.low, found.high, 2, numbers.signed),
+    `p ${numbers.p_value(found.p)} · n ${found.n} · ties ${numbers.percent(found.ties_share)}`
   );
 }
 
@@ -99,9 +94,7 @@ function correlation_table(data, strata) {
       {class: 'results with-intervals'},
       head_row(
         element('th', {scope: 'col'}, 'scenario and planner'),
-        pairs.map((pair) =>
-          element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
-        )
+        pairs.map((pair) => number_head(title(pair)))
       ),
       element(
         'tbody',

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // comparisons.js: paired differences between combinations with the same seeds, as a forest plot.
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
@@ -78,16 +78,11 @@ function side_words(direction) {
 }
 
 function head(metric, title, x) {
-  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
-  const unit = numbers.unit(metric.unit);
   return head_row(
     element('th', {scope: 'col'}, 'first \u2212 second'),
     interval_rows.axis(x, ...side_words(metric.direction)),
-    column(title, unit && element('span', {class: 'unit'}, unit)),
-    column('p'),
-    column('p (Holm)'),
-    column('effect'),
-    column('pairs')
+    number_head(title, numbers.unit(metric.unit)),
+    ['p', 'p (Holm)', 'effect', 'pairs'].map((name) => number_head(name))
   );
 }
 
@@ -101,19 +96,10 @@ function table(data, rows, chosen) {
     estimates.map((one) => one.estimate)
   );
   const {estimate} = TESTS[rows[0].test] || {estimate: 'difference'};
-  const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x));
-  for (const variant of labels.variants(data)) {
-    const own = rows.filter((row) => labels.is_of(variant.scenario, row));
-    if (own.length === 0) continue;
-    made.append(
-      element(
-        'tbody',
-        {},
-        data.scenarios.length > 1 && group_row(variant.label, 7),
-        own.map((row) => row_element(data, row, x, decimals))
-      )
-    );
-  }
+  const bodies = bodies_of(data, labels.variants(data), 7, (variant) =>
+    rows.filter((row) => labels.is_of(variant.scenario, row)).map((row) => row_element(data, row, x, decimals))
+  );
+  const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x), bodies);
   return with_svg_button(scroll_box({'aria-label': 'Paired differences'}, made), chosen.metric);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // pedestrian_delay.js: the delay of pedestrians by robots, from pairs of trials with and without robots.
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
@@ -9,40 +9,30 @@ import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
 function table_of(data, rows, variants) {
-  const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
+  const estimates = rows.map((row) => ({...row, estimate: row.mean_s}));
   const x = interval_rows.scale(estimates);
-  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+  const row_of = (one) =>
+    element(
+      'tr',
+      {},
+      element('th', {scope: 'row'}, labels.combination(data, one.combination)),
+      interval_rows.cell(one, x, one.low > 0 || one.high < 0),
+      interval_rows.difference_cell('delay', one, 2, one.pairs),
+      element('td', {class: 'number', 'data-label': 'pairs'}, one.pairs)
+    );
   const table = element(
     'table',
     {class: 'forest with-intervals'},
     head_row(
       element('th', {scope: 'col'}, 'combination'),
       interval_rows.axis(x, '← sooner', 'later →'),
-      column('delay', element('span', {class: 'unit'}, 's')),
-      column('pairs')
+      number_head('delay', 's'),
+      number_head('pairs')
+    ),
+    bodies_of(data, variants, 4, (variant) =>
+      estimates.filter((one) => variant.combinations.includes(one.combination)).map(row_of)
     )
   );
-  for (const variant of variants) {
-    const own = rows.map((row, i) => i).filter((i) => variant.combinations.includes(rows[i].combination));
-    if (own.length === 0) continue;
-    table.append(
-      element(
-        'tbody',
-        {},
-        data.scenarios.length > 1 && group_row(variant.label, 4),
-        own.map((i) =>
-          element(
-            'tr',
-            {},
-            element('th', {scope: 'row'}, labels.combination(data, rows[i].combination)),
-            interval_rows.cell(estimates[i], x, rows[i].low > 0 || rows[i].high < 0),
-            interval_rows.difference_cell('delay', estimates[i], 2, rows[i].pairs),
-            element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)
-          )
-        )
-      )
-    );
-  }
   return with_svg_button(scroll_box({'aria-label': 'Pedestrian delay'}, table));
 }
 
