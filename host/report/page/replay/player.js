@@ -143,7 +143,7 @@ function make_player(section, data, make_3d_view) {
 
   // The height for the picture with which everything from the title of the section to the buttons is in the window.
   function room() {
-    if (scene.whole_trails) return node.clientWidth;
+    if (scene.whole_trails) return 0.75 * node.clientWidth;
     const below = time_line.node.offsetHeight + controls.offsetHeight + 3 * ROOM_PX;
     if (fills()) return window.innerHeight - below;
     const navigation = document.getElementById('contents').offsetHeight;
