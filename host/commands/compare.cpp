@@ -11,6 +11,7 @@
 #include "host/compare/run_comparison.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
+#include "host/ranking/paired_test.hpp"
 #include "host/report/report_page.hpp"
 #include "host/terminal/display_width.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -70,12 +71,14 @@ void print_row(const MetricComparison& one, std::size_t name_width) {
     return;
   }
   const int decimals = decimals_of(one);
-  std::string difference = change_words(one.difference, decimals);
-  if (!std::isnan(one.interval.low))
+  const bool few = one.seeds < fewest_observations && !std::isnan(one.p);  // NaN: no pair differs
+  std::string difference =
+      few ? fmt::format("too few ({})", plural(one.seeds, "seed")) : change_words(one.difference, decimals);
+  if (!few && !std::isnan(one.interval.low))
     difference +=
         fmt::format(" [{}, {}]", change_words(one.interval.low, decimals), change_words(one.interval.high, decimals));
   fmt::print("  {}  {:>6}  {:>9.{}f}  {:>9.{}f}  {:>28}  {:>8}\n", pad_right(name, name_width), one.pairs, one.before,
-             decimals, one.after, decimals, difference, p_words(one.p_holm));
+             decimals, one.after, decimals, difference, few ? "–" : p_words(one.p_holm));
 }
 
 void print_comparison(const RunComparison& comparison, const fs::path& before, const fs::path& after) {

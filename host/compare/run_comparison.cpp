@@ -23,8 +23,6 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::uint32_t least_seeds_to_fail = 6;  // fewer give no p below 5 %
-
 // A crowd and a task, under a seed.
 using Situation = std::tuple<std::string, std::uint32_t, std::uint64_t>;
 // A trial: its situation, then its plugins' labels.
@@ -247,7 +245,7 @@ Verdict judge(const FailCondition& condition, const MetricComparison& comparison
   const bool whole = condition.below ? interval.high < condition.limit : interval.low > condition.limit;
   const bool part = condition.below ? interval.low < condition.limit : interval.high > condition.limit;
   if (!part) return Verdict::holds;
-  return whole && comparison.seeds >= least_seeds_to_fail ? Verdict::fails : Verdict::undecided;
+  return whole && comparison.seeds >= fewest_observations ? Verdict::fails : Verdict::undecided;
 }
 
 }  // namespace dmrp::host

@@ -106,6 +106,17 @@ export function symbol(index, size = 44) {
     .size(size)();
 }
 
+export function draw_line(svg, series, path) {
+  const made = svg.append('path').attr('class', 'line').attr('d', path);
+  made.style('stroke', series.colour).style('stroke-dasharray', series.dash);
+}
+
+export function draw_symbol(svg, series, size, x, y) {
+  const path = symbol(series.symbol, size);
+  const at = `translate(${x.toFixed(1)},${y.toFixed(1)})`;
+  svg.append('path').attr('class', 'mark').style('fill', series.colour).attr('d', path).attr('transform', at);
+}
+
 // The mark of a failed trial.
 export function cross(radius = 3.6) {
   return `M${-radius},${-radius}L${radius},${radius}M${-radius},${radius}L${radius},${-radius}`;

@@ -51,26 +51,12 @@ function draw_curve(svg, curve, series, x, y) {
         .y0((point) => y(point[2]))
         .y1((point) => y(point[3]))(curve.points)
     );
-  svg
-    .append('path')
-    .attr('class', 'line')
-    .style('stroke', series.colour)
-    .style('stroke-dasharray', series.dash)
-    .attr(
-      'd',
-      line()
-        .defined(defined)
-        .x((point) => x(point[0]))
-        .y((point) => y(point[1]))(curve.points)
-    );
-  for (const point of curve.points.filter(defined)) {
-    svg
-      .append('path')
-      .attr('class', 'mark')
-      .style('fill', series.colour)
-      .attr('d', plots.symbol(series.symbol, 34))
-      .attr('transform', `translate(${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)})`);
-  }
+  const path = line()
+    .defined(defined)
+    .x((point) => x(point[0]))
+    .y((point) => y(point[1]));
+  plots.draw_line(svg, series, path(curve.points));
+  for (const point of curve.points.filter(defined)) plots.draw_symbol(svg, series, 34, x(point[0]), y(point[1]));
 }
 
 function draw_panel(data, metric, one, extents, holder, width) {
