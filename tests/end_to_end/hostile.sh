@@ -25,7 +25,7 @@ values() {
 }
 # note WHERE ATTACK END [NAMED]: a row of docs/attacks.md, which is compared with what was tested here
 table=()
-note() { table+=("| $2 | $1 | $3 | yes | ${4:-nothing to name} | yes | yes |"); }
+note() { table+=("| $2 | $1 | $3 | ${4:-nothing to name} |"); }
 note_all() {
   local row attack kind function detail late
   for row in "${@:2}"; do
