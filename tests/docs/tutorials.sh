@@ -3,7 +3,7 @@
 # The files that the tutorials show are good: experiments are validated, scenarios drawn with a plan.
 # Called as: tutorials.sh SOURCE_DIR DMRP_HOST
 set -euo pipefail
-source_dir=$1 host=$(realpath "$2")
+source_dir=$(realpath "$1") host=$(realpath "$2")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
