@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Do the shipped worlds tell entries apart? Runs the experiments of docs/discrimination.md and writes that page:
+# Do the shipped worlds tell entries apart? Runs the experiments of docs/measured/discrimination.md and writes that page:
 #
 #     tests/bench/discrimination.sh DMRP_HOST OUT [WORLD...]
 #
@@ -16,7 +16,7 @@ out=$2
 shift 2
 jobs=${JOBS:-2}
 tasks=${TASKS:-40}
-page=$(dirname "${BASH_SOURCE[0]}")/../../docs/discrimination.md
+page=$(dirname "${BASH_SOURCE[0]}")/../../docs/measured/discrimination.md
 worlds=("$@")
 ((${#worlds[@]} > 0)) || worlds=(mall library office hospital warehouse)
 mkdir -p "$out"
