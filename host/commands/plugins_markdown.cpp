@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "host/plugins/parameter_text.hpp"
 
@@ -16,23 +18,22 @@ std::string unit_of(const std::string& unit) {
   return unit == "1" ? "" : unit;
 }
 
-// "m; lower; system, robots": unit, better direction, subjects.
+// " (m; lower; robots)": unit, better direction, subjects beside the system.
 std::string about(const MetricValueSpec& value) {
-  std::string out = unit_of(value.unit);
-  if (!out.empty()) out += "; ";
-  if (value.direction == DMRP_DIRECTION_LOWER) out += "lower; ";
-  if (value.direction == DMRP_DIRECTION_HIGHER) out += "higher; ";
-  out += "system";
-  if (value.subjects & 1u << DMRP_SUBJECT_ROBOT) out += ", robots";
-  if (value.subjects & 1u << DMRP_SUBJECT_PEDESTRIAN) out += ", people";
-  if (value.curve) out += "; a curve";
-  if (value.wall_clock) out += "; wall clock";
-  return out;
+  std::vector<std::string> parts;
+  if (!unit_of(value.unit).empty()) parts.push_back(value.unit);
+  if (value.direction == DMRP_DIRECTION_LOWER) parts.emplace_back("lower");
+  if (value.direction == DMRP_DIRECTION_HIGHER) parts.emplace_back("higher");
+  if (value.subjects & 1u << DMRP_SUBJECT_ROBOT) parts.emplace_back("robots");
+  if (value.subjects & 1u << DMRP_SUBJECT_PEDESTRIAN) parts.emplace_back("people");
+  if (value.curve) parts.emplace_back("a curve");
+  if (value.wall_clock) parts.emplace_back("wall clock");
+  return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
 }
 
 void append_values(std::string& out, const PluginInfo& info) {
   for (const MetricValueSpec& value : info.values)
-    out += fmt::format("- `{}` ({}): {}\n", value.name, about(value), value.description);
+    out += fmt::format("- `{}`{}: {}\n", value.name, about(value), value.description);
   if (!info.values.empty()) out += "\n";
 }
 
@@ -65,7 +66,7 @@ std::string parameter_range(const ParameterSpec& spec) {
 std::string plugins_markdown(const std::string& library, const std::vector<PluginInfo>& plugins) {
   std::string out = fmt::format("<!-- dmrp-host plugins --markdown {} -->\n\n", library);
   if (std::any_of(plugins.begin(), plugins.end(), [](const PluginInfo& info) { return !info.values.empty(); }))
-    out += "Values: `name` (unit; better direction; given for): formula.\n";
+    out += "Values: `name` (unit; better direction; whose, beside the system's): formula.\n";
   out += "Parameters: `name = default` (range, unit): meaning.\n\n";
   for (const PluginInfo& info : plugins) {
     out += fmt::format("## {}\n\n`{}`: {}.\n", info.name, info.id, info.summary);

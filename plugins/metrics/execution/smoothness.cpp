@@ -45,8 +45,8 @@ Descriptor Smoothness::describe() {
              "sum over the steps of active time of |wrap(theta - previous theta)|; undefined if planning failed")
       .value("path_irregularity", "rad/m", lower, robots,
              "max(0, heading_change - least turning) / length driven while active; least turning: from the start's "
-             "heading to the direction of the first goal, from there to the direction of the next goal, ..., to the "
-             "last goal's heading if it has one; undefined if the robot did not move")
+             "heading over the directions of the goals to the last goal's heading if it has one; undefined if the "
+             "robot did not move")
       .value("acceleration", "m/s^2", lower, robots,
              "mean over active time of |dv/dt|, v = (v_x, v_y) in the robot's frame, from sample to sample; undefined "
              "if planning failed")
