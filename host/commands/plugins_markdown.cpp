@@ -69,9 +69,9 @@ std::string plugins_markdown(const std::string& library, const std::vector<Plugi
     out += "Values: `name` (unit; better direction; whose, beside the system's): formula.\n";
   out += "Parameters: `name = default` (range, unit): meaning.\n\n";
   for (const PluginInfo& info : plugins) {
-    out += fmt::format("## {}\n\n`{}`: {}.\n", info.name, info.id, info.summary);
-    if (!info.source.empty()) out += fmt::format("Source: {}.\n", info.source);
-    out += "\n";
+    out += fmt::format("## {}\n\n`{}`", info.name, info.id);
+    if (info.values.empty()) out += ": " + info.summary;  // formulas say more
+    out += info.source.empty() ? ".\n\n" : fmt::format(". Source: {}.\n\n", info.source);
     append_values(out, info);
     append_parameters(out, info);
   }
