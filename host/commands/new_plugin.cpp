@@ -80,10 +80,10 @@ struct Names {
   std::string file_name;
 
   std::string in(const std::string& text) const {
-    // the id in two steps: it may contain the template's own name
-    const std::string marked = replaced(text, "org.example.my_plugin", "\x01");
+    // id and prefix in two steps: they may contain the template's own names
+    const std::string marked = replaced(replaced(text, "org.example.my_plugin", "\x01"), "my_prefix", "\x02");
     const std::string named = replaced(replaced(marked, "my_plugin", file_name), "my_kind", replaced(kind, "-", " "));
-    return replaced(named, "\x01", id);
+    return replaced(replaced(named, "\x02", installation_path().string()), "\x01", id);
   }
 };
 

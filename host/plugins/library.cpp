@@ -36,13 +36,6 @@ std::string loader_message(const std::exception& error, const std::filesystem::p
   return text;
 }
 
-// Whether the library is one of the host's own: ids that begin with "dmrp." are theirs.
-bool is_built_in(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(file.parent_path(), executable_path().parent_path() / "../lib/dmrp/plugins",
-                                     ignored);
-}
-
 dmrp_entry copy_entry(const dmrp_entry& theirs) {
   // The draft first: the entry of another draft may have another size.
   constexpr std::size_t up_to_draft = offsetof(dmrp_entry, abi_draft) + sizeof(theirs.abi_draft);
@@ -100,7 +93,7 @@ void Library::read_descriptors(const std::function<void(const std::string&)>& st
   if (stage) stage("plugin_count()");
   const std::uint32_t count = entry_.plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
-  const bool built_in = is_built_in(file_);
+  const bool built_in = !name_of_own_library(file_).empty();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (stage) stage(fmt::format("descriptor({})", i));
     const dmrp_descriptor* descriptor = entry_.descriptor(i);

@@ -12,8 +12,18 @@ const std::filesystem::path& executable_path() {
   return path;
 }
 
+std::filesystem::path installation_path() {
+  return executable_path().parent_path().parent_path();
+}
+
 std::filesystem::path shared_data_path() {
-  return executable_path().parent_path().parent_path() / "share/dmrp";
+  return installation_path() / "share/dmrp";
+}
+
+std::string name_of_own_library(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const bool own = std::filesystem::equivalent(file.parent_path(), installation_path() / "lib/dmrp/plugins", ignored);
+  return own ? file.filename().string() : "";
 }
 
 std::vector<std::filesystem::path> folders_of_variable(const char* name) {

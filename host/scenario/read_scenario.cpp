@@ -35,7 +35,7 @@ std::vector<TomlKey> header_keys() {
 }
 
 std::vector<TomlKey> robot_keys() {
-  return {{"name"}, {"type"}, {"start", point_range()}, {"goal", point_range()}, {"goals", point_range()}};
+  return {{"name"}, {"type"}, {"start", pose_range()}, {"goal", pose_range()}, {"goals", pose_range()}};
 }
 
 std::vector<TomlKey> grade_keys() {
