@@ -12,7 +12,7 @@ namespace dmrp::host {
 std::vector<std::string> arguments_with_command(const CLI::App& program, std::vector<std::string> arguments) {
   if (arguments.empty()) return {"--help"};
   const auto is_file = [](const std::string& argument) { return argument.ends_with(".toml"); };
-  if (arguments[0] == "help") {
+  if (arguments[0] == "help" && (arguments.size() == 1 || !arguments[1].starts_with("-"))) {
     std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
     arguments.back() = "--help";
   } else if ((arguments[0].starts_with("-") || is_file(arguments[0])) &&

@@ -25,7 +25,9 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
   std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
   std::string help;
   for (std::string line; std::getline(lines, line);) {
-    const std::string indent(line.starts_with(" ") ? get_column_width() : 2, ' ');
+    // where the text of an option begins; options of a group are indented by two more
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const std::string indent(begin > 0 && begin < get_column_width() ? get_column_width() + begin - 2 : begin, ' ');
     while (line.size() > width) {
       const std::size_t space = line.rfind(' ', width);
       if (space == std::string::npos || line.find_first_not_of(' ') > space) break;  // one long word
