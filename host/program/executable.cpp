@@ -2,6 +2,7 @@
 #include "host/program/executable.hpp"
 
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -33,6 +34,13 @@ std::vector<std::filesystem::path> folders_of_variable(const char* name) {
   for (std::string entry; std::getline(entries, entry, ':');)
     if (!entry.empty()) folders.emplace_back(entry);
   return folders;
+}
+
+std::vector<std::string> command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
 }
 
 }  // namespace dmrp::host

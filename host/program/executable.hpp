@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// executable.hpp: the folders of this program. Installation and build tree have the same layout.
+// executable.hpp: this program: its folders, and how it was called. Installation and build tree have the same layout.
 #pragma once
 
 #include <filesystem>
@@ -22,5 +22,8 @@ std::string name_of_own_library(const std::filesystem::path& file);
 
 // The folders of a colon-separated environment variable, without empty ones.
 std::vector<std::filesystem::path> folders_of_variable(const char* name);
+
+// As it was called, with its name first.
+std::vector<std::string> command_line();
 
 }  // namespace dmrp::host

@@ -109,6 +109,8 @@ Answer answer_of(const Contest& contest, const Measures& measures) {
     answer.observations = std::max(answer.observations, answer.ranking[i].against[0].observations);
   }
   answer.needed = needed(answer);
+  if (answer.in_general && answer.observations >= least_for_needed && answer.criteria.front().share)
+    answer.pairs = pairs_apart(contest, measures);
   if (measures.stricter()) {
     answer.stricter = measures.stricter()->name;
     answer.flips = flips_of(answer.ranking);

@@ -8,20 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/blocks.hpp"
+#include "host/ranking/pairs_apart.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
+#include "tests/bench/discrimination/blocks.hpp"
 
-namespace dmrp::host {
-
-// The smallest effects of interest: a difference of the first share, and one of the time relative to the slower entry's.
-inline constexpr double least_share_difference = 0.05;
-inline constexpr double least_time_ratio = 0.05;
+namespace dmrp::bench {
 
 // What a set of tasks must reach; fixed before any result was seen.
 struct DiscriminationBars {
-  double mean_low = 0.3;  // of the share over all entries
-  double mean_high = 0.9;
+  double mean_low = host::least_mean_share;  // of the share over all entries
+  double mean_high = host::most_mean_share;
   double ceiling = 0.98;  // an entry at or above it has no room left; at most half of them
   double separated_pairs = 0.5;
   double effect = 0.14;      // partial eta squared, tasks as blocks
@@ -46,8 +43,8 @@ struct Discrimination {
   std::uint32_t pairs = 0;       // of entries
   std::uint32_t separated =
       0;  // of pairs: p < 0.05 by Holm over all pairs and both criteria, and by more than the least
-  core::BlockEffect share_effect{};
-  core::BlockEffect time_effect{};  // over the tasks in which robots arrived with every entry
+  BlockEffect share_effect{};
+  BlockEffect time_effect{};  // over the tasks in which robots arrived with every entry
   // Kendall's tau of the entries' order over two halves of the tasks, the mean over 100 random halvings.
   double half_agreement = 0.0;
   double median_deviation = 0.0;              // of the paired differences of the share
@@ -58,14 +55,15 @@ struct Discrimination {
 
 // One for each scenario and number of robots of the trials, for entries that met all its tasks. Empty if nothing can be
 // compared.
-std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                                            std::span<const TrialRecord> trials);
+std::vector<Discrimination> discriminations(const host::SummaryLayout& layout,
+                                            std::span<const host::MetricColumn> metrics,
+                                            std::span<const host::TrialRecord> trials);
 
 // Of several runs that have two or more entries in common: does it depend on the run how these entries differ?
 struct RunInteraction {
   std::vector<std::string> entries;
   std::vector<std::string> runs;
-  core::BlockEffect effect;
+  BlockEffect effect;
   // Of two entries in two runs: by how much more the second run raises the first entry's share than the second's; its
   // interval is a bootstrap over tasks.
   std::optional<double> difference;
@@ -92,4 +90,4 @@ std::optional<EntryContrast> contrast(const Discrimination& result, const std::s
 // What it misses, in words; empty: it passes. The effect that counts was declared before: of the share, or of the time.
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars = {});
 
-}  // namespace dmrp::host
+}  // namespace dmrp::bench

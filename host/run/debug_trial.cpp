@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "host/run/debug_trial.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,9 +10,9 @@
 
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/program/exit_status.hpp"
 #include "host/trial/log_line.hpp"
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
@@ -98,7 +100,7 @@ class DebuggedTrial {
 
 }  // namespace
 
-int debug_command(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
+int debug_trial(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
   const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   if (trial >= count)

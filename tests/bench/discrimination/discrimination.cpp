@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/ranking/discrimination.hpp"
+#include "tests/bench/discrimination/discrimination.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,16 @@
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
-#include "core/statistics/holm.hpp"
 #include "core/statistics/sample_size.hpp"
 #include "host/ranking/contest.hpp"
 #include "host/ranking/measures.hpp"
 #include "host/ranking/paired_test.hpp"
+#include "host/ranking/pairs_apart.hpp"
 
-namespace dmrp::host {
+namespace dmrp::bench {
+
+using namespace host;
+
 namespace {
 
 constexpr std::uint64_t halvings = 100;
@@ -54,50 +57,16 @@ std::vector<std::vector<double>> complete(const std::vector<std::vector<double>>
   return out;
 }
 
-// A pair of entries in one criterion.
-struct PairTest {
-  double p = core::undefined;  // NaN: nothing differs
-  bool is_large = false;
-  double deviation = core::undefined;
-};
-
-PairTest test_pair(const Contest& contest, const Measures& measures, std::size_t criterion, std::size_t a,
-                   std::size_t b, double slower_time) {
-  PairTest out;
-  const std::vector<double> differences = paired_differences(contest, a, b, measures.difference(criterion));
-  if (differences.size() < 2) return out;
-  const bool share = measures.criteria()[criterion].share;
-  out.deviation = core::sample_sd(differences);
-  const double mean = std::abs(core::mean(differences));
-  out.is_large = share ? mean > least_share_difference : mean > least_time_ratio * slower_time;
-  if (std::all_of(differences.begin(), differences.end(), [](double one) { return std::abs(one) < rounding; }))
-    return out;
-  out.p = paired_test(differences, share ? PairedTest::sign_flip : PairedTest::signed_rank).p;
-  return out;
-}
-
 void test_pairs(const Contest& contest, const Measures& measures, const Criteria& criteria, Discrimination& result) {
-  std::vector<PairTest> tests;
+  const PairsApart found = pairs_apart(contest, measures);
+  result.pairs = found.pairs;
+  result.separated = found.apart;
   std::vector<double> deviations;
-  const std::size_t per_pair = criteria.time ? 2 : 1;
   for (std::size_t a = 0; a < result.entries.size(); ++a)
     for (std::size_t b = a + 1; b < result.entries.size(); ++b) {
-      ++result.pairs;
-      tests.push_back(test_pair(contest, measures, criteria.share, a, b, 0.0));
-      if (!std::isnan(tests.back().deviation)) deviations.push_back(tests.back().deviation);
-      if (criteria.time)
-        tests.push_back(test_pair(contest, measures, *criteria.time, a, b,
-                                  std::fmax(result.entries[a].time, result.entries[b].time)));
+      const std::vector<double> differences = paired_differences(contest, a, b, measures.difference(criteria.share));
+      if (differences.size() > 1) deviations.push_back(core::sample_sd(differences));
     }
-  std::vector<double> p_values;
-  for (const PairTest& test : tests) p_values.push_back(test.p);
-  const std::vector<double> adjusted = core::holm_adjusted(p_values);
-  for (std::size_t pair = 0; pair < result.pairs; ++pair) {
-    bool separated = false;
-    for (std::size_t i = pair * per_pair; i < (pair + 1) * per_pair; ++i)
-      separated = separated || (tests[i].is_large && adjusted[i] < significant);
-    result.separated += separated ? 1 : 0;
-  }
   result.median_deviation = deviations.empty() ? core::undefined : core::median(deviations);
   result.tasks_needed = core::pairs_needed(result.median_deviation, least_share_difference, significant);
 }
@@ -140,8 +109,8 @@ double half_agreement(const Measures& measures, const Criteria& criteria,
     for (std::size_t k = 0; k < tasks / 2; ++k) first[order[k]] = 1;
     std::vector<char> second(tasks, 1);
     for (std::size_t task = 0; task < tasks; ++task) second[task] = first[task] ? 0 : 1;
-    const double tau = core::kendall_tau(positions_over(measures, criteria, shares, times, first),
-                                         positions_over(measures, criteria, shares, times, second));
+    const double tau = kendall_tau(positions_over(measures, criteria, shares, times, first),
+                                   positions_over(measures, criteria, shares, times, second));
     if (!std::isnan(tau)) found.push_back(tau);
   }
   return core::mean(found);
@@ -169,8 +138,8 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
   }
   result.mean_share = core::mean(means);
   test_pairs(contest, measures, criteria, result);
-  result.share_effect = core::block_effect(complete_shares);
-  if (criteria.time) result.time_effect = core::block_effect(complete(times));
+  result.share_effect = block_effect(complete_shares);
+  if (criteria.time) result.time_effect = block_effect(complete(times));
   result.half_agreement = half_agreement(measures, criteria, shares, times);
   return result;
 }
@@ -239,7 +208,7 @@ std::optional<RunInteraction> run_interaction(const Discrimination& result, std:
     auto& row = table.emplace_back();
     for (const auto& of_run : one.shares) row.push_back(of_run.second);
   }
-  out.effect = core::interaction_effect(table);
+  out.effect = interaction_effect(table);
   if (table.size() != 2 || runs.size() != 2) return out;
   std::vector<double> all;
   std::vector<std::vector<double>> clusters;
@@ -279,7 +248,7 @@ std::vector<std::string> misses(const Discrimination& result, bool declared_time
     out.push_back(fmt::format("{} of {} entries at the ceiling", result.at_ceiling, result.entries.size()));
   if (result.separated_share() < bars.separated_pairs)
     out.push_back(fmt::format("D {:.2f} below {}", result.separated_share(), bars.separated_pairs));
-  const core::BlockEffect& effect = declared_time ? result.time_effect : result.share_effect;
+  const BlockEffect& effect = declared_time ? result.time_effect : result.share_effect;
   if (!(effect.partial_eta_squared >= bars.effect && effect.interval.low > bars.effect_low))
     out.push_back(fmt::format("partial eta squared {:.2f} [{:.2f}, {:.2f}]", effect.partial_eta_squared,
                               effect.interval.low, effect.interval.high));
@@ -288,4 +257,4 @@ std::vector<std::string> misses(const Discrimination& result, bool declared_time
   return out;
 }
 
-}  // namespace dmrp::host
+}  // namespace dmrp::bench

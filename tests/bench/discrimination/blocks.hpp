@@ -8,7 +8,7 @@
 
 #include "core/statistics/bootstrap.hpp"
 
-namespace dmrp::core {
+namespace dmrp::bench {
 
 // Analysis of variance of entries in tasks, one value each (a randomised block design). Partial eta squared is
 // SS_entries / (SS_entries + SS_rest), once the differences between tasks are taken out; its 95 % interval inverts the
@@ -16,7 +16,7 @@ namespace dmrp::core {
 // NaN with fewer than two entries or tasks, or if nothing varies within tasks.
 struct BlockEffect {
   double partial_eta_squared;
-  Interval interval;
+  core::Interval interval;
   double f;
   double df_entries;
   double df_rest;
@@ -29,9 +29,9 @@ BlockEffect block_effect(std::span<const std::vector<double>> by_entry);  // [en
 BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>> table);  // [first][second][task]
 
 // The interval of the noncentrality for an observed F; its lower end is 0 where no noncentrality is so unlikely.
-Interval noncentrality_interval(double f, double df_entries, double df_rest);
+core::Interval noncentrality_interval(double f, double df_entries, double df_rest);
 
 // Kendall's tau-b, with ties: 1 for the same order, -1 for the reverse. NaN if one of the lists is all ties.
 double kendall_tau(std::span<const double> x, std::span<const double> y);
 
-}  // namespace dmrp::core
+}  // namespace dmrp::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whether tasks tell entries apart, of trials whose answer is known.
-#include "host/ranking/discrimination.hpp"
+#include "tests/bench/discrimination/discrimination.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+using namespace dmrp::bench;
 using namespace dmrp::host;
 using namespace dmrp::test;
 

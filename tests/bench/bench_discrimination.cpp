@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: MIT
-// Whether the tasks of a run tell its entries apart. Several runs of the same tasks (with other settings) count as one.
+// bench_discrimination: whether the tasks of a run tell its entries apart. Several runs of the same tasks (with other
+// settings) count as one.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
-#include "host/ranking/discrimination.hpp"
 #include "host/report/data/report_run.hpp"
 #include "host/results/summary_layout.hpp"
+#include "tests/bench/discrimination/discrimination.hpp"
 
-namespace dmrp::host {
 namespace {
+
+using namespace dmrp;
+using namespace dmrp::bench;
+using namespace dmrp::host;
+
+struct Options {
+  std::vector<std::filesystem::path> runs;  // of the same tasks
+  std::string declared = "success";         // the effect that counts, declared beforehand: or "time"
+  std::string factor;                       // not empty: prints a row of a Markdown table, with this name of the factor
+  std::vector<std::string> contrast;        // not empty: two entries; prints their difference instead
+};
 
 // The trials of all runs; with several, a planner's name says its run.
 struct AllRuns {
@@ -43,7 +57,7 @@ AllRuns read_all(const std::vector<std::filesystem::path>& directories) {
   return all;
 }
 
-std::string effect_words(const core::BlockEffect& effect) {
+std::string effect_words(const BlockEffect& effect) {
   if (std::isnan(effect.partial_eta_squared)) return "–";
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", effect.partial_eta_squared, effect.interval.low, effect.interval.high);
 }
@@ -90,7 +104,7 @@ std::string people_words(const Discrimination& one, std::span<const ScenarioFact
 }
 
 // A row of docs/discrimination.md.
-void print_row(const Discrimination& one, const AllRuns& all, const DiscriminateOptions& options) {
+void print_row(const Discrimination& one, const AllRuns& all, const Options& options) {
   const bool time = options.declared == "time";
   fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {}/{} | {:.2f} | {} | {} | {:.2f} | {} | {} | {} |\n",
              one.scenario, one.robots, people_words(one, all.scenarios), options.factor, options.declared, one.tasks,
@@ -110,9 +124,7 @@ void print_contrast(const Discrimination& one, const std::vector<std::string>& e
              100.0 * found->interval.low, 100.0 * found->interval.high, found->p);
 }
 
-}  // namespace
-
-int discriminate_command(const DiscriminateOptions& options) {
+void print(const Options& options) {
   const AllRuns run = read_all(options.runs);
   const auto layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::vector<Discrimination> found = discriminations(layout, run.metrics, run.trials);
@@ -126,7 +138,30 @@ int discriminate_command(const DiscriminateOptions& options) {
       print_text(one, run.names, options.declared == "time");
     else
       print_row(one, run, options);
-  return exit_status::done;
 }
 
-}  // namespace dmrp::host
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Whether the tasks of a run tell its entries apart.", "bench_discrimination");
+  app.add_option("run", options.runs, "run directories of the same tasks")->required()->type_name("RUN_DIR");
+  app.add_option("--declared", options.declared, "the effect that was declared to count: success or time")
+      ->check(CLI::IsMember({"success", "time"}))
+      ->type_name("CRITERION")
+      ->capture_default_str();
+  CLI::Option* row =
+      app.add_option("--row", options.factor, "print a row of a Markdown table, for this factor")->type_name("FACTOR");
+  app.add_option("--contrast", options.contrast, "print how much more the second entry arrives than the first")
+      ->type_name("ENTRY ENTRY")
+      ->expected(2)
+      ->excludes(row);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    print(options);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_discrimination: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Entries that met the same tasks: shares of variance, and the agreement of two orders.
-#include "core/statistics/blocks.hpp"
+#include "tests/bench/discrimination/blocks.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
-using namespace dmrp::core;
+using namespace dmrp::bench;
 
 TEST_CASE("partial eta squared takes the differences between tasks out") {
   // by hand: the entries' means are 2 and 4, the tasks' 2, 3 and 4; of entries: 3 * (1 + 1) = 6
@@ -43,7 +43,7 @@ TEST_CASE("the interaction of two factors is what their sums do not explain") {
 TEST_CASE("the interval of the noncentrality inverts the distribution of F, here simulated") {
   // F with 2 and 40 degrees of freedom
   constexpr double f = 5.0;
-  const Interval interval = noncentrality_interval(f, 2.0, 40.0);
+  const dmrp::core::Interval interval = noncentrality_interval(f, 2.0, 40.0);
   CHECK(interval.low > 0.0);
   CHECK(interval.high > interval.low);
   const auto share_below = [&](double noncentrality) {

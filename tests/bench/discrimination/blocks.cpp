@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/statistics/blocks.hpp"
+#include "tests/bench/discrimination/blocks.hpp"
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
@@ -7,7 +7,7 @@
 
 #include "core/statistics/descriptive.hpp"
 
-namespace dmrp::core {
+namespace dmrp::bench {
 namespace {
 
 double distribution(double f, double df_entries, double df_rest, double noncentrality) {
@@ -30,11 +30,12 @@ double noncentrality_at(double f, double df_entries, double df_rest, double belo
   return 0.5 * (low + high);
 }
 
-constexpr BlockEffect undefined_effect = {undefined, {undefined, undefined}, undefined, undefined, undefined};
+constexpr BlockEffect undefined_effect = {
+    core::undefined, {core::undefined, core::undefined}, core::undefined, core::undefined, core::undefined};
 
 std::vector<double> means_of(std::span<const std::vector<double>> rows) {
   std::vector<double> means;
-  for (const std::vector<double>& row : rows) means.push_back(mean(row));
+  for (const std::vector<double>& row : rows) means.push_back(core::mean(row));
   return means;
 }
 
@@ -42,7 +43,7 @@ std::vector<double> means_of(std::span<const std::vector<double>> rows) {
 double rest_of(std::span<const std::vector<double>> rows) {
   const std::size_t tasks = rows.front().size();
   const std::vector<double> row_means = means_of(rows);
-  const double all = mean(row_means);
+  const double all = core::mean(row_means);
   std::vector<double> task_means(tasks);
   for (const std::vector<double>& row : rows)
     for (std::size_t task = 0; task < tasks; ++task) task_means[task] += row[task] / static_cast<double>(rows.size());
@@ -68,7 +69,7 @@ BlockEffect effect_of(double of_entries, double of_rest, double df_entries, doub
     return effect;
   }
   effect.f = (of_entries / df_entries) / (of_rest / df_rest);
-  const Interval noncentrality = noncentrality_interval(effect.f, df_entries, df_rest);
+  const core::Interval noncentrality = noncentrality_interval(effect.f, df_entries, df_rest);
   const auto share = [&](double l) { return l / (l + df_entries + df_rest + 1.0); };
   effect.interval = {share(noncentrality.low), share(noncentrality.high)};
   return effect;
@@ -76,7 +77,7 @@ BlockEffect effect_of(double of_entries, double of_rest, double df_entries, doub
 
 }  // namespace
 
-Interval noncentrality_interval(double f, double df_entries, double df_rest) {
+core::Interval noncentrality_interval(double f, double df_entries, double df_rest) {
   return {noncentrality_at(f, df_entries, df_rest, 0.975), noncentrality_at(f, df_entries, df_rest, 0.025)};
 }
 
@@ -85,7 +86,7 @@ BlockEffect block_effect(std::span<const std::vector<double>> by_entry) {
   const double df_entries = static_cast<double>(by_entry.size() - 1);
   const double tasks = static_cast<double>(by_entry.front().size());
   const std::vector<double> entry_means = means_of(by_entry);
-  const double all = mean(entry_means);
+  const double all = core::mean(entry_means);
   double of_entries = 0.0;
   for (const double one : entry_means) of_entries += tasks * (one - all) * (one - all);
   return effect_of(of_entries, rest_of(by_entry), df_entries, df_entries * (tasks - 1.0));
@@ -100,14 +101,14 @@ BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>>
   for (const auto& of_first : table) {
     cells.insert(cells.end(), of_first.begin(), of_first.end());
     const std::vector<double> means = means_of(of_first);
-    first_means.push_back(mean(means));
+    first_means.push_back(core::mean(means));
     for (std::size_t j = 0; j < means.size(); ++j) second_means[j] += means[j] / static_cast<double>(table.size());
   }
-  const double all = mean(first_means);
+  const double all = core::mean(first_means);
   double of_interaction = 0.0;
   for (std::size_t i = 0; i < table.size(); ++i)
     for (std::size_t j = 0; j < second_means.size(); ++j) {
-      const double off = mean(table[i][j]) - first_means[i] - second_means[j] + all;
+      const double off = core::mean(table[i][j]) - first_means[i] - second_means[j] + all;
       of_interaction += tasks * off * off;
     }
   return effect_of(of_interaction, rest_of(cells), static_cast<double>((table.size() - 1) * (second_means.size() - 1)),
@@ -127,7 +128,7 @@ double kendall_tau(std::span<const double> x, std::span<const double> y) {
       untied_x += in_x * in_x;
       untied_y += in_y * in_y;
     }
-  return untied_x > 0.0 && untied_y > 0.0 ? agreement / std::sqrt(untied_x * untied_y) : undefined;
+  return untied_x > 0.0 && untied_y > 0.0 ? agreement / std::sqrt(untied_x * untied_y) : core::undefined;
 }
 
-}  // namespace dmrp::core
+}  // namespace dmrp::bench
