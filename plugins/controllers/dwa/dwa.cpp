@@ -2,7 +2,6 @@
 #include "controllers/dwa/dwa.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>

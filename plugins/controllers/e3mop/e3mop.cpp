@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <limits>
 
 #include "controllers/e3mop/guarded_motion.hpp"
 #include "controllers/e3mop/lay_by.hpp"

@@ -3,7 +3,6 @@
 // body in their way permits.
 #pragma once
 
-#include <cstdint>
 #include <dmrp/plugin.hpp>
 #include <vector>
 

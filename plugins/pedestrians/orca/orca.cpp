@@ -2,7 +2,6 @@
 #include "pedestrians/orca/orca.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
