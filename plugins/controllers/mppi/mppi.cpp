@@ -37,10 +37,6 @@ bool is_standing(const Observation& now) {
   return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
 }
 
-mppi::Weight weight_of(double weight, int power) {
-  return {static_cast<float>(weight), power};
-}
-
 }  // namespace
 
 Descriptor Mppi::describe() {
@@ -72,7 +68,7 @@ Status Mppi::start(const Start& start) {
   model_.holonomic = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
   model_.deviation = {static_cast<float>(vx_std), static_cast<float>(vy_std), static_cast<float>(wz_std)};
   read_limits(*robot.limits);
-  cost_settings_ = {weight_of(CostCritic_cost_weight, CostCritic_cost_power),
+  cost_settings_ = {CostCritic,
                     static_cast<float>(CostCritic_critical_cost),
                     CostCritic_near_collision_cost,
                     static_cast<float>(CostCritic_collision_cost),
@@ -84,14 +80,13 @@ Status Mppi::start(const Start& start) {
                          static_cast<float>(ObstaclesCritic_collision_cost),
                          static_cast<float>(ObstaclesCritic_collision_margin_distance),
                          static_cast<float>(ObstaclesCritic_near_goal_distance)};
-  path_align_settings_ = {weight_of(PathAlignCritic_cost_weight, PathAlignCritic_cost_power),
+  path_align_settings_ = {PathAlignCritic,
                           static_cast<float>(PathAlignCritic_max_path_occupancy_ratio),
                           PathAlignCritic_offset_from_furthest,
                           PathAlignCritic_trajectory_point_step,
                           static_cast<float>(PathAlignCritic_threshold_to_consider),
                           PathAlignCritic_use_path_orientations};
-  path_angle_settings_ = {weight_of(PathAngleCritic_cost_weight, PathAngleCritic_cost_power),
-                          PathAngleCritic_offset_from_furthest,
+  path_angle_settings_ = {PathAngleCritic, PathAngleCritic_offset_from_furthest,
                           static_cast<float>(PathAngleCritic_threshold_to_consider),
                           static_cast<float>(PathAngleCritic_max_angle_to_furthest),
                           static_cast<mppi::PathAngleMode>(*PathAngleCritic_mode)};
@@ -276,28 +271,24 @@ bool Mppi::score() {
   std::fill(costs_.begin(), costs_.end(), 0.0f);
   bool any_is_free = true;
   scene_.furthest = mppi::furthest_reached(batch_, scene_);
-  if (has(constraint))
-    mppi::add_constraint(batch_, model_, weight_of(ConstraintCritic_cost_weight, ConstraintCritic_cost_power), costs_);
+  if (has(constraint)) mppi::add_constraint(batch_, model_, ConstraintCritic, costs_);
   if (has(cost)) any_is_free = mppi::add_cost(batch_, model_, cost_settings_, field_, scene_, costs_);
   if (has(obstacles))
     any_is_free = mppi::add_obstacles(batch_, model_, obstacles_settings_, field_, scene_, costs_) && any_is_free;
   if (has(goal))
-    mppi::add_goal(batch_, weight_of(GoalCritic_cost_weight, GoalCritic_cost_power),
-                   static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
+    mppi::add_goal(batch_, GoalCritic, static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
   if (has(goal_angle))
-    mppi::add_goal_angle(batch_, weight_of(GoalAngleCritic_cost_weight, GoalAngleCritic_cost_power),
-                         static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_, costs_);
+    mppi::add_goal_angle(batch_, GoalAngleCritic, static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_,
+                         costs_);
   if (has(path_align)) mppi::add_path_align(batch_, path_align_settings_, scene_, costs_);
   if (has(path_follow))
-    mppi::add_path_follow(batch_, weight_of(PathFollowCritic_cost_weight, PathFollowCritic_cost_power),
-                          PathFollowCritic_offset_from_furthest,
+    mppi::add_path_follow(batch_, PathFollowCritic, PathFollowCritic_offset_from_furthest,
                           static_cast<float>(PathFollowCritic_threshold_to_consider), scene_, costs_);
   if (has(path_angle)) mppi::add_path_angle(batch_, path_angle_settings_, scene_, costs_);
   if (has(prefer_forward))
-    mppi::add_prefer_forward(batch_, model_, weight_of(PreferForwardCritic_cost_weight, PreferForwardCritic_cost_power),
+    mppi::add_prefer_forward(batch_, model_, PreferForwardCritic,
                              static_cast<float>(PreferForwardCritic_threshold_to_consider), scene_, costs_);
-  if (has(twirling))
-    mppi::add_twirling(batch_, weight_of(TwirlingCritic_cost_weight, TwirlingCritic_cost_power), scene_, costs_);
+  if (has(twirling)) mppi::add_twirling(batch_, TwirlingCritic, scene_, costs_);
   return any_is_free;
 }
 

@@ -43,8 +43,7 @@ Descriptor Orca::describe() {
 Status Orca::start(const Start& start) {
   const World& world = start.world;
   side_preference_.start(start.seed);
-  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
+  start_people(start, to_robots);
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
@@ -52,7 +51,7 @@ Status Orca::start(const Start& start) {
 }
 
 Status Orca::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, robot_awareness, grid_, [&](std::uint32_t slot, const Person& person) {
+  walkers_.gather(crowd, to_robots.awareness, grid_, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 

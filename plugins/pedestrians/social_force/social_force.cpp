@@ -58,8 +58,7 @@ Status SocialForce::start(const Start& start) {
   const World& world = start.world;
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = start.seed;
-  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
+  start_people(start, to_robots);
   groups_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
@@ -67,7 +66,7 @@ Status SocialForce::start(const Start& start) {
 }
 
 Status SocialForce::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, robot_awareness, neighbors_,
+  walkers_.gather(crowd, to_robots.awareness, neighbors_,
                   [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
 
