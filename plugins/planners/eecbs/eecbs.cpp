@@ -15,11 +15,6 @@ Descriptor Eecbs::describe() {
       .connectivity(DMRP_CONNECTIVITY_4);
 }
 
-Status Eecbs::start(const Start& start) {
-  seed_ = start.seed;
-  return Status::ok;
-}
-
 ConflictSearchOptions Eecbs::options() const {
   ConflictSearchOptions options;
   options.suboptimality = *suboptimality;
@@ -34,7 +29,7 @@ ConflictSearchOptions Eecbs::options() const {
   options.conflict_steps = *conflict_steps;
   options.replan_in_place = *replan_in_place;
   options.restart_after = *restart_after;
-  options.seed = seed_;
+  options.seed = seed();
   options.safe_intervals = *safe_intervals;
   options.node_limit = *node_limit;
   return options;
