@@ -40,9 +40,7 @@ bool is_standing(const Observation& now) {
 }  // namespace
 
 Descriptor Mppi::describe() {
-  return Descriptor("dmrp.controller.mppi", "MPPI", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.mppi", "MPPI")
       .summary("samples two thousand trajectories and drives their mean, weighted by what critics say of them")
       .source(
           "Williams, Drews, Goldfain, Rehg, Theodorou: Information theoretic model predictive control, IEEE "
@@ -94,9 +92,7 @@ Status Mppi::start(const Start& start) {
   if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
     path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
   model_.slowest_m_s = robot.limits->v_min == 0.0 && sample_forward ? 0.0f : mppi::Model{}.slowest_m_s;
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   noise_.start(start.seed, start.robot);
   cycle_ = 0;
   optimizer_.start(model_, {static_cast<float>(temperature), static_cast<float>(gamma)});
@@ -127,14 +123,7 @@ void Mppi::read_limits(const dmrp::Limits& limits) {
                    static_cast<float>(limits.a_max),   static_cast<float>(limits.alpha_max)};
 }
 
-void Mppi::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-}
-
-Status Mppi::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status Mppi::control(const Observation& now, Command& command) {
   // a path may pass its own end before it ends there
   const bool near_end = tracker_.remaining_m() <= std::max(tracker_.stop().tolerance_m, 0.5);
   if (near_end && at_goal_.reached(tracker_.stop(), now)) {

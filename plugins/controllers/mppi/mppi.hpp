@@ -5,18 +5,12 @@
 // is shipped with (nav2_bringup 1.4.2). Limits come from the robot.
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
 #include <cstdint>
-#include <dmrp/plugin.hpp>
 #include <string>
 #include <vector>
 
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/guide.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/mppi/cost_field.hpp"
 #include "controllers/mppi/critics.hpp"
 #include "controllers/mppi/noise.hpp"
@@ -25,7 +19,7 @@
 
 namespace dmrp::controllers {
 
-class Mppi final : public LocalController {
+class Mppi final : public PathController {
  public:
   static Descriptor describe();
 
@@ -172,10 +166,9 @@ class Mppi final : public LocalController {
           .doc("departure: tracked agents continue at their velocity; off: they stay where they are");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   enum Critic : unsigned {
     constraint,
     cost,
@@ -212,7 +205,6 @@ class Mppi final : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  Annotations annotations_;
   unsigned chosen_ = 0;  // bit i: critic i
   mppi::Model model_;
   mppi::CostSettings cost_settings_;
@@ -221,8 +213,6 @@ class Mppi final : public LocalController {
   mppi::PathAngleSettings path_angle_settings_;
 
   // state from one control cycle to the next
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   mppi::Noise noise_;
   mppi::Optimizer optimizer_;
   std::uint32_t cycle_ = 0;  // of the noise

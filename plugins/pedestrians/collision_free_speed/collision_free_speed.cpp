@@ -35,14 +35,11 @@ double fading_gap(double strength, double range_m) {
 }  // namespace
 
 Descriptor CollisionFreeSpeed::describe() {
-  return Descriptor("dmrp.pedestrian.collision_free_speed", "Collision-free speed", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.collision_free_speed", "Collision-free speed")
       .summary("people turn away from their neighbours and walk as fast as the gap ahead permits")
       .source(
           "Tordeux, Chraibi, Seyfried: Collision-free speed model for pedestrian dynamics, Traffic and Granular Flow "
-          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29");
 }
 
 Status CollisionFreeSpeed::start(const Start& start) {

@@ -11,6 +11,10 @@ namespace dmrp::pedestrians {
 
 class CrowdModel : public PedestrianModel {
  protected:
+  static Descriptor describe_model(const char* id, const char* name) {
+    return Descriptor(id, name, "1.0.0").vendor("dmrp").license("MIT").needs(DMRP_EXT_WALKING_GRID);
+  }
+
   struct RobotResponse {
     Param<double> awareness;
     Param<double> surprised;

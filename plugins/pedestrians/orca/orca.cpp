@@ -29,15 +29,12 @@ constexpr double even_share = 0.5;
 }  // namespace
 
 Descriptor Orca::describe() {
-  return Descriptor("dmrp.pedestrian.orca", "ORCA", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.orca", "ORCA")
       .summary(
           "people choose the collision-free velocity nearest to their preferred one, provided that all do their share")
       .source(
           "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), "
-          "doi:10.1007/978-3-642-19457-3_1")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "doi:10.1007/978-3-642-19457-3_1");
 }
 
 Status Orca::start(const Start& start) {

@@ -44,14 +44,11 @@ constexpr double speed_cap_factor = 1.3;
 }  // namespace
 
 Descriptor SocialForce::describe() {
-  return Descriptor("dmrp.pedestrian.social_force", "Social force", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.social_force", "Social force")
       .summary("people accelerate toward their targets and away from walls, robots and each other")
       .source(
           "Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405; groups: PLoS ONE 5 (2010), "
-          "doi:10.1371/journal.pone.0010047")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "doi:10.1371/journal.pone.0010047");
 }
 
 Status SocialForce::start(const Start& start) {

@@ -7,14 +7,11 @@
 namespace dmrp::planners {
 
 Descriptor Lacam::describe() {
-  return Descriptor("dmrp.planner.lacam", "LaCAM*", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.lacam", "LaCAM*", "1.0.0")
       .summary("complete, for thousands of robots: a lazy search over configurations, with PIBT as their generator")
       .source(
           "Okumura: LaCAM: Search-based algorithm for quick multi-agent pathfinding, AAAI 2023; Improving LaCAM for "
-          "scalable eventually optimal multi-agent pathfinding, IJCAI 2023")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "scalable eventually optimal multi-agent pathfinding, IJCAI 2023");
 }
 
 Status Lacam::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,

@@ -46,14 +46,11 @@ FirstPlan find_first_plan(const Preparation& prepared, std::uint64_t seed, StopS
 }  // namespace
 
 Descriptor Lns::describe() {
-  return Descriptor("dmrp.planner.lns", "MAPF-LNS", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.lns", "MAPF-LNS", "1.0.0")
       .summary("a quick plan, improved a few robots at a time by large neighborhood search")
       .source(
           "Li, Chen, Harabor, Stuckey, Koenig: Anytime multi-agent path finding via large neighborhood search, IJCAI "
-          "2021; first plan: dmrp.planner.sipp, dmrp.planner.lacam")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "2021; first plan: dmrp.planner.sipp, dmrp.planner.lacam");
 }
 
 Status Lns::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop, PlanSink& sink) {

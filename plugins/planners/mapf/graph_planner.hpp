@@ -32,6 +32,10 @@ class GraphPlanner : public GlobalPlanner {
   Status plan(const PlanningProblem& host_problem, PlanSink& sink) final;
 
  protected:
+  static Descriptor describe_planner(const char* id, const char* name, const char* version) {
+    return Descriptor(id, name, version).vendor("dmrp").license("MIT").connectivity(DMRP_CONNECTIVITY_4);
+  }
+
   virtual Status solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
                        PlanSink& sink) = 0;
 

@@ -39,15 +39,12 @@ std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t st
 }  // namespace
 
 Descriptor Pibt::describe() {
-  return Descriptor("dmrp.planner.pibt", "PIBT", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.pibt", "PIBT", "1.0.0")
       .summary("all robots step by step, by priority; the fastest for thousands of robots, with expensive plans")
       .source(
           "Okumura, Machida, Defago, Tamura: Priority inheritance with backtracking for iterative multi-agent path "
           "finding, Artificial Intelligence 310, 2022; swap: Okumura: Improving LaCAM for scalable eventually optimal "
-          "multi-agent pathfinding, IJCAI 2023")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "multi-agent pathfinding, IJCAI 2023");
 }
 
 Status Pibt::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop, PlanSink& sink) {

@@ -8,14 +8,11 @@
 namespace dmrp::planners {
 
 Descriptor Sipp::describe() {
-  return Descriptor("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.sipp", "Prioritized SIPP", "1.0.0")
       .summary("robots planned one after the other in the safe intervals that the earlier ones leave")
       .source(
           "Phillips, Likhachev: SIPP: Safe interval path planning for dynamic environments, ICRA 2011; displacing "
-          "robots by SIPPS: Li et al.: MAPF-LNS2, AAAI 2022")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "robots by SIPPS: Li et al.: MAPF-LNS2, AAAI 2022");
 }
 
 Status Sipp::plan_unequal(const PlanningProblem& host_problem, const std::string&, StopSignal& stop, PlanSink& sink) {
