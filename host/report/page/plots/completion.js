@@ -35,18 +35,14 @@ function draw_panel(data, rows, until, title, holder, width) {
   for (const row of rows) {
     const series = labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
     const last = row.steps[row.steps.length - 1];
-    svg
-      .append('path')
-      .attr('class', 'line')
-      .style('stroke', series.colour)
-      .style('stroke-dasharray', series.dash)
-      .attr('d', steps_line([[0, 0], ...row.steps, [until, last[1]]]));
-    svg
-      .append('path')
-      .attr('class', 'mark')
-      .style('fill', series.colour)
-      .attr('d', plots.symbol(series.symbol, 50))
-      .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
+    const style = {stroke: series.colour, 'stroke-dasharray': series.dash};
+    plots.add(svg, 'path', {class: 'line', style, d: steps_line([[0, 0], ...row.steps, [until, last[1]]])});
+    plots.add(svg, 'path', {
+      class: 'mark',
+      style: {fill: series.colour},
+      d: plots.symbol(series.symbol, 50),
+      transform: `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`,
+    });
   }
 }
 
