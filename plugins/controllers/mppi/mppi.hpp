@@ -183,9 +183,9 @@ class Mppi final : public PathController {
     critic_count
   };
 
-  CriticWeight critic_weight(const std::string& critic, double weight, const std::string& cost) {
+  CriticWeight critic_weight(const std::string& critic, double weight, const std::string& what) {
     return {
-        param((critic + "_cost_power").c_str(), 1).unit("1").range(1, 10).doc(("power of the cost of " + cost).c_str()),
+        param((critic + "_cost_power").c_str(), 1).unit("1").range(1, 10).doc(("power of the cost of " + what).c_str()),
         param((critic + "_cost_weight").c_str(), weight).unit("1").range(0.0, 10000.0).doc("weight of it")};
   }
   ParamBuilder<double> goal_distance(const char* key, double value_m, const char* doc) {
