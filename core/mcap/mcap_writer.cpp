@@ -7,7 +7,6 @@
 #include <boost/crc.hpp>
 #include <memory>
 #include <new>
-#include <string>
 
 #include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"

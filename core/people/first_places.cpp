@@ -10,7 +10,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string>
 
 #include "core/people/crowd_lattice.hpp"
 

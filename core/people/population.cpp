@@ -2,10 +2,8 @@
 #include "core/people/population.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
-#include <dmrp/toolkit/rectangle.hpp>
 
 #include "core/people/first_places.hpp"
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
-#include <limits>
 #include <string>
 
 namespace dmrp::core {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <stdexcept>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/ray_cast.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <limits>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
 namespace dmrp::core {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <numbers>
 

@@ -2,7 +2,6 @@
 #include "core/sensors/visibility.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 

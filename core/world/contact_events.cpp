@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
-#include <utility>
 
 namespace dmrp::core {
 namespace {

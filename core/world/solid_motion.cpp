@@ -2,7 +2,6 @@
 #include "core/world/solid_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/dll/shared_library.hpp>
-#include <cstring>
 #include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"

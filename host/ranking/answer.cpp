@@ -8,7 +8,6 @@
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "host/ranking/measures.hpp"
 #include "host/ranking/paired_test.hpp"
 
 namespace dmrp::host {

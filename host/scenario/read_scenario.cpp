@@ -13,7 +13,6 @@
 #include "host/scenario/robot_tables.hpp"
 #include "host/scenario/scenario_values.hpp"
 #include "host/toml/setting.hpp"
-#include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 

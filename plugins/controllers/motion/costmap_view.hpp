@@ -4,7 +4,6 @@
 
 #include <dmrp/ext/local_costmap.h>
 
-#include <cmath>
 #include <cstdint>
 #include <dmrp/cpp/local_controller.hpp>
 

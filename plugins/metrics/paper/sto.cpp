@@ -2,7 +2,6 @@
 #include "metrics/paper/sto.hpp"
 
 #include <stdexcept>
-#include <vector>
 
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/per_robot.hpp"

@@ -2,7 +2,6 @@
 #include "pedestrians/crowd/groups.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace dmrp::pedestrians {
 

@@ -60,13 +60,8 @@ class Eecbs final : public ConflictSearchPlanner {
                                        .range(1, 1'000'000'000)
                                        .doc("constraint-tree nodes after which the search gives up");
 
-  Status start(const Start& start) override;
-
  protected:
   ConflictSearchOptions options() const override;
-
- private:
-  std::uint64_t seed_ = 0;
 };
 
 }  // namespace dmrp::planners

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "planners/mapf/problem.hpp"
 
-#include <cmath>
-#include <limits>
-
 namespace dmrp::planners {
 
 namespace {

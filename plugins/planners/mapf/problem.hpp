@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <dmrp/plugin.hpp>
 #include <limits>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "planners/mapf/grid_graph.hpp"

@@ -2,7 +2,6 @@
 // blocks.hpp: how much of what varies do the entries of a comparison explain, when all of them met the same tasks.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

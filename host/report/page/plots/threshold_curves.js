@@ -39,23 +39,17 @@ function series_of(data, curve) {
 function draw_curve(svg, curve, series, x, y) {
   const defined = (point) => numbers.is_number(point[1]);
   const banded = (point) => numbers.is_number(point[2]) && numbers.is_number(point[3]);
-  svg
-    .append('path')
-    .attr('class', 'band')
-    .style('fill', series.colour)
-    .attr(
-      'd',
-      area()
-        .defined(banded)
-        .x((point) => x(point[0]))
-        .y0((point) => y(point[2]))
-        .y1((point) => y(point[3]))(curve.points)
-    );
-  const path = line()
+  const band = area()
+    .defined(banded)
+    .x((point) => x(point[0]))
+    .y0((point) => y(point[2]))
+    .y1((point) => y(point[3]));
+  const means = line()
     .defined(defined)
     .x((point) => x(point[0]))
     .y((point) => y(point[1]));
-  plots.draw_line(svg, series, path(curve.points));
+  plots.add(svg, 'path', {class: 'band', style: {fill: series.colour}, d: band(curve.points)});
+  plots.draw_line(svg, series, means(curve.points));
   for (const point of curve.points.filter(defined)) plots.draw_symbol(svg, series, 34, x(point[0]), y(point[1]));
 }
 
