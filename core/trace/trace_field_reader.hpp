@@ -62,6 +62,12 @@ class TraceFieldReader {
     to = copy;
   }
 
+  // Empty in format version 1.
+  void text_since_2(const char*& to) {
+    to = "";
+    if (version() > 1) text(to);
+  }
+
   template <class Value>
   void array(const Value*& to, std::uint32_t& count) {
     count = in_.take_count(sizeof(Value));

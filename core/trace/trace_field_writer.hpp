@@ -34,6 +34,10 @@ class TraceFieldWriter {
   void text(std::string_view text) { out_.put_text(text); }
   void text(const char* text) { out_.put_text(text ? std::string_view(text) : std::string_view()); }
 
+  void text_since_2(const char* since_2) {
+    if (version_ > 1) text(since_2);
+  }
+
   template <class Value>
   void array(const Value* values, std::uint32_t count) {
     out_.put(count);

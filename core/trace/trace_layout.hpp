@@ -40,7 +40,7 @@ void fields(auto& io, Of<dmrp_robot> auto& robot) {
   io.pointer(robot.limits);
   io.pointer(robot.footprint);
   io.elements(robot.goals, robot.goal_count, robot.goal_stride);
-  if (io.version() > 1) io.text(robot.type);
+  io.text_since_2(robot.type);
 }
 
 void fields(auto& io, Of<dmrp_shape> auto& shape) {
