@@ -2,6 +2,7 @@
 #include "core/sensors/visibility.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -9,6 +10,7 @@
 namespace dmrp::core {
 
 void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<float> ranges) {
+  assert(robot < world.robots().size());
   std::vector<Disc> discs;
   std::vector<ConvexPolygon> polygons;
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
@@ -24,6 +26,7 @@ void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<
 }
 
 void visible_agents(const World& world, std::uint32_t robot, std::vector<dmrp_agent>& agents) {
+  assert(robot < world.robots().size());
   agents.clear();
   const Tracking tracking = world.settings().tracking;
   if (tracking == Tracking::none) return;

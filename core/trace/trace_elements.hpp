@@ -7,6 +7,7 @@
 #include <dmrp/trial_end.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -67,6 +68,7 @@ TraceElements take_element_count(RecordCursor& in) {
 // `to` has place for them. Fields that the trace does not have become zero; fields that it has beyond ours are skipped.
 template <class Element>
 void take_elements(RecordCursor& in, const TraceElements& elements, Element* to) {
+  assert(to || elements.count == 0);
   if (elements.stride == sizeof(Element)) return in.take_array(to, elements.count);
   for (std::uint32_t i = 0; i < elements.count; ++i) {
     to[i] = Element{};

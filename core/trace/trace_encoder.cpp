@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_encoder.hpp"
 
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -136,6 +137,7 @@ void TraceEncoder::record(TraceRecordKind kind, WriteBody&& write_body) {
 
 TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)
     : sink_(std::move(sink)), foxglove_(foxglove) {
+  assert(sink_);
   record(TraceRecordKind::world, [&](ByteWriter& out) {
     out.put(trace_format_version);
     put_world(out, world);
@@ -164,6 +166,7 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
 
 // Robots, people and contacts are most of a trace. They are copied in their memory layout, which has no padding.
 void TraceEncoder::sample(const dmrp_sample& sample) {
+  assert(sample.t_ns >= now_ns_);
   now_ns_ = sample.t_ns;
   if (foxglove_) foxglove_->sample(sample);
   record(TraceRecordKind::sample, [&](ByteWriter& out) {
