@@ -2,6 +2,7 @@
 #include "core/execution/ending.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -18,6 +19,7 @@ void EndingMonitor::restart(std::uint32_t robot, std::int64_t t_ns) {
 
 std::uint32_t EndingMonitor::update(std::int64_t t_ns, std::span<const RobotState> robots,
                                     std::span<const double> gained_m, bool deserted) {
+  assert(robots.size() == robots_.size() && gained_m.size() == robots_.size());
   if (robots_.empty()) return deserted ? DMRP_ENDING_DESERTED : t_ns >= time_limit_ns_ ? DMRP_ENDING_TIME_LIMIT : 0;
   bool all_arrived = true;
   bool all_stall = true;
@@ -58,6 +60,7 @@ bool EndingMonitor::watch(Watched& watched, std::int64_t t_ns, const RobotState&
 }
 
 std::vector<dmrp_robot_end> EndingMonitor::robot_ends(std::uint32_t ending, std::span<const RobotState> robots) const {
+  assert(ending != 0 && robots.size() == robots_.size());
   std::vector<dmrp_robot_end> ends;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     std::uint32_t failure = robots_[i].failure;

@@ -2,6 +2,7 @@
 #include "core/statistics/rank_correlation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/random.hpp>
@@ -196,12 +197,14 @@ double share_of_ties(std::span<const double> x, std::span<const double> y,
 }  // namespace
 
 double spearman(std::span<const double> x, std::span<const double> y) {
+  assert(x.size() == y.size());
   return correlation(centered_ranks(x), centered_ranks(y));
 }
 
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
                                  std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block,
                                  std::uint64_t seed) {
+  assert(y.size() == x.size() && cluster.size() == x.size() && (block.empty() || block.size() == x.size()));
   RankCorrelation result{
       static_cast<std::uint32_t>(x.size()), undefined, {undefined, undefined}, undefined, true, undefined};
   if (x.size() < 2) return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_encoder.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "core/trace/trace_field_writer.hpp"
@@ -16,6 +17,7 @@ void TraceEncoder::record(TraceRecordKind kind, const Content& content) {
 
 TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)
     : sink_(std::move(sink)), foxglove_(foxglove) {
+  assert(sink_);
   record(TraceRecordKind::world, TraceWorld{trace_format_version, world});
   if (foxglove_) foxglove_->world(world);
 }
@@ -26,6 +28,7 @@ void TraceEncoder::plan(const dmrp_plan& plan, std::uint32_t conflicts) {
 }
 
 void TraceEncoder::sample(const dmrp_sample& sample) {
+  assert(sample.t_ns >= now_ns_);
   now_ns_ = sample.t_ns;
   if (foxglove_) foxglove_->sample(sample);
   record(TraceRecordKind::sample, TraceSample{sample, sample.plan ? sample.plan->revision : 0});

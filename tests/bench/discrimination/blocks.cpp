@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/discrimination/blocks.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
+#include <cassert>
 #include <cmath>
 
 #include "core/statistics/descriptive.hpp"
@@ -75,13 +77,20 @@ BlockEffect effect_of(double of_entries, double of_rest, double df_entries, doub
   return effect;
 }
 
+template <class Rows>
+bool have_equal_sizes(const Rows& rows) {
+  return std::all_of(rows.begin(), rows.end(), [&](const auto& row) { return row.size() == rows.front().size(); });
+}
+
 }  // namespace
 
 core::Interval noncentrality_interval(double f, double df_entries, double df_rest) {
+  assert(f >= 0.0 && df_entries > 0.0 && df_rest > 0.0);
   return {noncentrality_at(f, df_entries, df_rest, 0.975), noncentrality_at(f, df_entries, df_rest, 0.025)};
 }
 
 BlockEffect block_effect(std::span<const std::vector<double>> by_entry) {
+  assert(have_equal_sizes(by_entry));
   if (by_entry.size() < 2 || by_entry.front().size() < 2) return undefined_effect;
   const double df_entries = static_cast<double>(by_entry.size() - 1);
   const double tasks = static_cast<double>(by_entry.front().size());
@@ -93,6 +102,8 @@ BlockEffect block_effect(std::span<const std::vector<double>> by_entry) {
 }
 
 BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>> table) {
+  assert(have_equal_sizes(table) &&
+         std::all_of(table.begin(), table.end(), [](const auto& row) { return have_equal_sizes(row); }));
   if (table.size() < 2 || table.front().size() < 2 || table.front().front().size() < 2) return undefined_effect;
   const double tasks = static_cast<double>(table.front().front().size());
   std::vector<std::vector<double>> cells;
@@ -116,6 +127,7 @@ BlockEffect interaction_effect(std::span<const std::vector<std::vector<double>>>
 }
 
 double kendall_tau(std::span<const double> x, std::span<const double> y) {
+  assert(x.size() == y.size());
   double agreement = 0.0;
   double untied_x = 0.0;
   double untied_y = 0.0;
