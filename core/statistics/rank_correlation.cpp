@@ -41,10 +41,6 @@ double correlation_of(std::int64_t xx, std::int64_t xy, std::int64_t yy) {
   return std::clamp(static_cast<double>(xy) / spread, -1.0, 1.0);
 }
 
-double correlation(const Ranks& x, const Ranks& y) {
-  return correlation_of(product(x, x), product(x, y), product(y, y));
-}
-
 double exact_p(const Ranks& x, Ranks y) {
   const std::int64_t observed = std::abs(product(x, y));
   std::vector<std::size_t> order(y.size());
@@ -195,11 +191,6 @@ double share_of_ties(std::span<const double> x, std::span<const double> y,
 }
 
 }  // namespace
-
-double spearman(std::span<const double> x, std::span<const double> y) {
-  assert(x.size() == y.size());
-  return correlation(centered_ranks(x), centered_ranks(y));
-}
 
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
                                  std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block,
