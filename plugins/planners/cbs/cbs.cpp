@@ -23,8 +23,6 @@ ConflictSearchOptions Cbs::options() const {
   options.rectangle_reasoning = *rectangle_reasoning;
   options.dependency_graph = *weighted_dependency_graph;
   options.disjoint_splitting = *disjoint_splitting;
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
   return options;
 }
 

@@ -13,14 +13,16 @@ namespace dmrp::planners {
 Status ConflictSearchPlanner::plan_unequal(const PlanningProblem& host_problem, const std::string&, StopSignal& stop,
                                            PlanSink& sink) {
   const ConflictSearchOptions chosen = options();
-  const FleetAnswer answer = plan_by_conflict_search(host_problem, chosen.suboptimality, chosen.node_limit, stop, sink);
+  const FleetAnswer answer = plan_by_conflict_search(host_problem, chosen.suboptimality, *node_limit, stop, sink);
   return answer.error.empty() ? answer.status : fail(answer.status, answer.error);
 }
 
 Status ConflictSearchPlanner::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
                                     PlanSink& sink) {
   const auto& [problem, tables] = prepared;
-  const ConflictSearchOptions chosen = options();
+  ConflictSearchOptions chosen = options();
+  chosen.safe_intervals = *safe_intervals;
+  chosen.node_limit = *node_limit;
   MddCache mdds(problem, tables, &stop);
   CorridorReasoning corridors(problem, tables, stop);
   const SearchContext context = {problem, tables, corridors, mdds, stop};

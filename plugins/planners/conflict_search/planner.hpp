@@ -12,7 +12,16 @@ namespace dmrp::planners {
 // of the map were tried. On other problems without a plan the search does not end by itself: it returns TIMEOUT after
 // `node_limit` nodes or when the host asks it to stop.
 class ConflictSearchPlanner : public GraphPlanner {
+ public:
+  Param<bool> safe_intervals =
+      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
+  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
+                                       .unit("1")
+                                       .range(1, 1'000'000'000)
+                                       .doc("constraint-tree nodes after which the search gives up");
+
  protected:
+  // Without what all share, the parameters above.
   virtual ConflictSearchOptions options() const = 0;
 
   Status plan_unequal(const PlanningProblem& host_problem, const std::string& unequal, StopSignal& stop,

@@ -15,8 +15,6 @@ ConflictSearchOptions Ecbs::options() const {
   ConflictSearchOptions options;
   options.suboptimality = *suboptimality;
   options.selection = Selection::focal;
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
   return options;
 }
 

@@ -27,8 +27,6 @@ ConflictSearchOptions Eecbs::options() const {
   options.replan_in_place = *replan_in_place;
   options.restart_after = *restart_after;
   options.seed = seed();
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
   return options;
 }
 
