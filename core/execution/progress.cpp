@@ -2,6 +2,7 @@
 #include "core/execution/progress.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/polyline.hpp>
 #include <limits>
 
@@ -18,12 +19,13 @@ constexpr double return_cells = 0.7;
 }  // namespace
 
 void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position) {
+  assert(!path.empty());
   path_.assign(path.begin(), path.end());
   toolkit::arc_lengths(path_, arcs_);
   last_position_ = position;
-  reached_m_ = path_.empty() ? 0.0 : toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
+  reached_m_ = toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
   approach_ = 0;
-  if (!path_.empty() && reached_m_ == 0.0 && off_path_m() > 0.0) {
+  if (reached_m_ == 0.0 && off_path_m() > 0.0) {
     approach_ = 1;
     path_.insert(path_.begin(), path_.front());
     path_.front().x = position.x;

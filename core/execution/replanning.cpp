@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/execution/replanning.hpp"
 
+#include <cassert>
+
 #include "core/execution/referee.hpp"
 
 namespace dmrp::core {
@@ -10,6 +12,7 @@ ReplanMonitor::ReplanMonitor(const ReplanSettings& settings, std::size_t robot_c
 
 bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
                         std::span<const PathProgress> progress) {
+  assert(robots.size() == robots_.size() && gained_m.size() == robots_.size() && progress.size() == robots_.size());
   bool any_off_course = false;
   bool any_active = false;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {

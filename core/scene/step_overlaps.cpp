@@ -2,10 +2,10 @@
 #include "core/scene/step_overlaps.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 
@@ -71,6 +71,7 @@ bool StepOverlaps::overlap(std::uint32_t a, toolkit::Cell at_a, std::uint32_t b,
 
 bool StepOverlaps::overlap(std::uint32_t a, toolkit::Cell a0, toolkit::Cell a1, std::uint32_t b, toolkit::Cell b0,
                            toolkit::Cell b1) {
+  assert(a != b && robots_.at(a).grid && robots_.at(b).grid);
   const Member& one = robots_[a];
   const Member& two = robots_[b];
   if (!one.is_active && !two.is_active) return false;

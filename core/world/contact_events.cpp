@@ -2,9 +2,9 @@
 #include "core/world/contact_events.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
-#include <utility>
 
 namespace dmrp::core {
 namespace {
@@ -45,6 +45,8 @@ ContactTracker::ContactTracker(std::vector<Braking> robots, Sight sight)
 
 void ContactTracker::update(std::int64_t t_ns, std::span<const dmrp_agent> robots, std::span<const dmrp_agent> people,
                             std::span<dmrp_contact> contacts) {
+  assert(robots.size() == robots_.size());
+  assert(history_.empty() || t_ns > history_.back().t_ns);
   for (dmrp_contact& contact : contacts) {
     const std::uint64_t b = contact.kind == DMRP_CONTACT_PERSON ? people[contact.b].id : contact.b;
     const auto [event, is_first] = events_.try_emplace(Pair(contact.kind, contact.a, b));

@@ -9,6 +9,7 @@
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/robot_task.hpp"
+#include "core/world/motion_limits.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -139,6 +140,7 @@ dmrp_twist World::set_recovery_command(std::uint32_t robot, const dmrp_twist& co
 }
 
 dmrp_twist World::take_command(std::uint32_t robot, const dmrp_twist& command) {
+  assert(robot < robots_.size() && is_finite(command));
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
   const dmrp_twist clipped = clip_to_drive(command, robot_settings(robot).drive, limits_[robot]);
@@ -164,6 +166,7 @@ void World::apply_due_commands() {
 }
 
 void World::fail(std::uint32_t robot) {
+  assert(robot < robots_.size());
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return;
   state.state = DMRP_ROBOT_FAILED;
@@ -171,6 +174,8 @@ void World::fail(std::uint32_t robot) {
 }
 
 std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
+  assert(person_velocities.size() == people().size());
+  assert(std::all_of(person_velocities.begin(), person_velocities.end(), toolkit::is_finite));
   apply_due_commands();
   propose_motion(person_velocities);
   motion_.resolve(bodies_, outlines_);

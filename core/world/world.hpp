@@ -5,6 +5,7 @@
 #include <dmrp/pedestrian_model.h>
 #include <dmrp/sample.h>
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -48,7 +49,10 @@ class World {
 
   std::int64_t t_ns() const { return t_ns_; }
   const StaticGeometry& geometry() const { return *geometry_; }
-  const RobotSettings& robot_settings(std::uint32_t robot) const { return *settings_of_[robot]; }
+  const RobotSettings& robot_settings(std::uint32_t robot) const {
+    assert(robot < robots_.size());
+    return *settings_of_[robot];
+  }
   const SimulationSettings& settings() const { return settings_; }
 
   std::span<const RobotState> robots() const { return robots_; }

@@ -8,9 +8,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "host/errors/mistakes.hpp"
 #include "host/scenario/robot_tables.hpp"

@@ -8,7 +8,6 @@
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "host/ranking/measures.hpp"
 #include "host/ranking/paired_test.hpp"
 
 namespace dmrp::host {
@@ -109,6 +108,8 @@ Answer answer_of(const Contest& contest, const Measures& measures) {
     answer.observations = std::max(answer.observations, answer.ranking[i].against[0].observations);
   }
   answer.needed = needed(answer);
+  if (answer.in_general && answer.observations >= least_for_needed && answer.criteria.front().share)
+    answer.pairs = pairs_apart(contest, measures);
   if (measures.stricter()) {
     answer.stricter = measures.stricter()->name;
     answer.flips = flips_of(answer.ranking);

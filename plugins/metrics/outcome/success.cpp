@@ -41,15 +41,14 @@ Descriptor Success::describe() {
   return describe_metric("dmrp.metric.success", "Success")
       .summary("robots that reached their last goal in time, and those that did so safely")
       .source("Hu et al., DMRP-Bench, ICRA 2026: success rate")
-      .value(
-          "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-          "1 if the robot arrived by the time limit and was not failed by the host, else 0; system: mean over robots")
+      .value("success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+             "1 if the robot arrived by the time limit and was not failed by the host, else 0")
       .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
              "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without a contact at its fault, else 0; system: mean over robots")
+             "1 if the robot succeeded without a contact at its fault, else 0")
       .value("contact_free_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without any contact, whoever was at fault, else 0; system: mean over robots");
+             "1 if the robot succeeded without any contact, else 0");
 }
 
 void Success::begin(const dmrp_plan*) {

@@ -40,17 +40,18 @@ Descriptor Collisions::describe() {
       .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
       .source("rising-edge events attributed as in HuNavSim; fault by the benchmark's rule")
       .value("collisions", "1", lower, robots,
-             "contact events of the robot, regardless of fault; system: all events, an event between two robots once; "
+             "contact events of the robot, regardless of fault; system: all events, one between two robots once; "
              "undefined if planning failed, like all that follow")
       .value("collisions_at_fault", "1", lower, robots,
              "contact events at the robot's fault; system: events at the fault of at least one robot")
-      .value("collisions_static", "1", lower, robots, "contact events with walls, furniture or the world's border")
+      .value("collisions_static", "1", lower, robots,
+             "contact events with walls, furniture or the world's border; system: all")
       .value("collisions_robot", "1", lower, robots,
              "contact events between robots; counted for both, once for the system")
-      .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault")
+      .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault; system: all")
       .value("collisions_unavoidable", "1", lower, robots,
              "contact events with people that were not on a collision course one braking time earlier: nobody is at "
-             "fault")
+             "fault; system: all")
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 

@@ -2,6 +2,7 @@
 #include "planners/mapf/safe_intervals.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -22,12 +23,14 @@ void visit_stays(PathView path, Visit visit) {
 }  // namespace
 
 void SafeIntervals::add(std::int32_t agent, PathView path) {
+  assert(!path.empty());
   visit_stays(path, [&](Location location, std::int32_t from, std::int32_t to) {
     insert(location, {from, to, agent});
   });
 }
 
 void SafeIntervals::remove(PathView path) {
+  assert(!path.empty());
   visit_stays(path, [&](Location location, std::int32_t from, std::int32_t) { erase(location, from); });
 }
 
@@ -38,6 +41,7 @@ std::int32_t SafeIntervals::agent_at(Location location, std::int32_t t) const {
 }
 
 bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const {
+  assert(t > 0);
   const auto there = occupations(to);
   const std::size_t i = index_at(there, t - 1);
   std::size_t at_t = i;
@@ -49,6 +53,7 @@ bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, s
 
 void SafeIntervals::list_step_conflicts(Location from, Location to, std::int32_t t,
                                         std::vector<std::int32_t>& agents) const {
+  assert(t > 0);
   agents.clear();
   if (const std::int32_t there = agent_at(to, t); there >= 0) agents.push_back(there);
   if (from == to) return;

@@ -179,7 +179,7 @@ TEST_CASE("The normal matrix is J'J of all residuals") {
   }
 }
 
-TEST_CASE("Smoothing lowers the objective, keeps the ends, and never moves a point into collision", "[slow]") {
+TEST_CASE("Smoothing lowers the objective, keeps the ends, and never moves a point into collision") {
   Stream random(1, "e3mop.smoothing");
   PathSmoother smoother;
   for (int round = 0; round < 40; ++round) {

@@ -128,7 +128,7 @@ TEST_CASE("in a contact of robots each that moved toward the other is at fault")
 }
 
 TEST_CASE("a contact that pauses for less than half a second is the same event, with the same fault") {
-  ContactTracker tracker({{1.0, 0.8}, {1.0, 0.8}});
+  ContactTracker tracker(std::vector{ContactTracker::Braking{1.0, 0.8}});
   std::vector<std::int64_t> begins_ns;
   std::uint32_t last_fault = 0;
   for (std::int64_t t_ns = 0; t_ns <= 4 * second_ns; t_ns += step_ns) {
@@ -150,7 +150,7 @@ TEST_CASE("a contact that pauses for less than half a second is the same event, 
 }
 
 TEST_CASE("a new person in the same slot is another person") {
-  ContactTracker tracker({{1.0, 0.8}, {1.0, 0.8}});
+  ContactTracker tracker(std::vector{ContactTracker::Braking{1.0, 0.8}});
   const std::vector<dmrp_agent> robots = {agent(0, {}, {})};
   dmrp_contact contact{DMRP_CONTACT_PERSON, 0, 0, 0, 0.0015, {}};
   tracker.update(0, robots, std::vector<dmrp_agent>{agent(1, {0.5, 0.0}, {})}, {&contact, 1});
