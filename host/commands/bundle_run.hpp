@@ -6,7 +6,7 @@
 
 namespace dmrp::host {
 
-// Of a run directory that no other process works on.
+// Writes the folder `out`. No other process may work on the run directory `run`.
 void bundle_run(const std::filesystem::path& run, const std::filesystem::path& out, bool with_plugins);
 
 // Throws InputError if something is there.

@@ -23,7 +23,7 @@ std::string name_of_own_library(const std::filesystem::path& file);
 // The folders of a colon-separated environment variable, without empty ones.
 std::vector<std::filesystem::path> folders_of_variable(const char* name);
 
-// As it was called, with its name first.
+// How this process was called, with the program's name first.
 std::vector<std::string> command_line();
 
 }  // namespace dmrp::host

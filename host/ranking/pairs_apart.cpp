@@ -11,7 +11,7 @@
 namespace dmrp::host {
 namespace {
 
-// Of a pair in one criterion.
+// The test of one pair of entries by one criterion.
 struct PairTest {
   double p = core::undefined;  // NaN: nothing differs
   bool is_large = false;

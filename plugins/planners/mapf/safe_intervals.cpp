@@ -23,14 +23,12 @@ void visit_stays(PathView path, Visit visit) {
 }  // namespace
 
 void SafeIntervals::add(std::int32_t agent, PathView path) {
-  assert(!path.empty());
   visit_stays(path, [&](Location location, std::int32_t from, std::int32_t to) {
     insert(location, {from, to, agent});
   });
 }
 
 void SafeIntervals::remove(PathView path) {
-  assert(!path.empty());
   visit_stays(path, [&](Location location, std::int32_t from, std::int32_t) { erase(location, from); });
 }
 
