@@ -6,6 +6,7 @@
 #   positional  COMMAND  NAMES     TEXT     "folder DIR REQUIRED"
 #   option      COMMAND  NAMES     TEXT     "--id ID REQUIRED"
 #   command     COMMAND  NAME      TEXT
+#   example     COMMAND  LINE
 function finish() {
   # no space to spare before the text, which begins in a fixed column
   if (names != "" && text == "" && length(names) > text_column) {
@@ -21,6 +22,8 @@ NR == 1 { print "about\t" command "\t" $0; next }
 /^Positionals:/ { finish(); kind = "positional"; next }
 /^ *Options:/ { finish(); kind = "option"; next }
 /^Subcommands:/ { finish(); kind = "command"; next }
+/^Example:/ { finish(); kind = "example"; next }
+/^  / && kind == "example" { print kind "\t" command "\t" substr($0, 3); next }
 # an entry: indented by two, or by four in a group of options; its text follows after two spaces or on the next line
 /^ +[^ \[]/ && kind != "" {
   indent = match($0, /[^ ]/) - 1

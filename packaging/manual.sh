@@ -24,9 +24,12 @@ awk -F'\t' -v version="$version" -v closing="$closing" '
   }
   $1 == "about" && $2 == "" { print "dmrp\\-host \\- " roff($3) "\n.SH SYNOPSIS"; next }
   $1 == "about" { about[$2] = $3; next }
+  $1 == "usage" { in_example = 0 }
   $1 == "usage" && $2 == "" { print ".B " roff($3); section = ".SH OPTIONS"; next }
   $1 == "usage" { print (commands++ ? "" : ".SH COMMANDS\n") ".SS " roff($3) "\n" roff(about[$2]) "."; next }
   $1 == "command" { next }
+  $1 == "example" { print (in_example++ ? "" : ".PP\nExample:\n") ".EX\n" roff($3) "\n.EE"; next }
+  { in_example = 0 }
   section != "" { print section; section = "" }
   { print ".TP\n.B " roff($3) "\n" roff($4) }
   END { sub(/^Exit status: /, "", closing); print ".SH EXIT STATUS\n" roff(closing) }

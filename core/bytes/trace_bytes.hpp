@@ -3,7 +3,7 @@
 #pragma once
 
 #include <bit>
-#include <concepts>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -51,6 +51,7 @@ class ByteWriter {
 
   template <TraceValue Value>
   void put_array(const Value* values, std::size_t count) {
+    assert(values || count == 0);
     if (count > 0) std::memcpy(lengthen(bytes_, count * sizeof(Value)), values, count * sizeof(Value));
   }
 

@@ -2,6 +2,7 @@
 #include "core/execution/action_dependencies.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
@@ -19,6 +20,8 @@ constexpr std::int64_t before_the_plan = std::numeric_limits<std::int64_t>::min(
 
 void ActionDependencies::set_plan(const dmrp_grid& grid, std::span<const std::vector<dmrp_waypoint>> paths,
                                   std::span<const dmrp_vec2> positions) {
+  assert(paths.size() == positions.size());
+  assert(std::none_of(paths.begin(), paths.end(), [](const auto& path) { return path.empty(); }));
   const GridView view(grid);
   robots_.assign(paths.size(), {});
   for (std::size_t i = 0; i < paths.size(); ++i)
@@ -112,20 +115,27 @@ void ActionDependencies::merge_rotations() {
 }
 
 void ActionDependencies::reached(std::size_t robot, std::uint32_t stage) {
+  assert(robot < robots_.size() && stage < robots_[robot].stages.size());
   robots_[robot].reached = std::max<std::int64_t>(robots_[robot].reached, stage);
 }
 
 std::uint32_t ActionDependencies::released(std::size_t robot) {
+  assert(robot < robots_.size());
   Robot& it = robots_[robot];
-  const auto is_met = [this](const Dependency& dependency) {
-    return robots_[dependency.robot].reached >= dependency.stage;
-  };
   while (it.released + 1 < it.stages.size()) {
     const std::vector<Dependency>& dependencies = it.stages[it.released + 1].dependencies;
-    if (!std::all_of(dependencies.begin(), dependencies.end(), is_met)) break;
+    if (!std::all_of(dependencies.begin(), dependencies.end(), [this](const auto& d) { return is_met(d); })) break;
     ++it.released;
   }
   return it.released;
+}
+
+std::optional<std::uint32_t> ActionDependencies::holder(std::size_t robot) const {
+  const Robot& it = robots_[robot];
+  if (it.released + 1 == it.stages.size()) return std::nullopt;
+  for (const Dependency& dependency : it.stages[it.released + 1].dependencies)
+    if (!is_met(dependency)) return static_cast<std::uint32_t>(dependency.robot);
+  return std::nullopt;
 }
 
 }  // namespace dmrp::core

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,13 @@ class ActionDependencies {
 
   // The last stage to which the robot may go.
   std::uint32_t released(std::size_t robot);
+
+  // The robot for which it waits there; nothing at its last stage.
+  std::optional<std::uint32_t> holder(std::size_t robot) const;
+
+  std::uint32_t last_stage(std::size_t robot) const {
+    return static_cast<std::uint32_t>(robots_[robot].stages.size()) - 1;
+  }
 
  private:
   struct Dependency {
@@ -77,6 +85,7 @@ class ActionDependencies {
   std::vector<Move> rotation_through(Move move) const;
   void release_together(const std::vector<Move>& rotation);
   void merge_rotations();
+  bool is_met(const Dependency& dependency) const { return robots_[dependency.robot].reached >= dependency.stage; }
 
   std::vector<Robot> robots_;
 };

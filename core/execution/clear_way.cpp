@@ -2,6 +2,7 @@
 #include "core/execution/clear_way.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/polygon.hpp>
@@ -70,6 +71,7 @@ std::vector<Body> sensed_bodies(const World& world, std::uint32_t robot) {
 }  // namespace
 
 bool way_is_clear(const World& world, std::uint32_t robot, std::span<const dmrp_pose> poses) {
+  assert(robot < world.robots().size());
   const std::vector<Body> others = sensed_bodies(world, robot);
   const auto gaps_at = [&](const dmrp_pose& pose) {
     const Body body = body_of(world.robot_settings(robot), pose);

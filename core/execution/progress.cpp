@@ -2,7 +2,9 @@
 #include "core/execution/progress.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/polyline.hpp>
+#include <limits>
 
 namespace dmrp::core {
 namespace {
@@ -11,23 +13,25 @@ namespace {
 // robot that cuts a corner, too small to skip a detour ahead of it.
 constexpr double search_ahead_m = 2.0;
 
+constexpr double return_arc_cells = 1.5;
+constexpr double return_cells = 0.7;
+
 }  // namespace
 
 void PathProgress::set_path(std::span<const dmrp_waypoint> path, dmrp_vec2 position) {
-  const double off_old_path_m = off_path_m();
+  assert(!path.empty());
   path_.assign(path.begin(), path.end());
   toolkit::arc_lengths(path_, arcs_);
   last_position_ = position;
-  reached_m_ = path_.empty() ? 0.0 : toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
+  reached_m_ = toolkit::project(path_, arcs_, position, 0.0, search_ahead_m).arc_m;
   approach_ = 0;
-  if (!path_.empty() && reached_m_ == 0.0 && off_path_m() > 0.0) {
+  if (reached_m_ == 0.0 && off_path_m() > 0.0) {
     approach_ = 1;
     path_.insert(path_.begin(), path_.front());
     path_.front().x = position.x;
     path_.front().y = position.y;
     toolkit::arc_lengths(path_, arcs_);
   }
-  lost_m_ += std::max(0.0, off_old_path_m - off_path_m());
   travelled_m_ = 0.0;
   waypoint_ = 0;
   pass_waypoints();
@@ -46,16 +50,27 @@ void PathProgress::update(dmrp_vec2 position, std::uint32_t goal_index) {
 
 void PathProgress::advance(double limit_m) {
   if (limit_m <= reached_m_) return;
-  const double until_m = std::min(limit_m, reached_m_ + search_ahead_m + travelled_m_);
+  double until_m = std::min(limit_m, reached_m_ + search_ahead_m + travelled_m_);
+  if (const std::size_t back = first_return(until_m); back < path_.size()) until_m = arcs_[back - 1];
   const double place_m = toolkit::project(path_, arcs_, last_position_, reached_m_, until_m).arc_m;
   if (place_m <= reached_m_) return;
-  const double ahead_m = place_m - reached_m_;
-  const double recovered_m = std::min(lost_m_, ahead_m);
-  lost_m_ -= recovered_m;
-  gained_m_ += ahead_m - recovered_m;
   reached_m_ = place_m;
   travelled_m_ = 0.0;
   pass_waypoints();
+}
+
+// Among the waypoints up to until_m along path_; path_.size() if there is none.
+std::size_t PathProgress::first_return(double until_m) const {
+  const dmrp_vec2 place = toolkit::point_at(path_, arcs_, reached_m_);
+  for (std::size_t i = waypoint_ + 1; i < path_.size() && arcs_[i] <= until_m; ++i)
+    if (arcs_[i] - reached_m_ > return_arc_cells * cell_m_ &&
+        toolkit::distance(toolkit::position(path_[i]), place) < return_cells * cell_m_)
+      return i;
+  return path_.size();
+}
+
+std::uint32_t PathProgress::before_return() const {
+  return static_cast<std::uint32_t>(first_return(std::numeric_limits<double>::infinity())) - 1 - approach_;
 }
 
 void PathProgress::pass_waypoints() {

@@ -2,6 +2,7 @@
 #include "core/execution/recovery.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -24,9 +25,12 @@ bool stands(const RobotState& robot) {
 }  // namespace
 
 RecoveryLadder::RecoveryLadder(const World& world, std::vector<bool> has_costmap)
-    : world_(world), has_costmap_(std::move(has_costmap)), robots_(world.robots().size()) {}
+    : world_(world), has_costmap_(std::move(has_costmap)), robots_(world.robots().size()) {
+  assert(has_costmap_.size() == robots_.size());
+}
 
 std::optional<RecoveryAction> RecoveryLadder::act(std::uint32_t robot, bool held) {
+  assert(robot < robots_.size());
   Climber& climber = robots_[robot];
   const RobotState& state = world_.robots()[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) {

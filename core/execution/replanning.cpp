@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "core/execution/replanning.hpp"
 
-#include "core/execution/ending.hpp"
+#include <cassert>
+
+#include "core/execution/referee.hpp"
 
 namespace dmrp::core {
 
 ReplanMonitor::ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count)
     : settings_(settings), robots_(robot_count) {}
 
-bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress) {
+bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
+                        std::span<const PathProgress> progress) {
+  assert(robots.size() == robots_.size() && gained_m.size() == robots_.size() && progress.size() == robots_.size());
   bool any_off_course = false;
   bool any_active = false;
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) {
     if (robots[i].state != DMRP_ROBOT_ACTIVE) continue;
     any_active = true;
-    if (off_course(t_ns, progress[i], robots_[i])) any_off_course = true;
+    if (off_course(t_ns, gained_m[i], progress[i], robots_[i])) any_off_course = true;
   }
   const std::int64_t waited_ns = t_ns - asked_ns_;
   const bool periodic = settings_.period_ns > 0 && waited_ns >= settings_.period_ns;
@@ -25,8 +29,9 @@ bool ReplanMonitor::due(std::int64_t t_ns, std::span<const RobotState> robots, s
 }
 
 // Whether the robot strays or stalls.
-bool ReplanMonitor::off_course(std::int64_t t_ns, const PathProgress& progress, Watched& watched) const {
-  if (progress.gained_m() - watched.gained_m >= stall_progress_m) watched = {progress.gained_m(), t_ns};
+bool ReplanMonitor::off_course(std::int64_t t_ns, double gained_m, const PathProgress& progress,
+                               Watched& watched) const {
+  if (gained_m - watched.gained_m >= least_progress_m) watched = {gained_m, t_ns};
   const bool strays = settings_.stray_m > 0.0 && progress.off_path_m() > settings_.stray_m;
   const bool stalls = settings_.stall_ns > 0 && t_ns - watched.since_ns >= settings_.stall_ns;
   return strays || stalls;

@@ -17,9 +17,10 @@ class ReplanMonitor {
   // The first call of the planner is at t = 0.
   ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count);
 
-  // Call it at every control tick with the progress of all robots. If it returns true, the planner counts as called,
-  // and stall times start again.
-  bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const PathProgress> progress);
+  // Call it at every control tick with what all robots gained (Referee::gained_m()) and their progress. If it returns
+  // true, the planner counts as called, and stall times start again.
+  bool due(std::int64_t t_ns, std::span<const RobotState> robots, std::span<const double> gained_m,
+           std::span<const PathProgress> progress);
 
  private:
   struct Watched {
@@ -27,7 +28,7 @@ class ReplanMonitor {
     std::int64_t since_ns = 0;
   };
 
-  bool off_course(std::int64_t t_ns, const PathProgress& progress, Watched& watched) const;
+  bool off_course(std::int64_t t_ns, double gained_m, const PathProgress& progress, Watched& watched) const;
 
   ReplanSettings settings_;
   std::int64_t asked_ns_ = 0;

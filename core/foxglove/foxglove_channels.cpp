@@ -5,6 +5,7 @@
 #include <dmrp/ext/annotate.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/foxglove/foxglove_figures.hpp"
@@ -200,6 +201,7 @@ void FoxgloveChannels::put_contact(const dmrp_sample& sample, const dmrp_contact
 
 // Foxglove has no value for a beam without a hit: such beams get 0, a point inside the robot.
 void FoxgloveChannels::scan(std::uint32_t robot, const dmrp_scan& scan) {
+  assert(robot < robots_.size());
   if (scans_.empty()) {
     const std::uint16_t of_scan = file_.add_schema(laser_scan_schema());
     for (const Robot& known : robots_)

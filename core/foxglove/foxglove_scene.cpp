@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/foxglove/foxglove_scene.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::core {
@@ -101,7 +102,7 @@ void SceneEntity::line(std::span<const ScenePose> points, bool closed, double th
 
 void SceneEntity::prism(std::span<const dmrp_vec2> outline, double z, double height_m, const Color& color) {
   const std::size_t n = outline.size();
-  if (n < 3) return;
+  assert(n >= 3);
   std::vector<ScenePose> points;  // the foot of every corner, then its top
   for (const double at : {z, z + height_m})
     for (const dmrp_vec2& corner : outline) points.push_back({corner.x, corner.y, at, 0.0});

@@ -6,9 +6,7 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/foxglove/json_text.hpp"

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
+#include <cassert>
 #include <memory>
 #include <new>
-#include <string>
 
 #include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"
@@ -110,6 +110,7 @@ std::uint16_t McapWriter::add_schema(const McapSchema& schema) {
 }
 
 std::uint16_t McapWriter::add_channel(const McapChannel& channel) {
+  assert(channel.schema_id <= schema_count_);
   const auto id = static_cast<std::uint16_t>(message_counts_.size());
   message_counts_[id] = 0;
   Bytes record;
@@ -131,6 +132,7 @@ std::uint16_t McapWriter::add_channel(const McapChannel& channel) {
 }
 
 void McapWriter::write(std::uint16_t channel, std::int64_t log_time_ns, std::span<const std::uint8_t> message) {
+  assert(channel < message_counts_.size());
   const auto log_time = static_cast<std::uint64_t>(log_time_ns);
   chunk_messages_[channel].push_back({log_time, chunk_.size()});
   chunk_times_.add(log_time);

@@ -2,6 +2,7 @@
 #include "core/people/crowd_lattice.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <numbers>
@@ -125,6 +126,7 @@ dmrp_vec2 transposed(dmrp_vec2 point) {
 
 std::vector<dmrp_vec2> spread_on_lattice(const toolkit::Rectangle& where, std::size_t count, double apart_m,
                                          toolkit::Stream& stream, const std::function<bool(dmrp_vec2)>& has_room) {
+  assert(toolkit::is_ordered(where) && apart_m > 0.0);
   if (count == 0) return {};
   const double x_phase = stream.uniform();
   const dmrp_vec2 phase = {x_phase, stream.uniform()};
@@ -146,6 +148,7 @@ std::vector<dmrp_vec2> spread_on_lattice(const toolkit::Rectangle& where, std::s
 std::vector<std::vector<dmrp_vec2>> spread_groups_on_lattice(const toolkit::Rectangle& where,
                                                              const std::vector<std::uint32_t>& sizes,
                                                              toolkit::Stream& stream, const GroupSpread& spread) {
+  assert(toolkit::is_ordered(where) && spread.apart_m > 0.0 && spread.apart_in_group_m >= spread.apart_m);
   if (!spread.rows_along_x) {
     GroupSpread turned = spread;
     turned.rows_along_x = true;

@@ -2,6 +2,7 @@
 #include "core/people/first_places.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
@@ -10,7 +11,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string>
 
 #include "core/people/crowd_lattice.hpp"
 
@@ -146,6 +146,7 @@ void refuse_if_too_few(const Scenario& scenario, const RegionCrowd& crowd, std::
 
 std::vector<FirstPlace> first_places(const Scenario& scenario, const FlowRoutes& routes, const StandingRoom& room,
                                      std::uint64_t seed) {
+  assert(routes.legs.size() == scenario.flows.size());
   std::vector<dmrp_vec2> taken(room.taken.begin(), room.taken.end());
   const auto room_now = [&] { return StandingRoom{room.geometry, room.radius_m, room.robots, taken}; };
   struct Places {

@@ -2,10 +2,9 @@
 #include "core/people/population.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
-#include <dmrp/toolkit/rectangle.hpp>
 
 #include "core/people/first_places.hpp"
 
@@ -29,6 +28,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
       tracks_(scenario.tracks),
       world_{scenario.lower, scenario.upper},
       slots_(walker_count(scenario)) {
+  assert(routes.legs.size() == flows_.size());
   for (const std::vector<Route>& legs : routes.legs) {
     std::vector<LegHeadings>& headings = headings_.emplace_back();
     for (const Route& leg : legs) {
@@ -53,6 +53,7 @@ Population::Population(const Scenario& scenario, std::shared_ptr<const StaticGeo
 }
 
 void Population::move(std::size_t place, dmrp_vec2 position, dmrp_vec2 velocity) {
+  assert(place < people_.size() && toolkit::is_finite(position) && toolkit::is_finite(velocity));
   people_[place].position = position;
   people_[place].velocity = velocity;
 }

@@ -2,6 +2,7 @@
 #include "core/people/walking_groups.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::core {
@@ -13,6 +14,7 @@ constexpr int tries_in_area = 32;
 }  // namespace
 
 std::uint32_t group_count(const Flow& flow) {
+  assert(flow.group_size > 0);
   return flow.people / flow.group_size + (flow.people % flow.group_size != 0);
 }
 
@@ -37,6 +39,7 @@ std::uint32_t widest_row(std::uint32_t group_size) {
 }
 
 std::vector<dmrp_vec2> formation(std::uint32_t size, std::uint32_t abreast, double apart_m, double heading) {
+  assert(abreast > 0);
   const dmrp_vec2 ahead = toolkit::from_angle(heading);
   const dmrp_vec2 left = toolkit::perpendicular(ahead);
   const std::uint32_t rows = (size + abreast - 1) / abreast;

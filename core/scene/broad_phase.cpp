@@ -7,6 +7,7 @@
 #include <fcl/narrowphase/collision_object.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 
@@ -64,6 +65,7 @@ BoxTree::BoxTree(BoxTree&&) noexcept = default;
 BoxTree& BoxTree::operator=(BoxTree&&) noexcept = default;
 
 void BoxTree::touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const {
+  assert(toolkit::is_ordered(box));
   found.clear();
   Object query = box_object(box);
   struct Search {
@@ -130,6 +132,7 @@ BodyPairs& BodyPairs::operator=(BodyPairs&&) noexcept = default;
 
 void BodyPairs::touching(std::span<const dmrp_vec2> centers, std::span<const double> radii,
                          std::vector<std::pair<std::uint32_t, std::uint32_t>>& found) {
+  assert(centers.size() == radii.size());
   found.clear();
   Implementation& my = *implementation_;
   if (!my.tree || !std::equal(radii.begin(), radii.end(), my.radii.begin(), my.radii.end())) my.build(radii);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
-#include <limits>
 #include <string>
 
 namespace dmrp::core {
@@ -128,10 +128,12 @@ void append_corners(const std::array<dmrp_vec2, 4>& corners, PlacedBoxes& out) {
 }  // namespace
 
 std::size_t count_boxes(const CellMap& map) {
+  assert(map.free.size() == std::size_t{map.width} * map.height);
   return blocks_of(map).size();
 }
 
 std::vector<Shape> boxes_of(const CellMap& map, double cell_m, dmrp_vec2 origin) {
+  assert(map.free.size() == std::size_t{map.width} * map.height && cell_m > 0.0);
   std::vector<Shape> shapes;
   for (const Block& block : blocks_of(map)) {
     const dmrp_vec2 lower = {origin.x + cell_m * block.first_column, origin.y + cell_m * block.first_row};
@@ -169,6 +171,7 @@ PlacedBoxes place_boxes(const CellMap& map, double cell_m, dmrp_pose origin) {
 }
 
 PlanningGrid planning_grid_of(const CellMap& map, double cell_m) {
+  assert(map.free.size() == std::size_t{map.width} * map.height && cell_m > 0.0);
   PlanningGrid grid;
   grid.width = map.width;
   grid.height = map.height;

@@ -2,6 +2,7 @@
 // cell_map.hpp: a map of square cells, free or blocked, and its conversion to shapes and to a grid for point robots.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <dmrp/toolkit/rectangle.hpp>
@@ -24,6 +25,7 @@ struct CellMap {
   std::vector<std::uint8_t> free;  // 1 or 0
 
   bool is_free(std::uint32_t column, std::uint32_t row) const {
+    assert(column < width && row < height);
     return free[static_cast<std::size_t>(row) * width + column] != 0;
   }
 };

@@ -2,6 +2,7 @@
 #include "core/scene/convex_separation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -66,6 +67,7 @@ double extent(toolkit::PolygonView polygon, dmrp_vec2 from, dmrp_vec2 direction)
 }
 
 Separation separation(toolkit::PolygonView a, toolkit::PolygonView b) {
+  assert(a.size() >= 3 && b.size() >= 3);
   const Separation of_a = best_axis(a, b);
   const Separation of_b = best_axis(b, a);
   // the normals of b's edges already point from b toward a
@@ -79,6 +81,7 @@ Separation separation(toolkit::PolygonView a, toolkit::PolygonView b) {
 }
 
 Separation separation(toolkit::PolygonView a, dmrp_vec2 center, double radius_m) {
+  assert(a.size() >= 3 && radius_m >= 0.0);
   const dmrp_vec2 from_center = toolkit::closest_border_point(a, center) - center;
   const double distance_m = toolkit::norm(from_center);
   const bool inside = toolkit::contains(a, center);

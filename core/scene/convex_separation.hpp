@@ -2,7 +2,6 @@
 // convex_separation.hpp: exact distances and overlaps of convex bodies in the plane.
 #pragma once
 
-#include <cstdint>
 #include <dmrp/toolkit/polygon.hpp>
 
 #include "core/scene/settings.hpp"

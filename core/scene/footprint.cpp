@@ -2,6 +2,7 @@
 #include "core/scene/footprint.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <limits>
@@ -88,6 +89,7 @@ double inscribed_radius(const RobotSettings& robot) {
 }
 
 ConvexPolygon swept(const ConvexPolygon& polygon, dmrp_vec2 way) {
+  assert(polygon.size() >= 3);
   ConvexPolygon area;
   const auto leads = [&](std::size_t edge) {
     const dmrp_segment side = toolkit::PolygonView(polygon).edge(edge);

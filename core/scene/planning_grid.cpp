@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/planning_grid.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 
@@ -48,6 +49,7 @@ void find_edges(const StaticGeometry& geometry, double radius_m, PlanningGrid& g
 }  // namespace
 
 dmrp_grid PlanningGrid::view() const {
+  assert(free.size() == std::size_t{width} * height && edges.size() == free.size());
   dmrp_grid grid{};
   grid.struct_size = sizeof(grid);
   grid.width = width;
@@ -62,6 +64,7 @@ dmrp_grid PlanningGrid::view() const {
 
 PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resolution_m, double radius_m,
                                  double margin_m) {
+  assert(resolution_m > 0.0 && radius_m >= 0.0);
   PlanningGrid grid;
   grid.width = cells_across(geometry.upper().x - geometry.lower().x, resolution_m);
   grid.height = cells_across(geometry.upper().y - geometry.lower().y, resolution_m);
@@ -90,6 +93,7 @@ PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m)
 }
 
 std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from, const std::vector<bool>& closed) {
+  assert(from < grid.free.size() && (closed.empty() || closed.size() == grid.free.size()));
   const dmrp_grid c_grid = grid.view();
   const toolkit::GridView view(c_grid);
   std::vector<bool> seen(view.size());

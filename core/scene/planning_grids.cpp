@@ -2,6 +2,7 @@
 #include "core/scene/planning_grids.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/scene/footprint_grid.hpp"
 
@@ -21,6 +22,7 @@ std::size_t PlanningGrids::index_of(std::string_view type) const {
 }
 
 const PlanningGrid& PlanningGrids::of(std::string_view type) const {
+  assert(index_of(type) < grids_.size());
   return grids_[index_of(type)];
 }
 

@@ -21,7 +21,7 @@ class PlanningGrids {
   PlanningGrids(const StaticGeometry& geometry, const RobotTypes& types, double resolution_m, double margin_m);
 
   const PlanningGrid& standard() const { return grids_[0]; }  // of the default type
-  const PlanningGrid& of(std::string_view type) const;        // "": the default type. It must exist
+  const PlanningGrid& of(std::string_view type) const;        // "": the default type
 
   // The cells and edges that are open for all of these types; no type: the default type's.
   PlanningGrid common(std::span<const std::string> types) const;

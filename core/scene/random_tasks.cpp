@@ -6,7 +6,6 @@
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <string>
 #include <utility>
 
 namespace dmrp::core {

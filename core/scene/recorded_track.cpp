@@ -2,6 +2,7 @@
 #include "core/scene/recorded_track.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -23,10 +24,12 @@ std::vector<Point>::const_iterator next_point(const Track& track, std::int64_t t
 }  // namespace
 
 bool is_on_track(const Track& track, std::int64_t t_ns) {
+  assert(!track.points.empty());
   return track.points.front().t_ns <= t_ns && t_ns <= track.points.back().t_ns;
 }
 
 dmrp_vec2 position_on(const Track& track, std::int64_t t_ns) {
+  assert(!track.points.empty());
   const auto to = next_point(track, t_ns);
   if (to == track.points.begin()) return to->position;
   const Point& from = *(to - 1);
@@ -36,6 +39,7 @@ dmrp_vec2 position_on(const Track& track, std::int64_t t_ns) {
 }
 
 dmrp_vec2 velocity_on(const Track& track, std::int64_t t_ns) {
+  assert(!track.points.empty());
   const auto to = next_point(track, t_ns);
   if (to == track.points.begin() || to == track.points.end()) return {0.0, 0.0};
   const Point& from = *(to - 1);
@@ -43,6 +47,7 @@ dmrp_vec2 velocity_on(const Track& track, std::int64_t t_ns) {
 }
 
 double mean_speed(const Track& track) {
+  assert(!track.points.empty());
   double length_m = 0.0;
   for (std::size_t i = 1; i < track.points.size(); ++i)
     length_m += toolkit::distance(track.points[i - 1].position, track.points[i].position);

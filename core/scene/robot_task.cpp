@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/robot_task.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,7 @@ std::vector<dmrp_polygon> polygons_of(const RobotSettings& settings) {
 }
 
 dmrp_footprint footprint_of(const RobotSettings& settings, std::span<const dmrp_polygon> polygons) {
+  assert(polygons.size() == settings.parts.size());
   dmrp_footprint footprint{};
   footprint.struct_size = sizeof(footprint);
   footprint.part_count = static_cast<std::uint32_t>(polygons.size());
@@ -44,6 +46,7 @@ dmrp_footprint footprint_of(const RobotSettings& settings, std::span<const dmrp_
 }
 
 std::vector<dmrp_goal> goals_of(const RobotTask& task, const GoalSettings& settings) {
+  assert(!task.goals.empty());
   std::vector<dmrp_goal> goals;
   for (const dmrp_pose& pose : task.goals) {
     goals.push_back({pose, settings.tolerance_m, settings.tolerance_rad, settings.tolerance_speed,

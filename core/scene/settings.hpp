@@ -84,7 +84,7 @@ struct GoalSettings {
 struct ReplanSettings {
   std::int64_t period_ns = 0;                    // time since the last call of the planner
   double stray_m = 0.0;                          // an active robot is farther than this from its place on its path
-  std::int64_t stall_ns = 0;                     // an active robot gained less than stall_progress_m in this time
+  std::int64_t stall_ns = 0;                     // an active robot gained less than least_progress_m in this time
   std::int64_t min_interval_ns = 2'000'000'000;  // between a call of the planner and one for straying or stalling
 };
 
@@ -128,6 +128,7 @@ struct SimulationSettings {
   Execution execution = Execution::free;
   ReplanSettings replan;
   RecoverySettings recovery;
+  bool oscillation_fails = false;  // a robot that circled on its way has failed even if it arrives
 };
 
 }  // namespace dmrp::core

@@ -2,9 +2,9 @@
 #include "core/scene/static_geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <stdexcept>
@@ -109,6 +109,7 @@ StaticGeometry::StaticGeometry(const toolkit::Rectangle& rectangle, std::vector<
       tree_(tree_of(sdk_shapes_)) {}
 
 std::string_view StaticGeometry::shape_name(std::uint32_t shape) const {
+  assert(shape <= border());
   return shape < shapes_.size() ? std::string_view(shapes_[shape].name) : "the border";
 }
 
@@ -177,6 +178,7 @@ void StaticGeometry::shapes_near(const toolkit::Rectangle& box, std::vector<std:
 }
 
 SurfaceDistance StaticGeometry::distance_to(std::uint32_t shape, dmrp_vec2 point) const {
+  assert(shape < border());
   const dmrp_shape& body = sdk_shapes_[shape];
   if (body.kind == DMRP_SHAPE_CIRCLE) {
     const dmrp_vec2 away = point - body.center;

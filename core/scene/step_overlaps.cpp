@@ -2,10 +2,10 @@
 #include "core/scene/step_overlaps.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
 
@@ -71,6 +71,7 @@ bool StepOverlaps::overlap(std::uint32_t a, toolkit::Cell at_a, std::uint32_t b,
 
 bool StepOverlaps::overlap(std::uint32_t a, toolkit::Cell a0, toolkit::Cell a1, std::uint32_t b, toolkit::Cell b0,
                            toolkit::Cell b1) {
+  assert(a != b && robots_.at(a).grid && robots_.at(b).grid);
   const Member& one = robots_[a];
   const Member& two = robots_[b];
   if (!one.is_active && !two.is_active) return false;
@@ -129,7 +130,7 @@ bool StepOverlaps::bodies_overlap(const Body& a, Motion a_does, const Body& b, M
   // a relative to b
   const dmrp_vec2 place = {-cell_m_ * b_from_a.column, -cell_m_ * b_from_a.row};
   const dmrp_vec2 way = cell_m_ * (way_of(a_does) - way_of(b_does));
-  if (toolkit::distance({place, place + way}, dmrp_vec2{0.0, 0.0}) >= a.radius_m + b.radius_m - tolerance_m)
+  if (toolkit::distance(dmrp_segment{place, place + way}, dmrp_vec2{0.0, 0.0}) >= a.radius_m + b.radius_m - tolerance_m)
     return false;
   const Cover of_a = cover_of(a, a_does);
   const Cover of_b = cover_of(b, b_does);

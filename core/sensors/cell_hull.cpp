@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/sensors/cell_hull.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,7 @@ std::int64_t floor_of_quotient(std::int64_t dividend, std::int64_t divisor) {
 
 // Andrew's monotone chain: the row-major order is the order that it needs. Up the right side, down the left.
 void find_hull(std::span<const LatticeCell> cells, std::vector<LatticeCell>& hull) {
+  assert(std::is_sorted(cells.begin(), cells.end(), precedes));
   hull.clear();
   const auto extend = [&](const LatticeCell& cell, std::size_t least) {
     while (hull.size() > least && cross(between(hull[hull.size() - 2], hull.back()), between(hull.back(), cell)) <= 0)
@@ -29,6 +31,7 @@ void find_hull(std::span<const LatticeCell> cells, std::vector<LatticeCell>& hul
 }
 
 Chord longest_chord(std::span<const LatticeCell> hull) {
+  assert(!hull.empty());
   Chord chord{};
   std::int64_t longest = -1;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -73,12 +76,14 @@ ColumnRange columns_beside(std::span<const LatticeCell> hull, std::int64_t row) 
       range.last = std::max(range.last, low.column - floor_of_quotient(-aside, along.row));
     }
   }
+  assert(range.first <= range.last);  // otherwise the hull does not reach both rows
   return range;
 }
 
 // From each vertex that stays it goes to the farthest one for which all between are flat: the cells then are no farther
 // from the polygon, which is a part of the hull.
 void drop_flat_vertices(std::vector<LatticeCell>& hull, std::vector<LatticeCell>& scratch, double tolerance) {
+  assert(!hull.empty() && tolerance >= 0.0);
   scratch.assign(hull.begin(), hull.end());
   scratch.push_back(hull.front());
   hull.clear();

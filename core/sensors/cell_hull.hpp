@@ -24,6 +24,11 @@ constexpr LatticeCell between(const LatticeCell& from, const LatticeCell& to) {
   return {to.column - from.column, to.row - from.row};
 }
 
+// In row-major order.
+constexpr bool precedes(const LatticeCell& a, const LatticeCell& b) {
+  return a.row != b.row ? a.row < b.row : a.column < b.column;
+}
+
 // The line between the two vertices of a hull that are farthest from each other. Lengths in cells.
 struct Chord {
   LatticeCell from;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/vec2.hpp>
@@ -77,6 +78,7 @@ LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_rad
     : settings_(settings),
       side_(std::max(1L, std::lround(settings.window_m / settings.resolution_m))),
       misses_to_clear_(misses_to_clear(dropout_share)) {
+  assert(dropout_share >= 0.0 && dropout_share < 1.0);
   const auto cells = static_cast<std::size_t>(side_ * side_);
   lethal_.resize(cells);
   rolled_.resize(cells);
@@ -118,6 +120,7 @@ void LocalCostmap::reset() {
 }
 
 void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
+  assert(toolkit::is_finite(toolkit::position(sensor)) && (scan.ranges || scan.count == 0));
   roll_to(toolkit::position(sensor));
 
   aim_beams(sensor, scan);

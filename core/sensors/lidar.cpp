@@ -2,9 +2,9 @@
 #include "core/sensors/lidar.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/ray_cast.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <limits>
@@ -34,11 +34,13 @@ Lidar::Lidar(const LidarSettings& settings, std::shared_ptr<const StaticGeometry
       angle_increment_(increment_of(settings)),
       rays_(settings.beams),
       nearest_m_(settings.beams) {
+  assert(geometry_ && settings.beams > 0);
   for (std::uint32_t i = 0; i < settings.beams; ++i)
     directions_.push_back(toolkit::from_angle(angle_min_ + i * angle_increment_));
 }
 
 dmrp_scan Lidar::describe(std::int64_t t_ns, std::span<const float> ranges) const {
+  assert(ranges.size() == beams());
   dmrp_scan scan{};
   scan.struct_size = sizeof(scan);
   scan.count = static_cast<std::uint32_t>(ranges.size());
@@ -53,6 +55,7 @@ dmrp_scan Lidar::describe(std::int64_t t_ns, std::span<const float> ranges) cons
 
 void Lidar::scan(const dmrp_pose& sensor, std::span<const Disc> discs, std::span<const ConvexPolygon> polygons,
                  std::span<float> ranges) {
+  assert(ranges.size() == beams());
   begin(sensor);
   for (const Disc& disc : discs)
     if (toolkit::distance(disc.center, origin_) - disc.radius_m <= settings_.range_max_m) scan_disc(disc);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstring>
-#include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
 namespace dmrp::core {
@@ -40,6 +40,7 @@ constexpr std::array<LatticeCell, 14> neighbors_before = {{{-3, 0},
 
 const dmrp_obstacle_cluster_list& ObstacleClusters::derive(const dmrp_costmap& costmap,
                                                            std::span<const dmrp_agent> agents) {
+  assert(costmap.costs && costmap.resolution_m > 0.0);
   vertices_.clear();
   clusters_.clear();
   collect_cells(costmap, agents);

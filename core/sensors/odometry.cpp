@@ -2,9 +2,9 @@
 #include "core/sensors/odometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <numbers>
 
@@ -46,6 +46,7 @@ bool Odometry::is_exact() const {
 }
 
 void Odometry::read(std::int64_t t_ns, const dmrp_pose& pose, const dmrp_twist& velocity) {
+  assert(t_ns > read_ns_);
   const dmrp_pose before = truth_;
   const std::int64_t since_ns = t_ns - read_ns_;
   const bool is_first = read_ns_ < 0;

@@ -2,13 +2,14 @@
 #include "core/sensors/visibility.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::core {
 
 void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<float> ranges) {
+  assert(robot < world.robots().size());
   std::vector<Disc> discs;
   std::vector<ConvexPolygon> polygons;
   for (std::uint32_t i = 0; i < world.robots().size(); ++i) {
@@ -24,6 +25,7 @@ void scan_from(const World& world, std::uint32_t robot, Lidar& lidar, std::span<
 }
 
 void visible_agents(const World& world, std::uint32_t robot, std::vector<dmrp_agent>& agents) {
+  assert(robot < world.robots().size());
   agents.clear();
   const Tracking tracking = world.settings().tracking;
   if (tracking == Tracking::none) return;

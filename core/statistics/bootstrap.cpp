@@ -2,6 +2,7 @@
 #include "core/statistics/bootstrap.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <numeric>
@@ -31,6 +32,8 @@ BootstrapDraws::BootstrapDraws(std::size_t clusters, const BootstrapSettings& se
 }
 
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapDraws& draws) {
+  assert(draws.resamples() == 0 || draws.resample(0).size() == clusters.size());
+  assert(std::none_of(clusters.begin(), clusters.end(), [](const auto& cluster) { return cluster.empty(); }));
   struct Total {
     double sum;
     double count;

@@ -2,6 +2,7 @@
 #include "core/statistics/descriptive.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -37,6 +38,7 @@ double median(std::span<const double> values) {
 }
 
 double quantile_of_sorted(std::span<const double> ascending, double p) {
+  assert(std::is_sorted(ascending.begin(), ascending.end()) && p >= 0.0 && p <= 1.0);
   if (ascending.empty()) return undefined;
   const double position = p * static_cast<double>(ascending.size() - 1);
   const auto below = static_cast<std::size_t>(position);

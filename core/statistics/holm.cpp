@@ -2,11 +2,13 @@
 #include "core/statistics/holm.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::core {
 
 std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  assert(std::none_of(p_values.begin(), p_values.end(), [](double p) { return p < 0.0 || p > 1.0; }));
   std::vector<std::size_t> ascending;
   for (std::size_t i = 0; i < p_values.size(); ++i)
     if (!std::isnan(p_values[i])) ascending.push_back(i);

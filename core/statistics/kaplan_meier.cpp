@@ -2,6 +2,7 @@
 #include "core/statistics/kaplan_meier.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -63,6 +64,7 @@ std::vector<SurvivalStep> kaplan_meier(std::span<const TimeToEvent> cases) {
 }
 
 double restricted_mean(std::span<const TimeToEvent> cases, double horizon) {
+  assert(horizon >= 0.0);
   if (cases.empty()) return undefined;
   const std::vector<std::uint32_t> once(cases.size(), 1);
   return area(by_time(cases), once, horizon);

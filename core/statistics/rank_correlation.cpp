@@ -2,6 +2,7 @@
 #include "core/statistics/rank_correlation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <dmrp/toolkit/random.hpp>
@@ -38,10 +39,6 @@ double correlation_of(std::int64_t xx, std::int64_t xy, std::int64_t yy) {
   if (xx == 0 || yy == 0) return undefined;
   const double spread = std::sqrt(static_cast<double>(xx)) * std::sqrt(static_cast<double>(yy));
   return std::clamp(static_cast<double>(xy) / spread, -1.0, 1.0);
-}
-
-double correlation(const Ranks& x, const Ranks& y) {
-  return correlation_of(product(x, x), product(x, y), product(y, y));
 }
 
 double exact_p(const Ranks& x, Ranks y) {
@@ -195,13 +192,10 @@ double share_of_ties(std::span<const double> x, std::span<const double> y,
 
 }  // namespace
 
-double spearman(std::span<const double> x, std::span<const double> y) {
-  return correlation(centered_ranks(x), centered_ranks(y));
-}
-
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
                                  std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block,
                                  std::uint64_t seed) {
+  assert(y.size() == x.size() && cluster.size() == x.size() && (block.empty() || block.size() == x.size()));
   RankCorrelation result{
       static_cast<std::uint32_t>(x.size()), undefined, {undefined, undefined}, undefined, true, undefined};
   if (x.size() < 2) return result;

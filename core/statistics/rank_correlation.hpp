@@ -9,12 +9,9 @@
 
 namespace dmrp::core {
 
-// Pearson's correlation of midranks: correct with ties. NaN for fewer than two pairs, or if all x or all y are equal.
-double spearman(std::span<const double> x, std::span<const double> y);
-
 struct RankCorrelation {
   std::uint32_t n;
-  double rho;
+  double rho;         // NaN for fewer than two pairs, or if all x or all y are equal
   Interval interval;  // 95 %, by the bootstrap over clusters (1,000 resamples); needs at least two clusters
   double p;           // two-sided: the share of permutations of y within its blocks whose correlation is at least as
                       // far from zero
@@ -23,8 +20,8 @@ struct RankCorrelation {
 };
 
 // `cluster`: the cluster of each pair, a seed. `block`: everything is computed within blocks, so that differences between
-// blocks count for nothing; empty: one block. rho is the correlation of the ranks within blocks, each minus its block's
-// mean rank. Deterministic: draws come from named streams.
+// blocks count for nothing; empty: one block. rho is the correlation of the midranks within blocks, each minus its
+// block's mean rank. Deterministic: draws come from named streams.
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y,
                                  std::span<const std::uint64_t> cluster, std::span<const std::uint32_t> block = {},
                                  std::uint64_t seed = 1);

@@ -2,11 +2,13 @@
 #include "core/statistics/sample_size.hpp"
 
 #include <boost/math/distributions/normal.hpp>
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::core {
 
 std::optional<std::uint64_t> pairs_needed(double sd, double difference, double level) {
+  assert(difference > 0.0 && level > 0.0 && level < 1.0);
   if (!(sd > 0.0)) return std::nullopt;
   constexpr double power = 0.8;
   const boost::math::normal standard;

@@ -2,6 +2,7 @@
 #include "core/statistics/threshold.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::core {
@@ -81,6 +82,8 @@ std::vector<std::size_t> all_repetitions(std::span<const LevelOutcomes> levels) 
 }  // namespace
 
 std::vector<double> isotonic_fit(std::span<const double> values, std::span<const double> weights) {
+  assert(weights.size() == values.size());
+  assert(std::all_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; }));
   struct Block {
     double mean;
     double weight;
@@ -103,6 +106,9 @@ std::vector<double> isotonic_fit(std::span<const double> values, std::span<const
 }
 
 Threshold half_threshold(std::span<const LevelOutcomes> levels) {
+  assert(!levels.empty() && std::all_of(levels.begin(), levels.end(), [&](const LevelOutcomes& level) {
+    return level.by_repetition.size() == levels.front().by_repetition.size();
+  }));
   return threshold_at(levels, position_of(means_of(levels, all_repetitions(levels)), levels.size()));
 }
 

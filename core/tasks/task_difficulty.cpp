@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/tasks/task_difficulty.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/individual_path.hpp>
 #include <utility>
@@ -50,6 +52,7 @@ std::optional<std::uint32_t> slack_of(const CellPath& a, const CellPath& b) {
 }  // namespace
 
 TaskDifficulty difficulty_of(const PlanningGrid& grid, std::span<const RobotTask> tasks) {
+  assert(std::none_of(tasks.begin(), tasks.end(), [](const RobotTask& task) { return task.goals.empty(); }));
   const dmrp_grid c_grid = grid.view();
   const GridView view(c_grid);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;

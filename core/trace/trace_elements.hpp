@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
-// trace_elements.hpp: elements of arrays that are stored as in memory, whose size may grow with the plugin contract.
-// Internal to traces.
+// trace_elements.hpp: the sizes of elements of arrays that are stored as in memory, which may grow with the plugin
+// contract. Internal to traces.
 #pragma once
 
 #include <dmrp/sample.h>
 #include <dmrp/trial_end.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-
-#include "core/trace/record_cursor.hpp"
 
 namespace dmrp::core {
 
@@ -45,41 +40,5 @@ inline constexpr Element absent_fields = {};
 template <>
 inline constexpr dmrp_contact absent_fields<dmrp_contact> = {
     0, 0, 0, 0, 0.0, {0.0, 0.0}, std::numeric_limits<double>::quiet_NaN()};
-
-// All at once, unless the owner's version of them is longer.
-template <class Element>
-void put_elements(ByteWriter& out, const Element* elements, std::uint32_t count, std::uint32_t stride) {
-  out.put(count);
-  out.put(static_cast<std::uint32_t>(sizeof(Element)));
-  if (stride == sizeof(Element)) return out.put_array(elements, count);
-  for (std::uint32_t i = 0; i < count; ++i) out.put(*DMRP_AT(Element, elements, stride, i));
-}
-
-// The elements that follow in a record.
-struct TraceElements {
-  std::uint32_t count = 0;
-  std::size_t stride = 0;
-};
-
-// Checks that the record has room for them.
-template <class Element>
-TraceElements take_element_count(RecordCursor& in) {
-  constexpr TraceElementSize size = trace_element_size<Element>;
-  const auto count = in.take<std::uint32_t>();
-  const std::size_t stride = in.version() == 1 ? size.format_1 : in.take<std::uint32_t>();
-  if (in.version() > 1 && stride < size.least) in.fail("elements shorter than those of version 1.0 of the contract");
-  in.require(count, stride);
-  return {count, stride};
-}
-
-// `to` has place for them. Fields that the trace does not have become absent_fields; those beyond ours are skipped.
-template <class Element>
-void take_elements(RecordCursor& in, const TraceElements& elements, Element* to) {
-  if (elements.stride == sizeof(Element)) return in.take_array(to, elements.count);
-  for (std::uint32_t i = 0; i < elements.count; ++i) {
-    to[i] = absent_fields<Element>;
-    std::memcpy(&to[i], in.take_bytes(elements.stride).data(), std::min(elements.stride, sizeof(Element)));
-  }
-}
 
 }  // namespace dmrp::core

@@ -51,8 +51,8 @@ class TraceEncoder {
   std::size_t written_bytes() const { return written_bytes_; }  // of all records
 
  private:
-  template <class WriteBody>
-  void record(TraceRecordKind kind, WriteBody&& write_body);
+  template <class Content>
+  void record(TraceRecordKind kind, const Content& content);
 
   TraceBytes record_;  // the current one
   std::size_t written_bytes_ = 0;

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/bytes/trace_bytes.hpp"
-#include "core/trace/trace_decoder.hpp"
-#include "core/trace/trace_elements.hpp"
+#include "core/trace/trace_field_reader.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -33,13 +31,6 @@ std::uint32_t format_version(const TraceRecord& world) {
   return version;
 }
 
-template <class Element>
-void take_into(RecordCursor& in, std::vector<Element>& elements) {
-  const TraceElements stored = take_element_count<Element>(in);
-  elements.resize(stored.count);
-  take_elements(in, stored, elements.data());
-}
-
 }  // namespace
 
 TraceReader::TraceReader(TraceRecords records, TraceExtent extent) : records_(std::move(records)), extent_(extent) {
@@ -61,8 +52,7 @@ void TraceReader::read_record(const TraceRecord& record) {
   RecordCursor in(record.body, record.offset, version_);
   switch (record.kind) {
     case TraceRecordKind::world:
-      in.take<std::uint32_t>();  // format version
-      world_ = take_world(in, storage_);
+      read_world(in);
       break;
     case TraceRecordKind::plan:
       read_plan(in);
@@ -71,111 +61,79 @@ void TraceReader::read_record(const TraceRecord& record) {
       read_sample(in);
       ++sample_count_;
       break;
-    case TraceRecordKind::scan:
-      read_scan(in);
+    case TraceRecordKind::scan: {
+      const bool is_kept = extent_ != TraceExtent::samples;
+      const auto scan = read_fields<TraceScan>(in, is_kept ? &storage_ : nullptr);
+      if (scan.robot >= world_.robot_count) in.fail("a scan of an unknown robot");
+      if (is_kept) scans_.push_back(scan);
       break;
+    }
     case TraceRecordKind::trajectory:
-      read_trajectory(in);
+      read_annotation(in, trajectories_);
       break;
     case TraceRecordKind::note:
-      read_note(in);
+      read_annotation(in, notes_);
       break;
-    case TraceRecordKind::end:
-      end_ = take_end(in, storage_, world_.robot_count);
-      reason_ = take_stored_text(in, storage_);
+    case TraceRecordKind::end: {
+      const auto read = read_fields<TraceEnd>(in, &storage_);
+      if (read.end.robot_count != world_.robot_count) in.fail("an end record with another number of robots");
+      end_ = read.end;
+      end_.struct_size = sizeof(dmrp_trial_end);
+      reason_ = read.reason;
       ended_ = true;
       break;
+    }
     default:
       throw TraceError(record.offset - 1, "the kind of the record is unknown");
   }
   if (version_ == 1 && !in.at_end()) in.fail("the record is longer than its content");
 }
 
+void TraceReader::read_world(RecordCursor& in) {
+  world_ = read_fields<TraceWorld>(in, &storage_).world;
+  world_.struct_size = sizeof(dmrp_world);
+  if (version_ > 1) return;
+  const dmrp_grid* for_people = nullptr;  // of the format's first version
+  TraceFieldReader(in, &storage_).optional_pointer(for_people);
+}
+
 void TraceReader::read_plan(RecordCursor& in) {
-  const TracePlan made = take_plan(in, storage_, world_.robot_count);
+  auto made = read_fields<TracePlan>(in, &storage_);
+  made.plan.struct_size = sizeof(dmrp_plan);
+  if (made.plan.path_count != 0 && made.plan.path_count != world_.robot_count)
+    in.fail("a plan without a path for every robot");
   if (made.plan.path_count > 0 && plan_of_revision(made.plan.revision)) in.fail("a second plan of this revision");
   plans_.push_back(made);
 }
 
-void TraceReader::read_scan(RecordCursor& in) {
-  TraceScan scan;
-  scan.t_ns = in.take<std::int64_t>();
-  scan.robot = in.take<std::uint32_t>();
-  if (scan.robot >= world_.robot_count) in.fail("a scan of an unknown robot");
-  scan.angle_min = in.take<double>();
-  scan.angle_increment = in.take<double>();
-  scan.range_min = in.take<double>();
-  scan.range_max = in.take<double>();
-  const std::uint32_t count = in.take_count(sizeof(float));
-  if (extent_ == TraceExtent::samples) {
-    in.take_bytes(count * sizeof(float));
-  } else {
-    scan.ranges = {take_stored<float>(in, storage_, count), count};
-    scans_.push_back(scan);
-  }
+template <class Annotation>
+void TraceReader::read_annotation(RecordCursor& in, std::vector<Annotation>& annotations) {
+  const bool is_kept = extent_ == TraceExtent::everything;
+  const auto annotation = read_fields<Annotation>(in, is_kept ? &storage_ : nullptr);
+  if (is_kept) annotations.push_back(annotation);
 }
 
-void TraceReader::read_trajectory(RecordCursor& in) {
-  TraceTrajectory trajectory;
-  trajectory.t_ns = in.take<std::int64_t>();
-  trajectory.source = in.take<AnnotationSource>();
-  trajectory.role = in.take<std::uint32_t>();
-  trajectory.step_ns = in.take<std::int64_t>();
-  const std::uint32_t count = in.take_count(sizeof(dmrp_pose));
-  if (extent_ != TraceExtent::everything) {
-    in.take_bytes(count * sizeof(dmrp_pose));
-  } else {
-    trajectory.poses = {take_stored<dmrp_pose>(in, storage_, count), count};
-    trajectories_.push_back(trajectory);
-  }
-}
-
-void TraceReader::read_note(RecordCursor& in) {
-  TraceNote note;
-  note.t_ns = in.take<std::int64_t>();
-  note.source = in.take<AnnotationSource>();
-  if (extent_ != TraceExtent::everything) {
-    in.take_text();
-  } else {
-    note.text = take_stored_text(in, storage_);
-    notes_.push_back(note);
-  }
-}
-
-// Decodes into sample_ and overwrites the previous sample.
+// Overwrites the previous sample.
 void TraceReader::read_sample(RecordCursor& in) {
-  sample_ = {};
+  sample_storage_.release();
+  const auto read = read_fields<TraceSample>(in, &sample_storage_);
+  sample_ = read.sample;
   sample_.struct_size = sizeof(dmrp_sample);
-  sample_.t_ns = in.take<std::int64_t>();
-  sample_.dt_ns = in.take<std::int64_t>();
-  sample_.control_tick = in.take<std::uint32_t>();
-  const auto revision = in.take<std::uint64_t>();
-  if (revision != 0) sample_.plan = plan_of_revision(revision);
-  if (revision != 0 && !sample_.plan) in.fail("the plan of the sample does not precede it");
-
-  take_into(in, robots_);
-  if (robots_.size() != world_.robot_count) in.fail("a sample with another number of robots");
-  take_into(in, people_);
-  take_into(in, contacts_);
-  std::erase_if(contacts_, [](const dmrp_contact& contact) { return !is_known(contact); });
-  for (const dmrp_contact& contact : contacts_)
-    check_contact(in, contact, world_, static_cast<std::uint32_t>(people_.size()));
-  take_calls(in, calls_);
-  for (const dmrp_call& call : calls_)
-    if (call.kind == DMRP_CALL_CONTROL && call.robot >= world_.robot_count) in.fail("a call for an unknown robot");
-
-  sample_.robots = robots_.data();
-  sample_.robot_count = static_cast<std::uint32_t>(robots_.size());
-  sample_.robot_stride = sizeof(dmrp_robot_sample);
-  sample_.people = people_.data();
-  sample_.person_count = static_cast<std::uint32_t>(people_.size());
-  sample_.person_stride = sizeof(dmrp_person);
+  if (read.plan_revision != 0) {
+    sample_.plan = plan_of_revision(read.plan_revision);
+    if (!sample_.plan) in.fail("the plan of the sample does not precede it");
+  }
+  if (sample_.robot_count != world_.robot_count) in.fail("a sample with another number of robots");
+  contacts_.clear();
+  for (const dmrp_contact& contact : std::span(sample_.contacts, sample_.contact_count)) {
+    if (!is_known(contact)) continue;
+    check_contact(in, contact, world_, sample_.person_count);
+    contacts_.push_back(contact);
+  }
   sample_.contacts = contacts_.data();
   sample_.contact_count = static_cast<std::uint32_t>(contacts_.size());
-  sample_.contact_stride = sizeof(dmrp_contact);
-  sample_.calls = calls_.data();
-  sample_.call_count = static_cast<std::uint32_t>(calls_.size());
-  sample_.call_stride = sizeof(dmrp_call);
+  for (const dmrp_call& call : std::span(sample_.calls, sample_.call_count))
+    if (call.kind == DMRP_CALL_CONTROL && call.robot >= world_.robot_count) in.fail("a call for an unknown robot");
 }
 
 const dmrp_sample* TraceReader::next_sample() {

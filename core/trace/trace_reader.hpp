@@ -8,12 +8,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory_resource>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "core/bytes/trace_bytes.hpp"
-#include "core/trace/trace_decoder.hpp"
+#include "core/trace/record_cursor.hpp"
+#include "core/trace/trace_contents.hpp"
 #include "core/trace/trace_records.hpp"
 
 namespace dmrp::core {
@@ -58,17 +59,17 @@ class TraceReader {
 
  private:
   void read_record(const TraceRecord& record);
+  void read_world(RecordCursor& in);
   void read_plan(RecordCursor& in);
   void read_sample(RecordCursor& in);
-  void read_scan(RecordCursor& in);
-  void read_trajectory(RecordCursor& in);
-  void read_note(RecordCursor& in);
+  template <class Annotation>
+  void read_annotation(RecordCursor& in, std::vector<Annotation>& annotations);
   const dmrp_plan* plan_of_revision(std::uint64_t revision) const;
 
   TraceRecords records_;
   TraceExtent extent_;
-  std::uint32_t version_ = 0;  // of the format
-  TraceStorage storage_;       // of everything that is valid as long as the reader
+  std::uint32_t version_ = 0;                    // of the format
+  std::pmr::monotonic_buffer_resource storage_;  // of everything that is valid as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
   std::vector<TraceScan> scans_;
@@ -80,10 +81,8 @@ class TraceReader {
 
   std::size_t sample_count_ = 0;
   dmrp_sample sample_{};
-  std::vector<dmrp_robot_sample> robots_;
-  std::vector<dmrp_person> people_;
-  std::vector<dmrp_contact> contacts_;
-  std::vector<dmrp_call> calls_;
+  std::pmr::monotonic_buffer_resource sample_storage_{std::size_t{1} << 16};
+  std::vector<dmrp_contact> contacts_;  // of the sample: those of known kinds
 };
 
 }  // namespace dmrp::core

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 
 #include "core/bytes/file_error.hpp"
@@ -75,6 +76,7 @@ TraceBytes& TraceSpool::last_of_kind(const std::uint8_t* prefix) {
 }
 
 void TraceSpool::write(std::span<const std::uint8_t> record) {
+  assert(!is_written_ && record.size() >= trace_record_prefix_bytes);
   const std::size_t begin = buffer_.size();
   const std::size_t words = record.size() / word_bytes;
   std::uint8_t* const header =
@@ -119,6 +121,7 @@ bool TraceSpool::fill(std::size_t bytes) {
 }
 
 std::optional<std::span<const std::uint8_t>> TraceSpool::next() {
+  assert(is_written_);
   if (!fill(header_bytes)) return std::nullopt;
   const std::size_t change_bytes = u32_at(buffer_.data() + position_ + trace_record_prefix_bytes);
   if (!fill(header_bytes + change_bytes)) throw_file_error(path_);

@@ -2,6 +2,7 @@
 #include "core/world/contact_events.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
@@ -16,6 +17,8 @@ bool is_at_fault(dmrp_vec2 velocity, dmrp_vec2 toward_other) {
 
 void ContactTracker::update(std::int64_t t_ns, const ContactBodies& bodies, std::span<const dmrp_vec2> normals,
                             std::span<dmrp_contact> contacts) {
+  assert(normals.size() == contacts.size());
+  assert(robots_.empty() || bodies.robots.size() == robots_.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     dmrp_contact& contact = contacts[i];
     const std::uint64_t b = contact.kind == DMRP_CONTACT_PERSON ? bodies.people[contact.b].id : contact.b;

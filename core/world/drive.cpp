@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
@@ -83,6 +84,7 @@ dmrp_twist clip_to_drive(const dmrp_twist& command, Drive drive, const dmrp_limi
 
 DriveState advance(const DriveState& state, const dmrp_twist& command, Drive drive, const dmrp_limits& limits,
                    double dt_s) {
+  assert(is_finite(command) && dt_s > 0.0);
   if (drive == Drive::ackermann) return advance_ackermann(state, command, limits, dt_s);
   DriveState next = state;
   next.velocity = drive == Drive::holonomic ? track_holonomic(state.velocity, command, limits, dt_s)

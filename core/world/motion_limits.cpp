@@ -2,6 +2,9 @@
 #include "core/world/motion_limits.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::core {
 namespace {
@@ -12,7 +15,12 @@ double approach(double value, double target, double step) {
 
 }  // namespace
 
+bool is_finite(const dmrp_twist& velocity) {
+  return toolkit::is_finite({velocity.v_x, velocity.v_y}) && std::isfinite(velocity.omega);
+}
+
 dmrp_twist clip_to_limits(const dmrp_twist& command, const dmrp_limits& limits) {
+  assert(is_finite(command));
   return {std::clamp(command.v_x, limits.v_min, limits.v_max), std::clamp(command.v_y, -limits.v_y_max, limits.v_y_max),
           std::clamp(command.omega, -limits.omega_max, limits.omega_max)};
 }

@@ -6,8 +6,9 @@
 
 namespace dmrp::core {
 
-// Clamps each component to the velocity limits. For differential drive (v_y_max == 0), v_y becomes 0. The command must
-// be finite.
+bool is_finite(const dmrp_twist& velocity);
+
+// Clamps each component of a finite command to the velocity limits; v_y becomes 0 for differential drive (v_y_max == 0).
 dmrp_twist clip_to_limits(const dmrp_twist& command, const dmrp_limits& limits);
 
 // The velocity after one step: as near to the command as the acceleration limits allow.

@@ -2,7 +2,7 @@
 #include "core/world/solid_motion.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -55,9 +55,12 @@ std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point
 }
 
 SolidMotion::SolidMotion(std::shared_ptr<const StaticGeometry> geometry, std::int64_t step_ns)
-    : geometry_(std::move(geometry)), max_push_m_(max_push_speed * static_cast<double>(step_ns) / 1e9) {}
+    : geometry_(std::move(geometry)), max_push_m_(max_push_speed * static_cast<double>(step_ns) / 1e9) {
+  assert(geometry_ && step_ns > 0);
+}
 
 void SolidMotion::resolve(std::span<SolidBody> bodies, std::span<SolidOutline> outlines) {
+  assert(outlines.size() <= bodies.size());
   find_neighbours(bodies);
   limit_turns(bodies, outlines);
   collect_constraints(bodies);
@@ -248,6 +251,7 @@ void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
 
 void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
                                        std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
+  assert(count <= bodies.size());
   found.clear();
   find_neighbours(bodies);
   outlines_.place(bodies, outlines);
@@ -282,6 +286,7 @@ void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::s
 
 void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
                                    std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
+  assert(count <= bodies.size());
   found.clear();
   find_neighbours(bodies);
   outlines_.place(bodies, outlines);

@@ -2,6 +2,7 @@
 #include "core/world/solid_outlines.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <utility>
@@ -20,6 +21,7 @@ dmrp_vec2 middle_of_overlap(dmrp_vec2 center, double radius_m, const Separation&
 }  // namespace
 
 void SolidOutlines::place(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines) {
+  assert(outlines.size() <= bodies.size());
   placed_.resize(outlines.size());
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     const SolidOutline& outline = outlines[i];
@@ -40,6 +42,7 @@ double SolidOutlines::growth(const Part& part, dmrp_vec2 position, dmrp_vec2 dir
 
 std::span<const Gap> SolidOutlines::to_shape(std::span<const SolidBody> bodies, std::uint32_t a,
                                              const dmrp_shape& shape) {
+  assert(!is_disc(a));
   gaps_.clear();
   const bool is_circle = shape.kind == DMRP_SHAPE_CIRCLE;
   for (const Part& part : placed_[a]) {
@@ -56,6 +59,7 @@ std::span<const Gap> SolidOutlines::to_shape(std::span<const SolidBody> bodies, 
 
 std::span<const Gap> SolidOutlines::to_border(std::span<const SolidBody> bodies, std::uint32_t a,
                                               const StaticGeometry& geometry) {
+  assert(!is_disc(a));
   gaps_.clear();
   for (const Part& part : placed_[a])
     for (const Wall& wall : walls_around(geometry, bodies[a].position)) {
@@ -70,6 +74,7 @@ std::span<const Gap> SolidOutlines::to_border(std::span<const SolidBody> bodies,
 }
 
 std::span<const Gap> SolidOutlines::between(std::span<const SolidBody> bodies, std::uint32_t a, std::uint32_t b) {
+  assert(a != b && !(is_disc(a) && is_disc(b)));
   gaps_.clear();
   if (is_disc(a)) {
     between(bodies, b, a);

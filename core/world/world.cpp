@@ -2,12 +2,14 @@
 #include "core/world/world.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/robot_task.hpp"
+#include "core/world/motion_limits.hpp"
 
 namespace dmrp::core {
 namespace {
@@ -104,7 +106,7 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
       outlines_.push_back({robot_settings(i).parts, robots_[i].pose.theta, 0.0});
   place_bodies_of_people();
   robot_agents_.resize(robots_.size());
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_goal(i);
   update_agents();
 }
 
@@ -119,6 +121,7 @@ dmrp_twist World::set_recovery_command(std::uint32_t robot, const dmrp_twist& co
 }
 
 dmrp_twist World::take_command(std::uint32_t robot, const dmrp_twist& command) {
+  assert(robot < robots_.size() && is_finite(command));
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return state.command;
   const dmrp_twist clipped = clip_to_drive(command, robot_settings(robot).drive, limits_[robot]);
@@ -144,6 +147,7 @@ void World::apply_due_commands() {
 }
 
 void World::fail(std::uint32_t robot) {
+  assert(robot < robots_.size());
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return;
   state.state = DMRP_ROBOT_FAILED;
@@ -151,12 +155,14 @@ void World::fail(std::uint32_t robot) {
 }
 
 std::span<const dmrp_contact> World::step(std::span<const dmrp_vec2> person_velocities) {
+  assert(person_velocities.size() == people().size());
+  assert(std::all_of(person_velocities.begin(), person_velocities.end(), toolkit::is_finite));
   apply_due_commands();
   propose_motion(person_velocities);
   motion_.resolve(bodies_, outlines_);
   apply_motion();
   t_ns_ += settings_.step_ns;
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_arrival(i);
+  for (std::uint32_t i = 0; i < robots_.size(); ++i) check_goal(i);
   advance_people();
   update_agents();
   find_contacts();
@@ -227,24 +233,28 @@ void World::apply_motion() {
   }
 }
 
-void World::check_arrival(std::uint32_t robot) {
+void World::check_goal(std::uint32_t robot) {
   RobotState& state = robots_[robot];
   if (state.state != DMRP_ROBOT_ACTIVE) return;
-  const dmrp_goal& goal = goals_[robot][state.goal_index];
-  if (!is_at_goal(state, goal)) {
+  if (!is_at_goal(state, goals_[robot][state.goal_index]))
     state.settling_since_ns = -1;
-    return;
-  }
-  if (state.settling_since_ns < 0) state.settling_since_ns = t_ns_;
-  if (t_ns_ - state.settling_since_ns < goal.settle_ns) return;
-  state.settling_since_ns = -1;
-  if (state.goal_index + 1 < goals_[robot].size()) {
-    ++state.goal_index;
-    return;
-  }
+  else if (state.settling_since_ns < 0)
+    state.settling_since_ns = t_ns_;
+}
+
+void World::visit(std::uint32_t robot) {
+  assert(robots_[robot].state == DMRP_ROBOT_ACTIVE && robots_[robot].goal_index + 1 < goals_[robot].size());
+  ++robots_[robot].goal_index;
+  robots_[robot].settling_since_ns = -1;
+}
+
+void World::park(std::uint32_t robot) {
+  RobotState& state = robots_[robot];
+  assert(state.state == DMRP_ROBOT_ACTIVE);
   state.state = DMRP_ROBOT_FINISHED;
-  stop(robot);
+  state.settling_since_ns = -1;
   state.arrival_ns = t_ns_;
+  stop(robot);
 }
 
 void World::advance_people() {

@@ -5,6 +5,7 @@
 #include <dmrp/pedestrian_model.h>
 #include <dmrp/sample.h>
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -48,7 +49,10 @@ class World {
 
   std::int64_t t_ns() const { return t_ns_; }
   const StaticGeometry& geometry() const { return *geometry_; }
-  const RobotSettings& robot_settings(std::uint32_t robot) const { return *settings_of_[robot]; }
+  const RobotSettings& robot_settings(std::uint32_t robot) const {
+    assert(robot < robots_.size());
+    return *settings_of_[robot];
+  }
   const SimulationSettings& settings() const { return settings_; }
 
   std::span<const RobotState> robots() const { return robots_; }
@@ -72,12 +76,16 @@ class World {
   // As set_command(); the robot may drive backwards as fast as its type allows in a recovery, until the next command.
   dmrp_twist set_recovery_command(std::uint32_t robot, const dmrp_twist& command);
 
-  // Ends the robot's task: it brakes and stays where it stops.
+  // The next goal of an active robot, which it has, becomes current.
+  void visit(std::uint32_t robot);
+
+  // Ends the robot's task: it brakes and stays where it stops. park(): at its last goal; fail(): anywhere.
+  void park(std::uint32_t robot);
   void fail(std::uint32_t robot);
 
   // One physics step. Robots follow their commands within their acceleration limits; people move at the given
   // velocities (parallel to people(), world frame, finite). Bodies stop where they would move deeper into each other,
-  // and people push people (solid_motion.hpp). Then robots arrive at goals and people at regions. Recorded people
+  // and people push people (solid_motion.hpp). Then people arrive at regions. Recorded people
   // follow their tracks, whatever their velocities: bodies in their way cannot approach them, but are not pushed.
   // Returns the contacts after the step, ordered by kind, a, b; valid until the next step.
   std::span<const dmrp_contact> step(std::span<const dmrp_vec2> person_velocities);
@@ -101,7 +109,7 @@ class World {
   void propose_motion(std::span<const dmrp_vec2> person_velocities);
   void turn(std::size_t robot);
   void apply_motion();
-  void check_arrival(std::uint32_t robot);
+  void check_goal(std::uint32_t robot);
   void advance_people();
   void update_agents();
   void update_person_agents();

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/atomic_file.hpp"

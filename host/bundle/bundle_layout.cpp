@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "host/files/sha256.hpp"
-#include "host/plugins/library.hpp"
+#include "host/program/executable.hpp"
 
 namespace dmrp::host {
 
@@ -22,11 +22,6 @@ fs::path common_folder(const fs::path& a, const fs::path& b) {
   return common;
 }
 
-bool comes_with_host(const fs::path& library) {
-  std::error_code ignored;
-  return fs::equivalent(library.parent_path(), plugin_path().back(), ignored);
-}
-
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
@@ -36,7 +31,7 @@ bool is_file(const fs::path& path) {
 
 BundleLayout::BundleLayout(const Experiment& experiment, const Manifest& manifest, bool all_libraries) {
   for (const LibraryUse& library : experiment.libraries)
-    add_library(library.file, all_libraries || !comes_with_host(library.file));
+    add_library(library.file, all_libraries || name_of_own_library(library.file).empty());
   for (const ScenarioVariant& variant : experiment.scenarios) add_scenario(variant);
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})

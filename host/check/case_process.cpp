@@ -7,7 +7,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"
 #include "host/process/box.hpp"

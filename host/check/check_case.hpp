@@ -30,4 +30,13 @@ struct CheckCase {
 // All cases, in the order in which they run. docs/plugin_check.md lists them.
 std::span<const CheckCase> check_cases();
 
+// Those of one source each: load_cases.cpp, ...
+std::span<const CheckCase> load_check_cases();
+std::span<const CheckCase> descriptor_check_cases();
+std::span<const CheckCase> parameter_check_cases();
+std::span<const CheckCase> trial_check_cases();
+std::span<const CheckCase> step_check_cases();
+std::span<const CheckCase> call_check_cases();
+std::span<const CheckCase> other_check_cases();
+
 }  // namespace dmrp::host

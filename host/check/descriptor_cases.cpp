@@ -6,7 +6,8 @@
 #include <regex>
 #include <set>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/plugins/offered_extensions.hpp"
 
@@ -123,3 +124,33 @@ void is_static(Examination& it) {
 }
 
 }  // namespace dmrp::host::descriptor_cases
+
+namespace dmrp::host {
+
+std::span<const CheckCase> descriptor_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"descriptor/id", for_all, descriptor_cases::id, "descriptor.h: id is reverse DNS",
+       "choose an id that begins with a domain of yours, as org.example.mine"},
+      {"descriptor/version", for_all, descriptor_cases::version, "descriptor.h: version is semantic",
+       "write three numbers, as 1.4.0"},
+      {"descriptor/license", for_all, descriptor_cases::license, "descriptor.h: license is an SPDX expression",
+       "name the licence as spdx.org/licenses does"},
+      {"descriptor/texts", for_all, descriptor_cases::texts, "descriptor.h: name is for display, summary is one line",
+       "say in one line what the plugin does"},
+      {"descriptor/parameters", for_all, descriptor_cases::parameters,
+       "parameter.h: keys are letters, digits and '_'; doc is one line; unit is bare",
+       "describe each parameter: users see it in `dmrp-host plugins`"},
+      {"descriptor/values", for_metrics, descriptor_cases::values,
+       "descriptor.h: a value has a unit, a description and a direction", "describe each value: reports show it"},
+      {"descriptor/flags", for_all, descriptor_cases::flags,
+       "descriptor.h: flags, values and connectivity belong to kinds of plugin", "leave 0 what is not of this kind"},
+      {"descriptor/extensions", for_all, descriptor_cases::extensions,
+       "descriptor.h: requires_ and uses list extensions by id",
+       "spell ids as the headers in dmrp/ext do, and require only what this host offers to this kind"},
+      {"descriptor/static", for_all, descriptor_cases::is_static, "descriptor.h: static data, readable before init()",
+       "do not change it at run time"},
+  };
+  return cases;
+}
+
+}  // namespace dmrp::host

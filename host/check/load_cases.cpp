@@ -10,7 +10,8 @@
 #include <regex>
 #include <tuple>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/process_state.hpp"
 #include "host/plugins/elf_file.hpp"
 #include "host/program/monotonic_time.hpp"
@@ -106,3 +107,34 @@ void init_twice(Examination& it) {
 }
 
 }  // namespace dmrp::host::load_cases
+
+namespace dmrp::host {
+
+std::span<const CheckCase> load_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"load/open", for_library, load_cases::open,
+       "entry.h: a library exports dmrp_entry_v1 of this draft, whole; init() returns DMRP_OK or DMRP_WARNING",
+       "build it with dmrp_add_plugin() against this host's SDK, and link all that it needs"},
+      {"load/exports", for_library, load_cases::exports,
+       "entry.h: dmrp_entry_v1 is the only symbol that a library exports; others may be one object with those of "
+       "another library",
+       "build with -fvisibility=hidden, put classes into an unnamed namespace, or use dmrp_add_plugin()"},
+      {"load/floating_point", for_library, load_cases::floating_point,
+       "abi.h: a plugin does not change the floating-point control bits", "build and link without -ffast-math"},
+      {"load/process_state", for_library, load_cases::process_state,
+       "abi.h: a plugin does not change the locale, working directory, signal handlers, environment or "
+       "descriptors that it did not open",
+       "leave to the host what belongs to the whole process, or set it back before the function returns"},
+      {"load/threads", for_library, load_cases::threads, "abi.h: no thread starts in a static initialiser",
+       "start threads in create() or start()"},
+      {"load/prints", for_library, load_cases::prints,
+       "host.h: log() writes to the log; standard output belongs to the host's results", "write with host->log()"},
+      {"load/time", for_library, load_cases::time, "entry.h: init() is for what all instances share",
+       "load large files when the first instance is created"},
+      {"load/init_twice", for_library, load_cases::init_twice,
+       "entry.h: a host may call init() and deinit() alone first", "free in deinit() what init() made, and no more"},
+  };
+  return cases;
+}
+
+}  // namespace dmrp::host

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/process/sanitized.hpp"
 
@@ -88,5 +89,21 @@ void own_getter(Examination& it) {
 }
 
 }  // namespace extension_cases
+
+std::span<const CheckCase> other_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"memory/leaks", for_all, memory_cases::leaks, "plugin.h: destroy() frees the instance",
+       "free in destroy() what the instance allocated (docs/debugging.md finds the place)"},
+      {"extensions/undeclared", for_all, extension_cases::undeclared,
+       "host.h: get_extension() gives NULL for what the descriptor does not declare",
+       "list the extension in uses or requires_"},
+      {"extensions/not_offered", for_all, extension_cases::not_offered,
+       "descriptor.h: uses lists extensions that it uses when available",
+       "test the pointer for NULL, or list the extension in requires_"},
+      {"extensions/own_getter", for_all, extension_cases::own_getter,
+       "plugin.h: get_extension() is an extension of the plugin by its id, or NULL", "return NULL for any other id"},
+  };
+  return cases;
+}
 
 }  // namespace dmrp::host

@@ -7,7 +7,8 @@
 #include <dmrp/toolkit/random.hpp>
 #include <optional>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/plugins/parameter_text.hpp"
 
@@ -127,3 +128,23 @@ void drawn(Examination& it) {
 }
 
 }  // namespace dmrp::host::parameter_cases
+
+namespace dmrp::host {
+
+std::span<const CheckCase> parameter_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"parameters/defaults", for_all, parameter_cases::defaults,
+       "parameter.h: create() gets the complete table, defaults filled in", "take the declared defaults"},
+      {"parameters/minimum", for_all, parameter_cases::minimum,
+       "parameter.h: the host lets through any value from minimum to maximum",
+       "raise the minimum to what the plugin can take"},
+      {"parameters/maximum", for_all, parameter_cases::maximum,
+       "parameter.h: the host lets through any value from minimum to maximum",
+       "lower the maximum to what the plugin can take"},
+      {"parameters/drawn", for_all, parameter_cases::drawn,
+       "parameter.h: the host lets through any value from minimum to maximum", "narrow the range, or take the value"},
+  };
+  return cases;
+}
+
+}  // namespace dmrp::host

@@ -8,7 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/process_state.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/symbol_hooks.hpp"
@@ -107,3 +108,18 @@ void waiting(Examination& it) {
 }
 
 }  // namespace dmrp::host::step_cases
+
+namespace dmrp::host {
+
+std::span<const CheckCase> step_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"steps/allocations", for_all, step_cases::allocations,
+       "local_controller.h: a step does not allocate without bound",
+       "forget what is no longer needed: a trial may take hours"},
+      {"steps/waiting", for_controllers, step_cases::waiting, "local_controller.h: a step does not block",
+       "read files in start(), and neither sleep nor wait in a step"},
+  };
+  return cases;
+}
+
+}  // namespace dmrp::host

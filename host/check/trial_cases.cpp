@@ -1,66 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Cases that rehearse trials: lifecycle, status, determinism, numbers, growth, should_stop, threads.
+// Cases that rehearse trials: lifecycle, status, determinism, numbers, growth.
 #include <fmt/format.h>
 
 #include <cstring>
-#include <ctime>
-#include <exception>
-#include <latch>
-#include <limits>
 #include <memory>
-#include <thread>
 #include <vector>
 
-#include "host/check/case_functions.hpp"
+#include "host/check/check_case.hpp"
+#include "host/check/examination.hpp"
 #include "host/check/process_state.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
+#include "host/check/same_outputs.hpp"
 #include "host/check/symbol_hooks.hpp"
-#include "host/process/sanitized.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-// The first difference of the outputs, to the bit; "" if there is none.
-std::string difference(const Outputs& outputs, const Outputs& expected) {
-  for (std::size_t i = 0; i < std::min(outputs.size(), expected.size()); ++i)
-    if (std::memcmp(&outputs[i], &expected[i], sizeof(double)) != 0)
-      return fmt::format("number {} of {} that it gives is {} instead of {}", i + 1, expected.size(), outputs[i],
-                         expected[i]);
-  if (outputs.size() != expected.size())
-    return fmt::format("gives {} numbers instead of {}", outputs.size(), expected.size());
-  return "";
-}
-
-void expect_same(Examination& it, const Outputs& outputs, const Outputs& expected) {
-  if (const auto timing = it.guard().timing(); !timing.empty())
-    throw Skipped{"it says that its results depend on timing: " + timing.front().text};
-  if (const std::string text = difference(outputs, expected); !text.empty()) it.fail(text);
-}
-
-// What a new instance gives.
-Outputs alone(Examination& it, std::uint64_t seed) {
-  const auto instance = it.create();
-  return rehearse(*instance, it.plugin(), {}, seed);
-}
-
 void rehearse_on(Examination& it, const StageSettings& settings) {
   const auto instance = it.create();
   rehearse(*instance, it.plugin(), settings, it.seed());
-}
-
-// Runs `function` on a thread of its own, and throws what it throws.
-void on_a_thread(const std::function<void()>& function) {
-  std::exception_ptr thrown;
-  std::thread thread([&] {
-    try {
-      function();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  });
-  thread.join();
-  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace
@@ -131,24 +90,10 @@ void ordinary_trial(Examination& it) {
 }
 
 void no_way(Examination& it) {
-  StageSettings settings;
-  settings.walled_off = true;
   const auto instance = it.create();
-  const Outputs outputs = rehearse(*instance, it.plugin(), settings, it.seed());
+  const Outputs outputs = rehearse(*instance, it.plugin(), {.walled_off = true}, it.seed());
   if (outputs.empty() || (outputs.front() != DMRP_NO_SOLUTION && outputs.front() != DMRP_TIMEOUT))
     it.fail(fmt::format("plan() returns status {} where a wall parts all robots from their goals", outputs.front()));
-}
-
-void no_plan(Examination& it) {
-  StageSettings settings;
-  settings.fails_to_plan = true;
-  rehearse_on(it, settings);
-}
-
-void nobody(Examination& it) {
-  StageSettings settings;
-  settings.robots = 0;
-  rehearse_on(it, settings);
 }
 
 }  // namespace status_cases
@@ -162,10 +107,7 @@ void same_seed(Examination& it) {
 void after_another_trial(Examination& it) {
   const Outputs expected = alone(it, it.seed());
   const auto instance = it.create();
-  StageSettings other;
-  other.robots = 2;
-  other.people = 3;
-  rehearse(*instance, it.plugin(), other, it.seed() + 7);
+  rehearse(*instance, it.plugin(), {.robots = 2, .people = 3}, it.seed() + 7);
   it.at("a trial after another");
   expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
 }
@@ -194,49 +136,6 @@ void leaping_clocks(Examination& it) {
 
 }  // namespace determinism_cases
 
-namespace number_cases {
-
-void nobody_near(Examination& it) {
-  StageSettings settings;
-  settings.people = 0;
-  settings.robots = 1;
-  rehearse_on(it, settings);
-}
-
-void crowd(Examination& it) {
-  StageSettings settings;
-  settings.people = 1000;
-  settings.is_large = true;
-  settings.ticks = 2;
-  rehearse_on(it, settings);
-}
-
-void goal_at_start(Examination& it) {
-  StageSettings settings;
-  settings.starts_at_goal = true;
-  rehearse_on(it, settings);
-}
-
-void one_waypoint(Examination& it) {
-  StageSettings settings;
-  settings.by_waypoint = true;
-  rehearse_on(it, settings);
-}
-
-void far_away(Examination& it) {
-  StageSettings settings;
-  settings.corner_m = 1e6;
-  rehearse_on(it, settings);
-}
-
-void headings(Examination& it) {
-  StageSettings settings;
-  settings.goals_have_headings = true;
-  rehearse_on(it, settings);
-}
-
-}  // namespace number_cases
-
 namespace growth_cases {
 
 namespace {
@@ -247,148 +146,85 @@ constexpr std::uint32_t grown_bytes = 24;
 
 void longer_structs(Examination& it) {
   const Outputs expected = alone(it, it.seed());
-  StageSettings settings;
-  settings.grown_bytes = grown_bytes;
   const auto instance = it.create();
   it.at(fmt::format("with structs and strides that are {} bytes longer", grown_bytes));
-  expect_same(it, rehearse(*instance, it.plugin(), settings, it.seed()), expected);
+  expect_same(it, rehearse(*instance, it.plugin(), {.grown_bytes = grown_bytes}, it.seed()), expected);
 }
 
 void longer_host(Examination& it) {
   const Outputs expected = alone(it, it.seed());
-  StageSettings settings;
-  settings.grown_extension_bytes = grown_bytes;
   it.at(fmt::format("with a dmrp_host, parameters, sinks and extensions that are {} bytes longer", grown_bytes));
   const auto instance = it.create(it.defaults(), it.guard(), grown_bytes);
-  expect_same(it, rehearse(*instance, it.plugin(), settings, it.seed()), expected);
+  expect_same(it, rehearse(*instance, it.plugin(), {.grown_extension_bytes = grown_bytes}, it.seed()), expected);
 }
 
 }  // namespace growth_cases
 
-namespace should_stop_cases {
-
-namespace {
-
-constexpr std::int64_t most_asks_after = 10'000;  // in one call, once the host has said stop
-
-StageSettings with_much_to_do() {
-  StageSettings settings;
-  settings.is_large = true;
-  settings.robots = 16;
-  settings.people = 60;
-  settings.ticks = 4;
-  return settings;
+std::span<const CheckCase> trial_check_cases() {
+  static constexpr CheckCase cases[] = {
+      {"lifecycle/create_and_destroy", for_all, lifecycle_cases::create_and_destroy,
+       "plugin.h: destroy() may follow create() at once; instances come and go",
+       "free in destroy() what create() made, and no more"},
+      {"lifecycle/start_and_destroy", for_all, lifecycle_cases::start_and_destroy,
+       "plugin.h: destroy() is allowed after any status but DMRP_FATAL, also amid a trial",
+       "do not touch the world or extensions in destroy()"},
+      {"lifecycle/start_after_start", for_all, lifecycle_cases::start_after_start,
+       "plugin.h: start() begins a trial; an earlier one must not influence it",
+       "set every member in start() that a trial changes"},
+      {"lifecycle/interleaved", for_all, lifecycle_cases::interleaved,
+       "abi.h: results do not depend on other instances in the process",
+       "keep in the instance what now is static or global"},
+      {"lifecycle/process_state", for_all, lifecycle_cases::process_state,
+       "abi.h: a plugin does not change the locale, working directory, signal handlers, environment or "
+       "descriptors that it did not open",
+       "leave to the host what belongs to the whole process, or set it back before the function returns"},
+      {"status/ordinary_trial", for_all, status_cases::ordinary_trial,
+       "status.h: which statuses a function may return; outputs are valid after DMRP_OK",
+       "return DMRP_OK where the task can be done, and no status that the table does not list"},
+      {"status/no_way", for_planners, status_cases::no_way,
+       "global_planner.h: DMRP_NO_SOLUTION where a goal cannot be reached",
+       "return DMRP_NO_SOLUTION: it is an answer, not an error"},
+      {"status/no_plan", for_metrics, [](Examination& it) { rehearse_on(it, {.fails_to_plan = true}); },
+       "metric.h: every declared name gets a value, whatever happened in the trial; plan is NULL if there is none",
+       "give NaN for what is undefined without a plan"},
+      {"status/no_robots", for_people | for_metrics, [](Examination& it) { rehearse_on(it, {.robots = 0}); },
+       "metric.h: a trial without robots has samples of people alone", "give NaN for what is undefined without robots"},
+      {"determinism/same_seed", for_all, determinism_cases::same_seed,
+       "plugin.h: the same seed gives the same results, to the bit",
+       "draw from dmrp/toolkit/random.hpp with the seed of start(); read no clock"},
+      {"determinism/after_another_trial", for_all, determinism_cases::after_another_trial,
+       "plugin.h: a trial gives the same results whatever ran before",
+       "set every member in start() that a trial changes"},
+      {"determinism/in_another_place", for_all, determinism_cases::in_another_place,
+       "abi.h: results do not depend on addresses", "initialise all memory, and order nothing by address or hash"},
+      {"determinism/leaping_clocks", for_all, determinism_cases::leaping_clocks,
+       "abi.h: results do not depend on clocks",
+       "bound the work by counts, not by time; ask should_stop() for the limit of time; a plugin that cannot says so "
+       "with draft/timing.h"},
+      {"numbers/nobody_near", for_all, [](Examination& it) { rehearse_on(it, {.robots = 1, .people = 0}); },
+       "observation.h: agents may be none", "divide by no count that may be zero"},
+      {"numbers/crowd", for_controllers | for_people | for_metrics,
+       [](Examination& it) { rehearse_on(it, {.people = 1000, .is_large = true, .ticks = 2}); },
+       "observation.h, pedestrian_model.h, sample.h: any number of agents and people", "have no arrays of fixed size"},
+      {"numbers/goal_at_start", for_all, [](Examination& it) { rehearse_on(it, {.starts_at_goal = true}); },
+       "path.h: a path may be one waypoint; a robot may stand at its goal",
+       "take a path without a segment, and divide by no length that may be zero"},
+      {"numbers/one_waypoint", for_controllers, [](Examination& it) { rehearse_on(it, {.by_waypoint = true}); },
+       "local_controller.h: with dispatch = \"waypoint\" the path is a single waypoint",
+       "approach a single waypoint like a goal"},
+      {"numbers/far_away", for_all, [](Examination& it) { rehearse_on(it, {.corner_m = 1e6}); },
+       "values.h: coordinates are metres in the world frame, wherever its corner lies",
+       "compute with differences of positions, in doubles"},
+      {"numbers/headings", for_all, [](Examination& it) { rehearse_on(it, {.goals_have_headings = true}); },
+       "path.h, robot.h: theta may be a heading, or NaN for any", "test std::isnan(theta) before it is used"},
+      {"growth/longer_structs", for_all, growth_cases::longer_structs,
+       "abi.h: structs and array elements may be longer than the plugin knows",
+       "access array elements with DMRP_AT, and compare no struct_size with =="},
+      {"growth/longer_host", for_all, growth_cases::longer_host,
+       "abi.h: dmrp_host, parameters, sinks and extensions may be longer than the plugin knows",
+       "access params->values with DMRP_AT, copy none of these structs, and compare no struct_size with =="},
+  };
+  return cases;
 }
-
-// The most that calls at one time ask.
-std::int64_t most_asks(Examination& it, const StageSettings& settings) {
-  const auto instance = it.create();
-  std::int64_t most = 0;
-  Rehearsal rehearsal(*instance, it.plugin(), settings, it.seed());
-  for (bool goes_on = true; goes_on;) {
-    const std::int64_t before = it.guard().asks();
-    goes_on = rehearsal.advance();
-    most = std::max(most, it.guard().asks() - before);
-  }
-  return most;
-}
-
-std::int64_t cpu_ns_of_this_thread() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
-}
-
-// A trial in which should_stop() says stop from an ask on, in each call.
-void stop_at(Examination& it, std::int64_t ask) {
-  it.guard().stop_after_asks(ask);
-  it.at(ask == 0 ? "stopped at the first ask" : fmt::format("stopped after {} asks", ask));
-  std::int64_t most = most_asks(it, {});
-  if (most == 0) most = most_asks(it, with_much_to_do());
-  if (most == 0) throw Skipped{"it does not ask should_stop(), neither here nor with 16 robots in a hall of 60 x 50 m"};
-  if (most > ask + most_asks_after)
-    it.fail(fmt::format("asks should_stop() {} times in a call after it was told to stop", most - ask));
-}
-
-}  // namespace
-
-void first_ask(Examination& it) {
-  stop_at(it, 0);
-}
-
-void later_ask(Examination& it) {
-  stop_at(it, 5);
-}
-
-// Finds plugins that ask rarely or never, not those that ask a little late: time of the processor, which other programs hardly change,
-// and two hundred times what the contract allows, since machines differ.
-void often(Examination& it) {
-  constexpr std::int64_t most_ns = 200'000'000;
-  if (sanitizer_is_loaded()) throw Skipped{"a sanitizer changes how long it computes"};
-  it.guard().stop_after_asks(std::numeric_limits<std::int64_t>::max());  // counts them
-  const auto instance = it.create();
-  Rehearsal rehearsal(*instance, it.plugin(), with_much_to_do(), it.seed());
-  std::int64_t longest_ns = 0;
-  for (bool goes_on = true; goes_on;) {
-    const std::int64_t asks_before = it.guard().asks();
-    const std::int64_t before_ns = cpu_ns_of_this_thread();
-    goes_on = rehearsal.advance();
-    const std::int64_t asks = it.guard().asks() - asks_before;
-    longest_ns = std::max(longest_ns, (cpu_ns_of_this_thread() - before_ns) / (asks + 1));
-  }
-  if (longest_ns > most_ns)
-    it.warn(fmt::format("computes for {} ms on average between two asks, with 16 robots in a hall of 60 x 50 m",
-                        longest_ns / 1'000'000));
-}
-
-}  // namespace should_stop_cases
-
-namespace thread_cases {
-
-void moves_between_threads(Examination& it) {
-  const Outputs expected = alone(it, it.seed());
-  const auto instance = it.create();
-  std::unique_ptr<Rehearsal> rehearsal;
-  it.at("each call on another thread");
-  on_a_thread([&] { rehearsal = std::make_unique<Rehearsal>(*instance, it.plugin(), StageSettings(), it.seed()); });
-  bool goes_on = true;
-  while (goes_on) on_a_thread([&] { goes_on = rehearsal->advance(); });
-  expect_same(it, rehearsal->outputs(), expected);
-}
-
-void concurrent_instances(Examination& it) {
-  const Outputs of_first = alone(it, it.seed());
-  const Outputs of_second = alone(it, it.seed() + 1);
-  const auto note = std::make_unique<CallNote>();
-  CallGuard second_guard(*note);
-  const auto first = it.create();
-  const auto second = it.create(it.defaults(), second_guard);
-  Outputs second_outputs;
-  std::exception_ptr thrown;
-  it.at("two instances at the same time");
-  std::latch both_run(2);
-  std::thread thread([&] {
-    both_run.arrive_and_wait();
-    try {
-      second_outputs = rehearse(*second, it.plugin(), {}, it.seed() + 1);
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  });
-  both_run.arrive_and_wait();
-  Outputs first_outputs;
-  try {
-    first_outputs = rehearse(*first, it.plugin(), {}, it.seed());
-  } catch (...) {
-    thread.join();
-    throw;
-  }
-  thread.join();
-  if (thrown) std::rethrow_exception(thrown);
-  expect_same(it, first_outputs, of_first);
-  expect_same(it, second_outputs, of_second);
-}
-
-}  // namespace thread_cases
 
 }  // namespace dmrp::host

@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "host/commands/bundle_run.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/read_file.hpp"
@@ -20,6 +21,12 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct BundleOptions {
+  fs::path source;            // a run directory or an experiment
+  fs::path out;               // empty: NAME-bundle
+  bool with_plugins = false;  // copies those that come with dmrp-host, too
+};
 
 // Into a new database: one file, without what a killed run has left in a log beside it. It needs no log when it is read,
 // also from a folder that cannot be written.
@@ -91,6 +98,8 @@ void bundle_run(const fs::path& run, const fs::path& out, bool with_plugins) {
   });
 }
 
+namespace {
+
 int bundle_command(const BundleOptions& options) {
   if (std::error_code ignored; !fs::is_directory(options.source, ignored)) {
     bundle_experiment(options);
@@ -101,6 +110,20 @@ int bundle_command(const BundleOptions& options) {
   bundle_run(options.source, folder, options.with_plugins);
   fmt::print("{0}: run it by dmrp-host {0}/experiment.toml, compare by dmrp-host verify {0}\n", folder.string());
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_bundle(CLI::App& app) {
+  const auto options = std::make_shared<BundleOptions>();
+  CLI::App* command = app.add_subcommand("bundle", "write a folder that repeats a run or an experiment elsewhere");
+  command->add_option("source", options->source, "run directory, or experiment file")
+      ->required()
+      ->type_name("RUN_DIR|EXPERIMENT.toml");
+  command->add_option("--out", options->out, "folder to create (default: NAME-bundle)")->type_name("DIR");
+  command->add_flag("--with-plugins", options->with_plugins, "copy the libraries that come with dmrp-host, too");
+  finish_command(command, "dmrp-host bundle runs/quickstart --out quickstart-bundle",
+                 [options] { return bundle_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -6,14 +6,21 @@
 #include <nlohmann/json.hpp>
 
 #include "host/check/check_library.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/plugins/library.hpp"
 #include "host/program/version.hpp"
 
 namespace dmrp::host {
 
 namespace {
+
+struct CheckOptions {
+  std::string library;
+  std::string only;  // a regular expression; empty: all cases
+  std::uint64_t seed = 1;
+  bool json = false;
+};
 
 std::string counts_text(const CheckCounts& counts) {
   std::string out;
@@ -72,8 +79,6 @@ nlohmann::ordered_json to_json(const CheckedCase& checked) {
   return json;
 }
 
-}  // namespace
-
 int check_command(const CheckOptions& options) {
   const CheckChoice choice = {library_to_open(options.library), options.only, options.seed};
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
@@ -101,6 +106,19 @@ int check_command(const CheckOptions& options) {
   const bool found = counts[static_cast<std::size_t>(CheckResult::fail)] > 0 ||
                      counts[static_cast<std::size_t>(CheckResult::crash)] > 0;
   return found ? exit_status::findings : exit_status::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand("check", "test a plugin library against its contract");
+  command->add_option("library", options->library, "plugin library")->required()->type_name("LIB.so");
+  command->add_option("--only", options->only, "only cases whose \"ID GROUP/CASE\" matches this regular expression")
+      ->type_name("REGEX");
+  command->add_option("--seed", options->seed, "seed of all trials")->type_name("N")->capture_default_str();
+  command->add_flag("--json", options->json, "print JSON: all cases, also those that passed");
+  finish_command(command, "dmrp-host check ./libmine.so", [options] { return check_command(*options); });
 }
 
 }  // namespace dmrp::host

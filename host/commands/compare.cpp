@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/compare/comparison_data.hpp"
 #include "host/compare/run_comparison.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
+#include "host/ranking/paired_test.hpp"
 #include "host/report/report_page.hpp"
 #include "host/terminal/display_width.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -19,6 +20,13 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct CompareOptions {
+  std::vector<fs::path> runs;        // at least two; each is compared with the first
+  std::vector<std::string> metrics;  // empty: those that the report compares
+  std::vector<std::string> fail_if;  // "success < -0.02"
+  fs::path report;                   // empty: no page is written
+};
 
 // What is compared: the metrics that the report compares, those of its answer, and those of conditions.
 std::vector<std::string> metrics_of(const CompareOptions& options, const ReportLayouts& layouts,
@@ -70,12 +78,14 @@ void print_row(const MetricComparison& one, std::size_t name_width) {
     return;
   }
   const int decimals = decimals_of(one);
-  std::string difference = change_words(one.difference, decimals);
-  if (!std::isnan(one.interval.low))
+  const bool few = one.seeds < fewest_observations && !std::isnan(one.p);  // NaN: no pair differs
+  std::string difference =
+      few ? fmt::format("too few ({})", plural(one.seeds, "seed")) : change_words(one.difference, decimals);
+  if (!few && !std::isnan(one.interval.low))
     difference +=
         fmt::format(" [{}, {}]", change_words(one.interval.low, decimals), change_words(one.interval.high, decimals));
   fmt::print("  {}  {:>6}  {:>9.{}f}  {:>9.{}f}  {:>28}  {:>8}\n", pad_right(name, name_width), one.pairs, one.before,
-             decimals, one.after, decimals, difference, p_words(one.p_holm));
+             decimals, one.after, decimals, difference, few ? "–" : p_words(one.p_holm));
 }
 
 void print_comparison(const RunComparison& comparison, const fs::path& before, const fs::path& after) {
@@ -109,8 +119,6 @@ int judge_conditions(const RunComparison& comparison, std::span<const FailCondit
   return status;
 }
 
-}  // namespace
-
 int compare_command(const CompareOptions& options) {
   check_output_file("--report", options.report);
   std::vector<FailCondition> conditions;
@@ -138,6 +146,31 @@ int compare_command(const CompareOptions& options) {
     write_output("--report", options.report,
                  report_page(shared_data_path() / "report", "compare", comparison_data_json(compared, layouts), {}));
   return status;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* command = app.add_subcommand("compare", "compare runs of the same trials, each with the first");
+  command->add_option("runs", options->runs, "run directories: before and after a change")
+      ->required()
+      ->expected(2, 1000)
+      ->type_name("RUN_DIR");
+  command->add_option("--metric", options->metrics, "metrics (default: those that the report compares)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  command
+      ->add_option(
+          "--fail-if", options->fail_if,
+          "exit with 1 if the interval of the metric's difference lies beyond this, with 4 if the trials cannot "
+          "decide")
+      ->allow_extra_args(false)
+      ->type_name("\"METRIC < X\"");
+  command->add_option("--report", options->report, "write the comparison as a page, by combination, too")
+      ->type_name("FILE.html");
+  finish_command(command, "dmrp-host compare runs/before runs/after --fail-if \"success < -0.02\"",
+                 [options] { return compare_command(*options); });
 }
 
 }  // namespace dmrp::host

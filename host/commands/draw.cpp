@@ -11,8 +11,8 @@
 #include "core/scene/planning_grids.hpp"
 #include "core/scene/robot_task.hpp"
 #include "core/tasks/task_difficulty.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/commands/figure_file.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
@@ -25,6 +25,20 @@
 namespace dmrp::host {
 
 namespace {
+
+struct DrawOptions {
+  std::string scenario;
+  std::uint32_t agents = 0;  // random robots that replace the scenario's; 0: keep the scenario's
+  std::uint64_t seed = 1;
+  std::optional<std::uint32_t> conflicts_min;  // of random robots (core/tasks/task_generator.hpp), as the next two
+  std::optional<std::uint32_t> conflicts_max;
+  bool in_corridors = false;
+  std::string planner;                // id; empty: no plan
+  std::vector<std::string> plugins;   // libraries, in addition to the plugin path
+  std::vector<std::string> settings;  // key=value for the planner
+  std::filesystem::path svg;          // empty: standard output; also a .png or .pdf
+  std::filesystem::path png;          // instead of `svg`
+};
 
 constexpr double wall_height_m = 2.0;    // lower shapes are furniture
 constexpr double left_margin_px = 36.0;  // for the coordinates
@@ -154,8 +168,6 @@ std::optional<PlannedPaths> plan_once(const Experiment& experiment) {
   return std::move(answer.paths);
 }
 
-}  // namespace
-
 int draw_command(const DrawOptions& options) {
   check_output_file("--svg", options.svg);
   check_output_file("--png", options.png);
@@ -187,6 +199,33 @@ int draw_command(const DrawOptions& options) {
   write_figure(options.png.empty() ? "--svg" : "--png", options.png.empty() ? options.svg : options.png,
                picture.document());
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_draw(CLI::App& app) {
+  const auto options = std::make_shared<DrawOptions>();
+  CLI::App* command = app.add_subcommand("draw", "draw a scenario, optionally with planned paths");
+  command->add_option("scenario", options->scenario, "a shipped scenario, or the path of a scenario.toml")->required();
+  command->add_option("--agents", options->agents, "draw N random robots, as plan does, instead of the listed ones")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  command->add_option("--conflicts-min", options->conflicts_min, "tasks of --agents with so many conflicts at least")
+      ->type_name("N");
+  command->add_option("--conflicts-max", options->conflicts_max, "tasks of --agents with so many conflicts at most")
+      ->type_name("N");
+  command->add_flag("--in-corridors", options->in_corridors, "count conflicts on cells with one lane alone");
+  command->add_option("--planner", options->planner, "draw the paths of this global planner")->type_name("ID");
+  command->add_option("--plugin", options->plugins, "additional plugin library")->type_name("LIB.so");
+  command->add_option("--set", options->settings, "parameter of the planner")->type_name("KEY=VALUE");
+  command->add_option("--seed", options->seed, "seed of random robots and of randomised planners")
+      ->type_name("N")
+      ->capture_default_str();
+  CLI::Option* svg = command->add_option("--svg", options->svg, "output file (default: standard output)");
+  svg->type_name("FILE");
+  command->add_option("--png", options->png, "output file, by rsvg-convert")->type_name("FILE.png")->excludes(svg);
+  finish_command(command, "dmrp-host draw mall --agents 8 --svg mall.svg",
+                 [options] { return draw_command(*options); });
 }
 
 }  // namespace dmrp::host

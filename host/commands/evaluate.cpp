@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/evaluate/evaluation.hpp"
 #include "host/evaluate/measure_process.hpp"
@@ -19,6 +19,12 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct EvaluateOptions {
+  EvaluationChoice choice;
+  std::vector<std::uint64_t> trials;  // empty: all
+  fs::path csv;                       // empty: standard output
+};
 
 void print_note(const std::string& line) {
   fmt::print(stderr, "{}\n", line);
@@ -100,8 +106,6 @@ void write_values(CsvWriter& csv, std::uint64_t trial, const std::vector<MetricV
   }
 }
 
-}  // namespace
-
 int evaluate_command(const EvaluateOptions& options) {
   check_output_file("--csv", options.csv);
   const std::vector<TrialRecord> trials = chosen_trials(options);
@@ -125,6 +129,30 @@ int evaluate_command(const EvaluateOptions& options) {
        }});
   write_output("--csv", options.csv, csv.text());
   return failures ? exit_status::faults : exit_status::done;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* command = app.add_subcommand("evaluate", "measure the stored traces of a run, as CSV");
+  command->add_option("run", options->choice.run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--metric", options->choice.metric, "metric (default: all metrics of the run and of --plugin)")
+      ->type_name("ID");
+  command->add_option("--plugin", options->choice.plugins, "additional plugin library, searched before the run's")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+  command->add_option("--set", options->choice.settings, "parameter of the metric (default: as in the run)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--params-file", options->choice.parameter_file,
+                   "parameters of the metric: a file, or the name of a shipped set")
+      ->type_name("FILE");
+  command->add_option("--trial", options->trials, "measure only this trial")->type_name("N")->allow_extra_args(false);
+  command->add_option("--csv", options->csv, "output file (default: standard output)")->type_name("FILE");
+  finish_command(command, "dmrp-host evaluate runs/quickstart --csv values.csv",
+                 [options] { return evaluate_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/trace/trace_reader.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/commands/figure_file.hpp"
 #include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
@@ -23,6 +23,21 @@
 
 namespace dmrp::host {
 namespace {
+
+enum class ExportFormat { latex, csv, table, svg, thresholds, map };
+constexpr const char* own_table = "own";
+
+struct ExportOptions {
+  std::filesystem::path run_directory;
+  ExportFormat format = ExportFormat::latex;
+  std::vector<std::string> rows;     // labels; empty with the others: the tables of the report
+  std::vector<std::string> columns;  // labels
+  std::vector<std::string> metrics;
+  std::string table;            // table: one of the report's, or own_table, of rows, columns and metrics
+  std::string over = "robots";  // svg: what the metric is drawn over
+  std::uint64_t trial = 0;      // map: the trial
+  std::filesystem::path out;    // empty: standard output; figures also to a .png or .pdf
+};
 
 std::vector<Label> labels_of(const char* option, const std::vector<std::string>& names) {
   std::vector<Label> labels;
@@ -113,8 +128,6 @@ bool is_figure(ExportFormat format) {
          format == ExportFormat::map;
 }
 
-}  // namespace
-
 int export_command(const ExportOptions& options) {
   check_output_file("--out", options.out);
   if (options.format == ExportFormat::map) {
@@ -142,6 +155,55 @@ int export_command(const ExportOptions& options) {
   else
     write_output("--out", options.out, text);
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = app.add_subcommand("export", "write results for papers and other programs");
+  command->add_option("run", options->run_directory, "run directory")->required()->type_name("RUN_DIR");
+  CLI::Option_group* formats = command->add_option_group("format");
+  const auto format = [&](const char* name, ExportFormat value, const char* about) {
+    return formats->add_flag_callback(
+        name, [options, value] { options->format = value; }, about);
+  };
+  format("--latex", ExportFormat::latex, "tables with booktabs: those of the report, or one of --rows and --columns");
+  format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
+  CLI::Option* svg = format("--svg", ExportFormat::svg, "one --metric over --over, as lines with 95 % intervals");
+  format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as an SVG figure");
+  formats
+      ->add_option_function<std::uint64_t>(
+          "--map",
+          [options](const std::uint64_t& trial) {
+            options->format = ExportFormat::map;
+            options->trial = trial;
+          },
+          "the map of this trial with the robots' plans and ways, as an SVG figure")
+      ->type_name("TRIAL");
+  formats
+      ->add_option_function<std::string>(
+          "--table",
+          [options](const std::string& name) {
+            options->format = ExportFormat::table;
+            options->table = name;
+          },
+          "a table of the report as an SVG figure: plans, driving, ...; own: one of --rows and --columns")
+      ->type_name("NAME");
+  formats->require_option(1);
+  command->add_option("--rows", options->rows, "scenario, robots, planner, controller, people")->delimiter(',');
+  command->add_option("--columns", options->columns, "the same, across")->delimiter(',');
+  command->add_option("--metric", options->metrics, "only these metrics")->delimiter(',')->type_name("NAME");
+  command->add_option("--over", options->over, "robots, or a parameter or setting as --csv names it")
+      ->needs(svg)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command
+      ->add_option("--out", options->out,
+                   "output file (default: standard output); figures also as .pdf and .png, by rsvg-convert")
+      ->type_name("FILE");
+  finish_command(command, "dmrp-host export runs/quickstart --latex --out tables.tex",
+                 [options] { return export_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/commands/figure_file.hpp"
 
-#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +12,7 @@
 
 #include "host/commands/command_output.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
 
 namespace dmrp::host {
 
@@ -62,9 +61,7 @@ void write_figure(const char* option, const fs::path& file, std::string_view svg
   if (ending == ".png") arguments.insert(arguments.end(), {"--zoom", "2"});  // legible when printed
   arguments.insert(arguments.end(), {"--output", converted.path.string(), drawing.path.string()});
   run_converter(std::move(arguments));
-  std::error_code failed;
-  fs::rename(converted.path, file, failed);
-  if (failed) throw_path_error(fmt::format("{} {}", option, file.string()), failed);
+  write_output(option, file, read_file(converted.path, converted.path.string()));
 }
 
 }  // namespace dmrp::host

@@ -10,7 +10,7 @@
 #include <optional>
 #include <system_error>
 
-#include "host/commands/commands.hpp"
+#include "host/commands/command.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
@@ -28,6 +28,11 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct MergeOptions {
+  fs::path out;
+  std::vector<fs::path> runs;
+};
 
 struct Part {
   RunDirectory directory;
@@ -100,9 +105,9 @@ void check_whole(const std::vector<Part>& parts) {
                                  missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
-Manifest joined_manifest(const std::vector<Part>& parts, const std::vector<std::string>& command_line) {
+Manifest joined_manifest(const std::vector<Part>& parts) {
   Manifest manifest = parts.front().manifest;
-  manifest.command_line = command_line;
+  manifest.command_line = command_line();
   manifest.experiment.shard = {};
   manifest.not_repeatable.clear();
   for (const Part& part : parts) {
@@ -148,9 +153,7 @@ void append_log(const Part& part, const fs::path& out) {
   if (!(to << from.rdbuf() << std::flush)) throw std::system_error(errno, std::generic_category(), out / "log.txt");
 }
 
-}  // namespace
-
-int merge_command(const MergeOptions& options, const std::vector<std::string>& command_line) {
+int merge_command(const MergeOptions& options) {
   std::vector<Part> parts;
   for (const fs::path& path : options.runs) parts.push_back(read_part(path));
   for (const Part& part : parts) check_same(parts.front(), part);
@@ -161,7 +164,7 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
   const RunDirectory made = RunDirectory::make(options.out, "");
   const fs::path& out = made.path();
 
-  const Manifest manifest = joined_manifest(parts, command_line);
+  const Manifest manifest = joined_manifest(parts);
   write_file_atomically(out / "experiment.toml", parts.front().experiment);
   write_file_atomically(out / "effective.toml", parts.front().effective);
   write_file_atomically(out / "manifest.json", to_json_text(manifest));
@@ -180,6 +183,17 @@ int merge_command(const MergeOptions& options, const std::vector<std::string>& c
     fmt::print(stderr, "{} of {} trials are finished: continue with --resume --out {}\n", results.trials.size(),
                manifest.experiment.trials_planned, out.string());
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app) {
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = app.add_subcommand("merge", "join runs of parts of one experiment (--shard)");
+  command->add_option("out", options->out, "run directory to create")->required()->type_name("OUT");
+  command->add_option("runs", options->runs, "run directories")->required()->type_name("RUN_DIR");
+  finish_command(command, "dmrp-host merge runs/whole runs/part_0 runs/part_1",
+                 [options] { return merge_command(*options); });
 }
 
 }  // namespace dmrp::host

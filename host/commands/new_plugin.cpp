@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/files/read_file.hpp"
@@ -21,6 +21,12 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct NewOptions {
+  std::string kind;  // a folder of the templates
+  std::string id;    // of the new plugin
+  fs::path folder;
+};
 
 constexpr const char* common_files = "common";
 
@@ -80,10 +86,10 @@ struct Names {
   std::string file_name;
 
   std::string in(const std::string& text) const {
-    // the id in two steps: it may contain the template's own name
-    const std::string marked = replaced(text, "org.example.my_plugin", "\x01");
+    // id and prefix in two steps: they may contain the template's own names
+    const std::string marked = replaced(replaced(text, "org.example.my_plugin", "\x01"), "my_prefix", "\x02");
     const std::string named = replaced(replaced(marked, "my_plugin", file_name), "my_kind", replaced(kind, "-", " "));
-    return replaced(named, "\x01", id);
+    return replaced(replaced(named, "\x02", installation_path().string()), "\x01", id);
   }
 };
 
@@ -115,8 +121,6 @@ void check_folder(const fs::path& folder) {
   if (!fs::is_empty(folder)) throw InputError("dmrp-host new: " + folder.string() + " is not empty");
 }
 
-}  // namespace
-
 int new_command(const NewOptions& options) {
   const fs::path templates = shared_data_path() / "templates";
   check_kind(options.kind, template_kinds(templates));
@@ -137,6 +141,24 @@ int new_command(const NewOptions& options) {
   fmt::print("  cd {} && cmake -S . -B build && cmake --build build && ctest --test-dir build\n",
              options.folder.string());
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app) {
+  const auto options = std::make_shared<NewOptions>();
+  CLI::App* command = app.add_subcommand("new", "write the folder of a new plugin, which builds at once");
+  command->add_option("kind", options->kind, "planner, controller, pedestrian-model or metric")
+      ->required()
+      ->type_name("KIND");
+  command->add_option("--id", options->id, "id of the plugin, under a domain of yours: org.example.mine")
+      ->required()
+      ->type_name("ID");
+  command->add_option("folder", options->folder, "folder to create; an empty one may be there")
+      ->required()
+      ->type_name("DIR");
+  finish_command(command, "dmrp-host new planner --id org.example.mine mine",
+                 [options] { return new_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/maps/drawn_tasks.hpp"
@@ -22,6 +22,22 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct PlanOptions {
+  fs::path map;  // either a MovingAI map, its tasks and a number of agents
+  fs::path tasks;
+  std::uint32_t agents = 0;
+  std::uint32_t drawn = 0;  // or so many tasks drawn on the map
+  std::string scenario;     // or a scenario: a name, or the path of a scenario.toml; `agents` then draws robots
+  std::string planner;      // id
+  std::vector<std::string> plugins;
+  std::vector<std::string> settings;
+  double time_limit_s = 60.0;
+  std::int64_t memory_mb = 4096;  // 0: no limit
+  std::uint64_t seed = 1;
+  fs::path paths;  // CSV; empty: none
+  bool json = false;
+};
 
 // Tolerates the rounding of sums in another order.
 constexpr double same_cost = 1e-6;
@@ -183,8 +199,6 @@ void print_text(const Outcome& outcome, const std::string& heading) {
   print_line("memory", fmt::format("{:.1f} MB", outcome.peak_rss_mb));
 }
 
-}  // namespace
-
 int plan_command(const PlanOptions& options) {
   check_task_options(options);
   check_output_file("--paths", options.paths);
@@ -218,6 +232,51 @@ int plan_command(const PlanOptions& options) {
                                     options.map.empty() ? experiment.scenarios[0].label : options.map.stem().string(),
                                     plural(task->problem.c.robot_count, "robot")));
   return is_fault(outcome) ? exit_status::faults : exit_status::done;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* command = app.add_subcommand("plan", "plan once, and print cost, time and memory");
+  command->add_option("--map", options->map, "MovingAI map; cells are 1 m wide, robots have radius 0")
+      ->type_name("M.map");
+  command->add_option("--scen", options->tasks, "MovingAI tasks on the map")->type_name("S.scen");
+  command->add_option("--agents", options->agents, "use the first N tasks; with --scenario: draw N random robots")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  command->add_option("--draw", options->drawn, "instead of --scen and --agents: draw N tasks on the map")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  command
+      ->add_option("--scenario", options->scenario,
+                   "instead of a map: a shipped scenario, or the path of a scenario.toml")
+      ->type_name("NAME");
+  command->add_option("--planner", options->planner, "global planner")->required()->type_name("ID");
+  command->add_option("--plugin", options->plugins, "additional plugin library")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+  command->add_option("--set", options->settings, "parameter of the planner")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--time-limit", options->time_limit_s, "time budget of plan(), in seconds of wall time")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--memory-limit", options->memory_mb, "memory of the planner's process in MB; 0: no limit")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
+      ->type_name("MB")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of random robots and tasks, and of randomised planners")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--paths", options->paths, "write the paths as CSV: agent,t,x,y in cells, y from the top")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "print the figures as JSON");
+  finish_command(command,
+                 "dmrp-host plan --scenario mall \\\n"
+                 "    --planner org.example.mine --plugin ./libmine.so",
+                 [options] { return plan_command(*options); });
 }
 
 }  // namespace dmrp::host

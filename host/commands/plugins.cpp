@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/commands/plugins_json.hpp"
 #include "host/commands/plugins_markdown.hpp"
 #include "host/errors/input_error.hpp"
@@ -17,6 +17,12 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct PluginsOptions {
+  std::vector<std::string> libraries;  // empty: all libraries of the plugin path
+  bool json = false;
+  bool markdown = false;
+};
 
 void print_plugin(const PluginInfo& info) {
   fmt::print("  {}  {} {}  ({})\n", info.id, info.name, info.version, kind_name(info.kind));
@@ -36,12 +42,10 @@ void print_plugin(const PluginInfo& info) {
   }
 }
 
-}  // namespace
-
-int plugins_command(const std::vector<std::string>& named, PluginsFormat format) {
+int plugins_command(const PluginsOptions& options) {
   std::vector<fs::path> files;
-  for (const std::string& name : named) files.push_back(library_to_open(name));
-  if (named.empty()) files = libraries_of_plugin_path();
+  for (const std::string& name : options.libraries) files.push_back(library_to_open(name));
+  if (files.empty()) files = libraries_of_plugin_path();
 
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const fs::path& file : files) {
@@ -53,21 +57,33 @@ int plugins_command(const std::vector<std::string>& named, PluginsFormat format)
     }
     if (!probe.init_error.empty()) probe.warnings.push_back(probe.init_error);
     for (const std::string& warning : probe.warnings) warn(file.string() + ": " + warning);
-    if (format == PluginsFormat::json) {
+    if (options.json) {
       nlohmann::ordered_json plugins = nlohmann::ordered_json::array();
       for (const PluginInfo& info : probe.plugins) plugins.push_back(plugin_as_json(info));
       all.push_back({{"library", file.string()}, {"plugins", std::move(plugins)}});
       continue;
     }
-    if (format == PluginsFormat::markdown) {
+    if (options.markdown) {
       fmt::print("{}", plugins_markdown(file.filename().string(), probe.plugins));
       continue;
     }
     fmt::print("{}\n", file.string());
     for (const PluginInfo& info : probe.plugins) print_plugin(info);
   }
-  if (format == PluginsFormat::json) fmt::print("{}\n", all.dump(2));
+  if (options.json) fmt::print("{}\n", all.dump(2));
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_plugins(CLI::App& app) {
+  const auto options = std::make_shared<PluginsOptions>();
+  CLI::App* command = app.add_subcommand("plugins", "list the plugins of libraries, with their parameters");
+  command->add_option("libraries", options->libraries, "libraries (default: all libraries of the plugin path)")
+      ->type_name("LIB.so");
+  CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
+  command->add_flag("--markdown", options->markdown, "print a reference page in Markdown")->excludes(json);
+  finish_command(command, "dmrp-host plugins libdmrp_planners.so", [options] { return plugins_command(*options); });
 }
 
 }  // namespace dmrp::host

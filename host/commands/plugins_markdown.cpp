@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "host/plugins/parameter_text.hpp"
 
@@ -12,70 +14,40 @@ namespace dmrp::host {
 
 namespace {
 
-// A bar would end the table's cell.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c;
-  }
-  return out;
-}
-
 std::string unit_of(const std::string& unit) {
-  return unit == "1" || unit.empty() ? "" : unit;
+  return unit == "1" ? "" : unit;
 }
 
-const char* better(const MetricValueSpec& value) {
-  return value.direction == DMRP_DIRECTION_LOWER ? "lower" : value.direction == DMRP_DIRECTION_HIGHER ? "higher" : "";
-}
-
-std::string given_for(const MetricValueSpec& value) {
-  std::string out = "system";
-  if (value.subjects & 1u << DMRP_SUBJECT_ROBOT) out += ", robots";
-  if (value.subjects & 1u << DMRP_SUBJECT_PEDESTRIAN) out += ", people";
-  if (value.curve) out += "; a curve";
-  if (value.wall_clock) out += "; wall clock";
-  return out;
-}
-
-// The anchor that GitHub gives a heading.
-std::string anchor_of(const std::string& heading) {
-  std::string out;
-  for (const char c : heading) {
-    if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_') out += c;
-    if (c == ' ') out += '-';
-  }
-  return out;
-}
-
-void append_index(std::string& out, const std::vector<PluginInfo>& plugins) {
-  if (std::all_of(plugins.begin(), plugins.end(), [](const PluginInfo& info) { return info.values.empty(); })) return;
-  out += "| value | unit | better | of |\n| --- | --- | --- | --- |\n";
-  for (const PluginInfo& info : plugins)
-    for (const MetricValueSpec& value : info.values)
-      out += fmt::format("| `{}` | {} | {} | [{}](#{}) |\n", value.name, unit_of(value.unit), better(value), info.name,
-                         anchor_of(info.name));
-  out += "\n";
+// " (m; lower; robots)": unit, better direction, subjects beside the system.
+std::string about(const MetricValueSpec& value) {
+  std::vector<std::string> parts;
+  if (!unit_of(value.unit).empty()) parts.push_back(value.unit);
+  if (value.direction == DMRP_DIRECTION_LOWER) parts.emplace_back("lower");
+  if (value.direction == DMRP_DIRECTION_HIGHER) parts.emplace_back("higher");
+  if (value.subjects & 1u << DMRP_SUBJECT_ROBOT) parts.emplace_back("robots");
+  if (value.subjects & 1u << DMRP_SUBJECT_PEDESTRIAN) parts.emplace_back("people");
+  if (value.curve) parts.emplace_back("a curve");
+  if (value.wall_clock) parts.emplace_back("wall clock");
+  return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
 }
 
 void append_values(std::string& out, const PluginInfo& info) {
-  if (info.values.empty()) return;
-  out += "| value | unit | better | given for | formula |\n| --- | --- | --- | --- | --- |\n";
   for (const MetricValueSpec& value : info.values)
-    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", value.name, unit_of(value.unit), better(value),
-                       given_for(value), cell(value.description));
-  out += "\n";
+    out += fmt::format("- `{}`{}: {}\n", value.name, about(value), value.description);
+  if (!info.values.empty()) out += "\n";
 }
 
 void append_parameters(std::string& out, const PluginInfo& info) {
   if (info.parameters.empty()) return;
-  out += "| parameter | type | default | unit | range | |\n| --- | --- | --- | --- | --- | --- |\n";
-  for (const ParameterSpec& spec : info.parameters)
-    out +=
-        fmt::format("| `{}` | {} | `{}` | {} | {} | {} |\n", spec.fallback.key, parameter_type_name(spec.fallback.type),
-                    cell(toml_text(spec.fallback)), unit_of(spec.unit), cell(parameter_range(spec)), cell(spec.doc));
+  out += "Parameters:\n\n";
+  for (const ParameterSpec& spec : info.parameters) {
+    std::string range = parameter_range(spec);
+    const std::string unit = unit_of(spec.unit);
+    if (!range.empty() && !unit.empty()) range += " ";
+    range += unit;
+    if (!range.empty()) range = " (" + range + ")";
+    out += fmt::format("- `{} = {}`{}: {}\n", spec.fallback.key, toml_text(spec.fallback), range, spec.doc);
+  }
   out += "\n";
 }
 
@@ -93,11 +65,13 @@ std::string parameter_range(const ParameterSpec& spec) {
 
 std::string plugins_markdown(const std::string& library, const std::vector<PluginInfo>& plugins) {
   std::string out = fmt::format("<!-- dmrp-host plugins --markdown {} -->\n\n", library);
-  append_index(out, plugins);
+  if (std::any_of(plugins.begin(), plugins.end(), [](const PluginInfo& info) { return !info.values.empty(); }))
+    out += "Values: `name` (unit; better direction; whose, beside the system's): formula.\n";
+  out += "Parameters: `name = default` (range, unit): meaning.\n\n";
   for (const PluginInfo& info : plugins) {
-    out += fmt::format("## {}\n\n`{}` ({}): {}.\n", info.name, info.id, kind_name(info.kind), info.summary);
-    if (!info.source.empty()) out += fmt::format("Source: {}.\n", info.source);
-    out += "\n";
+    out += fmt::format("## {}\n\n`{}`", info.name, info.id);
+    if (info.values.empty()) out += ": " + info.summary;  // formulas say more
+    out += info.source.empty() ? ".\n\n" : fmt::format(". Source: {}.\n\n", info.source);
     append_values(out, info);
     append_parameters(out, info);
   }

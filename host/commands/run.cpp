@@ -5,8 +5,9 @@
 #include <csignal>
 #include <cstdio>
 
+#include "host/commands/bundle_run.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
@@ -17,6 +18,7 @@
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
+#include "host/run/debug_trial.hpp"
 #include "host/run/run_description.hpp"
 #include "host/run/run_directory.hpp"
 #include "host/run/run_results.hpp"
@@ -28,6 +30,20 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct RunOptions {
+  fs::path experiment;
+  fs::path out;  // empty: runs/NAME, or runs/NAME-2, ...
+  unsigned jobs = default_jobs();
+  bool resume = false;
+  bool retry_faults = false;  // resume: trials with faults, too
+  std::string shard;          // "I/N"; empty: the whole
+  std::uint32_t trials = 0;   // 0: as the file says
+  bool quiet = false;
+  bool json = false;                      // results as JSON, without progress
+  fs::path bundle;                        // to be written afterwards; empty: none
+  std::optional<std::uint64_t> debugged;  // this trial alone
+};
 
 // "quickstart · mall · 4 robots, 12 people · 3 trials"
 std::string heading(const Experiment& experiment, std::size_t trials) {
@@ -127,9 +143,8 @@ void complete_manifest(const fs::path& directory, std::span<const TrialRecord> t
   write_file_atomically(directory / "manifest.json", to_json_text(manifest));
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options, const std::vector<std::string>& command_line) {
+int run_command(const RunOptions& options) {
+  if (options.debugged) return debug_trial(options.experiment, options.trials, *options.debugged);
   signal(SIGPIPE, SIG_IGN);  // results are kept although nobody reads what is printed
   check_new_bundle(options.bundle);
   const Experiment experiment = load_experiment(options.experiment, options.trials);
@@ -140,9 +155,10 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
-  const Shard& shard = options.shard;
+  Shard shard;
+  if (!options.shard.empty()) std::sscanf(options.shard.c_str(), "%lu/%lu", &shard.index, &shard.count);
   const std::uint64_t in_shard = PlannedTrials(shard.index, shard.count, count, {}).all();
-  const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line));
+  const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line()));
   ResultsDatabase database = ResultsDatabase::open(files.database());
   PlannedTrials trials(shard.index, shard.count, count,
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
@@ -179,6 +195,50 @@ int run_command(const RunOptions& options, const std::vector<std::string>& comma
   const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
                                   [](const TrialRecord& trial) { return !trial.faults.empty(); });
   return faults ? exit_status::faults : exit_status::done;
+}
+
+std::string check_shard(const std::string& text) {
+  unsigned long index = 0;
+  unsigned long count = 0;
+  const bool plain = text.find_first_not_of("0123456789/") == std::string::npos;  // no sign, no space
+  char rest = 0;
+  if (plain && std::sscanf(text.c_str(), "%lu/%lu%c", &index, &count, &rest) == 2 && index < count) return "";
+  return "needs I/N with 0 <= I < N";
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "run an experiment (also: dmrp-host EXPERIMENT.toml)");
+  command->add_option("experiment", options->experiment, "experiment file")->required()->type_name("EXPERIMENT.toml");
+  command->add_option("--out", options->out, "run directory (default: runs/NAME, or runs/NAME-2, ... if taken)")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "worker processes (default: one per core)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  CLI::Option* resume =
+      command->add_flag("--resume", options->resume, "continue the run in --out: run only the trials that it lacks");
+  command->add_flag("--retry-faults", options->retry_faults, "with --resume: run trials with faults again, too")
+      ->needs(resume);
+  command
+      ->add_option("--shard", options->shard,
+                   "run only the trials k with k mod N = I; merge joins the parts (docs/cluster.md)")
+      ->check(check_shard)
+      ->type_name("I/N");
+  command->add_option("--trials", options->trials, "repetitions of each combination; overrides the file")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("K");
+  CLI::Option* quiet = command->add_flag("--quiet", options->quiet, "print neither progress nor results");
+  command->add_flag("--json", options->json, "print the results as JSON, and no progress")->excludes(quiet);
+  command->add_option("--bundle", options->bundle, "then write a folder that repeats the run elsewhere (see bundle)")
+      ->type_name("DIR");
+  command
+      ->add_option("--debug", options->debugged, "run this trial alone, in this process, without limits: for debuggers")
+      ->excludes(resume)
+      ->type_name("TRIAL");
+  finish_command(command, "dmrp-host run examples/quickstart.toml --out runs/quickstart",
+                 [options] { return run_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <system_error>
 
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/results/database.hpp"
 #include "host/run/run_description.hpp"
@@ -22,6 +22,13 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct VerifyOptions {
+  fs::path directory;       // of a run, or a bundle of one
+  std::size_t trials = 10;  // at most
+  std::uint64_t seed = 1;   // chooses the trials and their order
+  unsigned jobs = default_jobs();
+};
 
 // A folder for this time, deleted at the end.
 class TemporaryFolder {
@@ -106,8 +113,6 @@ bool is_same_experiment(const Manifest& before, const Manifest& now, const fs::p
   return keys.empty();
 }
 
-}  // namespace
-
 int verify_command(const VerifyOptions& options) {
   const fs::path& directory = options.directory;
   const RunDirectory locked = RunDirectory::open_finished(directory, directory.string());
@@ -138,6 +143,28 @@ int verify_command(const VerifyOptions& options) {
   else
     fmt::print("{}: {} of {} differ\n", directory.string(), different, plural(trials.size(), "trial"));
   return different == 0 ? exit_status::done : exit_status::different;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  const auto options = std::make_shared<VerifyOptions>();
+  CLI::App* command = app.add_subcommand("verify", "run some trials again, and compare them to the bit");
+  command->add_option("directory", options->directory, "run directory, or bundle of one")
+      ->required()
+      ->type_name("RUN_DIR|BUNDLE");
+  command->add_option("--trials", options->trials, "number of trials, drawn at random; all if there are fewer")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->type_name("K")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the draw, and of the order")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "worker processes (default: one per core)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  finish_command(command, "dmrp-host verify runs/quickstart --trials 2",
+                 [options] { return verify_command(*options); });
 }
 
 }  // namespace dmrp::host

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/trace/trace_reader.hpp"
+#include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/commands/commands.hpp"
 #include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/video/encoder.hpp"
@@ -15,6 +15,12 @@
 
 namespace dmrp::host {
 namespace {
+
+struct VideoOptions {
+  std::filesystem::path run_directory;
+  std::uint64_t trial = 0;
+  std::filesystem::path out;  // its ending is the format
+};
 
 constexpr int width_px = 960;
 constexpr int height_px = 720;
@@ -41,8 +47,6 @@ std::size_t encode(core::TraceReader& trace, const std::filesystem::path& out, V
   return frames;
 }
 
-}  // namespace
-
 int video_command(const VideoOptions& options) {
   const std::optional<VideoFormat> format = video_format(options.out);
   if (!format) throw InputError(fmt::format("--out {}: ends in none of .mp4, .gif, .webm", options.out.string()));
@@ -55,6 +59,18 @@ int video_command(const VideoOptions& options) {
   fmt::print("{}: {} frames, {:.1f} s\n", options.out.string(), frames,
              static_cast<double>(frames) / frames_a_second(*format));
   return exit_status::done;
+}
+
+}  // namespace
+
+void add_video(CLI::App& app) {
+  const auto options = std::make_shared<VideoOptions>();
+  CLI::App* command = app.add_subcommand("video", "make a video of a trial, by ffmpeg");
+  command->add_option("run", options->run_directory, "run directory")->required()->type_name("RUN_DIR");
+  command->add_option("--trial", options->trial, "trial with a recorded trace")->required()->type_name("TRIAL");
+  command->add_option("--out", options->out, "output file: .mp4, .gif or .webm")->required()->type_name("FILE");
+  finish_command(command, "dmrp-host video runs/quickstart --trial 0 --out trial.mp4",
+                 [options] { return video_command(*options); });
 }
 
 }  // namespace dmrp::host

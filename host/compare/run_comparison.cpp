@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -22,8 +21,6 @@
 
 namespace dmrp::host {
 namespace {
-
-constexpr std::uint32_t least_seeds_to_fail = 6;  // fewer give no p below 5 %
 
 // A crowd and a task, under a seed.
 using Situation = std::tuple<std::string, std::uint32_t, std::uint64_t>;
@@ -247,7 +244,7 @@ Verdict judge(const FailCondition& condition, const MetricComparison& comparison
   const bool whole = condition.below ? interval.high < condition.limit : interval.low > condition.limit;
   const bool part = condition.below ? interval.low < condition.limit : interval.high > condition.limit;
   if (!part) return Verdict::holds;
-  return whole && comparison.seeds >= least_seeds_to_fail ? Verdict::fails : Verdict::undecided;
+  return whole && comparison.seeds >= fewest_observations ? Verdict::fails : Verdict::undecided;
 }
 
 }  // namespace dmrp::host

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <system_error>
 
 #include "host/errors/input_error.hpp"
@@ -178,10 +177,13 @@ class EvaluationPlanner {
     for (const std::string& difference : differences(before, now))
       evaluation_.warnings.push_back("changed since the run: " + difference);
     for (const LibraryUse& library : libraries_of_run_) {
-      const auto recorded = std::find_if(before.files.begin(), before.files.end(), [&](const HashedFile& file) {
-        return file.role == "plugin library" && file.path == library.written;
+      // by name: the library of an installation stands elsewhere
+      const bool same = std::any_of(before.files.begin(), before.files.end(), [&](const HashedFile& file) {
+        return file.role == "plugin library" &&
+               std::filesystem::path(file.path).filename() == library.file.filename() &&
+               file.code == code_digest(library.file);
       });
-      if (recorded == before.files.end() || recorded->code != code_digest(library.file))
+      if (!same)
         evaluation_.warnings.push_back(
             fmt::format("{} has changed since the run: values may differ from the run's", library.file.string()));
     }

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/people/first_places.hpp"

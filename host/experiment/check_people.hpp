@@ -2,7 +2,6 @@
 // check_people.hpp: checks the flows and recordings of a scenario against its walls.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 
 #include "core/scene/planning_grids.hpp"

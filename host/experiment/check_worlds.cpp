@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/scene/footprint.hpp"
 #include "core/scene/footprint_grid.hpp"

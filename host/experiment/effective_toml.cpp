@@ -7,6 +7,8 @@
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/plugins/parameter_text.hpp"
+#include "host/program/executable.hpp"
+#include "host/scenario/find_scenario.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/toml/toml_text.hpp"
 
@@ -24,6 +26,12 @@ std::string value_text(const ParameterValue& value, const FileName& name) {
   std::error_code ignored;
   if (value.type != DMRP_PARAM_PATH || !std::filesystem::is_regular_file(value.text, ignored)) return toml_text(value);
   return toml_text(name(value.text));
+}
+
+// What comes with the host by its name alone, unless it has a name of its own: every installation finds its own.
+std::string name_anywhere(const std::filesystem::path& file, const std::string& shipped_name, const FileName& name) {
+  const std::string given = name(file);
+  return given != file || shipped_name.empty() ? given : shipped_name;
 }
 
 void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses, const FileName& name) {
@@ -81,7 +89,8 @@ void write_scenarios(std::string& out, const std::vector<ScenarioVariant>& scena
         robots += fmt::format(", {}", robot_count(scenarios[i + 1]));
       robots = "[" + robots + "]";
     }
-    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(name(variant.file)), robots);
+    const std::string use = name_anywhere(variant.file, name_of_shipped_scenario(variant.file), name);
+    out += fmt::format("\n[[scenario]]\nuse    = {}\nrobots = {}\n", toml_text(use), robots);
     if (variant.most_drawn > 0) out += fmt::format("tasks  = {}\n", tasks_text(variant.wishes));
     write_shares(out, variant);
     if (!variant.grade.series.empty()) out += fmt::format("levels = [{}]\n", toml_text(variant.grade.level));
@@ -103,7 +112,8 @@ std::string effective_toml(const Experiment& experiment, const FileName& name) {
   out += fmt::format("name    = {}\nseed    = {}\ntrials  = {}\n", toml_text(experiment.name), experiment.seed,
                      experiment.trials);
   std::vector<std::string> libraries;
-  for (const LibraryUse& library : experiment.libraries) libraries.push_back(name(library.file));
+  for (const LibraryUse& library : experiment.libraries)
+    libraries.push_back(name_anywhere(library.file, name_of_own_library(library.file), name));
   out += "plugins = " + toml_text(libraries) + "\n";
   write_scenarios(out, without_settings_sweep(experiment), name);
   write_uses(out, DMRP_KIND_GLOBAL_PLANNER, experiment.global_planners, name);

@@ -27,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_trials = 1'000'000;
+constexpr std::uint64_t max_trials_in_all = 10'000'000;
 constexpr std::int64_t max_seed = std::numeric_limits<std::int64_t>::max();
 const std::vector<TomlKey> header_keys = {{"name"},
                                           {"seed", range_text(0, max_seed)},
@@ -96,6 +97,16 @@ void resolve_types(std::vector<ScenarioUse>& uses, Experiment& experiment) {
   mistakes.end();
 }
 
+void check_number_of_trials(const TomlTable& root, const Experiment& experiment) {
+  const std::uint64_t count = combinations(experiment).size();
+  if (count * experiment.trials <= max_trials_in_all) return;
+  const TomlTable header = *root.find_table("experiment");
+  const std::string text = fmt::format("{} trials of {} combinations are {}, and an experiment has at most {}",
+                                       experiment.trials, count, count * experiment.trials, max_trials_in_all);
+  const auto trials = header.find("trials");  // unless the command line alone has it
+  trials ? trials->fail(text) : header.fail(text);
+}
+
 // Something must be left of what the experiment compares.
 void check_left(const TomlTable& root, Experiment& experiment) {
   if (experiment.unloadable.empty()) return;
@@ -153,7 +164,7 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 TomlKeys root_keys() {
   TomlKeys root = {
       "",
-      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
+      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"ending"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
   return root;
@@ -240,7 +251,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   // Checks of what belongs together, as far as it has been read.
   mistakes.attempt([&] { check_processes(root, experiment); });
-  if (has_settings) mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
+  const bool has_worlds =
+      has_settings && mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
+  if (has_worlds) mistakes.attempt([&] { check_number_of_trials(root, experiment); });
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   mistakes.end();

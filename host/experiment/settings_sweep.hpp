@@ -2,7 +2,6 @@
 // settings_sweep.hpp: `sweep = { ... }` of [simulation], [recovery] and [robot].
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/scene/settings.hpp"

@@ -8,9 +8,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "host/errors/mistakes.hpp"
 #include "host/scenario/robot_tables.hpp"
@@ -130,6 +128,10 @@ void read_recovery(const TomlTable& table, core::RecoverySettings& recovery) {
   table.read(readers);
 }
 
+Settings ending_settings(core::SimulationSettings& to) {
+  return {choice("oscillation", to.oscillation_fails, {"metric", "fails"})};
+}
+
 Settings record_settings(Experiment& experiment) {
   return {choice("traces", experiment.traces, {"all", "failed", "none"}), boolean("scans", experiment.scans),
           boolean("annotations", experiment.annotations)};
@@ -186,6 +188,9 @@ void read_world_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("recovery")) read_recovery(*table, experiment.simulation.recovery);
   });
   mistakes.attempt([&] {
+    if (const auto table = root.find_table("ending")) table->read(readers_of(ending_settings(experiment.simulation)));
+  });
+  mistakes.attempt([&] {
     if (const auto table = root.find_table("robot")) read_robot_table(*table, experiment.robot, {"sweep"});
   });
   mistakes.attempt([&] { experiment.robot_types = read_robot_types(root, experiment.robot); });
@@ -208,6 +213,7 @@ std::vector<TomlKeys> settings_keys() {
   Experiment unused;
   std::vector<TomlKeys> keys = {keys_of("[simulation]", simulation_settings(unused.simulation)),
                                 keys_of("[recovery]", recovery_settings(unused.simulation.recovery)),
+                                keys_of("[ending]", ending_settings(unused.simulation)),
                                 keys_of("[record]", record_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
@@ -242,8 +248,8 @@ std::string settings_text(const Experiment& experiment) {
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
   return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + robots +
-         "\n[record]\n" + lines_of(record_settings(copy), 11) + "\n[limits]\n" +
-         lines_of(limits_settings(copy.limits), 17);
+         "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
+         lines_of(record_settings(copy), 11) + "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
 }
 
 }  // namespace dmrp::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// settings_tables.hpp: the tables [simulation], [recovery], [robot], [record] and [limits] of an experiment file: one list of keys
+// settings_tables.hpp: the tables [simulation], [recovery], [ending], [robot], [record] and [limits] of an experiment file: one list of keys
 // for reading and writing.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-// Reads [simulation], [recovery], [robot] and [robot_type.NAME]. Throws InputError.
+// Reads [simulation], [recovery], [ending], [robot] and [robot_type.NAME]. Throws InputError.
 void read_world_settings(const TomlTable& root, Experiment& experiment);
 
 // Reads [record] and [limits]. Throws InputError.

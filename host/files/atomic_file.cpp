@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -23,9 +24,22 @@ void write_all(int descriptor, std::string_view content) {
   }
 }
 
+// A file, or nothing: a device, a pipe or a link stays, and is written into.
+bool is_replaced(const std::filesystem::path& path) {
+  const auto status = std::filesystem::symlink_status(path);
+  return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
+void write_in_place(const std::filesystem::path& path, std::string_view content) {
+  std::ofstream out(path, std::ios::binary);
+  out << content << std::flush;
+  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
+}
+
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  if (!is_replaced(path)) return write_in_place(path, content);
   std::string beside = path.string() + ".XXXXXX";
   const int descriptor = ::mkstemp(beside.data());
   if (descriptor < 0) throw std::system_error(errno, std::generic_category(), path.string());

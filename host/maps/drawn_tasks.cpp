@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <dmrp/toolkit/random.hpp>
 
 #include "host/errors/input_error.hpp"

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/dll/shared_library.hpp>
-#include <cstring>
 #include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"
@@ -34,13 +32,6 @@ std::string loader_message(const std::exception& error, const std::filesystem::p
   // Boost says "... (dlerror system message: WHY): Bad file descriptor [system:9]" whatever the reason
   if (const auto end = text.rfind("): "); end != std::string::npos) text.erase(end);
   return text;
-}
-
-// Whether the library is one of the host's own: ids that begin with "dmrp." are theirs.
-bool is_built_in(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(file.parent_path(), executable_path().parent_path() / "../lib/dmrp/plugins",
-                                     ignored);
 }
 
 dmrp_entry copy_entry(const dmrp_entry& theirs) {
@@ -100,7 +91,7 @@ void Library::read_descriptors(const std::function<void(const std::string&)>& st
   if (stage) stage("plugin_count()");
   const std::uint32_t count = entry_.plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
-  const bool built_in = is_built_in(file_);
+  const bool built_in = !name_of_own_library(file_).empty();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (stage) stage(fmt::format("descriptor({})", i));
     const dmrp_descriptor* descriptor = entry_.descriptor(i);

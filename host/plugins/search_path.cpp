@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "host/errors/input_error.hpp"
 #include "host/plugins/elf_file.hpp"

@@ -17,7 +17,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "host/process/landlock.hpp"

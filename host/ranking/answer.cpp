@@ -8,7 +8,6 @@
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "host/ranking/measures.hpp"
 #include "host/ranking/paired_test.hpp"
 
 namespace dmrp::host {
@@ -109,6 +108,8 @@ Answer answer_of(const Contest& contest, const Measures& measures) {
     answer.observations = std::max(answer.observations, answer.ranking[i].against[0].observations);
   }
   answer.needed = needed(answer);
+  if (answer.in_general && answer.observations >= least_for_needed && answer.criteria.front().share)
+    answer.pairs = pairs_apart(contest, measures);
   answer.siblings = measures.siblings();
   for (std::size_t i = 0; i < answer.siblings.size(); ++i) add_flips(answer, i);
   return answer;
@@ -122,7 +123,7 @@ std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricC
   if (measures.criteria().empty()) return {};
   std::vector<Answer> found;
   const auto add = [&](const std::function<bool(const CombinationLabels&)>& included) {
-    const Contest contest = make_contest(trials, measures.ways(), Contestants::planners_and_controllers, included);
+    const Contest contest = make_contest(trials, Contestants::planners_and_controllers, included);
     if (contest.contestants.size() > 1) found.push_back(answer_of(contest, measures));
     return contest.cells;
   };

@@ -11,6 +11,7 @@
 #include "core/statistics/bootstrap.hpp"
 #include "host/ranking/contest.hpp"
 #include "host/ranking/measures.hpp"
+#include "host/ranking/pairs_apart.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/system_values.hpp"
 
@@ -61,6 +62,7 @@ struct Answer {
   std::vector<RankedCombination> ranking;  // the best first
   std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
   std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
+  PairsApart pairs;                        // of combinations; none of fewer than ten tasks
 
   // Observations that would show a difference of 5 points in the first criterion, from the largest deviation among
   // combinations that are not told apart. None below ten observations, or where nothing deviates.

@@ -129,6 +129,18 @@ std::string flip_line(const Answer& answer) {
   return fmt::format("The order depends on whose fault contacts are: {}.", fmt::join(by_sibling, "; "));
 }
 
+// Whether these tasks can tell the combinations apart; "" where too few tasks were met.
+std::string tasks_line(const Answer& answer) {
+  if (answer.pairs.pairs == 0) return "";
+  double mean = 0.0;
+  for (const RankedCombination& one : answer.ranking) mean += one.means[0] / static_cast<double>(answer.ranking.size());
+  if (mean < least_mean_share || mean > most_mean_share)
+    return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
+                       mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
+  if (answer.pairs.pairs == 1) return "";  // the line about the first tells
+  return fmt::format("The tasks tell {} of {} pairs of combinations apart.", answer.pairs.apart, answer.pairs.pairs);
+}
+
 // With n pairs no p is below 2^(1 - n), and Holm multiplies the least one by the number of tests.
 std::uint64_t least_observations(const Answer& answer) {
   double tests = 0.0;
@@ -168,6 +180,7 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
       lines.push_back(causes);
   }
   if (!answer.flips.empty()) lines.push_back(flip_line(answer));
+  if (const std::string tasks = tasks_line(answer); !tasks.empty()) lines.push_back(tasks);
   if (const std::uint64_t least = least_observations(answer); answer.observations < least)
     lines.push_back(fmt::format("{} cannot tell so many combinations apart: it takes at least {}.",
                                 observed(answer, answer.observations), least));

@@ -122,12 +122,10 @@ std::vector<CombinationLabels> groups_of(std::span<const TrialRecord> trials, Co
 std::vector<BestMark> best_marks(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                                  std::span<const TrialRecord> trials, Contestants contestants) {
   const Marker marker(layout, metrics, trials);
-  const RobotValues ways = robot_values(trials, layout.answer.way_length);
   std::vector<BestMark> marks;
   for (const CombinationLabels& group : groups_of(trials, contestants)) {
-    const Contest contest = make_contest(trials, ways, contestants, [&](const CombinationLabels& labels) {
-      return group_of(labels, contestants) == group;
-    });
+    const Contest contest = make_contest(
+        trials, contestants, [&](const CombinationLabels& labels) { return group_of(labels, contestants) == group; });
     for (std::size_t metric = 0; metric < metrics.size(); ++metric)
       if (const auto best = marker.best(contest, metric)) {
         CombinationLabels labels = group;

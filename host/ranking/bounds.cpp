@@ -159,8 +159,8 @@ void add_places(const Bounds& bounds, const SummaryLayout& layout, std::span<con
                        fmt::format("from {} (0) to {} (1) in {}", bounds.lower, bounds.upper, column.words), true});
   for (CombinationSummary& summary : summaries) {
     const CombinationLabels& labels = summary.combination;
-    const Contest contest = make_contest(
-        trials, measures.ways(), Contestants::planners_and_controllers, [&](const CombinationLabels& other) {
+    const Contest contest =
+        make_contest(trials, Contestants::planners_and_controllers, [&](const CombinationLabels& other) {
           return other.scenario == labels.scenario && other.robots == labels.robots &&
                  other.pedestrian_model == labels.pedestrian_model && other.global_planner == labels.global_planner;
         });

@@ -33,35 +33,32 @@ class Situations {
  public:
   explicit Situations(Contest& contest) : contest_(contest) {}
 
-  std::size_t of(const TrialRecord& trial, const std::vector<std::optional<double>>& ways) {
+  std::size_t of(const TrialRecord& trial) {
     const std::size_t cell = index_in(contest_.cells, cell_of(trial));
     const auto [found, added] = index_.try_emplace({cell, trial.seed}, contest_.situations.size());
     if (added) {
       contest_.situations.push_back({cell, trial.seed, 0});
       worlds_.push_back(world_name(trial));
-      ways_.emplace_back();
+      tasks_.emplace_back();
     }
-    std::vector<double>& known = ways_[found->second];
-    if (known.empty())
-      for (const std::optional<double>& way : ways)
-        if (way) known.push_back(*way);
+    if (!trial.task.empty()) tasks_[found->second] = trial.task;
     return found->second;
   }
 
   void number_tasks() {
-    std::map<std::pair<std::string, std::vector<double>>, std::size_t> tasks;
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      if (!ways_[i].empty()) contest_.tasks_known = true;
-      contest_.situations[i].task = tasks.try_emplace({worlds_[i], ways_[i]}, tasks.size()).first->second;
+    std::map<std::pair<std::string, std::string>, std::size_t> numbers;
+    for (std::size_t i = 0; i < tasks_.size(); ++i) {
+      if (!tasks_[i].empty()) contest_.tasks_known = true;
+      contest_.situations[i].task = numbers.try_emplace({worlds_[i], tasks_[i]}, numbers.size()).first->second;
     }
-    contest_.tasks = tasks.size();
+    contest_.tasks = numbers.size();
   }
 
  private:
   Contest& contest_;
   std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> index_;
   std::vector<std::string> worlds_;  // by situation, as the next
-  std::vector<std::vector<double>> ways_;
+  std::vector<std::string> tasks_;
 };
 
 bool met_all_cells(const Contest& contest, const std::vector<std::vector<std::size_t>>& trials) {
@@ -85,7 +82,7 @@ RobotValues robot_values(std::span<const TrialRecord> trials, const std::string&
   return values;
 }
 
-Contest make_contest(std::span<const TrialRecord> trials, const RobotValues& way_lengths, Contestants contestants,
+Contest make_contest(std::span<const TrialRecord> trials, Contestants contestants,
                      const std::function<bool(const CombinationLabels&)>& included) {
   Contest contest;
   Situations situations(contest);
@@ -93,7 +90,7 @@ Contest make_contest(std::span<const TrialRecord> trials, const RobotValues& way
     const TrialRecord& trial = trials[i];
     if (trial.robots == 0 || trial.outcome == trial_outcome::skipped || !included(combination_of(trial))) continue;
     const std::size_t contestant = index_in(contest.contestants, contestant_of(trial, contestants));
-    const std::size_t situation = situations.of(trial, way_lengths[i]);
+    const std::size_t situation = situations.of(trial);
     contest.trials.resize(contest.contestants.size());
     contest.trials[contestant].resize(std::max(contest.trials[contestant].size(), situation + 1));
     contest.trials[contestant][situation].push_back(i);

@@ -39,8 +39,7 @@ struct Contest {
 enum class Contestants { planners_and_controllers, planners };
 
 // Of trials with robots that ran, and for which `included` holds. Only contestants that have trials in every cell.
-// `way_lengths`: the robots' shortest ways. They tell tasks apart: robots with other starts or goals have other ways.
-Contest make_contest(std::span<const TrialRecord> trials, const RobotValues& way_lengths, Contestants contestants,
+Contest make_contest(std::span<const TrialRecord> trials, Contestants contestants,
                      const std::function<bool(const CombinationLabels&)>& included);
 
 // From five tasks on, a claim about tasks in general is possible: then a task's situations count together, as one

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/statistics/descriptive.hpp"
 #include "host/ranking/measures.hpp"

@@ -34,7 +34,6 @@ class Measures {
 
   // The siblings of the first criterion, shares, as far as they and it were measured.
   const std::vector<Criterion>& siblings() const { return siblings_; }
-  const RobotValues& ways() const { return ways_; }
   const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;

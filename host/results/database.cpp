@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <utility>
 
 #include "host/errors/machine_error.hpp"
@@ -16,7 +15,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t schema_version = 2;
+constexpr std::int64_t schema_version = 3;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE trial(
@@ -31,7 +30,8 @@ CREATE TABLE trial(
   outcome TEXT NOT NULL CHECK (outcome IN ('succeeded', 'failed', 'fault', 'skipped')),
   repeatable INTEGER NOT NULL CHECK (repeatable IN (0, 1)),
   sim_time_s REAL NOT NULL,
-  wall_time_s REAL NOT NULL
+  wall_time_s REAL NOT NULL,
+  task TEXT NOT NULL DEFAULT ''
 );
 CREATE TABLE metric(
   name TEXT PRIMARY KEY,
@@ -105,7 +105,11 @@ ALTER TABLE event ADD COLUMN people TEXT NOT NULL DEFAULT '[]';
 ALTER TABLE event ADD COLUMN severity TEXT NOT NULL DEFAULT 'info';
 ALTER TABLE event ADD COLUMN x_m REAL;
 ALTER TABLE event ADD COLUMN y_m REAL;
-PRAGMA user_version = 2;
+)sql";
+// Version 2 had no task of a trial.
+constexpr const char* upgrade_from_version_2 = R"sql(
+ALTER TABLE trial ADD COLUMN task TEXT NOT NULL DEFAULT '';
+PRAGMA user_version = 3;
 )sql";
 constexpr const char* event_columns_of_version_1 =
     "trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL";
@@ -138,12 +142,12 @@ std::int64_t nanoseconds(double s) {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();  // bound as NULL
 
 void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
-  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(as_signed(trial.id)).bind(trial.scenario).bind(std::int64_t{trial.robots});
   insert.bind(trial.global_planner).bind(trial.local_controller).bind(trial.pedestrian_model);
   insert.bind(std::int64_t{trial.repetition}).bind(as_signed(trial.seed));
   insert.bind(trial.outcome).bind(std::int64_t{trial.repeatable}).bind(trial.sim_time_s).bind(trial.wall_time_s);
-  insert.run();
+  insert.bind(trial.task).run();
 }
 
 void write_swept(const SqliteConnection& connection, const TrialRecord& trial) {
@@ -198,10 +202,17 @@ void write_timing(const SqliteConnection& connection, const TrialRecord& trial) 
     insert.bind(as_signed(trial.id)).bind(reason.plugin).bind(reason.text).run();
 }
 
+std::int64_t version_of(const SqliteConnection& connection) {
+  SqliteStatement pragma(connection, "PRAGMA user_version");
+  return pragma.step() ? pragma.column_integer(0) : 0;
+}
+
 std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
+  const char* const task = version_of(connection) < 3 ? "''" : "task";
   SqliteStatement select(connection,
-                         "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, "
-                         "seed, outcome, repeatable, sim_time_s, wall_time_s FROM trial ORDER BY id");
+                         std::string("SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, "
+                                     "repetition, seed, outcome, repeatable, sim_time_s, wall_time_s, ") +
+                             task + " FROM trial ORDER BY id");
   std::vector<TrialRecord> trials;
   while (select.step()) {
     TrialRecord& trial = trials.emplace_back();
@@ -217,6 +228,7 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
     trial.repeatable = select.column_integer(9) != 0;
     trial.sim_time_s = select.column_number(10);
     trial.wall_time_s = select.column_number(11);
+    trial.task = select.column_text(12);
   }
   return trials;
 }
@@ -289,11 +301,6 @@ bool has_table(const SqliteConnection& connection, std::string_view name) {
   return table.step();
 }
 
-std::int64_t version_of(const SqliteConnection& connection) {
-  SqliteStatement pragma(connection, "PRAGMA user_version");
-  return pragma.step() ? pragma.column_integer(0) : 0;
-}
-
 SqliteStatement select_events(const SqliteConnection& connection, const std::string& rest) {
   return SqliteStatement(connection,
                          std::string("SELECT ") +
@@ -327,7 +334,7 @@ void check_file(const SqliteConnection& connection, const std::filesystem::path&
   if (!check.step() || check.column_text(0) != "ok")
     throw SqliteError(path.string() + ": is damaged: " + check.column_text(0));
   const std::int64_t version = version_of(connection);
-  if (version != schema_version && version != 1)
+  if (version < 1 || version > schema_version)
     throw SqliteError(path.string() + ": results of version " + std::to_string(version) + ", not " +
                       std::to_string(schema_version));
 }
@@ -364,9 +371,10 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
   check_file(database.connection_, path);
   database.connection_.execute("PRAGMA journal_mode = WAL");
-  if (version_of(database.connection_) == 1) {
+  if (const std::int64_t version = version_of(database.connection_); version < schema_version) {
     SqliteTransaction transaction(database.connection_);
-    database.connection_.execute(upgrade_from_version_1);
+    if (version == 1) database.connection_.execute(upgrade_from_version_1);
+    database.connection_.execute(upgrade_from_version_2);
     transaction.commit();
   }
   database.connection_.execute(swept_schema);

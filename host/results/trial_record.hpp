@@ -89,6 +89,7 @@ struct TrialRecord {
   std::vector<TimingReason> timing{};  // why it is not repeatable; results of earlier hosts do not say
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
+  std::string task{};  // a hash of the robots' starts and goals; empty after a fault, and in results of earlier hosts
   std::vector<SweptValue> swept{};
   std::vector<MetricValue> values;
   std::vector<MetricEvent> events;

@@ -77,7 +77,10 @@ RunDirectory RunDirectory::make(const fs::path& out, const std::string& name) {
       }
     }
     if (!out.empty())
-      throw InputError(fmt::format("--out {}: exists already and is not empty (--resume continues it)", out.string()));
+      throw InputError(fmt::format("--out {}: {}", out.string(),
+                                   fs::is_directory(path, ignored)
+                                       ? "exists already and is not empty (--resume continues it)"
+                                       : "is no folder"));
   }
 }
 

@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"

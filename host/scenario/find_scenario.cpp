@@ -44,6 +44,12 @@ std::filesystem::path find_scenario(const std::string& name_or_path, const std::
   return {};
 }
 
+std::string name_of_shipped_scenario(const std::filesystem::path& file) {
+  const std::filesystem::path inside = file.lexically_relative(shared_data_path() / "scenarios");
+  if (inside.empty() || *inside.begin() == "..") return "";
+  return (file.filename() == "scenario.toml" ? inside.parent_path() : inside.parent_path() / inside.stem()).string();
+}
+
 std::vector<std::string> shipped_scenarios() {
   return scenarios_in({shared_data_path() / "scenarios"});
 }

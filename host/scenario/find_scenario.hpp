@@ -14,6 +14,9 @@ std::vector<std::filesystem::path> scenario_folders();
 // The scenario.toml for a name or a path relative to `base`; empty if there is none.
 std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base);
 
+// "mall", "course/door"; empty for another file.
+std::string name_of_shipped_scenario(const std::filesystem::path& file);
+
 std::vector<std::string> shipped_scenarios();
 std::vector<std::string> known_scenarios();  // the shipped ones and those of DMRP_SCENARIO_PATH
 

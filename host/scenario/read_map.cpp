@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "host/maps/movingai.hpp"
 #include "host/maps/ros_map.hpp"

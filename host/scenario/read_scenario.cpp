@@ -13,7 +13,6 @@
 #include "host/scenario/robot_tables.hpp"
 #include "host/scenario/scenario_values.hpp"
 #include "host/toml/setting.hpp"
-#include "host/toml/toml_document.hpp"
 
 namespace dmrp::host {
 
@@ -35,7 +34,7 @@ std::vector<TomlKey> header_keys() {
 }
 
 std::vector<TomlKey> robot_keys() {
-  return {{"name"}, {"type"}, {"start", point_range()}, {"goal", point_range()}, {"goals", point_range()}};
+  return {{"name"}, {"type"}, {"start", pose_range()}, {"goal", pose_range()}, {"goals", pose_range()}};
 }
 
 std::vector<TomlKey> grade_keys() {

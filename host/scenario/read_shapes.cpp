@@ -25,7 +25,7 @@ core::Shape read_box(const TomlTable& table) {
   mistakes.attempt([&] { extent = size(table.need("size_m")); });
   double theta = 0.0;
   mistakes.attempt([&] {
-    if (const auto angle = table.find("angle_rad")) theta = angle->number(-max_coordinate_m, max_coordinate_m);
+    if (const auto turned = table.find("angle_rad")) theta = angle(*turned);
   });
   mistakes.end();
   const double c = std::cos(theta);
@@ -91,7 +91,7 @@ std::vector<TomlKey> box_keys() {
   return {{"name"},
           {"center_m", point_range()},
           {"size_m", size_range()},
-          {"angle_rad", range_text(-max_coordinate_m, max_coordinate_m)},
+          {"angle_rad", range_text(-max_angle_rad, max_angle_rad)},
           {"height_m", positive_text(max_coordinate_m)}};
 }
 

@@ -12,7 +12,6 @@
 #include "core/scene/footprint.hpp"
 #include "host/errors/mistakes.hpp"
 #include "host/toml/nearest_name.hpp"
-#include "host/toml/setting.hpp"
 
 namespace dmrp::host {
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/scene/scenario.hpp"
 #include "host/toml/setting.hpp"
@@ -13,7 +15,8 @@ namespace {
 
 std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size_t most) {
   std::vector<double> out;
-  for (const TomlValue& element : value.array()) out.push_back(element.number(-max_coordinate_m, max_coordinate_m));
+  for (const TomlValue& element : value.array())
+    out.push_back(most == 3 && out.size() == 2 ? angle(element) : element.number(-max_coordinate_m, max_coordinate_m));
   if (out.size() < least || out.size() > most)
     value.fail(fmt::format("'{}' must be {}, not {} number{}", value.key(),
                            least == most ? "[x, y]" : "[x, y] or [x, y, theta]", out.size(),
@@ -25,6 +28,11 @@ std::vector<double> numbers(const TomlValue& value, std::size_t least, std::size
 
 std::string point_range() {
   return "each " + range_text(-max_coordinate_m, max_coordinate_m);
+}
+
+std::string pose_range() {
+  return fmt::format("x, y: {}, theta: {}", range_text(-max_coordinate_m, max_coordinate_m),
+                     range_text(-max_angle_rad, max_angle_rad));
 }
 
 std::string size_range() {
@@ -41,6 +49,14 @@ dmrp_vec2 size(const TomlValue& value) {
   if (out.x <= 0.0 || out.y <= 0.0)
     value.fail(fmt::format("'{}' must be positive, not [{}, {}]", value.key(), out.x, out.y));
   return out;
+}
+
+double angle(const TomlValue& value) {
+  const double given = value.number();
+  if (std::abs(given) > max_angle_rad)
+    value.fail(fmt::format("'{}' has the angle {}, more than a turn: angles are in radians, {} degrees are {:.5g}",
+                           value.key(), given, given, given * std::numbers::pi / 180.0));
+  return given;
 }
 
 dmrp_pose pose(const TomlValue& value) {

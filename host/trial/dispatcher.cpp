@@ -23,16 +23,42 @@ dmrp_vec2 position_at(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns)
   return from + share * (toolkit::position(*after) - from);
 }
 
+// At a waypoint before the last: whether the path turns by more than 135 degrees.
+bool turns_back(const std::vector<dmrp_waypoint>& path, std::size_t at) {
+  constexpr double cosine = -0.70710678118654752;
+  const dmrp_vec2 here = toolkit::position(path[at]);
+  std::size_t before = at, after = at;
+  while (before > 0 && toolkit::position(path[before]) == here) --before;
+  while (after + 1 < path.size() && toolkit::position(path[after]) == here) ++after;
+  const dmrp_vec2 in = here - toolkit::position(path[before]);
+  const dmrp_vec2 out = toolkit::position(path[after]) - here;
+  return toolkit::dot(in, out) < cosine * toolkit::norm(in) * toolkit::norm(out);
+}
+
+// The last waypoint at the path's end that the path leaves, to come back later; -1 if there is none.
+std::int64_t last_early_visit(const std::vector<dmrp_waypoint>& path, double reach_m) {
+  const dmrp_waypoint& end = path.back();
+  bool left = false;
+  for (std::size_t i = path.size(); i-- > 0 && path[i].goal_index == end.goal_index;) {
+    const bool there = toolkit::distance(toolkit::position(path[i]), toolkit::position(end)) < reach_m;
+    if (there && left) return static_cast<std::int64_t>(i);
+    left = left || !there;
+  }
+  return -1;
+}
+
 }  // namespace
 
 Dispatcher::Dispatcher(const VariantWorld& variant, const core::World& world)
     : variant_(variant),
       world_(world),
       courses_(world.robots().size()),
-      progress_(world.robots().size()),
-      gained_m_(world.robots().size()) {}
+      progress_(world.robots().size(), core::PathProgress(variant.planning_grid.view().resolution_m)),
+      places_(world.robots().size()) {}
 
 void Dispatcher::set_plan(const Plan& plan) {
+  const double cell_m = variant_.planning_grid.view().resolution_m;
+  ++revision_;
   std::vector<dmrp_vec2> positions;
   for (std::uint32_t i = 0; i < courses_.size(); ++i) {
     const core::RobotState& robot = world_.robots()[i];
@@ -42,11 +68,15 @@ void Dispatcher::set_plan(const Plan& plan) {
     if (robot.state != DMRP_ROBOT_ACTIVE) continue;
     course.path = path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
     course.released = static_cast<std::uint32_t>(course.path.size() - 1);
+    course.early_visit = last_early_visit(course.path, 0.7 * cell_m);
+    for (std::uint32_t k = 1; k + 1 < course.path.size(); ++k)
+      if (turns_back(course.path, k)) course.turns.push_back(k);
     course.is_new = true;
     progress_[i].set_path(course.path, positions[i]);
     if (ordered()) find_stages(course);
   }
   if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) places_[i] = place_of(i);
 }
 
 // Numbers the cells along the course as the dependency graph does: a leg from a cell's centre to a goal in the same cell
@@ -63,18 +93,47 @@ void Dispatcher::find_stages(Course& course) const {
 }
 
 void Dispatcher::update_progress() {
-  for (std::size_t i = 0; i < progress_.size(); ++i) {
+  for (std::uint32_t i = 0; i < progress_.size(); ++i) {
     const core::RobotState& robot = world_.robots()[i];
     progress_[i].update(toolkit::position(robot.pose), robot.goal_index);
-    gained_m_[i] = progress_[i].gained_m();
+    places_[i] = place_of(i);
   }
+}
+
+core::CoursePlace Dispatcher::place_of(std::uint32_t robot) const {
+  const Course& course = courses_[robot];
+  if (course.path.empty()) return {};
+  core::CoursePlace place;
+  place.revision = revision_;
+  place.path = course.path;
+  place.arc_m = progress_[robot].progress_m();
+  place.passed = progress_[robot].waypoint();
+  place.returns = course.early_visit >= place.passed;
+  if (ordered() && is_held(robot)) place.holder = dependencies_.holder(robot);
+  return place;
 }
 
 void Dispatcher::update_targets() {
   if (ordered()) release();
-  if (!by_waypoint()) return;
-  for (std::uint32_t i = 0; i < courses_.size(); ++i)
-    if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) advance(i);
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) {
+    if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE || courses_[i].path.empty()) continue;
+    cut(i);
+    if (by_waypoint()) advance(i);
+  }
+}
+
+void Dispatcher::cut(std::uint32_t robot) {
+  Course& course = courses_[robot];
+  const std::uint32_t passed = progress_[robot].waypoint();
+  const auto is_behind = [&](std::uint32_t turn) {
+    return turn <= passed || (turn == course.cut && is_near(robot, course.path[turn]));
+  };
+  while (!course.turns.empty() && is_behind(course.turns.front())) course.turns.erase(course.turns.begin());
+  std::uint32_t end = std::min(course.released, progress_[robot].before_return());
+  if (!course.turns.empty()) end = std::min(end, course.turns.front());
+  if (end == course.cut) return;
+  course.cut = end;
+  if (!by_waypoint()) course.is_new = true;
 }
 
 void Dispatcher::release() {
@@ -96,7 +155,7 @@ void Dispatcher::release() {
 
 void Dispatcher::advance(std::uint32_t robot) {
   Course& course = courses_[robot];
-  while (course.target < course.released && !ends_at_goal(robot, course.target) &&
+  while (course.target < course.cut && !ends_at_goal(robot, course.target) &&
          is_near(robot, course.path[course.target])) {
     ++course.target;
     course.is_new = true;
@@ -120,13 +179,13 @@ std::span<const dmrp_waypoint> Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
   if (by_waypoint()) return {&course.path[course.target], 1};
-  return course.path;
+  return {course.path.data(), course.cut + std::size_t{1}};
 }
 
 Guidance Dispatcher::guidance(std::uint32_t robot) const {
   const Course& course = courses_[robot];
   const dmrp_goal& goal = world_.goals(robot)[world_.robots()[robot].goal_index];
-  if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint(), course.released};
+  if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint(), course.cut};
   Guidance guidance = {goal, 0.0, 0, 0};
   if (!ends_at_goal(robot, course.target)) {
     const dmrp_waypoint& waypoint = course.path[course.target];
@@ -141,25 +200,20 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
     const auto& path = courses_[i].path;
     const dmrp_vec2 position = toolkit::position(world_.robots()[i].pose);
     if (path.empty() || world_.robots()[i].state == DMRP_ROBOT_FAILED) {
-      positions.push_back({position, position, position});
+      positions.push_back({position, position});
       continue;
     }
-    std::size_t next =
+    const std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
-    PathPosition on_path;
-    on_path.next_waypoint = toolkit::position(path[next]);
-    on_path.position_then = later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns);
-    const std::int64_t until_ns = path[next].t_ns + later_ns;
-    while (next + 1 < path.size() && path[next + 1].t_ns <= until_ns) ++next;
-    on_path.next_waypoint_then = toolkit::position(path[next]);
-    positions.push_back(on_path);
+    positions.push_back(
+        {toolkit::position(path[next]), later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns)});
   }
   return positions;
 }
 
 bool Dispatcher::is_held(std::uint32_t robot) const {
   const Course& course = courses_[robot];
-  if (course.path.empty() || course.released + 1 == course.path.size()) return false;
+  if (course.path.empty() || course.released + 1 == course.path.size() || course.cut < course.released) return false;
   return progress_[robot].waypoint() >= course.released || is_near(robot, course.path[course.released]);
 }
 

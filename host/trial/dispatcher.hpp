@@ -11,6 +11,7 @@
 
 #include "core/execution/action_dependencies.hpp"
 #include "core/execution/progress.hpp"
+#include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/world/variant_world.hpp"
@@ -27,7 +28,11 @@ struct Guidance {
 
 // For one trial. A robot's course is its planned path extended to the goals themselves (path_to_drive()). Progress is
 // measured along the course in both modes of dispatch.
-// - dispatch = "full_path": the controller gets the course, once per plan.
+//
+// The course is cut where the robot must stop: at the last waypoint that the order releases, before it returns to where
+// it is (PathProgress::before_return()), and where it turns back, until it has been there. A controller that stops at
+// the end of what it gets is right by construction.
+// - dispatch = "full_path": the controller gets the course up to the cut, and again whenever the cut moves.
 // - dispatch = "waypoint": the controller gets one waypoint at a time, and the next one when the robot is within the
 //   goal's tolerance of it; the robot neither stops nor waits for others. A wait in the plan is reached at once, so it
 //   has no effect. At a goal the robot has to arrive, as on a full path.
@@ -53,21 +58,26 @@ class Dispatcher {
 
   Guidance guidance(std::uint32_t robot) const;
 
-  // Whether the robot is at the last waypoint that it may pass and waits for other robots.
+  // Whether the robot is at the last waypoint that the order releases, and waits for others.
   bool is_held(std::uint32_t robot) const;
+
+  // All robots on their courses, valid until the next update or plan.
+  std::span<const core::CoursePlace> places() const { return places_; }
 
   // The robots on their paths, now and `later_ns` from now.
   std::vector<PathPosition> positions_on_paths(std::int64_t later_ns) const;
 
   std::span<const core::PathProgress> progress() const { return progress_; }
-  std::span<const double> gained_m() const { return gained_m_; }
 
  private:
   struct Course {
     std::vector<dmrp_waypoint> path;    // empty for a robot that is not active
     std::vector<std::uint32_t> stages;  // of its waypoints, if execution is ordered
-    std::uint32_t released = 0;         // the last waypoint that may be passed
+    std::uint32_t released = 0;         // the last waypoint that the order lets it pass
+    std::vector<std::uint32_t> turns;   // waypoints at which the course turns back, that the robot has not reached
+    std::uint32_t cut = 0;              // the last waypoint that the controller gets
     std::uint32_t target = 0;           // the waypoint that the robot drives to, if dispatch is by waypoint
+    std::int64_t early_visit = -1;      // the last waypoint at the last goal from which the course leaves and returns
     bool is_new = false;                // the controller does not have it yet
   };
 
@@ -78,13 +88,16 @@ class Dispatcher {
   void find_stages(Course& course) const;
   std::int64_t time_on_path_ns(std::uint32_t robot) const;
   void release();
+  void cut(std::uint32_t robot);
   void advance(std::uint32_t robot);
+  core::CoursePlace place_of(std::uint32_t robot) const;
 
   const VariantWorld& variant_;
   const core::World& world_;
   std::vector<Course> courses_;
   std::vector<core::PathProgress> progress_;
-  std::vector<double> gained_m_;
+  std::vector<core::CoursePlace> places_;
+  std::uint64_t revision_ = 0;  // of the courses
   core::ActionDependencies dependencies_;
 };
 

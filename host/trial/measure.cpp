@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/measure.hpp"
 
-#include <dmrp/metric.h>
 #include <fmt/format.h>
 
 #include <algorithm>

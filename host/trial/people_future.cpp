@@ -2,7 +2,6 @@
 #include "host/trial/people_future.hpp"
 
 #include <dmrp/toolkit/vec2.hpp>
-#include <utility>
 
 namespace dmrp::host {
 

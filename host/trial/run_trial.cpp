@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/execution/ending.hpp"
 #include "core/execution/recovery.hpp"
+#include "core/execution/referee.hpp"
 #include "core/execution/replanning.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/dispatcher.hpp"
@@ -27,6 +27,14 @@ core::SimulationSettings settings_of(const Trial& trial) {
   return settings;
 }
 
+bool can_replan(const core::SimulationSettings& settings) {
+  const core::ReplanSettings& replan = settings.replan;
+  const auto& steps = settings.recovery.steps;
+  return replan.period_ns > 0 || replan.stray_m > 0.0 || replan.stall_ns > 0 ||
+         (settings.recovery.retries > 0 &&
+          std::find(steps.begin(), steps.end(), core::RecoveryStep::replan) != steps.end());
+}
+
 class Run {
  public:
   Run(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace)
@@ -36,8 +44,9 @@ class Run {
         plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
         trace_(trace),
         dispatcher_(trial.variant, world_),
+        referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)},
+                 trial.seed),
         replanning_(settings_.replan, world_.robots().size()),
-        monitor_(static_cast<std::uint32_t>(world_.robots().size()), settings_.time_limit_ns),
         recoveries_(world_, robots_with_costmap()) {}
 
   dmrp_trial_end run() {
@@ -50,9 +59,10 @@ class Run {
     }
     record({});
 
-    std::uint32_t ending = check_ending();
+    std::uint32_t ending = referee_.ending();
     while (ending == 0) {
       if (control_due()) {  // on the state that was recorded last
+        referee_.judge_progress(dispatcher_.places());
         activate_pending_plan();
         if (replan_due()) replan();
         if (has_plan())
@@ -62,15 +72,16 @@ class Run {
       }
       const auto contacts = world_.step(plugins_.people_velocities(step_));
       ++step_;
+      referee_.judge_arrivals(dispatcher_.places());
       dispatcher_.update_progress();
       record(contacts);
-      ending = check_ending();
+      ending = referee_.ending();
     }
-    ends_ = monitor_.robot_ends(ending, world_.robots());
+    ends_ = referee_.robot_ends(ending);
     return end(ending);
   }
 
-  // All robots arrived, and none oscillated. A trial without robots succeeds.
+  // All robots arrived, and none is excluded. A trial without robots succeeds.
   bool succeeded() const {
     return std::all_of(ends_.begin(), ends_.end(), [](const dmrp_robot_end& end) {
       return end.state == DMRP_ROBOT_FINISHED && end.failure == DMRP_FAILURE_NONE;
@@ -81,17 +92,13 @@ class Run {
   bool has_robots() const { return !world_.robots().empty(); }
   bool has_plan() const { return plan_.exists(); }
 
-  // DMRP_ENDING_*, 0 until the trial is over.
-  std::uint32_t check_ending() {
-    return monitor_.update(world_.t_ns(), world_.robots(), dispatcher_.gained_m(), world_.is_deserted());
-  }
-
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
   bool replan_due() {
     if (!has_plan() || pending_plan_) return false;
-    const bool due = replanning_.due(world_.t_ns(), world_.robots(), dispatcher_.progress());
-    return std::exchange(recovery_asks_for_plan_, false) || due;
+    const bool due = replanning_.due(world_.t_ns(), world_.robots(), referee_.gained_m(), dispatcher_.progress());
+    const bool waits = can_replan(settings_) && referee_.wants_plan();
+    return std::exchange(recovery_asks_for_plan_, false) || due || waits;
   }
 
   // Without a new plan, the plan in force stays.
@@ -112,7 +119,7 @@ class Run {
   // The first plan is not in force yet: robots sense and stand still.
   void wait_for_plan() {
     plugins_.sense();
-    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) monitor_.command_given(i, world_.t_ns());
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) referee_.command_given(i);
   }
 
   void replan() {
@@ -163,6 +170,7 @@ class Run {
     const auto action = recoveries_.act(robot, dispatcher_.is_held(robot));
     if (!action) {
       if (recovered) plugins_.note_recovery(robot, DMRP_RECOVERY_NONE);
+      referee_.recovers(robot, false);
       return false;
     }
     if (action->begins) {
@@ -171,7 +179,8 @@ class Run {
       if (action->begins == core::RecoveryStep::replan) recovery_asks_for_plan_ = true;
     }
     world_.set_recovery_command(robot, action->command);
-    monitor_.restart(robot, world_.t_ns());
+    referee_.recovers(robot, true);
+    referee_.command_given(robot);
     return true;
   }
 
@@ -180,9 +189,8 @@ class Run {
     const std::uint64_t clipped_before = world_.robots()[robot].clipped_commands;
     world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
     if (world_.robots()[robot].clipped_commands > clipped_before) plugins_.note_clipped(robot);
-    if (command) monitor_.command_given(robot, world_.t_ns());
+    if (command) referee_.command_given(robot);
     recoveries_.controller_answered(robot, command.has_value());
-    if (monitor_.failure(robot) == DMRP_FAILURE_CONTROLLER) world_.fail(robot);
   }
 
   void record(std::span<const dmrp_contact> contacts) {
@@ -193,7 +201,9 @@ class Run {
                          dispatcher_.progress()[i].progress_m(), robot.steering_rad});
     }
     const auto people = world_.people();
-    const auto calls = plugins_.take_calls();
+    auto calls = plugins_.take_calls();
+    const auto changes = referee_.take_changes();
+    calls.insert(calls.end(), changes.begin(), changes.end());
     dmrp_sample sample{};
     sample.struct_size = sizeof(sample);
     sample.control_tick = control_due();
@@ -216,7 +226,8 @@ class Run {
   }
 
   dmrp_trial_end end_without_plan() {
-    for (const core::RobotState& robot : world_.robots()) ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1});
+    for (const core::RobotState& robot : world_.robots())
+      ends_.push_back({robot.state, DMRP_FAILURE_NO_PLAN, -1, 0, DMRP_NOBODY});
     return end(DMRP_ENDING_NO_PLAN);
   }
 
@@ -237,8 +248,8 @@ class Run {
   TrialPlugins plugins_;
   core::TraceEncoder& trace_;
   Dispatcher dispatcher_;
+  core::Referee referee_;
   core::ReplanMonitor replanning_;
-  core::EndingMonitor monitor_;
   core::RecoveryLadder recoveries_;
   bool recovery_asks_for_plan_ = false;
   Plan plan_;                         // in force
@@ -263,6 +274,8 @@ const char* ending_text(std::uint32_t ending) {
       return "the planner found no plan";
     case DMRP_ENDING_DESERTED:
       return "everybody left";
+    case DMRP_ENDING_OVER:
+      return "no robot drives any more";
     default:
       return "";
   }

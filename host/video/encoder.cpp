@@ -9,13 +9,15 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "host/errors/machine_error.hpp"
+#include "host/files/atomic_file.hpp"
+#include "host/files/read_file.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -121,14 +123,11 @@ void VideoEncoder::add(const Canvas& frame) {
 }
 
 void VideoEncoder::finish() {
-  std::error_code failed;
-  if (wait()) {
-    fs::rename(part_, file_, failed);
-    if (failed) throw MachineError(file_.string() + ": cannot be written", failed.value());
-    return;
-  }
-  fs::remove(part_, failed);
-  throw MachineError("video: ffmpeg failed");
+  const bool is_whole = wait();
+  if (is_whole) write_file_atomically(file_, read_file(part_, part_.string(), UINTMAX_MAX));
+  std::error_code ignored;
+  fs::remove(part_, ignored);
+  if (!is_whole) throw MachineError("video: ffmpeg failed");
 }
 
 }  // namespace dmrp::host

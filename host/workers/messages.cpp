@@ -72,7 +72,7 @@ void from_json(const nlohmann::json& json, TimingReason& reason) {
   json.at(0).get_to(reason.plugin);
   json.at(1).get_to(reason.text);
 }
-DMRP_FIELDS(TrialDone, outcome, timing, sim_time_s)
+DMRP_FIELDS(TrialDone, outcome, timing, sim_time_s, task)
 
 void to_json(nlohmann::json& json, const FaultRecord& f) {
   json = {{"kind", f.kind},   {"plugin", f.plugin}, {"function", f.function}, {"step", f.step},

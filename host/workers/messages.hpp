@@ -53,6 +53,7 @@ struct TrialDone {
   std::string outcome;
   std::vector<TimingReason> timing;  // none: repeatable
   double sim_time_s = 0.0;
+  std::string task;  // TrialRecord::task
 };
 
 void to_json(nlohmann::json& json, const Job& job);

@@ -176,6 +176,7 @@ void OpenTrial::take_done(const nlohmann::json& message) {
   record_.outcome = done.outcome;
   add_timing(done.timing);
   record_.sim_time_s = done.sim_time_s;
+  record_.task = done.task;
 }
 
 void OpenTrial::add_timing(const std::vector<TimingReason>& reasons) {

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "host/experiment/experiment.hpp"
 #include "host/results/trial_record.hpp"

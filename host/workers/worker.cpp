@@ -130,6 +130,7 @@ class Worker {
     guard_.reset_timing();
     logged_ = {job.trial, world.simulation.step_ns};
     TrialDone done;
+    done.task = task_hash(world.scenario);
     try {
       const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
       done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;

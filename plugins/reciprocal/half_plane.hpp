@@ -2,6 +2,7 @@
 // The velocities that one neighbour or wall permits.
 #pragma once
 
+#include <cassert>
 #include <dmrp/cpp/plugin_base.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -15,6 +16,7 @@ struct HalfPlane {
 
 // The half-plane with `point` on its border and the inward unit vector `normal`.
 inline HalfPlane half_plane(Vec2 point, Vec2 normal) {
+  assert(toolkit::is_unit(normal));
   return {point, -toolkit::perpendicular(normal)};
 }
 

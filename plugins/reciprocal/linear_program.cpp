@@ -2,6 +2,7 @@
 #include "reciprocal/linear_program.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::reciprocal {
@@ -77,6 +78,7 @@ std::size_t best_in_all(const std::vector<HalfPlane>& planes, double max_speed, 
 
 Vec2 VelocityProgram::solve(const std::vector<HalfPlane>& planes, std::size_t hard_count, double max_speed,
                             Vec2 preferred) {
+  assert(hard_count <= planes.size() && max_speed >= 0.0);
   const double speed = toolkit::norm(preferred);
   Vec2 best = speed > max_speed ? preferred * (max_speed / speed) : preferred;
   const std::size_t met = best_in_all(planes, max_speed, NearestTo{preferred}, best);

@@ -4,6 +4,7 @@
 // Van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), section 4.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 #include "reciprocal/half_plane.hpp"
@@ -28,6 +29,7 @@ struct Escape {
 // radius reach_m at `apart`, truncated by this disc scaled by 1 / horizon_s. Bodies that overlap already separate
 // within `step_s`.
 inline Escape escape(const Encounter& met, double horizon_s, double step_s) {
+  assert(met.apart != (Vec2{0.0, 0.0}) && met.reach_m >= 0.0 && horizon_s > 0.0 && step_s > 0.0);
   const double squared_distance = toolkit::squared_norm(met.apart);
   const double squared_reach = met.reach_m * met.reach_m;
   const bool overlap = squared_distance < squared_reach;
@@ -53,6 +55,7 @@ inline Escape escape(const Encounter& met, double horizon_s, double step_s) {
 
 // Whoever is at `velocity` makes this share of the change and expects the neighbour to make the rest.
 inline HalfPlane give_way(const Escape& away, Vec2 velocity, double share) {
+  assert(share >= 0.0 && share <= 1.0);
   return half_plane(velocity + share * away.change, away.normal);
 }
 

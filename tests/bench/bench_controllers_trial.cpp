@@ -11,9 +11,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "core/execution/ending.hpp"
 #include "core/execution/progress.hpp"
+#include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
+#include "host/trial/people_future.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
@@ -37,6 +38,30 @@ double thread_ms() {
 
 dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
   return {sizeof(dmrp_path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0, waypoints.data()};
+}
+
+host::Instance& start_people(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t copy) {
+  host::Instance& model = pool.get(trial.experiment.pedestrian_models[0], DMRP_NO_ROBOT, copy);
+  model.offer([grids = trial.variant.walking_grids](std::string_view id) -> const void* {
+    return id == DMRP_EXT_WALKING_GRID ? grids->extension() : nullptr;
+  });
+  model.start(trial.variant.view.world(), instance_seed(trial.seed, "pedestrian_model", 0), budget_ns);
+  return model;
+}
+
+// For a controller that needs it; nullptr for others. Too large to record: a replay computes it again.
+std::unique_ptr<host::PeopleFuture> foresee_people(const TrialUnderTest& trial, host::InstancePool& pool) {
+  const std::vector<std::string>& needs = trial.experiment.local_controllers[0].info.needs;
+  if (std::find(needs.begin(), needs.end(), DMRP_DRAFT_PEOPLE_FUTURE) == needs.end()) return nullptr;
+  return std::make_unique<host::PeopleFuture>(trial.variant, trial.seed, &start_people(trial, pool, 1), budget_ns);
+}
+
+// What a controller gets: the future of the people, and the rest from `perception`.
+auto extensions_of(Perception& perception, const host::PeopleFuture* future) {
+  return [&perception, future](const char* id) -> const void* {
+    if (future && id == std::string_view(DMRP_DRAFT_PEOPLE_FUTURE)) return future->extension();
+    return perception.extension(id);
+  };
 }
 
 // One robot while its trial is recorded.
@@ -68,34 +93,35 @@ class Recording {
         world_(trial.variant.scenario, trial.variant.types, trial.variant.simulation, trial.variant.geometry,
                trial.variant.routes, trial.seed),
         lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
-        monitor_(static_cast<std::uint32_t>(world_.robots().size()), trial.variant.simulation.time_limit_ns),
-        gained_m_(world_.robots().size()),
+        referee_(world_, *trial.variant.planning_grids, {}, trial.seed),
+        places_(world_.robots().size()),
         motions_(world_.people().size()),
-        velocities_(world_.people().size()) {
+        velocities_(world_.people().size()),
+        future_(foresee_people(trial, pool)) {
     result_.tapes.resize(world_.robots().size());
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) start_driver(i, pool);
     plan(pool);
-    if (velocities_.empty()) return;
-    people_ = &pool.get(trial.experiment.pedestrian_models[0], DMRP_NO_ROBOT);
-    people_->offer([grids = trial.variant.walking_grids](std::string_view id) -> const void* {
-      return id == DMRP_EXT_WALKING_GRID ? grids->extension() : nullptr;
-    });
-    people_->start(trial.variant.view.world(), instance_seed(trial.seed, "pedestrian_model", 0), budget_ns);
+    if (!velocities_.empty()) people_ = &start_people(trial, pool, 0);
   }
 
   RecordedTrial run() {
     const core::SimulationSettings& settings = trial_.variant.simulation;
-    std::uint32_t ending = monitor_.update(0, world_.robots(), gained_m_);
+    std::uint32_t ending = referee_.ending();
     while (ending == 0) {
-      if (world_.t_ns() % settings.control_period_ns == 0) control();
+      if (world_.t_ns() % settings.control_period_ns == 0) {
+        referee_.judge_progress(places_);
+        control();
+      }
       walk();
       world_.step(velocities_);
+      referee_.judge_arrivals(places_);
       for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
         const core::RobotState& robot = world_.robots()[i];
         drivers_[i]->progress.update({robot.pose.x, robot.pose.y}, robot.goal_index);
-        gained_m_[i] = drivers_[i]->progress.gained_m();
+        places_[i].arc_m = drivers_[i]->progress.progress_m();
+        places_[i].passed = drivers_[i]->progress.waypoint();
       }
-      ending = monitor_.update(world_.t_ns(), world_.robots(), gained_m_);
+      ending = referee_.ending();
     }
     const auto& robots = world_.robots();
     result_.arrived = static_cast<std::uint32_t>(std::count_if(
@@ -110,7 +136,7 @@ class Recording {
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();
-    driver.controller->offer([&driver](const char* id) { return driver.recorder.extension(id); });
+    driver.controller->offer(extensions_of(driver.recorder, future_.get()));
     driver.controller->start(trial_.variant.view.world(), instance_seed(trial_.seed, "local_controller", robot),
                              budget_ns);
   }
@@ -126,6 +152,7 @@ class Recording {
       const dmrp_pose& pose = world_.robots()[i].pose;
       driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
       driver.progress.set_path(driver.path, {pose.x, pose.y});
+      places_[i].path = driver.path;
       const dmrp_path path = path_of(driver.path);
       const dmrp_path_update update = {sizeof(update), i, 1, &path};
       driver.table.set_path(driver.controller->self(), &update);
@@ -133,6 +160,7 @@ class Recording {
   }
 
   void control() {
+    if (future_) future_->advance(world_.t_ns());
     for (std::uint32_t i = 0; i < drivers_.size(); ++i)
       if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i]->sensors->tick();
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
@@ -147,9 +175,8 @@ class Recording {
       const bool is_given = frame.status == DMRP_OK || frame.status == DMRP_WARNING;
       if (!is_given && frame.status != DMRP_NO_SOLUTION)
         throw std::runtime_error(fmt::format("step() returned {}", frame.status));
-      if (is_given) monitor_.command_given(i, world_.t_ns());
+      if (is_given) referee_.command_given(i);
       world_.set_command(i, is_given ? dmrp_twist{frame.command.v_x, 0.0, frame.command.omega} : dmrp_twist{});
-      if (monitor_.failure(i) == DMRP_FAILURE_CONTROLLER) world_.fail(i);
     }
   }
 
@@ -200,10 +227,11 @@ class Recording {
   const TrialUnderTest& trial_;
   core::World world_;
   core::Lidar lidar_;
-  core::EndingMonitor monitor_;
-  std::vector<double> gained_m_;
+  core::Referee referee_;
+  std::vector<core::CoursePlace> places_;
   std::vector<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;
+  std::unique_ptr<host::PeopleFuture> future_;
   std::vector<std::unique_ptr<Driver>> drivers_;
   host::Instance* people_ = nullptr;
   RecordedTrial result_;
@@ -219,9 +247,10 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
               bool listens) {
   pool.clear();
   Player player(listens);
+  const std::unique_ptr<host::PeopleFuture> future = foresee_people(trial, pool);
   host::Instance& controller = pool.get(trial.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
   const auto table = controller.table<dmrp_local_controller>();
-  controller.offer([&player](const char* id) { return player.extension(id); });
+  controller.offer(extensions_of(player, future.get()));
   controller.start(trial.variant.view.world(), instance_seed(trial.seed, "local_controller", robot), budget_ns);
 
   Replay replay;
@@ -229,6 +258,7 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
   replay.allocations.reserve(tape.size());
   for (const Frame& frame : tape) {
     player.read_from(frame);
+    if (future) future->advance(frame.observation.t_ns);
     if (!frame.path.empty()) {
       const dmrp_path path = path_of(frame.path);
       const dmrp_path_update update = {sizeof(update), robot, 1, &path};

@@ -78,10 +78,12 @@ Output output_options(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--json") == 0) {
       output.json = true;
+    } else if (std::strcmp(argv[i], "--quick") == 0) {
+      output.quick = true;
     } else if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc) {
       output.csv = argv[++i];
     } else {
-      std::fprintf(stderr, "usage: %s [--json] [--csv FILE]\n", argv[0]);
+      std::fprintf(stderr, "usage: %s [--json] [--quick] [--csv FILE]\n", argv[0]);
       std::exit(2);
     }
   }

@@ -15,10 +15,12 @@ struct Row {
 
 struct Output {
   bool json = false;
-  std::string csv;  // a file to append to; empty: none
+  std::string csv;     // a file to append to; empty: none
+  bool quick = false;  // a small part, once: it shows that the program works
 };
 
-// The options --json and --csv FILE of a benchmark that has no others; ends the program with status 2 on anything else.
+// The options --json, --quick and --csv FILE of a benchmark that has no others; ends the program with status 2 on
+// anything else.
 Output output_options(int argc, char** argv);
 
 // To standard output as lines for people or as [{"name", "value", "unit"}, ...]; and to the CSV file, with its head if it

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Do the shipped worlds tell entries apart? Runs the experiments of docs/discrimination.md and writes that page:
+# Do the shipped worlds tell entries apart? Runs the experiments of docs/measured/discrimination.md and writes that page:
 #
 #     tests/bench/discrimination.sh DMRP_HOST OUT [WORLD...]
 #
@@ -12,11 +12,12 @@
 # The whole must take under 30 minutes on two cores: entries are left out for their computing time only.
 set -euo pipefail
 host=$(realpath "$1")
+judge=$(dirname "$host")/bench_discrimination
 out=$2
 shift 2
 jobs=${JOBS:-2}
 tasks=${TASKS:-40}
-page=$(dirname "${BASH_SOURCE[0]}")/../../docs/discrimination.md
+page=$(dirname "${BASH_SOURCE[0]}")/../../docs/measured/discrimination.md
 worlds=("$@")
 ((${#worlds[@]} > 0)) || worlds=(mall library office hospital warehouse)
 mkdir -p "$out"
@@ -107,11 +108,11 @@ row() { # FACTOR RUN...
   shift
   runs=$(found "$@") || return 0
   # shellcheck disable=SC2086
-  "$host" discriminate $runs --row "$factor"
+  "$judge" $runs --row "$factor"
 }
 
 # field N RUN...: of a row
-field() { "$host" discriminate "${@:2}" --row x | awk -F' *[|] *' -v field="$1" '{ print $field }'; }
+field() { "$judge" "${@:2}" --row x | awk -F' *[|] *' -v field="$1" '{ print $field }'; }
 for world in "${worlds[@]}"; do experiments "$world"; done
 if [[ -z ${NO_RUN:-} ]]; then
   for world in "${worlds[@]}"; do
@@ -144,7 +145,7 @@ contrasts() {
   for world in mall library office hospital warehouse; do
     runs=$(found "$world".{free,ordered}) || continue
     # shellcheck disable=SC2086
-    "$host" discriminate $runs --contrast 'Individual paths (free) + Stop and wait' 'CBS (ordered) + Stop and wait'
+    "$judge" $runs --contrast 'Individual paths (free) + Stop and wait' 'CBS (ordered) + Stop and wait'
   done | sort -g -k 6 | awk '
     { rank[++n] = $0 }
     END {

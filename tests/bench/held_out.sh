@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# How well the controllers drive on tasks that nobody tuned for: the tables of docs/controllers.md, in Markdown.
+# How well the controllers drive on tasks that nobody tuned for: the tables of docs/measured/controllers.md, in Markdown.
 #
 #     tests/bench/held_out.sh DMRP_HOST OUT
 #

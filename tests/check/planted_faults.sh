@@ -111,5 +111,5 @@ grep -o '"case": "[^"]*"' "$scratch/all.json" | cut -d'"' -f4 | sort -u >"$scrat
   [[ -z $sanitizers ]] || grep -o '[a-z_]*/[a-z_]*' <<<"$skipped_by_sanitizers"
 } | sort -u >"$scratch/found"
 diff "$scratch/cases" "$scratch/found" || fail "cases without a planted fault, or faults without a case"
-grep -o '^| `[a-z_]*/[a-z_]*`' "$page" | tr -d '|` ' | sort -u >"$scratch/documented"
-diff "$scratch/cases" "$scratch/documented" || fail "the table of $page lists other cases"
+grep -o '^- `[a-z_]*/[a-z_]*`' "$page" | tr -d '` -' | sort -u >"$scratch/documented"
+diff "$scratch/cases" "$scratch/documented" || fail "the list of $page has other cases"

@@ -23,6 +23,14 @@ query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE
   metric = 'success' AND subject_kind = 'system'"
 expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 
+# of three seeds nothing is estimated
+expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 3 --out "$scratch/few"
+cp -r "$scratch/few" "$scratch/changed"
+query "$scratch/changed" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
+expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric success
+grep -Eq "success +12 .* 0.100 +too few \(3 seeds\) +–$" "$scratch/stdout" ||
+  fail "a difference of three seeds is printed: $(cat "$scratch/stdout")"
+
 refused() {
   expect_status 2 "$host" compare "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"

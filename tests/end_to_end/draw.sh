@@ -36,6 +36,17 @@ compgen -G "$scratch/*.part" >/dev/null && fail "something was left behind: $(ls
 [[ ! -e $scratch/other.png ]] || fail "something was left behind: $(ls "$scratch")"
 expect_status 2 "$host" draw mall --png "$scratch/mall.jpg"
 
+
+# a device and a pipe get the picture and stay what they are; as links, so that a mistake cannot harm the machine
+ln -s /dev/null "$scratch/sink" && ln -s /dev/full "$scratch/full" && mkfifo "$scratch/pipe.png"
+expect_status 0 "$host" draw mall --svg "$scratch/sink"
+expect_status 3 "$host" draw mall --svg "$scratch/full"
+timeout 60 cat "$scratch/pipe.png" >"$scratch/read" &
+PATH=$scratch/tools:$PATH expect_status 0 "$host" draw mall --png "$scratch/pipe.png"
+[[ -L $scratch/sink && -L $scratch/full && -p $scratch/pipe.png ]] || fail "replaced: $(ls -l "$scratch")"
+wait
+[[ $(cat "$scratch/read") == picture ]] || fail "no picture came through the pipe"
+
 expect_status 0 "$host" draw mall
 grep -q '^<svg' "$scratch/stdout" || fail "no picture on standard output"
 

@@ -41,6 +41,11 @@ expect_refusal "there is no such file" "$host" plan --map pipe --planner dmrp.pl
 mkdir run_of_pipes && mkfifo run_of_pipes/results.sqlite
 expect_refusal "is no run directory" "$host" report run_of_pipes
 
+# --- a run directory that is no folder ---
+touch file && ln -s /dev/null device
+expect_refusal "^--out file: is no folder" "$host" "$experiment" --out file
+expect_refusal "^--out device: is no folder" "$host" "$experiment" --out device
+
 # --- a run whose output goes nowhere ---
 count() { [[ $(query "$1" "SELECT count(*) FROM trial") == 4 && -s $1/report.html ]] || fail "$1 is not whole"; }
 "$host" "$experiment" --trials 1 --out closed >&- 2>stderr || fail "closed output: status $?: $(cat stderr)"

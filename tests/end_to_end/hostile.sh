@@ -23,9 +23,15 @@ values() {
   query "$1" "SELECT trial.repetition, outcome, repeatable, metric, subject_kind, subject, printf('%!.17g', value.value)
     FROM value JOIN trial ON trial.id = trial_id WHERE local_controller = 'pursuit' ORDER BY 1, 4, 5, 6"
 }
-# note WHERE ATTACK END [NAMED]: a row of docs/attacks.md, which is compared with what was tested here
-table=()
-note() { table+=("| $2 | $1 | $3 | yes | ${4:-nothing to name} | yes | yes |"); }
+# note WHERE ATTACK END [NAMED]: an attack for docs/attacks.md, which is compared with what was tested here; attacks that
+# differ in nothing else share a row
+declare -A table=()
+rows=()
+note() {
+  local row="$1 | $3 | ${4:-nothing to name}"
+  [[ -n ${table[$row]:-} ]] || rows+=("$row")
+  table[$row]+="${table[$row]:+; }$2"
+}
 note_all() {
   local row attack kind function detail late
   for row in "${@:2}"; do
@@ -263,6 +269,7 @@ for attack in "${harmless[@]}"; do note "no box" "$attack" "no wrong value"; don
 
 # the table for readers has what was tested, no more and no less
 if $limited && $has_landlock; then
-  diff <(printf '%s\n' "${table[@]}") <(grep '^| ' "$here/../../docs/attacks.md" | tail -n +3) ||
+  diff <(for row in "${rows[@]}"; do echo "| ${table[$row]} | $row |"; done) \
+    <(grep '^| ' "$here/../../docs/attacks.md" | tail -n +3) ||
     fail "docs/attacks.md: its rows should be those with '<'"
 fi

@@ -5,10 +5,23 @@
 # CXX_COMPILER
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 source_dir=$2 cmake=$3 cc=$4 cxx=$5
-build_dir=$(dirname "$(dirname "$host")") ctest=${cmake%cmake}ctest
+build_dir=$(dirname "$(dirname "$host")")
 
 expect_status 0 "$cmake" --install "$build_dir" --prefix "$scratch/installed"
+
+# a run of an installation that is gone is verified by another, and by the build tree; and the reverse
+expect_status 0 "$scratch/installed/bin/dmrp-host" "$source_dir/examples/quickstart.toml" --quiet --trials 1 --out "$scratch/run"
 mv "$scratch/installed" "$scratch/moved"
+expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 1 --out "$scratch/run_of_build"
+for name in libdmrp_planners.so libdmrp_controllers.so libdmrp_pedestrians.so libdmrp_metrics.so; do
+  grep -q "\"$name\"" "$scratch/run_of_build/effective.toml" || fail "$name should be named alone: $(head "$scratch/run_of_build/effective.toml")"
+done
+for program in "$host" "$scratch/moved/bin/dmrp-host"; do
+  for run in run run_of_build; do
+    expect_status 0 "$program" verify "$scratch/$run" --trials 1
+    [[ ! -s $scratch/stderr ]] || fail "$program on $run: nothing has changed: $(cat "$scratch/stderr")"
+  done
+done
 prefix=$scratch/moved
 for file in include/dmrp/dmrp.h include/dmrp/plugin.hpp include/dmrp/toolkit/angle.hpp \
   lib/cmake/dmrp/{dmrpConfig,dmrpConfigVersion,dmrpTargets,dmrp_add_plugin}.cmake lib/cmake/dmrp/plugin_exports.map \
@@ -29,13 +42,28 @@ build() {
   expect_status 0 "$cmake" --build "$1/build"
 }
 
-# the template of a controller: built and tested by CMake
+# run_printed PROGRAM KIND ID FOLDER: writes the folder, and runs the command that this prints
+run_printed() {
+  expect_status 0 "$1" new "$2" --id "$3" "$4"
+  sed -n '$s/^ *//p' "$scratch/stdout" >"$scratch/printed"
+  expect_status 0 env -u CFLAGS -u CXXFLAGS CC="$cc" CXX="$cxx" PATH="$(dirname "$cmake"):$PATH" bash -e "$scratch/printed"
+  grep -qxF "DMRP_HOST:FILEPATH=$(realpath "$1")" "$4/build/CMakeCache.txt" || fail "$4 should be tested by $1"
+}
+
+# the folder finds the dmrp that wrote it, be it a build tree, and builds against another where one is named
 cd "$scratch" || exit 1
-expect_status 0 "$prefix/bin/dmrp-host" new controller --id org.example.carrot mine
-build mine
+run_printed "$host" metric org.example.of_build of_build
+rm -r of_build/build
+build of_build
+grep -qxF "DMRP_HOST:FILEPATH=$prefix/bin/dmrp-host" of_build/build/CMakeCache.txt || fail "another dmrp was named"
+rm -r of_build/build
+sed -i "s|HINTS \".*\"|HINTS \"$scratch/gone\"|" of_build/CMakeLists.txt # as on another machine
+expect_status 0 env CC="$cc" CXX="$cxx" "$cmake" -S of_build -B of_build/build -Ddmrp_DIR="$build_dir/lib/cmake/dmrp"
+
+# the template of a controller: built and tested by CMake
+run_printed "$prefix/bin/dmrp-host" controller org.example.carrot mine
 [[ $(nm -D --defined-only mine/build/libcarrot.so | awk '{print $3}') == dmrp_entry_v1 ]] ||
   fail "libcarrot.so should export dmrp_entry_v1 alone"
-expect_status 0 "$ctest" --test-dir mine/build --output-on-failure
 [[ $(query mine/build/runs/carrot "SELECT count(*), min(outcome), (SELECT count(*) FROM fault) FROM trial") == 2*"|0" ]] ||
   fail "the template should drive: $(query mine/build/runs/carrot "SELECT * FROM trial; SELECT * FROM fault")"
 [[ $(query mine/build/runs/carrot "SELECT min(value) > 0.5 FROM value WHERE metric = 'success' AND subject_kind = 'system'") == 1 ]] ||

@@ -19,8 +19,11 @@ for command in "" "${commands[@]}"; do
       _dmrp_host; echo "${COMPREPLY[@]}"' "$command" "$option")
     [[ " $found " == *" $option "* ]] || fail "bash completes '$command $option' with '$found'"
   done
+  line=$("$host" ${command:+"$command"} --help | sed -n '/^Example:/{n;s/^  //p}')
+  grep -qF -- "${line//-/\\-}" dmrp-host.1 || fail "the manual lacks the example of '$command': $line"
   [[ -z $command ]] || grep -q "^.SS dmrp\\\\-host $command " dmrp-host.1 || fail "the manual lacks $command"
 done
+grep -q "4 compare" dmrp-host.1 || fail "the manual lacks exit status 4"
 ! grep -qE "^options.*:'\)" _dmrp-host || fail "options without a text: $(grep -E "^options.*:'\)" _dmrp-host)"
 command -v zsh >/dev/null || { echo "skipped: no zsh to read its completion" && exit 77; }
 expect_status 0 zsh -n _dmrp-host

@@ -13,4 +13,4 @@ if ! sed -n '/^<!-- dmrp-host plugins/,$p' "$page" | diff -u - "$said"; then
   echo "docs/metrics.md is out of date: put the output of 'dmrp-host plugins --markdown libdmrp_metrics.so' below its text"
   exit 1
 fi
-grep -q '^| `pfd` | m | lower |' "$said" || { echo "the page does not list pfd"; exit 1; }
+grep -q '^- `pfd` (m; lower; robots): ' "$said" || { echo "the page does not list pfd"; exit 1; }

@@ -40,6 +40,10 @@ for kind in planner controller pedestrian-model metric; do
 done
 grep -q '^A pedestrian model for dmrp' deep/pedestrian-model/README.md || fail "the README should name the kind"
 
+# where this dmrp-host lies, for find_package()
+prefix=$(dirname "$(dirname "$(realpath "$host")")")
+grep -qF "HINTS \"$prefix\"" deep/metric/CMakeLists.txt || fail "the folder should know its dmrp: $(cat deep/metric/CMakeLists.txt)"
+
 # ids that contain the template's name, or a target that CMake reserves
 expect_status 0 "$host" new metric --id org.example.my_plugin.all ids
 grep -q '"org.example.my_plugin.all"' ids/all_plugin.cpp || fail "the id should stay as it was given"

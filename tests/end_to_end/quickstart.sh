@@ -1,12 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The quickstart succeeds: called as quickstart.sh DMRP_HOST SOURCE_DIR.
+# The quickstart succeeds, and the README shows what it prints: called as quickstart.sh DMRP_HOST SOURCE_DIR SANITIZERS.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
-source_dir=$2
+source_dir=$2 sanitizers=${3:-}
 
 expect_status 0 "$host" "$source_dir/examples/quickstart.toml" --out "$scratch/run"
 grep -q "CBS + DWA" "$scratch/stdout" || fail "the table has no row for CBS + DWA"
 grep -q "$scratch/run" "$scratch/stdout" || fail "the run directory is not named"
+
+# But for measured times, the progress, which is a bar on a terminal, and the name of the run directory.
+lasting() {
+  sed -E '1s/ trials .*/ trials/; /^  [0-9]+\/[0-9]+  /d; s/^(  CBS \+ DWA( +[0-9.]+){3} +)[0-9.]+/\1-/
+    s/^  [^ ]+( +report.html)/  -\1/'
+}
+shown=$(sed -n '/^quickstart · /,/^```/p' "$source_dir/README.md" | grep -v '^```')
+[[ -n $sanitizers || $(lasting <<<"$shown") == "$(lasting <"$scratch/stdout")" ]] ||
+  fail "the README shows something else: $(diff <(lasting <<<"$shown") <(lasting <"$scratch/stdout"))"
 
 for file in experiment.toml effective.toml manifest.json trials.csv summary.csv report.html traces/trial_000002.mcap; do
   [[ -s $scratch/run/$file ]] || fail "$file is missing or empty"

@@ -31,6 +31,14 @@ for ending in mp4 gif; do
     fail "$frames frames at $rate a second for $seconds s"
 done
 
+# a pipe stays one
+mkfifo pipe.mp4
+timeout 60 cat pipe.mp4 >"$scratch/read" &
+PATH=$with_ffmpeg expect_status 0 "$host" video run --trial 0 --out pipe.mp4
+[[ -p pipe.mp4 ]] || fail "the pipe was replaced"
+wait
+[[ $(cat read) == video && ! -e pipe.mp4.part ]] || fail "no video came through the pipe"
+
 PATH=$PWD/empty expect_status 3 "$host" video run --trial 0 --out none.mp4
 grep -q 'there is no ffmpeg on the path.*apt-get install ffmpeg' stderr || fail "$(cat stderr)"
 

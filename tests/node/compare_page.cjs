@@ -100,13 +100,15 @@ const tests = {
 
   async 'cautions where seeds are few or trials have no partner'(browser) {
     const few = with_data(page_of_both, (data) => {
-      for (const one of data.runs[0].differences) Object.assign(one, {seeds: 3, p: 0.25, p_holm: 1});
+      for (const one of data.runs[0].differences) Object.assign(one, {seeds: 3, p: 0.25, p_holm: 1, difference: 0.123});
       data.runs[0].only_before = 2;
     });
     const opened = await opened_page(browser, few);
     const verdict = await opened.page.locator('.verdict').textContent();
     assert.match(verdict, /No metric can be told apart/);
     assert.match(verdict, /3 seeds: no difference can be told apart with fewer than 6/);
+    for (const row of await opened.page.locator('#run-0 tbody tr').all())
+      assert.match((await cells(row)).slice(2, 4).join(), /^too few \(3 seeds\),—$/);
     assert.match(verdict, /2 trials without a partner \(2 before, 0 after\)/);
     await close(opened);
   },

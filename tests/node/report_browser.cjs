@@ -173,6 +173,39 @@ function with_data(report, change) {
   return file;
 }
 
+// The images of a PDF: [{width, height, colours}], the number of different ones of the rows of pixels read as RGB.
+function images_of(pdf) {
+  const text = pdf.toString('latin1');
+  return [...text.matchAll(/<<[^<>]*\/Subtype \/Image[^<>]*>>\s*stream\n/g)]
+    .filter(([head]) => head.includes('/FlateDecode'))
+    .map((found) => {
+      const number = (key) => Number(found[0].match(new RegExp(`/${key} (\\d+)`))[1]);
+      const from = found.index + found[0].length;
+      const pixels = zlib.inflateSync(pdf.subarray(from, from + number('Length')));
+      const colours = new Set();
+      for (let i = 0; i + 3 <= pixels.length; i += 3) colours.add(pixels.readUIntBE(i, 3));
+      return {width: number('Width'), height: number('Height'), colours: colours.size};
+    });
+}
+
+function pages_of(pdf) {
+  return pdf.toString('latin1').match(/\/Type \/Page\b(?!s)/g).length;
+}
+
+// The mean colour of what an element looks like, [red, green, blue].
+async function painted_colour(page, locator) {
+  const picture = (await locator.screenshot()).toString('base64');
+  return page.evaluate(async (png) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${png}`)).blob());
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    const mean = [0, 0, 0];
+    for (let i = 0; i < pixels.length; ++i) if (i % 4 < 3) mean[i % 4] += pixels[i] / (pixels.length / 4);
+    return mean;
+  }, picture);
+}
+
 function read_csv(file) {
   const [head, ...lines] = fs
     .readFileSync(file, 'utf8')
@@ -209,6 +242,9 @@ module.exports = {
   with_replay,
   open_report,
   check_layout,
+  images_of,
+  pages_of,
+  painted_colour,
   read_csv,
   run_tests,
 };

@@ -14,6 +14,9 @@ const {
   with_data,
   open_report,
   check_layout,
+  images_of,
+  pages_of,
+  painted_colour,
   read_csv,
   run_tests,
 } = require('./report_browser.cjs');
@@ -22,9 +25,14 @@ browser_or_skip();
 const source = process.argv[2];
 const scratch = scratch_folder();
 const quickstart = run_experiment(path.join(source, 'examples/quickstart.toml'), path.join(scratch, 'quickstart'));
-const crossing = run_experiment(path.join(source, 'tests/end_to_end/crossing.toml'), path.join(scratch, 'crossing'), {
-  env: {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')},
-});
+const run_crossing = (name, ...options) =>
+  run_experiment(path.join(source, 'tests/end_to_end/crossing.toml'), path.join(scratch, name), {
+    env: {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')},
+    options,
+  });
+const crossing = run_crossing('crossing');
+const six_pairs = run_crossing('six_pairs', '--trials', '6');
+const two_pairs = run_crossing('two_pairs', '--trials', '2');
 
 const SECTIONS = ['results', 'every trial', 'all metrics', 'provenance'];
 
@@ -185,6 +193,53 @@ tests['the heat map and the points show the selected metric'] = async (browser) 
   await close(opened);
 };
 
+for (const colorScheme of ['light', 'dark'])
+  tests[`a cell of the heat map without a value looks like none, ${colorScheme}`] = async (browser) => {
+    const report = with_data(crossing, (data) => {
+      // a high and a low value, one that is undefined, one that was not run
+      const metric = data.metrics.findIndex(({name}) => name === 'success');
+      [1, 0, null].forEach((mean, i) => Object.assign(data.summaries[i][metric], {mean, low: mean, high: mean}));
+      data.layouts.report.heat_map = {metric: 'success'};
+      data.best = data.best.filter((mark) => mark.metric !== 'success');
+      const last = data.combinations.pop();
+      data.combinations.push({...last, global_planner: 'another'});
+    });
+    const opened = await open_report(browser, report, {colorScheme});
+    const {page} = opened;
+    const colour = (cell) => painted_colour(page, page.locator(cell).first());
+    const ground = await colour('#heat-map thead td');
+    const distance = (from) => Math.hypot(...ground.map((value, i) => value - from[i]));
+    const best = distance(await colour('#heat-map .cell:has-text("1.00")'));
+    const cells = await page.locator('#heat-map .cell.nothing').all();
+    assert.strictEqual(cells.length, 3);
+    for (const cell of cells) {
+      const empty = distance(await painted_colour(page, cell));
+      assert.ok(empty < best / 4, `without a value ${empty} from the ground, the best ${best}`);
+    }
+    await close(opened);
+  };
+
+tests['nothing is estimated from fewer than six pairs or values'] = async (browser) => {
+  const opened = await open_report(browser, two_pairs);
+  const {page} = opened;
+  for (const text of await page.locator('#diagnosis .figure-line').allTextContents()) assert.match(text, /ρ: too few \([0-5]\)/);
+  for (const text of await page.locator('#diagnosis tbody td').allTextContents()) assert.match(text, /^too few \([0-5]\)$/);
+  for (const text of await page.locator('.ranking .against').allTextContents()) assert.match(text, /^(=|—|too few \(2\))$/);
+  assert.strictEqual(await page.locator('#comparisons').count(), 0);
+  assert.match(await page.locator('#left-out').textContent(), /Paired differences: no two combinations share 6 seeds/);
+  await close(opened);
+  const one_pair = with_data(six_pairs, (data) => {
+    for (const one of data.comparisons.filter((_, i) => i % 2 === 0)) Object.assign(one, {pairs: 1, effect: -1, p: 1});
+  });
+  const mixed = await open_report(browser, one_pair);
+  const rows = await mixed.page.locator('#comparisons tbody tr:not(.group)').allTextContents();
+  const [few_rows, others] = [true, false].map((wanted) => rows.filter((row) => row.includes('too few (1)') === wanted));
+  assert.ok(few_rows.length > 0 && others.length > 0, rows.join('\n'));
+  for (const row of few_rows) assert.match(row, /too few \(1\)———1/);
+  for (const row of others) assert.match(row, /6$|tie/);
+  await close(mixed);
+};
+
 tests['points are selected by keys and describe their trial'] = async (browser) => {
   const opened = await open_report(browser, crossing);
   const {page} = opened;
@@ -292,7 +347,7 @@ tests['the contents stay, and a jump arrives, while sections are filled'] = asyn
 };
 
 tests['every figure is saved as SVG, in light colours and without a style sheet'] = async (browser) => {
-  const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
+  const opened = await open_report(browser, six_pairs, {colorScheme: 'dark'});
   const {page} = opened;
   for (const section of ['heat-map', 'distributions', 'diagnosis', 'comparisons', 'curves', 'completion']) {
     const button = page.locator(`#${section} .figure-tools button`).first();
@@ -320,7 +375,26 @@ tests['the printed report is complete'] = async (browser) => {
   const opened = await open_report(browser, crossing, {colorScheme: 'dark'});
   const pdf = await opened.page.pdf({format: 'A4'});
   assert.ok(pdf.length > 20000, `a PDF of ${pdf.length} bytes`);
+  await opened.page.emulateMedia({media: 'print'});
+  assert.ok(await opened.page.locator('#replay canvas').first().isVisible());
+  assert.strictEqual(await opened.page.locator('#metrics table').isVisible(), false);
+  assert.match(await opened.page.locator('#metrics').innerText(), /summary\.csv/);
   await close(opened);
+};
+
+// As `chromium --print-to-pdf` does.
+tests['a report that is printed once it is loaded shows the replay, undistorted'] = async (browser) => {
+  for (const report of [quickstart, crossing]) {
+    const context = await browser.newContext({viewport: {width: 800, height: 600}});
+    const page = await context.newPage();
+    await page.goto(`file://${report}`);
+    const pdf = await page.pdf({format: 'A4'});
+    const drawn = images_of(pdf).filter((image) => image.height > 100 && image.colours > 5);
+    assert.strictEqual(drawn.length, 1, JSON.stringify(images_of(pdf)));
+    assert.ok(drawn[0].width > 600 && drawn[0].width <= 690, `${drawn[0].width} px wide`);
+    assert.ok(pages_of(pdf) < 12, `${pages_of(pdf)} pages`);
+    await context.close();
+  }
 };
 
 tests['the replay plays, seeks and switches to 3-D'] = async (browser) => {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Draws the fundamental diagrams of docs/pedestrians.md from runs of the tests 4, 15 and 16 that run.sh left in RUNS:
+# Draws the fundamental diagrams of docs/measured/pedestrians.md from runs of the tests 4, 15 and 16 that run.sh left in RUNS:
 # draw_diagrams.sh RUNS FOLDER
 set -euo pipefail
 runs=$1

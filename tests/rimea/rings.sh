@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Writes the closed rings of tests 4 and 16, one file for each density: rings.sh [FOLDER] (default: this folder).
+# Writes the closed rings of tests 4 and 16, one file for each density, beside their experiments in FOLDER, as the build
+# does: rings.sh FOLDER
 #
 # A ring keeps its density, and has no ends, entrances or corners. People start evenly in its four quarters and walk
 # counter-clockwise through 16 gates, for more laps than anybody can finish in the time.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-to=${1:-$here}
+to=$1
+mkdir -p "$to/04_fundamental_diagram" "$to/16_single_file"
 
 # ring INNER OUTER PEOPLE NAME TITLE DESCRIPTION LIMIT LAPS: radii of the corners of both walls, 48-sided, m; people a quarter
 ring() {

@@ -8,8 +8,8 @@
 
 namespace dmrp::test {
 
-// The environment's DMRP_TEST_DATA, else the one CMake was configured with. A test case that needs it has the
-// tag [data] (dmrp_add_test's group data), and without it skips with a message:
+// The environment's DMRP_TEST_DATA, else the one CMake was configured with. A test case that needs it skips
+// without it, with a message, so that CTest says SKIPPED:
 //   const auto data = dmrp::test::test_data();
 //   if (!data) { WARN("skipped: DMRP_TEST_DATA is not set"); return; }
 inline std::optional<std::filesystem::path> test_data() {

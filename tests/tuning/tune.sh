@@ -11,7 +11,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 host=$1 controller=$2 out=$3 candidates=${4:-24} trials=${5:-5} seed=${6:-41}
 finalists=4
 
-# Tasks are drawn from the seed. Those of docs/controllers.md, of the controllers' README and of ablation.sh are for judging.
+# Tasks are drawn from the seed. Those of docs/measured/controllers.md are for judging.
 held_out="160016 160711 160712 20261123 20261124 20261125"
 training_scenarios="mall library"
 training_robots=8

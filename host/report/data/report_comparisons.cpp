@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"

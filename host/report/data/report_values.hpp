@@ -4,8 +4,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
-#include <string>
 
 #include "host/report/data/report_frame.hpp"
 #include "host/results/manifest.hpp"

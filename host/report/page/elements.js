@@ -34,6 +34,31 @@ export function head_row(...cells) {
   return element('thead', {}, element('tr', {}, cells));
 }
 
+// The head of a column of numbers, above its unit.
+export function number_head(text, unit = null) {
+  return element(
+    'th',
+    {scope: 'col', class: 'number'},
+    element('span', {class: 'header'}, text),
+    unit && element('span', {class: 'unit'}, unit)
+  );
+}
+
+// A cell with a number and smaller lines below it; `label`: its name where rows are folded on small screens.
+export function number_cell(label, value, ...lines) {
+  const small = lines.map((line) => element('span', {class: 'interval'}, line));
+  return element('td', {class: 'number', 'data-label': label}, element('span', {class: 'mean'}, value), small);
+}
+
+// The bodies of a table: the rows of each variant that has some, below its name if there are several.
+export function bodies_of(data, variants, columns, rows_of) {
+  return variants.map((variant) => {
+    const rows = rows_of(variant);
+    const title = data.scenarios.length > 1 && group_row(variant.label, columns);
+    return rows.length > 0 && element('tbody', {}, title, rows);
+  });
+}
+
 // The row above a group of rows.
 export function group_row(title, columns) {
   return element(

@@ -2,6 +2,7 @@
 // numbers.js: formats numbers, intervals and units.
 
 export const UNDEFINED = '—';
+export const FEWEST = 6; // pairs or values of which a difference or correlation is shown (paired_test.hpp)
 
 export function is_number(value) {
   return typeof value === 'number' && Number.isFinite(value);
@@ -40,6 +41,10 @@ export function interval(low, high, decimals, write = fixed) {
 export function p_value(p) {
   if (!is_number(p)) return UNDEFINED;
   return p < 0.001 ? '< 0.001' : p.toFixed(3);
+}
+
+export function too_few(count) {
+  return `too few (${count})`;
 }
 
 export function percent(share) {

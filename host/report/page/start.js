@@ -2,6 +2,7 @@
 // start.js: reads the data and fills the page. The head, the answer and the tables come at once, the others when the reader
 // scrolls near them or when the browser is idle, so that the report of a large run opens quickly.
 import {element, fill} from './elements.js';
+import * as few from './few.js';
 import * as completion from './plots/completion.js';
 import * as diagnosis from './plots/diagnosis.js';
 import * as distributions from './plots/distributions.js';
@@ -72,7 +73,7 @@ function mount_part(part, data) {
   part.done = true;
   const body = part.section.querySelector('.section-body');
   try {
-    part.mount(body, data);
+    part.shown = part.mount(body, data);
   } catch (error) {
     // an error in one section must not stop the others
     console.error(error);
@@ -176,6 +177,17 @@ function mount_when_idle(all, data) {
   );
 }
 
+// Delays the window's load event, and with it printing by a program, until `shown`: an open document holds it back.
+function load_with(shown) {
+  const frame = element('iframe', {hidden: true});
+  document.body.append(frame);
+  frame.contentDocument.open();
+  shown.finally(() => {
+    frame.contentDocument.close();
+    frame.remove();
+  });
+}
+
 function mount_up_to(all, data, id) {
   for (const part of all) {
     mount_part(part, data);
@@ -202,7 +214,7 @@ function begin() {
   theme.follow_system();
   theme.follow_printing();
   tips.explain_on_demand();
-  const data = JSON.parse(document.getElementById('dmrp-data').textContent);
+  const data = few.without_estimates(JSON.parse(document.getElementById('dmrp-data').textContent));
   overview.mount(document.getElementById('overview'), data);
   const all = with_data(parts(), data);
   const anchor = make_anchor();
@@ -214,6 +226,9 @@ function begin() {
   });
   window.dmrp = {data, open_replay: (trial) => open_replay(all, data, anchor, trial)};
   mount_up_to(all, data, 'tables');
+  const replay = all.find((part) => part.section.id === 'replay');
+  if (replay) mount_part(replay, data);
+  if (replay && replay.shown) load_with(replay.shown);
   jump_to(all, data, anchor, window.location.hash.slice(1));
   mount_when_near(all, data);
   follow_reading(all, anchor);

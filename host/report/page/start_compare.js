@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // start_compare.js: reads the data of a comparison and fills its page: a section for each later run.
 import {element} from './elements.js';
+import * as few from './few.js';
 import * as differences from './compare/differences.js';
 import * as overview from './compare/overview.js';
 import * as what_changed from './compare/what_changed.js';
@@ -32,7 +33,7 @@ function begin() {
   theme.follow_system();
   theme.follow_printing();
   tips.explain_on_demand();
-  const data = JSON.parse(document.getElementById('dmrp-data').textContent);
+  const data = few.without_estimates(JSON.parse(document.getElementById('dmrp-data').textContent));
   window.dmrp = {data};
   overview.mount(document.getElementById('overview'), data);
   data.runs.forEach((run, index) => section(data, run, index));

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -105,8 +104,17 @@ json events_json(const std::vector<MetricEvent>& events) {
 }
 
 void write_end_of_robot(json& robot, const dmrp_robot_end& end) {
-  constexpr std::array<const char*, 6> failures = {"",         "time limit", "oscillation",
-                                                   "deadlock", "no command", "no plan"};  // by DMRP_FAILURE_*
+  constexpr std::array<const char*, 11> failures = {"",
+                                                    "time limit",
+                                                    "oscillation",
+                                                    "deadlock",
+                                                    "no command",
+                                                    "no plan",
+                                                    "held behind another robot",
+                                                    "circling",
+                                                    "blocked by a person",
+                                                    "blocked by a robot",
+                                                    "stuck"};  // by DMRP_FAILURE_*
   if (end.failure != DMRP_FAILURE_NONE && end.failure < failures.size()) robot["failure"] = failures.at(end.failure);
   if (end.arrival_ns >= 0) robot["arrival"] = milliseconds(end.arrival_ns);
 }

@@ -89,14 +89,9 @@ bool put_on_cells(const VariantWorld& variant, const core::World& world, const t
   std::vector<toolkit::SnapRequest> requests;
   for (std::size_t i = 0; i < world.robots().size(); ++i) {
     const dmrp_vec2 position = toolkit::position(world.robots()[i].pose);
-    if (!in_force) {
-      requests.push_back({position, toolkit::no_cell});
-      continue;
-    }
     // a robot that cannot return straight to its path will not be where the path predicts
-    const PathPosition& on_path = in_force->robots[i];
-    requests.push_back({can_move(i, position, on_path.next_waypoint) ? on_path.position_then : position,
-                        grid.index_of(on_path.next_waypoint_then)});
+    const bool on_path = in_force && can_move(i, position, in_force->robots[i].next_waypoint);
+    requests.push_back({on_path ? in_force->robots[i].position_then : position, toolkit::no_cell});
   }
   const auto grid_of = [&](std::size_t robot) { return toolkit::GridView(*problem.robots[robot].grid); };
   const auto cells = toolkit::snap_to_own_cells(grid_of, requests, snap_reach_cells * grid.resolution_m(), can_move);

@@ -66,7 +66,6 @@ struct StagedProblem {
 struct PathPosition {
   dmrp_vec2 next_waypoint{};
   dmrp_vec2 position_then{};  // its position now, if the plan takes effect at once
-  dmrp_vec2 next_waypoint_then{};
 };
 
 // The plan in force while the next one is made.

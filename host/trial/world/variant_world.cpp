@@ -11,6 +11,7 @@
 
 #include "core/scene/footprint.hpp"
 #include "core/scene/robot_task.hpp"
+#include "host/files/sha256.hpp"
 
 namespace dmrp::host {
 
@@ -102,5 +103,16 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       walking_grids(shared.walking_grids),
       routes(shared.routes),
       view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
+
+std::string task_hash(const core::Scenario& scenario) {
+  std::string places;
+  const auto add = [&](const dmrp_pose& pose) { places += fmt::format("{} {} {},", pose.x, pose.y, pose.theta); };
+  for (const core::RobotTask& task : scenario.robots) {
+    add(core::start_of(task));
+    for (const dmrp_pose& goal : task.goals) add(goal);
+    places += ';';
+  }
+  return places.empty() ? "" : sha256_of_bytes(places).substr(0, 16);
+}
 
 }  // namespace dmrp::host

@@ -34,6 +34,9 @@ struct VariantWorld {
   core::WorldView view;
 };
 
+// 16 hexadecimal digits that tell the starts and goals of a scenario's robots from others. "" without robots.
+std::string task_hash(const core::Scenario& scenario);
+
 // Seconds of the experiment file, in the contract's unit.
 inline std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(seconds * 1e9 + 0.5);

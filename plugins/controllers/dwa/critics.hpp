@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "controllers/dwa/oscillation.hpp"
 #include "controllers/dwa/velocity_window.hpp"

@@ -2,7 +2,6 @@
 #include "controllers/dwa/dwa.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -36,9 +35,7 @@ constexpr std::int64_t stall_ns = 2'000'000'000;
 }  // namespace
 
 Descriptor Dwa::describe() {
-  return Descriptor("dmrp.controller.dwa", "DWA", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.dwa", "DWA")
       .summary("tries the velocities within reach on the costmap and takes the arc that scores best")
       .source(
           "Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation "
@@ -51,15 +48,13 @@ Descriptor Dwa::describe() {
 
 Status Dwa::start(const Start& start) {
   costmap_ = &extension<dmrp_local_costmap>();
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
+  begin(start);
   tuning_ = {sim_time,      sim_granularity, angular_sim_granularity, path_distance_bias, goal_distance_bias,
              occdist_scale, twirling_scale,  forward_point_distance,  scaling_speed,      max_scaling_factor};
   window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
   window_.v_y.reserve(static_cast<std::size_t>(*vy_samples) + 1);
   window_.omega.reserve(static_cast<std::size_t>(*vth_samples) + 1);
   fronts_.start();
-  tracker_.clear();
-  at_goal_.reset();
   oscillation_.reset();
   standing_ns_ = 0;
   turn_to_.reset();
@@ -68,14 +63,7 @@ Status Dwa::start(const Start& start) {
   return Status::ok;
 }
 
-void Dwa::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-}
-
-Status Dwa::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status Dwa::control(const Observation& now, Command& command) {
   const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   FootprintCheck footprint(map, now.footprint, footprint_padding, now.pose);
   if (turn_to_ && std::abs(toolkit::difference(now.pose.theta, *turn_to_)) <= turn_end_rad) turn_to_.reset();

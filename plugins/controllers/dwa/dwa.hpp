@@ -5,22 +5,17 @@
 // (1997).
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-
 #include <array>
-#include <dmrp/plugin.hpp>
 #include <optional>
 
 #include "controllers/dwa/critics.hpp"
 #include "controllers/dwa/path_fronts.hpp"
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/footprint_check.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 
 namespace dmrp::controllers {
 
-class Dwa final : public LocalController {
+class Dwa final : public PathController {
  public:
   static Descriptor describe();
 
@@ -101,10 +96,9 @@ class Dwa final : public LocalController {
                                       "that, brake; off: no command");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
   bool stops_in_time(const Observation& now, FootprintCheck& footprint) const;
   void sample_window(const Observation& now);
@@ -119,12 +113,9 @@ class Dwa final : public LocalController {
   void annotate(const dwa::Scene& scene, const dwa::Sample& choice) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
-  Annotations annotations_;
   dwa::Tuning tuning_;
 
   // state from one control cycle to the next
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   dwa::OscillationGuard oscillation_;
   std::int64_t standing_ns_ = 0;
   std::optional<double> turn_to_;   // the heading of a turn in place

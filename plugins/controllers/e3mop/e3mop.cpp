@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
-#include <limits>
 
 #include "controllers/e3mop/guarded_motion.hpp"
 #include "controllers/e3mop/lay_by.hpp"
@@ -61,9 +60,7 @@ constexpr double tip_reached_m = 0.25;
 }  // namespace
 
 Descriptor E3mop::describe() {
-  return Descriptor("dmrp.controller.e3mop", "E3MoP", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.e3mop", "E3MoP")
       .summary("searches a lattice of unicycle motions, smooths the path by optimisation and drives it time-optimally")
       .source(
           "Wen, Zhang, Gao, Yuan, Fang: E3MoP: Efficient motion planning based on heuristic-guided motion primitives "
@@ -77,9 +74,7 @@ Descriptor E3mop::describe() {
 Status E3mop::start(const Start& start) {
   costmap_ = &extension<dmrp_local_costmap>();
   distance_field_ = &extension<dmrp_distance_field>();
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   limits_ = {};
   turning_ = false;
   way_out_.reset();
@@ -93,10 +88,7 @@ void E3mop::set_path(Path path, std::uint64_t) {
   detour_.clear();
 }
 
-Status E3mop::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status E3mop::control(const Observation& now, Command& command) {
   if (at_goal_.reached(tracker_.stop(), now)) {
     command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;

@@ -7,21 +7,18 @@
 #pragma once
 
 #include <dmrp/ext/distance_field.h>
-#include <dmrp/ext/local_costmap.h>
 
-#include <dmrp/plugin.hpp>
 #include <optional>
 
 #include "controllers/e3mop/local_plan.hpp"
 #include "controllers/e3mop/path_shaper.hpp"
 #include "controllers/e3mop/way_out.hpp"
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/path_ahead.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 
 namespace dmrp::controllers {
 
-class E3mop final : public LocalController {
+class E3mop final : public PathController {
  public:
   static Descriptor describe();
 
@@ -80,9 +77,9 @@ class E3mop final : public LocalController {
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   // The result of one lattice search.
   struct Plan {
     e3mop::LatticeGoal goal;
@@ -112,11 +109,8 @@ class E3mop final : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_distance_field* distance_field_ = nullptr;
-  Annotations annotations_;
 
   // state from one control cycle to the next
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   std::vector<e3mop::PathPoint> path_;  // the path in use; empty if there is none
   bool turning_ = false;                // in place
   e3mop::WayOut way_out_;

@@ -2,7 +2,6 @@
 #include "controllers/e3mop/local_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers::e3mop {

@@ -5,6 +5,7 @@
 #include <dmrp/ext/annotate.h>
 
 #include <array>
+#include <cassert>
 #include <span>
 
 #include "controllers/motion/unicycle.hpp"
@@ -23,6 +24,7 @@ class Annotations {
   bool wanted() const { return annotate_ && annotate_->wanted(annotate_); }
 
   void trajectory(std::uint32_t role, std::span<const Pose> poses, double step_s) const {
+    assert(annotate_);
     const dmrp_trajectory trajectory = {sizeof(trajectory),
                                         role,
                                         robot_,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -44,6 +45,7 @@ class BandedMatrix {
 
   // y = A x
   void multiply(const std::vector<double>& x, std::vector<double>& y) const {
+    assert(x.size() == size_);
     y.assign(size_, 0.0);
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t first = i > Bandwidth ? i - Bandwidth : 0;
@@ -113,7 +115,10 @@ class BandedLdlt {
       for (std::size_t j = first; j < i; ++j) x[j] -= factor_.at(i, j) * x[i];
     }
   }
-  void solve(std::vector<double>& x) const { solve(x.data()); }
+  void solve(std::vector<double>& x) const {
+    assert(x.size() == size());
+    solve(x.data());
+  }
 
  private:
   static constexpr double smallest_pivot = 1e-300;

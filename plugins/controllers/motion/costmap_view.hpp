@@ -4,7 +4,7 @@
 
 #include <dmrp/ext/local_costmap.h>
 
-#include <cmath>
+#include <cassert>
 #include <cstdint>
 #include <dmrp/cpp/local_controller.hpp>
 
@@ -17,7 +17,9 @@ class CostmapView {
       : map_(&map),
         width_(static_cast<std::int32_t>(map.width)),
         height_(static_cast<std::int32_t>(map.height)),
-        cells_per_m_(1.0 / map.resolution_m) {}
+        cells_per_m_(1.0 / map.resolution_m) {
+    assert(map.costs && map.resolution_m > 0.0);
+  }
 
   std::int32_t width() const { return width_; }
   std::int32_t height() const { return height_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "controllers/motion/detour.hpp"
 
+#include <cassert>
 #include <dmrp/toolkit/polyline.hpp>
 
 namespace dmrp::controllers {
@@ -34,6 +35,7 @@ Detour::Detour() {
 }
 
 void Detour::keep(const std::vector<Vec2>& way, double end_m) {
+  assert(way.size() >= 2);
   points_ = way;
   toolkit::arc_lengths(points_, arcs_);
   progress_m_ = 0.0;
@@ -49,6 +51,7 @@ void Detour::update(Vec2 robot, double path_progress_m) {
 }
 
 bool Detour::mend(const Guide& guide, const CostmapView& map) {
+  assert(is_kept());
   std::optional<Vec2> joint;
   double joint_m = arcs_.back();
   for (; joint_m > progress_m_; joint_m -= joint_step_m) {
@@ -69,6 +72,7 @@ bool Detour::leads_beyond(double arc_m) const {
 }
 
 Vec2 Detour::point_ahead(double distance_m) const {
+  assert(is_kept());
   return toolkit::point_at(points_, arcs_, progress_m_ + distance_m);
 }
 

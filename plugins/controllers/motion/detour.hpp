@@ -2,6 +2,7 @@
 // detour.hpp: a way around an obstacle on the path, kept until the robot has driven it.
 #pragma once
 
+#include <cassert>
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
@@ -35,7 +36,10 @@ class Detour {
   bool leads_beyond(double arc_m) const;
 
   // The rest of the way, from the place nearest to the robot on, if one is kept.
-  double remaining_m() const { return arcs_.back() - progress_m_; }
+  double remaining_m() const {
+    assert(is_kept());
+    return arcs_.back() - progress_m_;
+  }
   Vec2 point_ahead(double distance_m) const;  // the end if the distance is greater than what remains
 
   // The arc length of the path where the way ends.

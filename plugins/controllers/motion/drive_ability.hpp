@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
@@ -20,9 +21,11 @@ inline bool is_car_like(const Limits& limits) {
 
 // Of a car-like drive: the curvature of its tightest arc, and of the arc at a steering angle (1/m).
 inline double sharpest_curvature(const Limits& limits) {
+  assert(is_car_like(limits));
   return std::tan(limits.steering_max) / limits.wheelbase_m;
 }
 inline double curvature_at(double steering_rad, const Limits& limits) {
+  assert(is_car_like(limits));
   return std::tan(steering_rad) / limits.wheelbase_m;
 }
 

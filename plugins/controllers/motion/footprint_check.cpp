@@ -2,6 +2,7 @@
 #include "controllers/motion/footprint_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers {
@@ -67,6 +68,7 @@ bool FootprintCheck::is_too_close(const DirectedPoint& robot) const {
 }
 
 int FootprintCheck::arc_cost(const Pose& from, double v, double omega, double duration_s, int steps) const {
+  assert(steps > 0);
   DirectedPoint at = directed(from);
   const ArcStepper stepper(v, omega, duration_s / steps);
   int highest = 0;

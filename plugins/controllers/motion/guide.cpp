@@ -2,7 +2,7 @@
 #include "controllers/motion/guide.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers {
@@ -123,6 +123,7 @@ bool Guide::connects(const CostmapView& map, Vec2 robot, Vec2 point, double need
 }
 
 bool Guide::reaches(const CostmapView& map, Vec2 point) const {
+  assert(costs_.size() == static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
   const std::int32_t index = map.index_of(point);
   return index >= 0 && costs_[static_cast<std::size_t>(index)] != unreached &&
          efforts_[static_cast<std::size_t>(index)] != escape_effort;
@@ -144,6 +145,7 @@ std::optional<Vec2> Guide::nearest_reached(const CostmapView& map, Vec2 point, d
 }
 
 void Guide::path_to(const CostmapView& map, Vec2 point, std::vector<Vec2>& points) const {
+  assert(reaches(map, point));
   points.clear();
   points.push_back(point);
   std::int32_t cell = from_[static_cast<std::size_t>(map.index_of(point))];

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
@@ -167,6 +168,7 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
 }
 
 Vec2 displacement(const Obstacle& obstacle, double ahead_s) {
+  assert(!obstacle.way || (obstacle.way_count > 0 && obstacle.way_period_s > 0.0));
   if (!obstacle.way) return ahead_s * obstacle.velocity;
   const double periods = ahead_s / obstacle.way_period_s;
   const std::uint32_t last = obstacle.way_count - 1;

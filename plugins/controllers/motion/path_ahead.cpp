@@ -2,6 +2,7 @@
 #include "controllers/motion/path_ahead.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -26,6 +27,7 @@ double direction(Vec2 from, Vec2 to, double fallback) {
 
 void PathAhead::look(const PathTracker& tracker, const Observation& now, const CostmapView& map, double look_ahead_m,
                      double window_margin_m) {
+  assert(!tracker.empty() && look_ahead_m >= 0.0);
   points_.clear();
   const double whole_m = std::min(look_ahead_m, tracker.remaining_m());
   ends_at_stop_ = look_ahead_m >= tracker.remaining_m();
@@ -51,6 +53,7 @@ void PathAhead::look(const PathTracker& tracker, const Observation& now, const C
 
 void PathAhead::look_along(const Detour& detour, const PathTracker& tracker, const Observation& now,
                            const CostmapView& map, double look_ahead_m, double window_margin_m) {
+  assert(detour.is_kept() && !tracker.empty() && look_ahead_m >= 0.0);
   points_.clear();
   const auto point_at = [&](double ahead_m) {
     const double beyond_m = ahead_m - detour.remaining_m();

@@ -2,6 +2,7 @@
 #include "controllers/motion/path_tracker.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polyline.hpp>
 #include <limits>
@@ -101,6 +102,7 @@ void PathTracker::find_end(const Observation& now) {
 }
 
 Vec2 PathTracker::point_at(double arc_m) const {
+  assert(!empty());
   return arc_m >= end_m_ ? stop_.position : toolkit::point_at(points_, arcs_, arc_m);
 }
 

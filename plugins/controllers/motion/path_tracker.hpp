@@ -2,7 +2,6 @@
 // path_tracker.hpp: the robot's position on its timed path, and the point where it has to stop.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>

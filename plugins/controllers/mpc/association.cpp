@@ -2,7 +2,6 @@
 #include "controllers/mpc/association.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::controllers::mpc {

@@ -47,9 +47,7 @@ constexpr std::size_t usual_bucket = 512;
 }  // namespace
 
 Descriptor Mpc::describe() {
-  return Descriptor("dmrp.controller.mpc", "MPC", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.mpc", "MPC")
       .summary("minimum-time trajectories by nonlinear model predictive control, solved by an interior point method")
       .source(
           "Rösmann, Makarow, Bertram: Online Motion Planning Based on Nonlinear Model Predictive Control with "
@@ -73,9 +71,7 @@ Status Mpc::start(const Start& start) {
     set_error("min_dt is greater than max_dt");
     return Status::error;
   }
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   steering_.reset();
   const auto states = static_cast<std::size_t>(std::max<int>(max_grid_size, grid_size_ref));
   constexpr std::size_t bounds_per_state = 12;
@@ -100,10 +96,7 @@ void Mpc::set_path(Path path, std::uint64_t) {
   detour_.clear();
 }
 
-Status Mpc::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status Mpc::control(const Observation& now, Command& command) {
   steering_.update(now);
   if (at_goal_.arrived(tracker_.stop(), now)) {
     trajectory_.clear();

@@ -6,24 +6,19 @@
 // robot's limits come from the observation.
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
-#include <dmrp/plugin.hpp>
 #include <optional>
 
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/mpc/feasibility.hpp"
 #include "controllers/mpc/trajectory_optimizer.hpp"
 #include "controllers/mpc/turn_in_place.hpp"
 
 namespace dmrp::controllers {
 
-class Mpc : public LocalController {
+class Mpc : public PathController {
  public:
   static Descriptor describe();
 
@@ -106,7 +101,6 @@ class Mpc : public LocalController {
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  protected:
   // Replaces the prediction of agents, and may add some. The agents of the observation are the last obstacles, in their
@@ -114,6 +108,7 @@ class Mpc : public LocalController {
   virtual void foresee(const Observation& /*now*/, std::vector<Obstacle>& /*obstacles*/) {}
 
  private:
+  Status control(const Observation& now, Command& command) override;
   // Where this cycle's trajectory ends.
   struct Target {
     mpc::State goal = {0.0, 0.0, 0.0};
@@ -149,11 +144,8 @@ class Mpc : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  Annotations annotations_;
 
   // state from one control cycle to the next
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   SteeringEstimate steering_;
   mpc::Trajectory trajectory_;  // the warm start; empty if there is none
   mpc::TurnInPlace turn_;

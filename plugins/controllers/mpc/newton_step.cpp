@@ -2,7 +2,6 @@
 #include "controllers/mpc/newton_step.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dmrp::controllers::mpc {
 

@@ -37,16 +37,10 @@ bool is_standing(const Observation& now) {
   return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
 }
 
-mppi::Weight weight_of(double weight, int power) {
-  return {static_cast<float>(weight), power};
-}
-
 }  // namespace
 
 Descriptor Mppi::describe() {
-  return Descriptor("dmrp.controller.mppi", "MPPI", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.mppi", "MPPI")
       .summary("samples two thousand trajectories and drives their mean, weighted by what critics say of them")
       .source(
           "Williams, Drews, Goldfain, Rehg, Theodorou: Information theoretic model predictive control, IEEE "
@@ -72,7 +66,7 @@ Status Mppi::start(const Start& start) {
   model_.holonomic = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
   model_.deviation = {static_cast<float>(vx_std), static_cast<float>(vy_std), static_cast<float>(wz_std)};
   read_limits(*robot.limits);
-  cost_settings_ = {weight_of(CostCritic_cost_weight, CostCritic_cost_power),
+  cost_settings_ = {CostCritic,
                     static_cast<float>(CostCritic_critical_cost),
                     CostCritic_near_collision_cost,
                     static_cast<float>(CostCritic_collision_cost),
@@ -84,14 +78,13 @@ Status Mppi::start(const Start& start) {
                          static_cast<float>(ObstaclesCritic_collision_cost),
                          static_cast<float>(ObstaclesCritic_collision_margin_distance),
                          static_cast<float>(ObstaclesCritic_near_goal_distance)};
-  path_align_settings_ = {weight_of(PathAlignCritic_cost_weight, PathAlignCritic_cost_power),
+  path_align_settings_ = {PathAlignCritic,
                           static_cast<float>(PathAlignCritic_max_path_occupancy_ratio),
                           PathAlignCritic_offset_from_furthest,
                           PathAlignCritic_trajectory_point_step,
                           static_cast<float>(PathAlignCritic_threshold_to_consider),
                           PathAlignCritic_use_path_orientations};
-  path_angle_settings_ = {weight_of(PathAngleCritic_cost_weight, PathAngleCritic_cost_power),
-                          PathAngleCritic_offset_from_furthest,
+  path_angle_settings_ = {PathAngleCritic, PathAngleCritic_offset_from_furthest,
                           static_cast<float>(PathAngleCritic_threshold_to_consider),
                           static_cast<float>(PathAngleCritic_max_angle_to_furthest),
                           static_cast<mppi::PathAngleMode>(*PathAngleCritic_mode)};
@@ -99,9 +92,7 @@ Status Mppi::start(const Start& start) {
   if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
     path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
   model_.slowest_m_s = robot.limits->v_min == 0.0 && sample_forward ? 0.0f : mppi::Model{}.slowest_m_s;
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   noise_.start(start.seed, start.robot);
   cycle_ = 0;
   optimizer_.start(model_, {static_cast<float>(temperature), static_cast<float>(gamma)});
@@ -132,14 +123,7 @@ void Mppi::read_limits(const dmrp::Limits& limits) {
                    static_cast<float>(limits.a_max),   static_cast<float>(limits.alpha_max)};
 }
 
-void Mppi::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-}
-
-Status Mppi::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status Mppi::control(const Observation& now, Command& command) {
   // a path may pass its own end before it ends there
   const bool near_end = tracker_.remaining_m() <= std::max(tracker_.stop().tolerance_m, 0.5);
   if (near_end && at_goal_.reached(tracker_.stop(), now)) {
@@ -276,28 +260,24 @@ bool Mppi::score() {
   std::fill(costs_.begin(), costs_.end(), 0.0f);
   bool any_is_free = true;
   scene_.furthest = mppi::furthest_reached(batch_, scene_);
-  if (has(constraint))
-    mppi::add_constraint(batch_, model_, weight_of(ConstraintCritic_cost_weight, ConstraintCritic_cost_power), costs_);
+  if (has(constraint)) mppi::add_constraint(batch_, model_, ConstraintCritic, costs_);
   if (has(cost)) any_is_free = mppi::add_cost(batch_, model_, cost_settings_, field_, scene_, costs_);
   if (has(obstacles))
     any_is_free = mppi::add_obstacles(batch_, model_, obstacles_settings_, field_, scene_, costs_) && any_is_free;
   if (has(goal))
-    mppi::add_goal(batch_, weight_of(GoalCritic_cost_weight, GoalCritic_cost_power),
-                   static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
+    mppi::add_goal(batch_, GoalCritic, static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
   if (has(goal_angle))
-    mppi::add_goal_angle(batch_, weight_of(GoalAngleCritic_cost_weight, GoalAngleCritic_cost_power),
-                         static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_, costs_);
+    mppi::add_goal_angle(batch_, GoalAngleCritic, static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_,
+                         costs_);
   if (has(path_align)) mppi::add_path_align(batch_, path_align_settings_, scene_, costs_);
   if (has(path_follow))
-    mppi::add_path_follow(batch_, weight_of(PathFollowCritic_cost_weight, PathFollowCritic_cost_power),
-                          PathFollowCritic_offset_from_furthest,
+    mppi::add_path_follow(batch_, PathFollowCritic, PathFollowCritic_offset_from_furthest,
                           static_cast<float>(PathFollowCritic_threshold_to_consider), scene_, costs_);
   if (has(path_angle)) mppi::add_path_angle(batch_, path_angle_settings_, scene_, costs_);
   if (has(prefer_forward))
-    mppi::add_prefer_forward(batch_, model_, weight_of(PreferForwardCritic_cost_weight, PreferForwardCritic_cost_power),
+    mppi::add_prefer_forward(batch_, model_, PreferForwardCritic,
                              static_cast<float>(PreferForwardCritic_threshold_to_consider), scene_, costs_);
-  if (has(twirling))
-    mppi::add_twirling(batch_, weight_of(TwirlingCritic_cost_weight, TwirlingCritic_cost_power), scene_, costs_);
+  if (has(twirling)) mppi::add_twirling(batch_, TwirlingCritic, scene_, costs_);
   return any_is_free;
 }
 

@@ -5,18 +5,12 @@
 // is shipped with (nav2_bringup 1.4.2). Limits come from the robot.
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
 #include <cstdint>
-#include <dmrp/plugin.hpp>
 #include <string>
 #include <vector>
 
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/guide.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/mppi/cost_field.hpp"
 #include "controllers/mppi/critics.hpp"
 #include "controllers/mppi/noise.hpp"
@@ -25,9 +19,17 @@
 
 namespace dmrp::controllers {
 
-class Mppi final : public LocalController {
+class Mppi final : public PathController {
  public:
   static Descriptor describe();
+
+  // How much a critic counts, and the power to which its weighted cost is raised.
+  struct CriticWeight {
+    Param<int> power;
+    Param<double> weight;
+
+    operator mppi::Weight() const { return {static_cast<float>(*weight), power}; }
+  };
 
   Param<int> batch_size = param("batch_size", 2000).unit("1").range(1, 100000).doc("number of sampled trajectories");
   Param<int> time_steps = param("time_steps", 56).unit("1").range(8, 256).doc("steps of a trajectory");
@@ -69,16 +71,8 @@ class Mppi final : public LocalController {
             std::vector<std::string>{"ConstraintCritic", "CostCritic", "GoalCritic", "GoalAngleCritic",
                                      "PathAlignCritic", "PathFollowCritic", "PathAngleCritic", "PreferForwardCritic"})
           .doc("the critics that score trajectories");
-  Param<int> ConstraintCritic_cost_power = param("ConstraintCritic_cost_power", 1)
-                                               .unit("1")
-                                               .range(1, 10)
-                                               .doc("power of the cost of speeds beyond the limits");
-  Param<double> ConstraintCritic_cost_weight =
-      param("ConstraintCritic_cost_weight", 4.0).unit("1").range(0.0, 10000.0).doc("weight of it");
-  Param<int> CostCritic_cost_power =
-      param("CostCritic_cost_power", 1).unit("1").range(1, 10).doc("power of the cost of cells passed");
-  Param<double> CostCritic_cost_weight =
-      param("CostCritic_cost_weight", 3.81).unit("1").range(0.0, 10000.0).doc("weight of it");
+  CriticWeight ConstraintCritic = critic_weight("ConstraintCritic", 4.0, "speeds beyond the limits");
+  CriticWeight CostCritic = critic_weight("CostCritic", 3.81, "cells passed");
   Param<double> CostCritic_critical_cost = param("CostCritic_critical_cost", 300.0)
                                                .unit("1")
                                                .range(0.0, 1000000.0)
@@ -91,10 +85,8 @@ class Mppi final : public LocalController {
                                                 .unit("1")
                                                 .range(0.0, 1000000000.0)
                                                 .doc("cost of a trajectory that collides");
-  Param<double> CostCritic_near_goal_distance = param("CostCritic_near_goal_distance", 1.0)
-                                                    .unit("m")
-                                                    .range(0.0, 20.0)
-                                                    .doc("nearer to the goal, only collisions and critical cells cost");
+  Param<double> CostCritic_near_goal_distance = goal_distance(
+      "CostCritic_near_goal_distance", 1.0, "nearer to the goal, only collisions and critical cells cost");
   Param<int> CostCritic_trajectory_point_step = param("CostCritic_trajectory_point_step", 2)
                                                     .unit("1")
                                                     .range(1, 50)
@@ -115,36 +107,15 @@ class Mppi final : public LocalController {
                                                      .doc("cost of a trajectory that collides");
   Param<double> ObstaclesCritic_collision_margin_distance =
       param("ObstaclesCritic_collision_margin_distance", 0.1).unit("m").range(0.0, 5.0).doc("the collision margin");
-  Param<double> ObstaclesCritic_near_goal_distance = param("ObstaclesCritic_near_goal_distance", 0.5)
-                                                         .unit("m")
-                                                         .range(0.0, 20.0)
-                                                         .doc("nearer to the goal, the inflation radius costs nothing");
-  Param<int> GoalCritic_cost_power = param("GoalCritic_cost_power", 1)
-                                         .unit("1")
-                                         .range(1, 10)
-                                         .doc("power of the cost of the mean distance to the goal");
-  Param<double> GoalCritic_cost_weight =
-      param("GoalCritic_cost_weight", 5.0).unit("1").range(0.0, 10000.0).doc("weight of it");
-  Param<double> GoalCritic_threshold_to_consider = param("GoalCritic_threshold_to_consider", 1.4)
-                                                       .unit("m")
-                                                       .range(0.0, 20.0)
-                                                       .doc("it counts nearer to the goal than this");
-  Param<int> GoalAngleCritic_cost_power = param("GoalAngleCritic_cost_power", 1)
-                                              .unit("1")
-                                              .range(1, 10)
-                                              .doc("power of the cost of the deviation from the goal heading");
-  Param<double> GoalAngleCritic_cost_weight =
-      param("GoalAngleCritic_cost_weight", 3.0).unit("1").range(0.0, 10000.0).doc("weight of it");
-  Param<double> GoalAngleCritic_threshold_to_consider = param("GoalAngleCritic_threshold_to_consider", 0.5)
-                                                            .unit("m")
-                                                            .range(0.0, 20.0)
-                                                            .doc("it counts nearer to the goal than this");
-  Param<int> PathAlignCritic_cost_power = param("PathAlignCritic_cost_power", 1)
-                                              .unit("1")
-                                              .range(1, 10)
-                                              .doc("power of the cost of the mean distance from the path");
-  Param<double> PathAlignCritic_cost_weight =
-      param("PathAlignCritic_cost_weight", 14.0).unit("1").range(0.0, 10000.0).doc("weight of it");
+  Param<double> ObstaclesCritic_near_goal_distance = goal_distance(
+      "ObstaclesCritic_near_goal_distance", 0.5, "nearer to the goal, the inflation radius costs nothing");
+  CriticWeight GoalCritic = critic_weight("GoalCritic", 5.0, "the mean distance to the goal");
+  Param<double> GoalCritic_threshold_to_consider =
+      goal_distance("GoalCritic_threshold_to_consider", 1.4, "it counts nearer to the goal than this");
+  CriticWeight GoalAngleCritic = critic_weight("GoalAngleCritic", 3.0, "the deviation from the goal heading");
+  Param<double> GoalAngleCritic_threshold_to_consider =
+      goal_distance("GoalAngleCritic_threshold_to_consider", 0.5, "it counts nearer to the goal than this");
+  CriticWeight PathAlignCritic = critic_weight("PathAlignCritic", 14.0, "the mean distance from the path");
   Param<double> PathAlignCritic_max_path_occupancy_ratio =
       param("PathAlignCritic_max_path_occupancy_ratio", 0.05)
           .unit("1")
@@ -158,40 +129,24 @@ class Mppi final : public LocalController {
                                                          .unit("1")
                                                          .range(1, 50)
                                                          .doc("poses from one that is compared to the next");
-  Param<double> PathAlignCritic_threshold_to_consider = param("PathAlignCritic_threshold_to_consider", 0.5)
-                                                            .unit("m")
-                                                            .range(0.0, 20.0)
-                                                            .doc("it counts farther from the goal than this");
+  Param<double> PathAlignCritic_threshold_to_consider =
+      goal_distance("PathAlignCritic_threshold_to_consider", 0.5, "it counts farther from the goal than this");
   Param<bool> PathAlignCritic_use_path_orientations =
       param("PathAlignCritic_use_path_orientations", false).doc("headings count too");
-  Param<int> PathFollowCritic_cost_power = param("PathFollowCritic_cost_power", 1)
-                                               .unit("1")
-                                               .range(1, 10)
-                                               .doc("power of the cost of the distance to a point further on the path");
-  Param<double> PathFollowCritic_cost_weight =
-      param("PathFollowCritic_cost_weight", 5.0).unit("1").range(0.0, 10000.0).doc("weight of it");
+  CriticWeight PathFollowCritic = critic_weight("PathFollowCritic", 5.0, "the distance to a point further on the path");
   Param<int> PathFollowCritic_offset_from_furthest = param("PathFollowCritic_offset_from_furthest", 5)
                                                          .unit("1")
                                                          .range(0, 1000)
                                                          .doc("that point is this many after the furthest reached");
-  Param<double> PathFollowCritic_threshold_to_consider = param("PathFollowCritic_threshold_to_consider", 1.4)
-                                                             .unit("m")
-                                                             .range(0.0, 20.0)
-                                                             .doc("it counts farther from the goal than this");
-  Param<int> PathAngleCritic_cost_power = param("PathAngleCritic_cost_power", 1)
-                                              .unit("1")
-                                              .range(1, 10)
-                                              .doc("power of the cost of heading away from the path");
-  Param<double> PathAngleCritic_cost_weight =
-      param("PathAngleCritic_cost_weight", 2.0).unit("1").range(0.0, 10000.0).doc("weight of it");
+  Param<double> PathFollowCritic_threshold_to_consider =
+      goal_distance("PathFollowCritic_threshold_to_consider", 1.4, "it counts farther from the goal than this");
+  CriticWeight PathAngleCritic = critic_weight("PathAngleCritic", 2.0, "heading away from the path");
   Param<int> PathAngleCritic_offset_from_furthest = param("PathAngleCritic_offset_from_furthest", 4)
                                                         .unit("1")
                                                         .range(0, 1000)
                                                         .doc("toward the point this many after the furthest reached");
-  Param<double> PathAngleCritic_threshold_to_consider = param("PathAngleCritic_threshold_to_consider", 0.5)
-                                                            .unit("m")
-                                                            .range(0.0, 20.0)
-                                                            .doc("it counts farther from the goal than this");
+  Param<double> PathAngleCritic_threshold_to_consider =
+      goal_distance("PathAngleCritic_threshold_to_consider", 0.5, "it counts farther from the goal than this");
   Param<double> PathAngleCritic_max_angle_to_furthest = param("PathAngleCritic_max_angle_to_furthest", 1.0)
                                                             .unit("rad")
                                                             .range(0.0, 3.2)
@@ -200,18 +155,10 @@ class Mppi final : public LocalController {
                                         .unit("1")
                                         .range(0, 2)
                                         .doc("0: forward; 1: forward or backward; 2: as the path leads");
-  Param<int> PreferForwardCritic_cost_power =
-      param("PreferForwardCritic_cost_power", 1).unit("1").range(1, 10).doc("power of the cost of driving backward");
-  Param<double> PreferForwardCritic_cost_weight =
-      param("PreferForwardCritic_cost_weight", 5.0).unit("1").range(0.0, 10000.0).doc("weight of it");
-  Param<double> PreferForwardCritic_threshold_to_consider = param("PreferForwardCritic_threshold_to_consider", 0.5)
-                                                                .unit("m")
-                                                                .range(0.0, 20.0)
-                                                                .doc("it counts farther from the goal than this");
-  Param<int> TwirlingCritic_cost_power =
-      param("TwirlingCritic_cost_power", 1).unit("1").range(1, 10).doc("power of the cost of the mean turning rate");
-  Param<double> TwirlingCritic_cost_weight =
-      param("TwirlingCritic_cost_weight", 10.0).unit("1").range(0.0, 10000.0).doc("weight of it");
+  CriticWeight PreferForwardCritic = critic_weight("PreferForwardCritic", 5.0, "driving backward");
+  Param<double> PreferForwardCritic_threshold_to_consider =
+      goal_distance("PreferForwardCritic_threshold_to_consider", 0.5, "it counts farther from the goal than this");
+  CriticWeight TwirlingCritic = critic_weight("TwirlingCritic", 10.0, "the mean turning rate");
   Param<double> footprint_padding =
       param("footprint_padding", 0.01).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
   Param<bool> include_dynamic_obstacles =
@@ -219,10 +166,9 @@ class Mppi final : public LocalController {
           .doc("departure: tracked agents continue at their velocity; off: they stay where they are");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   enum Critic : unsigned {
     constraint,
     cost,
@@ -237,6 +183,14 @@ class Mppi final : public LocalController {
     critic_count
   };
 
+  CriticWeight critic_weight(const std::string& critic, double weight, const std::string& what) {
+    return {
+        param((critic + "_cost_power").c_str(), 1).unit("1").range(1, 10).doc(("power of the cost of " + what).c_str()),
+        param((critic + "_cost_weight").c_str(), weight).unit("1").range(0.0, 10000.0).doc("weight of it")};
+  }
+  ParamBuilder<double> goal_distance(const char* key, double value_m, const char* doc) {
+    return param(key, value_m).unit("m").range(0.0, 20.0).doc(doc);
+  }
   bool choose_critics();
   bool has(Critic critic) const { return (chosen_ >> critic & 1u) != 0; }
   void read_limits(const dmrp::Limits& limits);
@@ -251,7 +205,6 @@ class Mppi final : public LocalController {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  Annotations annotations_;
   unsigned chosen_ = 0;  // bit i: critic i
   mppi::Model model_;
   mppi::CostSettings cost_settings_;
@@ -260,8 +213,6 @@ class Mppi final : public LocalController {
   mppi::PathAngleSettings path_angle_settings_;
 
   // state from one control cycle to the next
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   mppi::Noise noise_;
   mppi::Optimizer optimizer_;
   std::uint32_t cycle_ = 0;  // of the noise

@@ -2,7 +2,6 @@
 #include "controllers/mppi/still_costmap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 

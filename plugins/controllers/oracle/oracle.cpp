@@ -24,9 +24,7 @@ const Agent* find(Span<Agent> people, std::uint64_t id) {
 }  // namespace
 
 Descriptor Oracle::describe() {
-  return Descriptor("dmrp.controller.oracle", "Oracle", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.oracle", "Oracle")
       .summary("MPC that is told where people will be: what perfect prediction is worth, no controller for robots")
       .source("a baseline without a publication")
       .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC |

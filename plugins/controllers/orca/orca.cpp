@@ -32,9 +32,7 @@ Vec2 velocity_of(const Observation& now) {
 }  // namespace
 
 Descriptor OrcaController::describe() {
-  return Descriptor("dmrp.controller.orca", "ORCA", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.orca", "ORCA")
       .summary("drives the collision-free velocity nearest to the path's, provided that robots share the evading")
       .source(
           "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011); "
@@ -51,20 +49,11 @@ Status OrcaController::start(const Start& start) {
   clusters_ = &extension<dmrp_obstacle_clusters>();
   const Robot& robot = start.world.robots()[static_cast<std::uint32_t>(start.robot)];
   holonomic_ = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   return Status::ok;
 }
 
-void OrcaController::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-}
-
-Status OrcaController::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status OrcaController::control(const Observation& now, Command& command) {
   // a path may pass its own end before it ends there
   const bool near_end = tracker_.remaining_m() <= std::max<double>(tracker_.stop().tolerance_m, lookahead_dist);
   if (near_end && at_goal_.reached(tracker_.stop(), now)) {

@@ -5,22 +5,16 @@
 // drives NH-ORCA, Alonso-Mora, Breitenmoser, Rufli, Beardsley, Siegwart, DARS 2010 (Springer 2013).
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
-#include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/obstacles.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/orca/allowed_velocities.hpp"
 #include "reciprocal/linear_program.hpp"
 
 namespace dmrp::controllers {
 
-class OrcaController final : public LocalController {
+class OrcaController final : public PathController {
  public:
   static Descriptor describe();
 
@@ -44,10 +38,9 @@ class OrcaController final : public LocalController {
       param("lookahead_dist", 1.0).unit("m").range(0.05, 10.0).doc("the preferred velocity points so far ahead");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   struct Near {
     double gap_m;
     const Obstacle* obstacle;
@@ -66,9 +59,6 @@ class OrcaController final : public LocalController {
   bool holonomic_ = false;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
   const dmrp_local_costmap* costmap_ = nullptr;
-  Annotations annotations_;
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
 
   // buffers, filled anew in every cycle
   ObstacleSet obstacles_;

@@ -9,9 +9,7 @@
 namespace dmrp::controllers {
 
 Descriptor PurePursuit::describe() {
-  return Descriptor("dmrp.controller.pure_pursuit", "Pure pursuit", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.pure_pursuit", "Pure pursuit")
       .summary("steers along arcs to a point ahead on the path, slower in curves, near obstacles and at the end")
       .source(
           "Macenski, Singh, Martin, Gines: Regulated pure pursuit for robot path tracking, Autonomous Robots 47 "
@@ -25,20 +23,13 @@ Descriptor PurePursuit::describe() {
 Status PurePursuit::start(const Start& start) {
   kinematics_ = start.world.robots()[static_cast<std::uint32_t>(start.robot)].kinematics;
   costmap_ = find_extension<dmrp_local_costmap>();
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   return Status::ok;
 }
 
-void PurePursuit::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-}
-
-Status PurePursuit::step(const Observation& now, Command& command) {
-  tracker_.update(now);
-  if (tracker_.empty() || at_goal_.reached(tracker_.stop(), now)) {
-    command = stop(now);
+Status PurePursuit::control(const Observation& now, Command& command) {
+  if (at_goal_.reached(tracker_.stop(), now)) {
+    if (!has_drive(DMRP_KINEMATICS_ACKERMANN)) command = at_goal_.command(tracker_.stop(), now);
     return Status::ok;
   }
   const dmrp_costmap* map = costmap_ ? costmap_->costmap(costmap_, now.robot) : nullptr;
@@ -64,11 +55,6 @@ double PurePursuit::look_ahead(const Observation& now) const {
   if (!use_velocity_scaled_lookahead_dist) return lookahead_dist;
   return std::max<double>(min_lookahead_dist,
                           std::min<double>(speed_of(now.velocity) * lookahead_time, max_lookahead_dist));
-}
-
-Command PurePursuit::stop(const Observation& now) {
-  return tracker_.empty() || has_drive(DMRP_KINEMATICS_ACKERMANN) ? braking(now)
-                                                                  : at_goal_.command(tracker_.stop(), now);
 }
 
 Command PurePursuit::pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const {

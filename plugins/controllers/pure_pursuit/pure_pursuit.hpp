@@ -10,18 +10,12 @@
 // - holonomic: straight to the look-ahead point, while it turns to face it
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-
-#include <dmrp/plugin.hpp>
-
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/footprint_check.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 
 namespace dmrp::controllers {
 
-class PurePursuit final : public LocalController {
+class PurePursuit final : public PathController {
  public:
   static Descriptor describe();
 
@@ -70,15 +64,13 @@ class PurePursuit final : public LocalController {
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   double look_ahead(const Observation& now) const;
   Command pursue(const Observation& now, double look_ahead_m, const dmrp_costmap* map) const;
   Command turn_in_place(const Observation& now, double angle) const;
   Command translate(const Observation& now, Vec2 carrot, const dmrp_costmap* map) const;
-  Command stop(const Observation& now);
   double regulated_speed(const Observation& now, double curvature, const dmrp_costmap* map) const;
   double approach_speed(const Observation& now) const;
   bool is_blocked(const Observation& now, const Command& command, const dmrp_costmap* map) const;
@@ -86,9 +78,6 @@ class PurePursuit final : public LocalController {
 
   std::uint32_t kinematics_ = DMRP_KINEMATICS_DIFFERENTIAL;
   const dmrp_local_costmap* costmap_ = nullptr;
-  Annotations annotations_;
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
 };
 
 }  // namespace dmrp::controllers

@@ -33,9 +33,7 @@ constexpr int turn_check_steps = 5;
 }  // namespace
 
 Descriptor StopAndWait::describe() {
-  return Descriptor("dmrp.controller.stop_and_wait", "Stop and wait", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.stop_and_wait", "Stop and wait")
       .summary("drives straight along the path and brakes for anything ahead: the lower bound of local controllers")
       .source("a baseline without a publication")
       .kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC)
@@ -45,9 +43,7 @@ Descriptor StopAndWait::describe() {
 
 Status StopAndWait::start(const Start& start) {
   costmap_ = &extension<dmrp_local_costmap>();
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   corners_m_.clear();
   next_corner_ = 0;
   turning_ = false;
@@ -70,10 +66,7 @@ void StopAndWait::set_path(Path path, std::uint64_t) {
   }
 }
 
-Status StopAndWait::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status StopAndWait::control(const Observation& now, Command& command) {
   // a path may pass its own end before it ends there
   const bool near_end = tracker_.remaining_m() <= tracker_.stop().tolerance_m;
   if (near_end && at_goal_.reached(tracker_.stop(), now)) {

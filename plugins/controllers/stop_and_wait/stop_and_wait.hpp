@@ -5,19 +5,14 @@
 // whatever stands on the leg ahead until that has left. It predicts nothing.
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-
-#include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/footprint_check.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
+#include "controllers/motion/path_controller.hpp"
 
 namespace dmrp::controllers {
 
-class StopAndWait final : public LocalController {
+class StopAndWait final : public PathController {
  public:
   static Descriptor describe();
 
@@ -28,9 +23,9 @@ class StopAndWait final : public LocalController {
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   // The straight piece of the path that the robot drives now.
   struct Leg {
     Vec2 ahead;       // the point on it that the robot steers to
@@ -43,9 +38,6 @@ class StopAndWait final : public LocalController {
   double free_length_m(const Observation& now, const Leg& leg, const FootprintCheck& check, double needed_m) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
-  Annotations annotations_;
-  PathTracker tracker_;
-  StopAndRotate at_goal_;
   std::vector<double> corners_m_;  // arc lengths at which the path turns
   std::size_t next_corner_ = 0;
   bool turning_ = false;

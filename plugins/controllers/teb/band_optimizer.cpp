@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "controllers/teb/band_optimizer.hpp"
 
-#include <cmath>
-
 namespace dmrp::controllers::teb {
 
 namespace {

@@ -2,13 +2,12 @@
 // declared_parameters.hpp: declares the parameters of the timed elastic band to the host.
 #pragma once
 
-#include <dmrp/cpp/local_controller.hpp>
-
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/teb/parameters.hpp"
 
 namespace dmrp::controllers::teb {
 
-class DeclaredParameters : public LocalController {
+class DeclaredParameters : public PathController {
  protected:
   // The values that the host has set; complete from start() on.
   Parameters parameters() const {

@@ -45,9 +45,7 @@ constexpr int shrink_less_after = 10;
 }  // namespace
 
 Descriptor Teb::describe() {
-  return Descriptor("dmrp.controller.teb", "TEB", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_controller("dmrp.controller.teb", "TEB")
       .summary("optimises timed elastic bands, one for each way round the obstacles, and follows the cheapest")
       .source(
           "Roesmann, Hoffmann, Bertram: Integrated online trajectory planning and optimization in distinctive "
@@ -63,9 +61,7 @@ Descriptor Teb::describe() {
 Status Teb::start(const Start& start) {
   costmap_ = &extension<dmrp_local_costmap>();
   clusters_ = &extension<dmrp_obstacle_clusters>();
-  annotations_ = {find_extension<dmrp_annotate>(), start.robot};
-  tracker_.clear();
-  at_goal_.reset();
+  begin(start);
   steering_.reset();
   detour_.clear();
   obstacles_.clear();
@@ -86,10 +82,7 @@ void Teb::set_path(Path path, std::uint64_t) {
   detour_.clear();
 }
 
-Status Teb::step(const Observation& now, Command& command) {
-  command = braking(now);
-  tracker_.update(now);
-  if (tracker_.empty()) return Status::ok;
+Status Teb::control(const Observation& now, Command& command) {
   steering_.update(now);
   if (at_goal_.arrived(tracker_.stop(), now)) {
     planner_.clear();

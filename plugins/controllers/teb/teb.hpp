@@ -2,18 +2,10 @@
 // teb.hpp: the timed elastic band with homotopy classes, after ROS's teb_local_planner.
 #pragma once
 
-#include <dmrp/ext/local_costmap.h>
-#include <dmrp/ext/obstacle_clusters.h>
-
-#include <dmrp/plugin.hpp>
-
-#include "controllers/motion/annotations.hpp"
 #include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/oscillation_detector.hpp"
 #include "controllers/motion/path_ahead.hpp"
-#include "controllers/motion/path_tracker.hpp"
-#include "controllers/motion/stop_and_rotate.hpp"
 #include "controllers/teb/class_planner.hpp"
 #include "controllers/teb/declared_parameters.hpp"
 
@@ -25,9 +17,9 @@ class Teb final : public teb::DeclaredParameters {
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
-  Status step(const Observation& now, Command& command) override;
 
  private:
+  Status control(const Observation& now, Command& command) override;
   bool was_infeasible_lately(std::int64_t t_ns) const;
   double look_ahead_m(std::int64_t t_ns) const;
   void watch_for_oscillation(const Observation& now);
@@ -47,12 +39,9 @@ class Teb final : public teb::DeclaredParameters {
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
-  Annotations annotations_;
-  PathTracker tracker_;
   PathAhead path_;
   Detour detour_;
   Guide guide_;
-  StopAndRotate at_goal_;
   SteeringEstimate steering_;
   ObstacleSet obstacles_;
   OscillationDetector oscillation_;

@@ -12,9 +12,8 @@ Descriptor ClippedCommands::describe() {
       .source("own definition")
       .channels(DMRP_CHANNEL_CALLS)
       .value("clipped_commands", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "number of commands outside the velocity limits or the ability of the robot's drive (sideways, or an arc "
-             "tighter than the steering allows), which the host clipped; system: sum over robots; undefined if "
-             "planning failed");
+             "number of commands that the host clipped: beyond the velocity limits or the ability of the drive "
+             "(sideways, tighter than the steering allows); system: sum over robots; undefined if planning failed");
 }
 
 void ClippedCommands::begin(const dmrp_plan* plan) {

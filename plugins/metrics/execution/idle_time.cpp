@@ -21,8 +21,7 @@ Descriptor IdleTime::describe() {
       .summary("time in which an active robot neither drives nor turns")
       .source("HuNavSim, Perez-Higueras et al., RA-L 2023: time not moving")
       .value("idle_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; system: mean over robots; "
-             "undefined if planning failed");
+             "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; undefined if planning failed");
 }
 
 void IdleTime::begin(const dmrp_plan*) {

@@ -32,12 +32,11 @@ std::string name_of(std::int32_t step) {
 
 Descriptor Recoveries::describe() {
   return describe_metric("dmrp.metric.recoveries", "Recoveries")
-      .summary("how often robots recovered because they made no progress or their controller had no command")
+      .summary("how often robots recovered ([recovery] of the experiment)")
       .source("own definition")
       .channels(DMRP_CHANNEL_CALLS | DMRP_CHANNEL_RECOVERIES)
       .value("recoveries", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "number of recoveries ([recovery] of the experiment); each is an event with its steps; system: sum over "
-             "robots; undefined if planning failed");
+             "number of recoveries; system: sum over robots; undefined if planning failed");
 }
 
 void Recoveries::begin(const dmrp_plan* plan) {

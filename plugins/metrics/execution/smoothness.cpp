@@ -42,18 +42,17 @@ Descriptor Smoothness::describe() {
           "Guzzi et al., Human-friendly robot navigation in dynamic environments, ICRA 2013: path irregularity; "
           "acceleration and jerk as in HuNavSim, Perez-Higueras et al., RA-L 2023")
       .value("heading_change", "rad", lower, robots,
-             "sum over the steps of active time of |wrap(theta - previous theta)|; system: mean over robots; "
-             "undefined if planning failed")
+             "sum over the steps of active time of |wrap(theta - previous theta)|; undefined if planning failed")
       .value("path_irregularity", "rad/m", lower, robots,
              "max(0, heading_change - least turning) / length driven while active; least turning: from the start's "
-             "heading to the direction of the first goal, from there to the direction of the next goal, ..., to the "
-             "last goal's heading if it has one; system: mean over robots; undefined if the robot did not move")
+             "heading over the directions of the goals to the last goal's heading if it has one; undefined if the "
+             "robot did not move")
       .value("acceleration", "m/s^2", lower, robots,
-             "mean over active time of |dv/dt|, v = (v_x, v_y) in the robot's frame, from sample to sample; "
-             "system: mean over robots; undefined if planning failed")
+             "mean over active time of |dv/dt|, v = (v_x, v_y) in the robot's frame, from sample to sample; undefined "
+             "if planning failed")
       .value("jerk", "m/s^3", lower, robots,
              "mean over active time of |da/dt|, a = dv/dt of one step, from the middle of one step to the middle of "
-             "the next; system: mean over robots; undefined without two steps");
+             "the next; undefined without two steps");
 }
 
 void Smoothness::begin(const dmrp_plan*) {

@@ -17,12 +17,12 @@ constexpr double moving_speed = 0.01;  // m/s
 
 Descriptor BlockedTime::describe() {
   return describe_metric("dmrp.metric.blocked_time", "Blocked time")
-      .summary("time in which a robot makes no progress along its path, after it first moved and before it arrives")
+      .summary("time without progress along the path")
       .source("own definition; waits that the plan demands count too")
-      .value("blocked_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "length of the union of all windows of window_s, after the robot first moved (|v| >= 0.01 m/s) and while "
-             "it is active, in which it progressed by less than progress_m along its paths; system: mean over robots; "
-             "undefined if planning failed");
+      .value(
+          "blocked_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
+          "length of the union of all windows of window_s, after the robot first moved (|v| >= 0.01 m/s) and while it "
+          "is active, in which it progressed by less than progress_m along its paths; undefined if planning failed");
 }
 
 void BlockedTime::begin(const dmrp_plan*) {

@@ -18,10 +18,8 @@ class BlockedTime final : public Metric {
                                .unit("s")
                                .range(0.001, 1000.0)
                                .doc("a robot without progress for this time counts as blocked");
-  Param<double> progress_m = param("progress_m", 0.1)
-                                 .unit("m")
-                                 .range(0.0, 100.0)
-                                 .doc("less than this along the path within a window is no progress");
+  Param<double> progress_m =
+      param("progress_m", 0.1).unit("m").range(0.0, 100.0).doc("less than this within a window is no progress");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;

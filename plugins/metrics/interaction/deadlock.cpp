@@ -66,16 +66,12 @@ Descriptor Deadlock::describe() {
   return describe_metric("dmrp.metric.deadlock", "Deadlock")
       .summary("robots that wait for each other in a lasting cycle")
       .source("own definition; cycles of the wait-for graph as in Coffman et al., System Deadlocks, 1971")
-      .value(
-          "deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
-          "number of cycles of robots, each waiting for the next, that last at least lasting_s; a robot waits if "
-          "it is active, progressed by less than progress_m in window_s, and another robot is within margin_m of the "
-          "strip that its body sweeps along look_ahead_m of its path: it waits for the first one; robot: cycles "
-          "with this robot; undefined if planning failed")
-      .value(
-          "deadlock_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-          "length of the union of these cycles' times, from the moment when all wait; robot: of its cycles; undefined "
-          "if planning failed");
+      .value("deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "number of cycles of waiting robots that last at least lasting_s; an active robot that progressed by less "
+             "than progress_m in window_s waits for the first robot within margin_m of the strip that its body sweeps "
+             "along look_ahead_m of its path; robot: its cycles; undefined if planning failed")
+      .value("deadlock_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
+             "length of the union of these cycles; robot: of its cycles; undefined if planning failed");
 }
 
 void Deadlock::begin(const dmrp_plan*) {

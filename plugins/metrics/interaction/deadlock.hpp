@@ -26,16 +26,12 @@ class Deadlock final : public Metric {
                                 .doc("T: a cycle that lasts at least this long is a deadlock");
   Param<double> window_s =
       param("window_s", 2.0).unit("s").range(0.001, 1000.0).doc("a robot without progress for this time waits");
-  Param<double> progress_m = param("progress_m", 0.1)
-                                 .unit("m")
-                                 .range(0.0, 100.0)
-                                 .doc("less than this along the path within a window is no progress");
+  Param<double> progress_m =
+      param("progress_m", 0.1).unit("m").range(0.0, 100.0).doc("less than this within a window is no progress");
   Param<double> look_ahead_m =
       param("look_ahead_m", 1.0).unit("m").range(0.0, 100.0).doc("length of path ahead in which robots are in the way");
-  Param<double> margin_m = param("margin_m", 0.1)
-                               .unit("m")
-                               .range(0.0, 100.0)
-                               .doc("robots up to this far from the strip that the body sweeps are in the way");
+  Param<double> margin_m =
+      param("margin_m", 0.1).unit("m").range(0.0, 100.0).doc("distance from the strip that counts");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;

@@ -13,9 +13,8 @@ Descriptor Neighbours::describe() {
       .summary("number of other robots around a robot until it arrives")
       .source("mean of the N(t) whose variance is LDF in Hu et al., DMRP-Bench, ICRA 2026, over active time")
       .value("neighbours", "1", Direction::none, Subjects::system_and_robots,
-             "mean over active time of the number of other robots, including parked ones, within radius_m (centre to "
-             "centre); system: mean "
-             "over robots; undefined if planning failed");
+             "mean over active time of the number of other robots, including parked ones, within radius_m; undefined "
+             "if planning failed");
 }
 
 void Neighbours::begin(const dmrp_plan*) {

@@ -90,11 +90,9 @@ Descriptor OpenStandstill::describe() {
       .summary("robots that stand although they have room and their way is free")
       .source("own definition; waits that the plan or ordered execution demands count too")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value(
-          "open_standstills", "1", Direction::lower_is_better, Subjects::system_and_robots,
-          "number of times in which the robot, while it was active, stood for lasting_s and more, always with room_m "
-          "of free room round it and a free way along the next way_m of its path; system: sum over robots; "
-          "undefined if planning failed");
+      .value("open_standstills", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "number of times that the active robot stood for lasting_s or more with room_m of free room round it and "
+             "a free way along the next way_m of its path; system: sum over robots; undefined if planning failed");
 }
 
 void OpenStandstill::begin(const dmrp_plan*) {

@@ -17,9 +17,9 @@ Descriptor PersonStandoff::describe() {
       .source("own definition")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value("person_standoff", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "of a robot that failed: 1 if, while it was active, it and a person who wants to walk were within "
-             "distance_m of each other for lasting_s without moving by more than moved_m, else 0; undefined if it "
-             "succeeded or planning failed; system: mean over failed robots");
+             "of a robot that failed: 1 if it and a person who wants to walk were within distance_m of each other for "
+             "lasting_s without moving by more than moved_m, else 0; undefined if it succeeded or planning failed; "
+             "system: mean over failed robots");
 }
 
 void PersonStandoff::begin(const dmrp_plan*) {

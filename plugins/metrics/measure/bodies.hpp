@@ -2,7 +2,6 @@
 // bodies.hpp: robots and people as discs in the world frame, and when two of them touch.
 #pragma once
 
-#include <cmath>
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 

@@ -6,7 +6,6 @@
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
-#include <limits>
 #include <vector>
 
 namespace dmrp::metrics {

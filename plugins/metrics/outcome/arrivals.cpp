@@ -18,13 +18,13 @@ Descriptor Arrivals::describe() {
           "ISR, CSR, makespan, throughput: Skrynnik et al., POGEMA, ICLR 2025; flowtime: Stern et al., Multi-Agent "
           "Pathfinding, SoCS 2019")
       .value("isr", "1", higher, Subjects::system_and_robots,
-             "individual success rate: 1 if the robot was at its last goal at the end, else 0; system: mean over "
-             "robots. Unlike in success, a robot that oscillated but arrived counts")
-      .value("csr", "1", higher, Subjects::system, "cooperative success rate: 1 if isr is 1 for every robot, else 0")
+             "individual success rate: 1 if the robot was at its last goal at the end, else 0. Unlike in success, a "
+             "robot that oscillated but arrived counts")
+      .value("csr", "1", higher, Subjects::system, "1 if isr is 1 for every robot, else 0")
       .value("flowtime", "s", lower, Subjects::system,
              "sum over robots of the time of final arrival; undefined unless all arrive")
       .value("makespan", "s", lower, Subjects::system,
-             "maximum over robots of the time of final arrival, as completion_time; undefined unless all arrive")
+             "the last robot's time of final arrival; undefined unless all arrive")
       .value(
           "throughput", "1/s", higher, Subjects::system_and_robots,
           "goals that the robot reached (every goal of a tour) / mission time; 0 if planning failed; system: sum over "

@@ -13,10 +13,8 @@ Descriptor CompletionTime::describe() {
       .summary("simulated time until the robots arrived, and until the trial ended")
       .source("Hu et al., DMRP-Bench, ICRA 2026: completion time")
       .value("completion_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "time of the robot's final arrival, undefined if it did not arrive; system: the last arrival, undefined "
-             "unless all arrive")
-      .value("mission_time", "s", Direction::lower_is_better, Subjects::system,
-             "end of the trial for any reason: always finite");
+             "time of the robot's final arrival; system: the last, undefined unless all arrive")
+      .value("mission_time", "s", Direction::lower_is_better, Subjects::system, "end of the trial for any reason");
 }
 
 void CompletionTime::finish(const TrialEnd& end, MetricSink& sink) {

@@ -13,9 +13,8 @@ Descriptor PlanningTime::describe() {
       .source("Hu et al., DMRP-Bench, ICRA 2026: planning time")
       .channels(DMRP_CHANNEL_CALLS)
       .value("planning_time", "ms", Direction::lower_is_better, Subjects::system,
-             "processor time, of all threads, of the first call of plan(): without what else the machine did; without "
-             "replans, which solve easier or harder problems; undefined if planning failed, and in traces that have "
-             "wall times alone (plan_call_mean)")
+             "processor time of the first plan, all threads; undefined if planning failed, and in traces that have "
+             "wall times alone")
       .wall_clock();
 }
 

@@ -8,14 +8,12 @@ namespace dmrp::metrics {
 
 Descriptor Speed::describe() {
   return describe_metric("dmrp.metric.speed", "Speed")
-      .summary("mean and standard deviation over time of each robot's measured speed until it arrives")
+      .summary("each robot's measured speed until it arrives")
       .source("Hu et al., DMRP-Bench, ICRA 2026: mean speed, speed standard deviation")
       .value("mean_speed", "m/s", Direction::higher_is_better, Subjects::system_and_robots,
-             "mean over active time of the robot's measured |v|; system: mean over robots; undefined if planning "
-             "failed")
+             "mean over active time of the robot's measured |v|; undefined if planning failed")
       .value("speed_sd", "m/s", Direction::lower_is_better, Subjects::system_and_robots,
-             "standard deviation over active time of the robot's measured |v|; system: mean over robots; undefined "
-             "if planning failed");
+             "standard deviation over active time of the robot's measured |v|; undefined if planning failed");
 }
 
 void Speed::begin(const dmrp_plan*) {

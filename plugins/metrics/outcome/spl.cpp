@@ -21,15 +21,11 @@ Descriptor Spl::describe() {
   return describe_metric("dmrp.metric.spl", "SPL")
       .summary("success weighted by the ratio of the shortest to the driven length")
       .source("Anderson et al., On Evaluation of Embodied Navigation Agents, arXiv:1807.06757, 2018: SPL")
-      .value(
-          "spl", "1", Direction::higher_is_better, Subjects::system_and_robots,
-          "S l / max(p, l): S as success, l = shortest_length, p = path_length; 0 without success; system: (1/N) sum "
-          "over robots")
-      .value(
-          "shortest_length", "m", Direction::none, Subjects::system_and_robots,
-          "l: the shortest way of the robot's disc from its start through its goals among the static shapes, without "
-          "other robots (any-angle search on the walking grid's clearance, within about 1 %); system: sum over "
-          "robots; undefined if there is no way")
+      .value("spl", "1", Direction::higher_is_better, Subjects::system_and_robots,
+             "S l / max(p, l): S as success, l = shortest_length, p = path_length; 0 without success")
+      .value("shortest_length", "m", Direction::none, Subjects::system_and_robots,
+             "l: the shortest way of the robot's disc from its start through its goals among the static shapes, within "
+             "about 1 %; system: sum over robots; undefined if there is no way")
       .needs(DMRP_EXT_WALKING_GRID);
 }
 

@@ -20,6 +20,16 @@ const char* reason(std::uint32_t failure) {
       return "no command from its controller";
     case DMRP_FAILURE_NO_PLAN:
       return "no plan";
+    case DMRP_FAILURE_HELD_BEHIND:
+      return "held behind another robot";
+    case DMRP_FAILURE_CIRCLING:
+      return "circling";
+    case DMRP_FAILURE_BLOCKED_PERSON:
+      return "blocked by a person";
+    case DMRP_FAILURE_BLOCKED_ROBOT:
+      return "blocked by a robot";
+    case DMRP_FAILURE_STUCK:
+      return "stuck";
     default:
       return "unknown reason";
   }
@@ -33,17 +43,15 @@ Descriptor Success::describe() {
       .source(
           "success rate: Hu et al., DMRP-Bench, ICRA 2026; passive motion safety: Bouraine, Fraichard, Salhi, "
           "Autonomous Robots 32, 2012")
-      .value(
-          "success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-          "1 if the robot arrived by the time limit and was not failed by the host, else 0; system: mean over robots")
+      .value("success", "1", Direction::higher_is_better, Subjects::system_and_robots,
+             "1 if the robot arrived by the time limit and was not failed by the host, else 0")
       .value("trial_success", "1", Direction::higher_is_better, Subjects::system,
              "1 if every robot succeeded, else 0; undefined without robots")
       .value("safe_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
              "1 if the robot succeeded and at every contact was at rest (below 0.05 m/s) or moving away from the other "
-             "when "
-             "they touched, else 0 (passive motion safety); system: mean over robots")
+             "when they touched, else 0 (passive motion safety)")
       .value("contact_free_success", "1", Direction::higher_is_better, Subjects::system_and_robots,
-             "1 if the robot succeeded without any contact, whoever was at fault, else 0; system: mean over robots");
+             "1 if the robot succeeded without any contact, else 0");
 }
 
 void Success::begin(const dmrp_plan*) {

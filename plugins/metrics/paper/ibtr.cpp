@@ -28,21 +28,17 @@ Descriptor Ibtr::describe() {
   return describe_metric("dmrp.metric.ibtr", "Inter-robot blocking time ratio")
       .summary("share of the mission in which two active robots near each other both crawl")
       .source("Hu et al., DMRP-Bench, ICRA 2026: IBTR")
-      .value("ibtr", "%", Direction::lower_is_better, Subjects::system_and_robots,
-             "time in which two active robots are within distance_m (centre to centre) and both slower than "
-             "speed_fraction of their own "
-             "mean speed while active, over mission time; events of several pairs count as their union; robot: its "
-             "events; undefined if planning failed")
-      .value("ibtr_pair_sum", "%", Direction::lower_is_better, Subjects::system,
-             "the same with the sum of the events of all pairs; can exceed 100; undefined if planning failed")
-      .value("ibtr_by_distance", "%", Direction::lower_is_better, Subjects::system,
-             "ibtr with each of distances_m instead of distance_m, over this distance (m); undefined if planning "
-             "failed")
-      .curve()
       .value(
-          "ibtr_by_speed_fraction", "%", Direction::lower_is_better, Subjects::system,
-          "ibtr with each of speed_fractions instead of speed_fraction, over this fraction (1); undefined if planning "
-          "failed")
+          "ibtr", "%", Direction::lower_is_better, Subjects::system_and_robots,
+          "time in which two active robots are within distance_m and both slower than speed_fraction of their own mean "
+          "speed while active, over mission time; the union over pairs; robot: its pairs; undefined if planning failed")
+      .value("ibtr_pair_sum", "%", Direction::lower_is_better, Subjects::system,
+             "the same with the sum over pairs; can exceed 100; undefined if planning failed")
+      .value("ibtr_by_distance", "%", Direction::lower_is_better, Subjects::system,
+             "ibtr over distances_m; undefined if planning failed")
+      .curve()
+      .value("ibtr_by_speed_fraction", "%", Direction::lower_is_better, Subjects::system,
+             "ibtr over speed_fractions; undefined if planning failed")
       .curve();
 }
 

@@ -28,7 +28,7 @@ class Ibtr final : public Metric {
       param("speed_fractions", std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5})
           .unit("1")
           .range(0.0, 10.0)
-          .doc("values of v_thresh, as shares of the robot's own mean speed, for the curve ibtr_by_speed_fraction");
+          .doc("values of speed_fraction for the curve ibtr_by_speed_fraction");
 
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;

@@ -27,15 +27,13 @@ Descriptor Ldf::describe() {
       .summary("variance over time of the number of robots around a robot")
       .source("Hu et al., DMRP-Bench, ICRA 2026: LDF")
       .value("ldf", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "variance (normalised by n) of the number of robots within distance_m (centre to centre), including "
-             "parked ones, counted every "
-             "period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
+             "variance (normalised by n) of the number of robots within distance_m, including parked ones, counted "
+             "every period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
       .value("ldf_active", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "the same for active robots only, counted while the robot itself is active; undefined if planning "
-             "failed")
+             "the same for active robots only, counted while the robot itself is active; system: maximum over robots; "
+             "undefined if planning failed")
       .value("ldf_by_distance", "1", Direction::lower_is_better, Subjects::system,
-             "ldf with each of distances_m instead of distance_m, over this distance (m); undefined if planning "
-             "failed")
+             "ldf over distances_m; undefined if planning failed")
       .curve();
 }
 

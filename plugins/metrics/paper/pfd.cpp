@@ -29,16 +29,13 @@ Descriptor Pfd::describe() {
       .source("Hu et al., DMRP-Bench, ICRA 2026: PFD")
       .value("pfd", "m", Direction::lower_is_better, Subjects::system_and_robots,
              "mean over the control steps of active time of the distance from the robot to the closest point of its "
-             "current path; system: mean over robots; undefined if planning failed")
+             "current path; undefined if planning failed")
       .value("pfd_max", "m", Direction::lower_is_better, Subjects::system_and_robots,
              "maximum of the same distances; system: maximum over robots; undefined if planning failed")
       .value("pfd_sd", "m", Direction::lower_is_better, Subjects::system_and_robots,
-             "standard deviation (normalised by n) of the same distances; system: mean over robots; undefined if "
-             "planning failed")
-      .value(
-          "pfd_initial", "m", Direction::lower_is_better, Subjects::system_and_robots,
-          "pfd relative to the first plan, so that replans from the current pose do not reset it to zero; undefined if "
-          "planning failed");
+             "standard deviation (normalised by n) of the same distances; undefined if planning failed")
+      .value("pfd_initial", "m", Direction::lower_is_better, Subjects::system_and_robots,
+             "pfd relative to the first plan; undefined if planning failed");
 }
 
 void Pfd::Deviation::add(double distance_m) {

@@ -2,7 +2,6 @@
 #include "metrics/paper/sto.hpp"
 
 #include <stdexcept>
-#include <vector>
 
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/per_robot.hpp"
@@ -15,17 +14,14 @@ Descriptor Sto::describe() {
   return describe_metric("dmrp.metric.sto", "Spatio-temporal overlap")
       .summary("share of planned waypoints near another robot's waypoint of about the same step")
       .source("Hu et al., DMRP-Bench, ICRA 2026: STO")
-      .value(
-          "sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
-          "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
-          "distance_m of another robot's waypoint within window steps; system: mean over robots; undefined if planning "
-          "failed")
+      .value("sto", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
+             "distance_m of another robot's waypoint within window steps; undefined if planning failed")
       .value("sto_by_distance", "1", Direction::lower_is_better, Subjects::system,
-             "the system's sto with each of distances_m instead of distance_m, over this distance (m); undefined if "
-             "planning failed")
+             "the system's sto over distances_m; undefined if planning failed")
       .curve()
       .value("sto_cell_size", "m", Direction::none, Subjects::system,
-             "c, the size of the planning grid's cells, which sto depends on; undefined if planning failed");
+             "the size of the planning grid's cells; undefined if planning failed");
 }
 
 void Sto::finish(const TrialEnd&, MetricSink& sink) {

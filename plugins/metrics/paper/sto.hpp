@@ -13,10 +13,8 @@ class Sto final : public FirstPlanMetric {
   static Descriptor describe();
   Param<double> distance_m =
       param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("D: waypoints at most this far apart overlap");
-  Param<std::int64_t> window = param("window", 2)
-                                   .unit("1")
-                                   .range(0, 1000)
-                                   .doc("k: waypoint i is compared with the others' waypoints i - k to i + k");
+  Param<std::int64_t> window =
+      param("window", 2).unit("1").range(0, 1000).doc("k: waypoints at most this many steps apart overlap");
 
   Param<std::vector<double>> distances_m =
       param("distances_m", std::vector<double>{0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0})

@@ -14,35 +14,33 @@ Descriptor Clearance::describe() {
   const auto lower = Direction::lower_is_better;
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.clearance", "Clearance")
-      .summary("surface distances, of the true shapes, to walls, robots and people, and the time below a safe distance")
+      .summary("surface distances to walls, robots and people, and the time below a safe distance")
       .source("Wen et al., MRPB 1.0, ICRA 2021: distance to obstacles, time in the dangerous area")
       .channels(DMRP_CHANNEL_PEOPLE)
       .value("clearance_static_min", "m", higher, robots,
-             "minimum over active time of the distance from the robot's surface to the nearest static surface "
-             "(shapes, border); negative where they overlap; system: minimum over robots; undefined if planning failed")
+             "minimum over active time of the surface distance to the nearest shape or border; system: minimum over "
+             "robots; undefined if planning failed")
       .value("clearance_static_mean", "m", higher, robots,
-             "mean over active time of the same distance; system: mean over robots; undefined if planning failed")
+             "mean over active time of the same distance; undefined if planning failed")
       .value("clearance_robot_min", "m", higher, robots,
-             "minimum over active time of the distance from the robot's surface to that of the nearest other robot, "
-             "including parked ones; system: minimum over robots; undefined without another robot")
+             "minimum over active time of the surface distance to the nearest other robot, including parked ones; "
+             "system: minimum over robots; undefined without another robot")
       .value("clearance_robot_mean", "m", higher, robots,
-             "mean over active time of the same distance; system: mean over robots; undefined without another robot")
+             "mean over active time of the same distance; undefined without another robot")
       .value("clearance_person_min", "m", higher, robots,
-             "minimum over active time of the distance from the robot's surface to that of the nearest person; system: "
-             "minimum over robots; "
+             "minimum over active time of the surface distance to the nearest person; system: minimum over robots; "
              "undefined without people")
       .value("clearance_person_mean", "m", higher, robots,
-             "mean over active time with people present of the same distance; system: mean over robots; undefined "
-             "without people")
+             "mean over active time with people present of the same distance; undefined without people")
       .value("danger_time", "%", lower, robots,
-             "share of active time in which any of the three distances is below safe_distance_m; system: mean over "
-             "robots; undefined if planning failed")
+             "share of active time in which any of the three distances is below safe_distance_m; undefined if planning "
+             "failed")
       .value("danger_time_robot", "%", lower, robots,
-             "share of active time in which the nearest robot is closer than safe_distance_m; system: mean over "
-             "robots; undefined without another robot")
+             "share of active time in which the nearest robot is closer than safe_distance_m; undefined without "
+             "another robot")
       .value("danger_time_person", "%", lower, robots,
-             "share of active time with people present in which the nearest is closer than safe_distance_m; system: "
-             "mean over robots; undefined without people");
+             "share of active time with people present in which the nearest is closer than safe_distance_m; undefined "
+             "without people");
 }
 
 void Clearance::Distances::add(double distance_m, std::int64_t duration_ns) {

@@ -43,19 +43,20 @@ Descriptor Collisions::describe() {
       .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
       .source("rising-edge events attributed as in HuNavSim; fault by passive motion safety: Bouraine et al. 2012")
       .value("collisions", "1", lower, robots,
-             "contact events of the robot, regardless of fault; system: all events, an event between two robots once; "
+             "contact events of the robot, regardless of fault; system: all events, one between two robots once; "
              "undefined if planning failed, like all that follow")
       .value("collisions_at_fault", "1", lower, robots,
              "contact events at the robot's fault: it was neither at rest nor moving away when they touched; system: "
-             "events "
-             "at the fault of at least one robot")
-      .value("collisions_static", "1", lower, robots, "contact events with walls, furniture or the world's border")
+             "events at the fault of at least one robot")
+      .value("collisions_static", "1", lower, robots,
+             "contact events with walls, furniture or the world's border; system: all")
       .value("collisions_robot", "1", lower, robots,
              "contact events between robots; counted for both, once for the system")
-      .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault")
+      .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault; system: all")
       .value("impact_speed", "m/s", lower, robots,
              "maximum over contact events, regardless of fault, of the speed at which the two surfaces closed along "
-             "the normal when they touched; undefined without a contact, and in traces that do not have it")
+             "the normal when they touched; undefined without a contact, and in traces that do not have it; system: "
+             "maximum")
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 

@@ -19,8 +19,8 @@ Descriptor TimeToCollision::describe() {
              "minimum over active time and over robots and people of the smallest tau > 0 with |dp + dv tau| = r + r'; "
              "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course")
       .value("ttc_low_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
-             "share of active time in which a time to collision is below threshold_s; system: mean "
-             "over robots; undefined without another robot or person");
+             "share of active time in which a time to collision is below threshold_s; undefined without another robot "
+             "or person");
 }
 
 void TimeToCollision::begin(const dmrp_plan*) {

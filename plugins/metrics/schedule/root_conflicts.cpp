@@ -120,11 +120,9 @@ Descriptor RootConflicts::describe() {
       .summary("which conflicts of the robots' own shortest paths the plan resolves by waiting, which by a detour")
       .source("own: after the root of CBS (Sharon, Stern, Felner, Sturtevant, Artificial Intelligence 219, 2015)")
       .value("root_conflicts", "1", Direction::none, Subjects::system,
-             "pairs of robots that would be on one cell at one step, or exchange their cells, if each took its own "
-             "shortest "
-             "path by straight moves, which turns as late as it can; undefined if planning failed, for tours, and for "
-             "plans "
-             "that are not from cell to cell")
+             "pairs of robots on one cell at one step, or that exchange cells, if each takes its own shortest path by "
+             "straight moves, turning as late as it can; undefined if planning failed, for tours, and for plans that "
+             "are not from cell to cell")
       .value("root_conflicts_waited", "1", Direction::none, Subjects::system,
              "of these pairs: the first plan leads both over the place of their first conflict, one after the other")
       .value("root_conflicts_detoured", "1", Direction::none, Subjects::system,

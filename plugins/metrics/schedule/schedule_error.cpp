@@ -13,14 +13,12 @@ Descriptor ScheduleError::describe() {
   return describe_metric("dmrp.metric.schedule_error", "Schedule error")
       .summary("how late the robots pass the waypoints of their plans")
       .source("own: the deviation from the plan in time, as PFD (Hu et al., DMRP-Bench, ICRA 2026) is that in space")
-      .value(
-          "schedule_error_s", "s", Direction::none, Subjects::system_and_robots,
-          "mean over the waypoints that the robot passes of the time of its passage minus the plan's; waits at a "
-          "place count as one waypoint, due when the plan reaches it; a new plan drops the waypoints left of the old "
-          "one; negative: early; system: mean over robots; undefined for a robot that passes none")
+      .value("schedule_error_s", "s", Direction::none, Subjects::system_and_robots,
+             "mean over the waypoints that the robot passes of the time of its passage minus the plan's; a wait is one "
+             "waypoint, due when the plan reaches it; a new plan drops those left of the old one; undefined for a "
+             "robot that passes none")
       .value("schedule_deviation_s", "s", Direction::lower_is_better, Subjects::system_and_robots,
-             "mean over the same waypoints of the absolute difference; system: mean over robots; undefined for a robot "
-             "that passes none");
+             "mean over the same waypoints of the absolute difference; undefined for a robot that passes none");
 }
 
 void ScheduleError::begin(const dmrp_plan*) {

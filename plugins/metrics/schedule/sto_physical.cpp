@@ -17,14 +17,11 @@ constexpr std::int64_t period_ns = 250'000'000;
 
 Descriptor StoPhysical::describe() {
   return describe_metric("dmrp.metric.sto_physical", "Spatio-temporal overlap in metres and seconds")
-      .summary("share of the planned time that a robot is to be near another one's place of about the same time")
+      .summary("share of planned positions near another robot's of about the same time")
       .source("Hu et al., DMRP-Bench, ICRA 2026: STO, measured in time instead of waypoints")
-      .value(
-          "sto_physical", "1", Direction::lower_is_better, Subjects::system_and_robots,
-          "positions of the first plan every 0.25 s, at constant velocity between waypoints, until the robot rests at "
-          "its goal: the share of a robot's that are within distance_m of one of another robot's at most window_s "
-          "earlier or later; neither diagonal moves nor the size of cells change what counts; system: mean over "
-          "robots; undefined if planning failed");
+      .value("sto_physical", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "of the robot's planned positions every 0.25 s until it rests at its goal, the share within distance_m of "
+             "another robot's at most window_s earlier or later; undefined if planning failed");
 }
 
 void StoPhysical::finish(const TrialEnd&, MetricSink& sink) {

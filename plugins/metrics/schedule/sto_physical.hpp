@@ -11,10 +11,7 @@ class StoPhysical final : public FirstPlanMetric {
   static Descriptor describe();
   Param<double> distance_m =
       param("distance_m", 0.5).unit("m").range(0.0, 100.0).doc("positions at most this far apart overlap");
-  Param<double> window_s = param("window_s", 3.6)
-                               .unit("s")
-                               .range(0.0, 1000.0)
-                               .doc("a position is compared with the others' at most this much earlier and later");
+  Param<double> window_s = param("window_s", 3.6).unit("s").range(0.0, 1000.0).doc("greatest difference of times");
 
   void finish(const TrialEnd& end, MetricSink& sink) override;
 };

@@ -47,12 +47,9 @@ Descriptor GroupIntrusion::describe() {
           "group intrusions as in HuNavSim, Perez-Higueras et al., RA-L 2023; a group's space as the hull of its "
           "members after Kendon, Conducting Interaction, 1990")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value(
-          "group_intrusion_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
-          "share of active time with groups present in which the robot's disc intersects the convex hull of the "
-          "centres "
-          "of a group of two or more (of two: the segment between them); system: mean over robots; undefined without "
-          "groups")
+      .value("group_intrusion_time", "%", Direction::lower_is_better, Subjects::system_and_robots,
+             "share of active time with groups present in which the robot's disc intersects the convex hull of the "
+             "centres of a group (of two: a segment); undefined without groups")
       .value(
           "group_intrusions", "1", Direction::lower_is_better, Subjects::system_and_robots,
           "number of times that the robot's disc began to intersect a group's hull; system: sum over robots; undefined "

@@ -23,12 +23,10 @@ Descriptor PedestrianProgress::describe() {
       .summary("progress of people toward their targets over time, and their speeds")
       .source("own definition, for comparing a crowd with and without robots")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value(
-          "pedestrian_progress", "m", Direction::higher_is_better, Subjects::system,
-          "over time t = 0, 1, 2, ... s: (1/n) sum over all people of the progress until t, n the number of people in "
-          "the world at the same time; a finished leg counts with the straight distance from its beginning to its "
-          "target area, the current one with this distance minus the remaining one; new people begin a leg, people "
-          "who leave have finished theirs; undefined without people")
+      .value("pedestrian_progress", "m", Direction::higher_is_better, Subjects::system,
+             "over time t = 0, 1, 2, ... s: (1/n) sum over all people of the progress until t, n the number of people "
+             "in the world at once; a finished leg counts with its straight length to the target area, the current one "
+             "with what is done of it; undefined without people")
       .curve()
       .value("pedestrian_speed", "m/s", Direction::higher_is_better, Subjects::system,
              "mean of |v| over time and present people; undefined without people")

@@ -11,11 +11,11 @@ namespace dmrp::metrics {
 Descriptor PeopleNearby::describe() {
   return describe_metric("dmrp.metric.people_nearby", "People nearby")
       .summary("density of the crowd around the robots")
-      .source("own definition, so that results show the density beside every other value")
+      .source("own definition")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value("people_nearby", "1", Direction::none, Subjects::system_and_robots,
-             "mean over active time of the number of people within radius_m of the robot; system: mean over robots; "
-             "undefined if planning failed");
+      .value(
+          "people_nearby", "1", Direction::none, Subjects::system_and_robots,
+          "mean over active time of the number of people within radius_m of the robot; undefined if planning failed");
 }
 
 void PeopleNearby::begin(const dmrp_plan*) {

@@ -24,14 +24,12 @@ Descriptor Proxemics::describe() {
           "zones: Hall, The Hidden Dimension, 1966; surface distances as in HuNavSim, Perez-Higueras et al., "
           "RA-L 2023")
       .channels(DMRP_CHANNEL_PEOPLE)
-      .value(
-          "proxemics_intimate", "%", lower, robots,
-          "share of active time with people present in which d <= 0.45 m, d the distance between the surfaces of the "
-          "robot and the nearest person; system: mean over robots; undefined without people")
-      .value("proxemics_personal", "%", lower, robots,
-             "the same with 0.45 m < d <= 1.2 m; system: mean over robots; undefined without people")
+      .value("proxemics_intimate", "%", lower, robots,
+             "share of active time with people present in which the surface distance d to the nearest one is <= 0.45 "
+             "m; undefined without people")
+      .value("proxemics_personal", "%", lower, robots, "the same with 0.45 m < d <= 1.2 m; undefined without people")
       .value("proxemics_social", "%", Direction::none, robots,
-             "the same with 1.2 m < d <= 3.6 m; system: mean over robots; undefined without people");
+             "the same with 1.2 m < d <= 3.6 m; undefined without people");
 }
 
 void Proxemics::begin(const dmrp_plan*) {

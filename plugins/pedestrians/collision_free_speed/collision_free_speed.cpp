@@ -35,22 +35,18 @@ double fading_gap(double strength, double range_m) {
 }  // namespace
 
 Descriptor CollisionFreeSpeed::describe() {
-  return Descriptor("dmrp.pedestrian.collision_free_speed", "Collision-free speed", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.collision_free_speed", "Collision-free speed")
       .summary("people turn away from their neighbours and walk as fast as the gap ahead permits")
       .source(
           "Tordeux, Chraibi, Seyfried: Collision-free speed model for pedestrian dynamics, Traffic and Granular Flow "
-          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "'15 (Springer 2016), doi:10.1007/978-3-319-33482-0_29");
 }
 
 Status CollisionFreeSpeed::start(const Start& start) {
   const World& world = start.world;
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   side_preference_.start(start.seed);
-  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
+  start_people(start, to_robots);
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
@@ -58,7 +54,7 @@ Status CollisionFreeSpeed::start(const Start& start) {
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, robot_awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
+  walkers_.gather(crowd, to_robots.awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 

@@ -3,19 +3,16 @@
 // body in their way permits.
 #pragma once
 
-#include <cstdint>
-#include <dmrp/plugin.hpp>
 #include <vector>
 
+#include "pedestrians/crowd/crowd_model.hpp"
 #include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/side_preference.hpp"
-#include "pedestrians/crowd/walkers.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
-#include "pedestrians/crowd/way_finding.hpp"
 
 namespace dmrp::pedestrians {
 
-class CollisionFreeSpeed final : public PedestrianModel {
+class CollisionFreeSpeed final : public CrowdModel {
  public:
   static Descriptor describe();
 
@@ -35,18 +32,7 @@ class CollisionFreeSpeed final : public PedestrianModel {
                                  .unit("m")
                                  .range(0.001, 0.5)
                                  .doc("gap at which the repulsion of a wall has fallen to 1/e");
-  Param<double> robot_awareness = param("robot_awareness", 1.0)
-                                      .range(0.0, 1.0)
-                                      .doc("how much people react to robots: 1 as to people, 0 not at all");
-  Param<double> surprised_share = param("surprised_share", 0.0)
-                                      .range(0.0, 1.0)
-                                      .doc("share of people who stop and look at a robot when they see it");
-  Param<double> curious_share =
-      param("curious_share", 0.0).range(0.0, 1.0).doc("share of people who walk up to a robot when they see it");
-  Param<double> scared_share =
-      param("scared_share", 0.0).range(0.0, 1.0).doc("share of people who walk away from a robot when they see it");
-  Param<double> threatening_share =
-      param("threatening_share", 0.0).range(0.0, 1.0).doc("share of people who get in a robot's way when they see it");
+  RobotResponse to_robots = robot_response();
 
   Status start(const Start& start) override;
   Status step(const Crowd& crowd, Motions& motions) override;
@@ -67,11 +53,9 @@ class CollisionFreeSpeed final : public PedestrianModel {
   Vec2 without_wall_contact(Vec2 velocity, const Person& person, double step_s) const;
 
   double neighbor_reach_m_ = 0.0;  // the repulsion is negligible beyond this gap
-  WayFinder ways_;
   SidePreference side_preference_;
   NeighborGrid neighbors_;
   WallGrid walls_;
-  Walkers walkers_;
   std::vector<Near> near_;              // of the current person
   std::vector<WallPoint> wall_points_;  // of the current person
 };

@@ -2,7 +2,7 @@
 #include "pedestrians/crowd/groups.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cassert>
 
 namespace dmrp::pedestrians {
 
@@ -17,6 +17,7 @@ void Groups::update(const Span<Person>& people) {
 }
 
 Span<std::uint32_t> Groups::members(std::uint32_t slot) const {
+  assert(slot < run_of_slot_.size());
   const Run run = run_of_slot_[slot];
   return {members_.data() + run.begin, run.count};
 }

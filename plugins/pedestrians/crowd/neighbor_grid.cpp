@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pedestrians/crowd/neighbor_grid.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace dmrp::pedestrians {
 
 void NeighborGrid::start(Vec2 lower, Vec2 upper, double cell_m) {
+  assert(lower.x <= upper.x && lower.y <= upper.y && cell_m > 0.0);
   lower_ = lower;
   cells_per_m_ = 1.0 / cell_m;
   const auto count = [&](double extent_m) {

@@ -2,6 +2,7 @@
 #include "pedestrians/crowd/wall_grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/segment.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -24,6 +25,7 @@ std::int32_t clamped(double cells, std::int32_t count) {
 }  // namespace
 
 void WallGrid::start(Span<Segment> segments, Vec2 lower, Vec2 upper, double reach_m) {
+  assert(lower.x <= upper.x && lower.y <= upper.y && reach_m >= 0.0);
   segments_.assign(segments.begin(), segments.end());
   lower_ = lower;
   reach_m_ = reach_m;

@@ -2,7 +2,6 @@
 #include "pedestrians/orca/orca.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
 
@@ -30,22 +29,18 @@ constexpr double even_share = 0.5;
 }  // namespace
 
 Descriptor Orca::describe() {
-  return Descriptor("dmrp.pedestrian.orca", "ORCA", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.orca", "ORCA")
       .summary(
           "people choose the collision-free velocity nearest to their preferred one, provided that all do their share")
       .source(
           "van den Berg, Guy, Lin, Manocha: Reciprocal n-body collision avoidance, ISRR 2009 (Springer 2011), "
-          "doi:10.1007/978-3-642-19457-3_1")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "doi:10.1007/978-3-642-19457-3_1");
 }
 
 Status Orca::start(const Start& start) {
   const World& world = start.world;
   side_preference_.start(start.seed);
-  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
+  start_people(start, to_robots);
   grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
@@ -53,7 +48,7 @@ Status Orca::start(const Start& start) {
 }
 
 Status Orca::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, robot_awareness, grid_, [&](std::uint32_t slot, const Person& person) {
+  walkers_.gather(crowd, to_robots.awareness, grid_, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 

@@ -4,21 +4,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <dmrp/plugin.hpp>
 #include <vector>
 
+#include "pedestrians/crowd/crowd_model.hpp"
 #include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/side_preference.hpp"
-#include "pedestrians/crowd/walkers.hpp"
-#include "pedestrians/crowd/way_finding.hpp"
 #include "pedestrians/orca/wall_obstacles.hpp"
 #include "reciprocal/half_plane.hpp"
 #include "reciprocal/linear_program.hpp"
 
 namespace dmrp::pedestrians {
 
-class Orca final : public PedestrianModel {
+class Orca final : public CrowdModel {
  public:
   static Descriptor describe();
 
@@ -34,18 +31,7 @@ class Orca final : public PedestrianModel {
                                         .unit("s")
                                         .range(0.05, 20.0)
                                         .doc("people avoid collisions with walls within this time");
-  Param<double> robot_awareness = param("robot_awareness", 1.0)
-                                      .range(0.0, 1.0)
-                                      .doc("how much people react to robots: 1 as to people, 0 not at all");
-  Param<double> surprised_share = param("surprised_share", 0.0)
-                                      .range(0.0, 1.0)
-                                      .doc("share of people who stop and look at a robot when they see it");
-  Param<double> curious_share =
-      param("curious_share", 0.0).range(0.0, 1.0).doc("share of people who walk up to a robot when they see it");
-  Param<double> scared_share =
-      param("scared_share", 0.0).range(0.0, 1.0).doc("share of people who walk away from a robot when they see it");
-  Param<double> threatening_share =
-      param("threatening_share", 0.0).range(0.0, 1.0).doc("share of people who get in a robot's way when they see it");
+  RobotResponse to_robots = robot_response();
 
   Status start(const Start& start) override;
   Status step(const Crowd& crowd, Motions& motions) override;
@@ -56,12 +42,10 @@ class Orca final : public PedestrianModel {
   reciprocal::HalfPlane permitted_by(const Body& other, const Walker& walker, double step_s) const;
   static Vec2 preferred_velocity(Vec2 way, const Person& person, double step_s);
 
-  WayFinder ways_;
   SidePreference side_preference_;
   NeighborGrid grid_;
   WallObstacles walls_;
   reciprocal::VelocityProgram program_;
-  Walkers walkers_;
   std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
   std::vector<reciprocal::HalfPlane> planes_;
 };

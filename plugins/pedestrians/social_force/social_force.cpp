@@ -44,22 +44,18 @@ constexpr double speed_cap_factor = 1.3;
 }  // namespace
 
 Descriptor SocialForce::describe() {
-  return Descriptor("dmrp.pedestrian.social_force", "Social force", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_model("dmrp.pedestrian.social_force", "Social force")
       .summary("people accelerate toward their targets and away from walls, robots and each other")
       .source(
           "Moussaid et al., Proc. R. Soc. B 276 (2009), doi:10.1098/rspb.2009.0405; groups: PLoS ONE 5 (2010), "
-          "doi:10.1371/journal.pone.0010047")
-      .needs(DMRP_EXT_WALKING_GRID);
+          "doi:10.1371/journal.pone.0010047");
 }
 
 Status SocialForce::start(const Start& start) {
   const World& world = start.world;
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = start.seed;
-  ways_.start(walking_grid(extension<dmrp_walking_grid>(), world));
-  walkers_.start(start.seed, ways_.grid(), {surprised_share, curious_share, scared_share, threatening_share});
+  start_people(start, to_robots);
   groups_.start();
   neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
@@ -67,7 +63,7 @@ Status SocialForce::start(const Start& start) {
 }
 
 Status SocialForce::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, robot_awareness, neighbors_,
+  walkers_.gather(crowd, to_robots.awareness, neighbors_,
                   [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
 

@@ -3,19 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <dmrp/plugin.hpp>
 #include <vector>
 
+#include "pedestrians/crowd/crowd_model.hpp"
 #include "pedestrians/crowd/groups.hpp"
 #include "pedestrians/crowd/neighbor_grid.hpp"
-#include "pedestrians/crowd/walkers.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
-#include "pedestrians/crowd/way_finding.hpp"
 #include "pedestrians/social_force/forces.hpp"
 
 namespace dmrp::pedestrians {
 
-class SocialForce final : public PedestrianModel {
+class SocialForce final : public CrowdModel {
  public:
   static Descriptor describe();
 
@@ -48,18 +46,7 @@ class SocialForce final : public PedestrianModel {
   Param<double> gamma = param("gamma", 0.35).range(0.01, 5.0).doc("range of an interaction per unit of its strength");
   Param<double> n = param("n", 2.0).range(0.0, 20.0).doc("angular width of the turning force");
   Param<double> n_prime = param("n_prime", 3.0).range(0.0, 20.0).doc("angular width of the decelerating force");
-  Param<double> robot_awareness = param("robot_awareness", 1.0)
-                                      .range(0.0, 1.0)
-                                      .doc("how much people react to robots: 1 as to people, 0 not at all");
-  Param<double> surprised_share = param("surprised_share", 0.0)
-                                      .range(0.0, 1.0)
-                                      .doc("share of people who stop and look at a robot when they see it");
-  Param<double> curious_share =
-      param("curious_share", 0.0).range(0.0, 1.0).doc("share of people who walk up to a robot when they see it");
-  Param<double> scared_share =
-      param("scared_share", 0.0).range(0.0, 1.0).doc("share of people who walk away from a robot when they see it");
-  Param<double> threatening_share =
-      param("threatening_share", 0.0).range(0.0, 1.0).doc("share of people who get in a robot's way when they see it");
+  RobotResponse to_robots = robot_response();
   Param<double> motion_noise = param("motion_noise", 0.0)
                                    .unit("m/s")
                                    .range(0.0, 1.0)
@@ -77,11 +64,9 @@ class SocialForce final : public PedestrianModel {
 
   InteractionShape shape_ = {};
   std::uint64_t seed_ = 0;
-  WayFinder ways_;
   Groups groups_;
   NeighborGrid neighbors_;
   WallGrid walls_;
-  Walkers walkers_;
   std::vector<WallPoint> wall_points_;
 };
 

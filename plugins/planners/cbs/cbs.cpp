@@ -4,15 +4,12 @@
 namespace dmrp::planners {
 
 Descriptor Cbs::describe() {
-  return Descriptor("dmrp.planner.cbs", "CBS", "2.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.cbs", "CBS", "2.0.0")
       .summary("paths without conflicts, of least sum of costs")
       .source(
           "Sharon, Stern, Felner, Sturtevant: Conflict-based search for optimal multi-agent pathfinding, AIJ 2015; "
           "Li, Harabor, Stuckey, Ma, Gange, Koenig: Pairwise symmetry reasoning for multi-agent path finding search, "
-          "AIJ 2021")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "AIJ 2021");
 }
 
 ConflictSearchOptions Cbs::options() const {
@@ -26,8 +23,6 @@ ConflictSearchOptions Cbs::options() const {
   options.rectangle_reasoning = *rectangle_reasoning;
   options.dependency_graph = *weighted_dependency_graph;
   options.disjoint_splitting = *disjoint_splitting;
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
   return options;
 }
 

@@ -31,12 +31,6 @@ class Cbs final : public ConflictSearchPlanner {
       param("target_reasoning", true).doc("resolve conflicts at a goal that a robot has reached by one split");
   Param<bool> disjoint_splitting =
       param("disjoint_splitting", false).doc("one child requires a robot to pass a place, the other forbids it");
-  Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
-  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
-                                       .unit("1")
-                                       .range(1, 1'000'000'000)
-                                       .doc("constraint-tree nodes after which the search gives up");
 
  protected:
   ConflictSearchOptions options() const override;

@@ -4,22 +4,17 @@
 namespace dmrp::planners {
 
 Descriptor Ecbs::describe() {
-  return Descriptor("dmrp.planner.ecbs", "ECBS", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.ecbs", "ECBS", "1.0.0")
       .summary("paths without conflicts, of a sum of costs within a bound of the least; focal search on both levels")
       .source(
           "Barer, Sharon, Stern, Felner: Suboptimal variants of the conflict-based search algorithm for the "
-          "multi-agent pathfinding problem, SoCS 2014")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "multi-agent pathfinding problem, SoCS 2014");
 }
 
 ConflictSearchOptions Ecbs::options() const {
   ConflictSearchOptions options;
   options.suboptimality = *suboptimality;
   options.selection = Selection::focal;
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
   return options;
 }
 

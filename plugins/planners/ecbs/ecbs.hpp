@@ -16,12 +16,6 @@ class Ecbs final : public ConflictSearchPlanner {
 
   Param<double> suboptimality =
       param("suboptimality", 1.2).unit("1").range(1.0, 100.0).doc("the cost is at most this factor times the least");
-  Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
-  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
-                                       .unit("1")
-                                       .range(1, 1'000'000'000)
-                                       .doc("constraint-tree nodes after which the search gives up");
 
  protected:
   ConflictSearchOptions options() const override;

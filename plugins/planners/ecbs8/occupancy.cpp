@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "planners/ecbs8/occupancy.hpp"
 
-#include <algorithm>
 #include <new>
 
 namespace dmrp::planners::ecbs8 {

@@ -5,7 +5,6 @@
 // paths that differ.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>

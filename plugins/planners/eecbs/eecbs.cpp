@@ -4,20 +4,12 @@
 namespace dmrp::planners {
 
 Descriptor Eecbs::describe() {
-  return Descriptor("dmrp.planner.eecbs", "EECBS", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.eecbs", "EECBS", "1.0.0")
       .summary("paths without conflicts, of a sum of costs within a bound of the least; explicit estimation search")
       .source(
           "Li, Ruml, Koenig: EECBS: A bounded-suboptimal search for multi-agent path finding, AAAI 2021; restarts: "
           "Cohen, Koenig, Kumar, Wagner, Choset, Chan, Sturtevant: Rapid randomized restarts for multi-agent path "
-          "finding solvers, SoCS 2018")
-      .connectivity(DMRP_CONNECTIVITY_4);
-}
-
-Status Eecbs::start(const Start& start) {
-  seed_ = start.seed;
-  return Status::ok;
+          "finding solvers, SoCS 2018");
 }
 
 ConflictSearchOptions Eecbs::options() const {
@@ -34,9 +26,7 @@ ConflictSearchOptions Eecbs::options() const {
   options.conflict_steps = *conflict_steps;
   options.replan_in_place = *replan_in_place;
   options.restart_after = *restart_after;
-  options.seed = seed_;
-  options.safe_intervals = *safe_intervals;
-  options.node_limit = *node_limit;
+  options.seed = seed();
   return options;
 }
 

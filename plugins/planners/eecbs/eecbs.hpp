@@ -53,20 +53,9 @@ class Eecbs final : public ConflictSearchPlanner {
           .doc(
               "expansions after which the search restarts with the robots in another order; a quarter the first time, "
               "half as many more each time; 0: never");
-  Param<bool> safe_intervals =
-      param("safe_intervals", true).doc("plan single robots over safe intervals; otherwise over single steps");
-  Param<std::int64_t> node_limit = param("node_limit", 10'000'000)
-                                       .unit("1")
-                                       .range(1, 1'000'000'000)
-                                       .doc("constraint-tree nodes after which the search gives up");
-
-  Status start(const Start& start) override;
 
  protected:
   ConflictSearchOptions options() const override;
-
- private:
-  std::uint64_t seed_ = 0;
 };
 
 }  // namespace dmrp::planners

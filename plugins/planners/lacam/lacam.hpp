@@ -2,7 +2,7 @@
 // lacam.hpp: complete and fast for thousands of robots: a lazy search over the configurations of all robots.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "planners/mapf/graph_planner.hpp"
 
 namespace dmrp::planners {
 
@@ -12,7 +12,7 @@ namespace dmrp::planners {
 // `lower_bound` is the sum of the robots' costs alone; once all configurations were visited, `cost`. Returns
 // NO_SOLUTION if all were visited without a plan, TIMEOUT if the host asks it to stop, or its configurations take 2 GB,
 // before the first plan. After the first plan it always returns a plan.
-class Lacam final : public GlobalPlanner {
+class Lacam final : public GraphPlanner {
  public:
   static Descriptor describe();
 
@@ -23,11 +23,9 @@ class Lacam final : public GlobalPlanner {
                                            "configurations generated after the first plan, to improve it; 0: until the "
                                            "time budget ends, which is not repeatable");
 
-  Status start(const Start& start) override;
-  Status plan(const PlanningProblem& problem, PlanSink& sink) override;
-
- private:
-  std::uint64_t seed_ = 0;
+ protected:
+  Status solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
+               PlanSink& sink) override;
 };
 
 }  // namespace dmrp::planners

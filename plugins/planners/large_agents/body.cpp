@@ -2,7 +2,6 @@
 #include "planners/large_agents/body.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>

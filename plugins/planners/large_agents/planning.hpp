@@ -3,7 +3,6 @@
 #pragma once
 
 #include <dmrp/plugin.hpp>
-#include <functional>
 
 #include "planners/large_agents/fleet.hpp"
 

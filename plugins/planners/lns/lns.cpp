@@ -3,7 +3,6 @@
 
 #include "planners/lacam/lacam_search.hpp"
 #include "planners/lns/large_neighborhood_search.hpp"
-#include "planners/mapf/preparation.hpp"
 #include "planners/mapf/straighten.hpp"
 #include "planners/sipp/prioritized_search.hpp"
 
@@ -47,45 +46,27 @@ FirstPlan find_first_plan(const Preparation& prepared, std::uint64_t seed, StopS
 }  // namespace
 
 Descriptor Lns::describe() {
-  return Descriptor("dmrp.planner.lns", "MAPF-LNS", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.lns", "MAPF-LNS", "1.0.0")
       .summary("a quick plan, improved a few robots at a time by large neighborhood search")
       .source(
           "Li, Chen, Harabor, Stuckey, Koenig: Anytime multi-agent path finding via large neighborhood search, IJCAI "
-          "2021; first plan: dmrp.planner.sipp, dmrp.planner.lacam")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "2021; first plan: dmrp.planner.sipp, dmrp.planner.lacam");
 }
 
-Status Lns::start(const Start& start) {
-  seed_ = start.seed;
-  return Status::ok;
-}
-
-Status Lns::plan(const PlanningProblem& host_problem, PlanSink& sink) {
-  StopSignal stop([this] { return should_stop(); });
-  const auto prepared = prepare(host_problem, stop);
-  if (!prepared) return Status::timeout;
-  if (!prepared->obstruction.empty()) {
-    set_error(prepared->obstruction);
-    return Status::no_solution;
-  }
-  sink.statistic("lower_bound", prepared->lower_bound());
-  FirstPlan first = find_first_plan(*prepared, seed_, stop);
-  if (first.status != Status::ok) {
-    set_error(first.error);
-    return first.status;
-  }
+Status Lns::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop, PlanSink& sink) {
+  sink.statistic("lower_bound", prepared.lower_bound());
+  FirstPlan first = find_first_plan(prepared, seed(), stop);
+  if (first.status != Status::ok) return fail(first.status, first.error);
   sink.statistic("first_cost", static_cast<double>(sum_of_costs(first.paths)));
-  LargeNeighborhoodSearch search(prepared->problem, prepared->tables, std::move(first.paths), seed_, stop);
+  LargeNeighborhoodSearch search(prepared.problem, prepared.tables, std::move(first.paths), seed(), stop);
   search.run(*iterations > 0 ? *iterations : -1);
   sink.statistic("iterations", static_cast<double>(search.iterations()));
   sink.statistic("low_level_expanded", static_cast<double>(search.low_level_expanded()));
   sink.statistic("cost", static_cast<double>(search.cost()));
   std::vector<std::vector<Location>>& paths = search.plan().paths;
-  straighten(prepared->problem, prepared->tables, search.plan().occupied, paths,
+  straighten(prepared.problem, prepared.tables, search.plan().occupied, paths,
              straightening_limit(paths.size(), search.low_level_expanded()), stop);
-  write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
+  write_paths(host_problem, prepared.problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;
 }
 

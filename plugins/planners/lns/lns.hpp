@@ -2,7 +2,7 @@
 // lns.hpp: a quick plan that gets cheaper with every iteration, for any number of robots.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "planners/mapf/graph_planner.hpp"
 
 namespace dmrp::planners {
 
@@ -13,7 +13,7 @@ namespace dmrp::planners {
 //
 // `lower_bound` is the sum of the robots' costs alone; the sum of costs has no bound. Returns NO_SOLUTION if that is
 // proved, TIMEOUT if the host asks it to stop before the first plan.
-class Lns final : public GlobalPlanner {
+class Lns final : public GraphPlanner {
  public:
   static Descriptor describe();
 
@@ -24,11 +24,9 @@ class Lns final : public GlobalPlanner {
                                            "neighborhoods planned again; 0: until the time budget ends, which is not "
                                            "repeatable");
 
-  Status start(const Start& start) override;
-  Status plan(const PlanningProblem& problem, PlanSink& sink) override;
-
- private:
-  std::uint64_t seed_ = 0;
+ protected:
+  Status solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
+               PlanSink& sink) override;
 };
 
 }  // namespace dmrp::planners

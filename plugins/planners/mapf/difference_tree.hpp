@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -85,6 +86,7 @@ class DifferenceTree {
   // Adds a node and copies its paths. Fills in its ranges only; the other fields are the caller's.
   template <class Conflicts>
   NodeId add(Node node, std::span<const AgentPath> paths, const Conflicts& conflicts) {
+    assert(node.parent < node_count());
     node.paths = append(paths_, paths);
     for (std::uint32_t i = node.paths.begin; i < node.paths.end; ++i)
       paths_[i].locations = locations_.add(paths_[i].locations);
@@ -102,6 +104,7 @@ class DifferenceTree {
 
   // The members' paths in a node, by agent. They do not move until reset().
   void gather_paths(NodeId id, std::vector<AgentPath>& out) {
+    assert(id < node_count() && out.size() >= met_.size());
     ++walk_;
     for (std::size_t missing = members_; missing > 0; id = node(id).parent)
       for (std::uint32_t i = node(id).paths.begin; i < node(id).paths.end; ++i) {

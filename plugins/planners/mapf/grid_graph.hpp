@@ -5,6 +5,7 @@
 #include <dmrp/grid.h>
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -49,6 +50,7 @@ class BasicGridGraph {
 
   // The two cells beside an open diagonal: those that share an edge with both its ends.
   std::array<Location, 2> beside(Location from, Direction diagonal) const {
+    assert(is_diagonal(diagonal) && neighbor(from, diagonal) != nowhere);
     const Move& move = moves[static_cast<std::size_t>(diagonal)];
     return {at(column(from) + move.columns, row(from)), at(column(from), row(from) + move.rows)};
   }
@@ -95,8 +97,12 @@ class BasicGridGraph {
     std::int32_t row;
   };
 
-  static std::size_t index(Location location) { return static_cast<std::size_t>(location); }
-  static std::size_t slot(Location location, Direction d) {
+  std::size_t index(Location location) const {
+    assert(location >= 0 && location < static_cast<Location>(places_.size()));
+    return static_cast<std::size_t>(location);
+  }
+  std::size_t slot(Location location, Direction d) const {
+    assert(d >= 0 && d < direction_count);
     return index(location) * static_cast<std::size_t>(direction_count) + static_cast<std::size_t>(d);
   }
   // The location so many columns and rows away, or nowhere.

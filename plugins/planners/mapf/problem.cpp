@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "planners/mapf/problem.hpp"
 
-#include <cmath>
-#include <limits>
-
+#include <cassert>
 namespace dmrp::planners {
 
 namespace {
@@ -19,6 +17,7 @@ Waypoint waypoint_at(dmrp_vec2 point, std::int64_t t_ns, std::uint32_t goal_inde
 template <Direction connectivity>
 void write_path(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph, const Agent& agent,
                 PathView path, PlanSink& sink) {
+  assert(!path.empty());
   std::vector<Waypoint> waypoints;
   waypoints.reserve(path.size());
   std::int64_t t_ns = host_problem.effective_from_ns;
@@ -65,6 +64,7 @@ BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool res
 template <Direction connectivity>
 void write_paths(const PlanningProblem& host_problem, const BasicProblem<connectivity>& problem,
                  const std::vector<PathView>& paths, PlanSink& sink) {
+  assert(paths.size() == problem.agents.size());
   for (std::size_t i = 0; i < paths.size(); ++i)
     write_path(host_problem, problem.graph, problem.agents[i], paths[i], sink);
   write_resting_robots(host_problem, sink);

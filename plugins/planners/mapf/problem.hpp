@@ -3,11 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/plugin.hpp>
 #include <limits>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "planners/mapf/grid_graph.hpp"
@@ -54,6 +53,7 @@ inline std::int32_t cost_of(PathView path) {
 
 // An agent stays where its path ends.
 inline Location location_at(PathView path, std::int32_t t) {
+  assert(t >= 0 && !path.empty());
   return path[std::min(static_cast<std::size_t>(t), path.size() - 1)];
 }
 

@@ -2,6 +2,7 @@
 #include "planners/mapf/safe_intervals.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -38,6 +39,7 @@ std::int32_t SafeIntervals::agent_at(Location location, std::int32_t t) const {
 }
 
 bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const {
+  assert(t > 0);
   const auto there = occupations(to);
   const std::size_t i = index_at(there, t - 1);
   std::size_t at_t = i;
@@ -49,6 +51,7 @@ bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, s
 
 void SafeIntervals::list_step_conflicts(Location from, Location to, std::int32_t t,
                                         std::vector<std::int32_t>& agents) const {
+  assert(t > 0);
   agents.clear();
   if (const std::int32_t there = agent_at(to, t); there >= 0) agents.push_back(there);
   if (from == to) return;

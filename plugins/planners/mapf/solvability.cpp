@@ -2,6 +2,7 @@
 #include "planners/mapf/solvability.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -196,6 +197,8 @@ std::string name(const BasicProblem<connectivity>& problem, std::size_t agent) {
 
 template <Direction connectivity>
 std::optional<std::string> find_obvious_obstruction(const BasicProblem<connectivity>& problem) {
+  assert(std::none_of(problem.agents.begin(), problem.agents.end(),
+                      [](const Agent& agent) { return agent.goals.empty() || agent.last_goal() == nowhere; }));
   for (std::size_t a = 0; a < problem.agents.size(); ++a)
     for (std::size_t b = a + 1; b < problem.agents.size(); ++b) {
       if (problem.agents[a].start == problem.agents[b].start)

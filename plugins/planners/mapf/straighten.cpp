@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "planners/mapf/fewest_turns.hpp"
@@ -218,6 +219,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
 
 std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& tables, SafeIntervals& plan,
                         std::vector<std::vector<Location>>& paths, std::int64_t work_limit, StopSignal& stop) {
+  assert(paths.size() == problem.agents.size() && tables.size() == paths.size());
   using Result = StraightestPath::Result;
   std::vector<std::int32_t> turns;
   std::vector<std::size_t> candidates;  // robots whose turns exceed the lower bound
@@ -263,6 +265,7 @@ std::int32_t straighten(const Problem& problem, const std::vector<TourTable>& ta
 
 void straighten_alone(const Problem& problem, const std::vector<TourTable>& tables,
                       std::vector<std::vector<Location>>& paths, StopSignal& stop) {
+  assert(paths.size() == problem.agents.size() && tables.size() == paths.size());
   const SafeIntervals nobody(problem.graph);
   StraightestPath search(problem.graph, nobody);
   std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();

@@ -3,6 +3,7 @@
 // a robot without others.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ class TourTable {
 
   // Steps from `location`, on the way to goal `leg`, until the tour's end; or unreachable.
   std::int32_t distance(std::int32_t leg, Location location) const {
+    assert(leg >= 0 && location >= 0 && static_cast<std::size_t>(location) < location_count_);
     return distance_[static_cast<std::size_t>(leg) * location_count_ + static_cast<std::size_t>(location)];
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "planners/pibt/pibt.hpp"
 
-#include "planners/mapf/preparation.hpp"
 #include "planners/mapf/straighten.hpp"
 #include "planners/pibt/pibt_step.hpp"
 
@@ -40,46 +39,31 @@ std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t st
 }  // namespace
 
 Descriptor Pibt::describe() {
-  return Descriptor("dmrp.planner.pibt", "PIBT", "1.0.0")
-      .vendor("dmrp")
-      .license("MIT")
+  return describe_planner("dmrp.planner.pibt", "PIBT", "1.0.0")
       .summary("all robots step by step, by priority; the fastest for thousands of robots, with expensive plans")
       .source(
           "Okumura, Machida, Defago, Tamura: Priority inheritance with backtracking for iterative multi-agent path "
           "finding, Artificial Intelligence 310, 2022; swap: Okumura: Improving LaCAM for scalable eventually optimal "
-          "multi-agent pathfinding, IJCAI 2023")
-      .connectivity(DMRP_CONNECTIVITY_4);
+          "multi-agent pathfinding, IJCAI 2023");
 }
 
-Status Pibt::start(const Start& start) {
-  seed_ = start.seed;
-  return Status::ok;
-}
-
-Status Pibt::plan(const PlanningProblem& host_problem, PlanSink& sink) {
-  StopSignal stop([this] { return should_stop(); });
-  const auto prepared = prepare(host_problem, stop);
-  if (!prepared) return Status::timeout;
-  if (!prepared->obstruction.empty()) {
-    set_error(prepared->obstruction);
-    return Status::no_solution;
-  }
-  sink.statistic("lower_bound", prepared->lower_bound());
-  const std::vector<Configuration> configurations = run_pibt(*prepared, *step_limit, seed_, stop);
+Status Pibt::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop, PlanSink& sink) {
+  sink.statistic("lower_bound", prepared.lower_bound());
+  const std::vector<Configuration> configurations = run_pibt(prepared, *step_limit, seed(), stop);
   std::vector<const Configuration*> sequence;
   for (const Configuration& configuration : configurations) sequence.push_back(&configuration);
-  std::vector<std::vector<Location>> paths = paths_of(sequence, prepared->tables);
+  std::vector<std::vector<Location>> paths = paths_of(sequence, prepared.tables);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (prepared->tables[i].distance(configurations.back().legs[i], configurations.back().locations[i]) == 0) continue;
-    set_error(stop.raised() ? "stopped by the host"
-                            : "robots are not at rest after " + std::to_string(configurations.size() - 1) +
-                                  " steps (step_limit = " + std::to_string(*step_limit) + ")");
-    return Status::timeout;
+    if (prepared.tables[i].distance(configurations.back().legs[i], configurations.back().locations[i]) == 0) continue;
+    return fail(Status::timeout, stop.raised()
+                                     ? "stopped by the host"
+                                     : "robots are not at rest after " + std::to_string(configurations.size() - 1) +
+                                           " steps (step_limit = " + std::to_string(*step_limit) + ")");
   }
   const std::int64_t moves = sum_of_costs(paths);
   sink.statistic("cost", static_cast<double>(moves));
-  straighten(prepared->problem, prepared->tables, paths, straightening_limit(paths.size(), moves), stop);
-  write_paths(host_problem, prepared->problem, {paths.begin(), paths.end()}, sink);
+  straighten(prepared.problem, prepared.tables, paths, straightening_limit(paths.size(), moves), stop);
+  write_paths(host_problem, prepared.problem, {paths.begin(), paths.end()}, sink);
   return Status::ok;
 }
 

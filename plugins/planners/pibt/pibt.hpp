@@ -2,7 +2,7 @@
 // pibt.hpp: priority inheritance with backtracking, step by step until all robots rest.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "planners/mapf/graph_planner.hpp"
 
 namespace dmrp::planners {
 
@@ -10,7 +10,7 @@ namespace dmrp::planners {
 // of robots, and the baseline of the field. Each step follows from the one before; nothing is ever taken back. So the
 // sum of costs is far from the least, and the robots may never all be at their goals at once: after `step_limit` steps
 // it returns TIMEOUT. `lower_bound` is the sum of the robots' costs alone.
-class Pibt final : public GlobalPlanner {
+class Pibt final : public GraphPlanner {
  public:
   static Descriptor describe();
 
@@ -19,11 +19,9 @@ class Pibt final : public GlobalPlanner {
                                        .range(1, 10'000'000)
                                        .doc("steps of the plan after which the planner gives up");
 
-  Status start(const Start& start) override;
-  Status plan(const PlanningProblem& problem, PlanSink& sink) override;
-
- private:
-  std::uint64_t seed_ = 0;
+ protected:
+  Status solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
+               PlanSink& sink) override;
 };
 
 }  // namespace dmrp::planners

@@ -3,7 +3,7 @@
 // moving obstacles.
 #pragma once
 
-#include <dmrp/plugin.hpp>
+#include "planners/mapf/graph_planner.hpp"
 
 namespace dmrp::planners {
 
@@ -22,18 +22,18 @@ namespace dmrp::planners {
 // of the map were tried. Returns TIMEOUT after `restarts` or when the host asks it to stop. Prioritized planning is not
 // complete: where two robots have to give way to each other, one must be late, and only a delay at its start makes it
 // so.
-class Sipp final : public GlobalPlanner {
+class Sipp final : public GraphPlanner {
  public:
   static Descriptor describe();
 
   Param<std::int64_t> restarts =
       param("restarts", 1000).unit("1").range(0, 100'000'000).doc("restarts in a new order before the search gives up");
 
-  Status start(const Start& start) override;
-  Status plan(const PlanningProblem& problem, PlanSink& sink) override;
-
- private:
-  std::uint64_t seed_ = 0;
+ protected:
+  Status plan_unequal(const PlanningProblem& host_problem, const std::string& unequal, StopSignal& stop,
+                      PlanSink& sink) override;
+  Status solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop,
+               PlanSink& sink) override;
 };
 
 }  // namespace dmrp::planners

@@ -46,7 +46,7 @@ typedef struct dmrp_contact {
   double impact_speed;  // m/s, relative, along the normal, 0 or more; NaN: not the first sample of its event
 } dmrp_contact;
 
-// Kinds of call. Open list (recovery.h).
+// Kinds of call. Open list (recovery.h, referee.h).
 #define DMRP_CALL_PLAN 1
 #define DMRP_CALL_CONTROL 2
 #define DMRP_CALL_PEOPLE 3
@@ -54,10 +54,10 @@ typedef struct dmrp_contact {
 
 // A plugin call since the last sample. Array element.
 typedef struct dmrp_call {
-  uint32_t kind;   // DMRP_CALL_*
-  uint32_t robot;  // of DMRP_CALL_CONTROL, _CLIPPED and _RECOVERY; 0 otherwise
-  int32_t status;  // the returned status
-  uint32_t reserved;
+  uint32_t kind;        // DMRP_CALL_*
+  uint32_t robot;       // of DMRP_CALL_CONTROL, _CLIPPED, _RECOVERY and _CLASS; 0 otherwise
+  int32_t status;       // the returned status
+  uint32_t other;       // of DMRP_CALL_CLASS; 0 otherwise
   int64_t duration_ns;  // wall time
 } dmrp_call;
 

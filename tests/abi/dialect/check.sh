@@ -73,6 +73,7 @@ source_folder() {
   case $1 in
     sdk/*) echo "sdk/include/dmrp/${1#sdk/}" ;;
     core* | host* | sdk) echo "$1" ;;
+    bench*) echo "tests/$1" ;;
     *) echo "plugins/$1" ;;
   esac
 }

@@ -41,7 +41,7 @@ int arrivals(const Controller& controller, const ParamOverrides& changed = {}) {
 
 }  // namespace
 
-TEST_CASE("MPC, TEB and E3MoP leave a dead end that their path leads through", "[slow]") {
+TEST_CASE("MPC, TEB and E3MoP leave a dead end that their path leads through") {
   const auto [id, departure] = GENERATE(table<const char*, const char*>({{"dmrp.controller.mpc", "keep_detour"},
                                                                          {"dmrp.controller.teb", "take_detour"},
                                                                          {"dmrp.controller.e3mop", "keep_detour"}}));

@@ -42,7 +42,7 @@ TEST_CASE("Pure pursuit waits for a person on the path and then continues") {
   CHECK(drive.walker_clearance_m > 0.0);
 }
 
-TEST_CASE("A person crossing in front", "[slow]") {
+TEST_CASE("A person crossing in front") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   const bool tracking = GENERATE(true, false);
   const double from_y = GENERATE(-1.0, 1.0);
@@ -57,7 +57,7 @@ TEST_CASE("A person crossing in front", "[slow]") {
   CHECK(drive.walker_clearance_m > 0.0);
 }
 
-TEST_CASE("A person blocks the path for a while and leaves", "[slow]") {
+TEST_CASE("A person blocks the path for a while and leaves") {
   const Controller controller = GENERATE(from_range(all_controllers()));
   const bool tracking = GENERATE(true, false);
   CAPTURE(controller, tracking);
@@ -88,7 +88,7 @@ TEST_CASE("A person overtakes and walks on ahead") {
   CHECK(drive.own_walker_clearance_m > 0.0);
 }
 
-TEST_CASE("Two robots meet head-on in a corridor of 2 m", "[slow]") {
+TEST_CASE("Two robots meet head-on in a corridor of 2 m") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   const bool tracking = GENERATE(true, false);
   const double offset = GENERATE(0.0, 0.1);

@@ -61,39 +61,39 @@ bool changes_expansions(const std::filesystem::path& data, const std::string& id
 
 }  // namespace
 
-TEST_CASE("CBS solves 20 robots on random-32-32-20", "[data]") {
+TEST_CASE("CBS solves 20 robots on random-32-32-20") {
   check_solved(cbs, 1, "random-32-32-20", 20, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 40 robots on random-32-32-20", "[data]") {
+TEST_CASE("CBS solves 40 robots on random-32-32-20") {
   check_solved(cbs, 1, "random-32-32-20", 40, {2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 20 robots on 40x40 rooms", "[data]") {
+TEST_CASE("CBS solves 20 robots on 40x40 rooms") {
   check_solved(cbs, 1, "gen-rooms-40-40", 20, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("CBS solves 4 robots on 40x40 cells", "[data]") {
+TEST_CASE("CBS solves 4 robots on 40x40 cells") {
   check_solved(cbs, 1, "gen-random-40-40-10", 4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
 }
 
-TEST_CASE("CBS solves 100 robots on empty-32-32", "[data]") {
+TEST_CASE("CBS solves 100 robots on empty-32-32") {
   check_solved(cbs, 1, "empty-32-32", 100, {1, 2});
 }
 
-TEST_CASE("ECBS solves 100 robots on random-32-32-20", "[data]") {
+TEST_CASE("ECBS solves 100 robots on random-32-32-20") {
   check_solved(ecbs, 1.2, "random-32-32-20", 100, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("EECBS solves 100 robots on random-32-32-20", "[data]") {
+TEST_CASE("EECBS solves 100 robots on random-32-32-20") {
   check_solved(eecbs, 1.2, "random-32-32-20", 100, {1, 2, 3, 4, 5});
 }
 
-TEST_CASE("EECBS solves 80 robots on room-32-32-4", "[data]") {
+TEST_CASE("EECBS solves 80 robots on room-32-32-4") {
   check_solved(eecbs, 1.2, "room-32-32-4", 80, {1, 2});
 }
 
-TEST_CASE("every improvement of CBS changes what is expanded", "[data][slow]") {
+TEST_CASE("every improvement of CBS changes what is expanded") {
   const auto data = data_or_warn();
   if (!data) return;
   std::vector<std::string> switches = improvements;
@@ -105,7 +105,7 @@ TEST_CASE("every improvement of CBS changes what is expanded", "[data][slow]") {
   }
 }
 
-TEST_CASE("every improvement of EECBS changes what is expanded", "[data][slow]") {
+TEST_CASE("every improvement of EECBS changes what is expanded") {
   const auto data = data_or_warn();
   if (!data) return;
   std::vector<std::string> switches = improvements;

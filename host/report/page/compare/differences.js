@@ -2,14 +2,14 @@
 // differences.js: paired differences between two runs, after minus before: of each metric over all trials, and of one
 // metric for each combination.
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
 import * as interval_rows from '../tables/interval_rows.js';
 import * as judgement from './judgement.js';
 
-const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+const estimate_of = ({difference, low, high}) => ({estimate: difference, low, high});
 
 // The cells that all differences have, behind the name and the picture of the interval.
 function cells(data, difference) {
@@ -19,10 +19,11 @@ function cells(data, difference) {
   return [
     number('before', numbers.fixed(difference.before, digits)),
     number('after', numbers.fixed(difference.after, digits)),
-    number(
+    interval_rows.difference_cell(
       'difference',
-      element('span', {class: 'mean'}, numbers.signed(difference.difference, digits)),
-      element('span', {class: 'interval'}, numbers.interval(difference.low, difference.high, digits, numbers.signed))
+      estimate_of(difference),
+      digits,
+      difference.pairs > 0 && numbers.counted(difference.seeds, 'seed')
     ),
     number('p (Holm)', numbers.p_value(difference.p_holm)),
     number('pairs', `${difference.pairs}`),
@@ -42,7 +43,7 @@ function metrics_table(data, run) {
   return element(
     'table',
     {class: 'forest with-intervals'},
-    head_row(element('th', {scope: 'col'}, 'metric'), HEADS.map((head) => column(head)), element('th', {scope: 'col'}, '')),
+    head_row(element('th', {scope: 'col'}, 'metric'), HEADS.map((head) => number_head(head)), element('th', {scope: 'col'}, '')),
     element('tbody', {}, rows)
   );
 }
@@ -77,35 +78,29 @@ export function default_metric(data, run) {
 
 function combinations_table(data, run, index) {
   const own = run.of_combinations.map((of) => of[index]);
-  const x = interval_rows.scale(
-    own.map((one) => ({estimate: one.difference, low: one.low, high: one.high})).filter((one) => one.estimate !== undefined)
-  );
+  const x = interval_rows.scale(own.map(estimate_of));
+  const row_of = (combination) => {
+    const difference = own[combination];
+    const sure = ['better', 'worse', 'changed'].includes(judgement.of(data, difference));
+    return element(
+      'tr',
+      {class: sure ? 'sure' : null},
+      element('th', {scope: 'row'}, labels.combination(data, combination)),
+      interval_rows.cell(estimate_of(difference), x, sure),
+      cells(data, difference)
+    );
+  };
   const made = element(
     'table',
     {class: 'forest with-intervals'},
     head_row(
       element('th', {scope: 'col'}, 'combination'),
       interval_rows.axis(x, '', ''),
-      HEADS.map((head) => column(head)),
+      HEADS.map((head) => number_head(head)),
       element('th', {scope: 'col'}, '')
-    )
+    ),
+    bodies_of(data, labels.variants(data), 8, (variant) => variant.combinations.map(row_of))
   );
-  for (const variant of labels.variants(data)) {
-    if (variant.combinations.length === 0) continue;
-    const rows = variant.combinations.map((combination) => {
-      const difference = own[combination];
-      const estimate = {estimate: difference.difference, low: difference.low, high: difference.high};
-      const sure = ['better', 'worse', 'changed'].includes(judgement.of(data, difference));
-      return element(
-        'tr',
-        {class: sure ? 'sure' : null},
-        element('th', {scope: 'row'}, labels.combination(data, combination)),
-        interval_rows.cell(estimate, x, sure),
-        cells(data, difference)
-      );
-    });
-    made.append(element('tbody', {}, data.scenarios.length > 1 && group_row(variant.label, 8), rows));
-  }
   return scroll_box({'aria-label': 'Differences by combination'}, made);
 }
 

@@ -4,12 +4,11 @@ import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 
 const SIGNIFICANT = 0.05;
-export const LEAST_SEEDS = 6; // fewer give no p below 5 %
 
 // 'better', 'worse', 'changed' (neither direction is better), 'equal', 'unclear' or 'undefined'.
 export function of(data, difference) {
   if (difference.pairs === 0) return 'undefined';
-  if (!numbers.is_number(difference.p)) return 'equal';
+  if (difference.p === null) return 'equal';
   if (!(difference.p_holm < SIGNIFICANT)) return 'unclear';
   const {direction} = labels.metric(data, difference.metric);
   if (direction === 'none') return 'changed';

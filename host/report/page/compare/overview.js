@@ -38,11 +38,11 @@ export function lines(data, run) {
   else if (found.length === 0)
     found.push({kind: 'note', mark: 'i', text: 'No metric can be told apart over all trials.'});
   const seeds = Math.max(0, ...run.differences.map((one) => one.seeds));
-  if (seeds < judgement.LEAST_SEEDS)
+  if (seeds < numbers.FEWEST)
     found.push({
       kind: 'warning',
       mark: '!',
-      text: `${numbers.counted(seeds, 'seed')}: no difference can be told apart with fewer than ${judgement.LEAST_SEEDS}.`,
+      text: `${numbers.counted(seeds, 'seed')}: no difference can be told apart with fewer than ${numbers.FEWEST}.`,
     });
   const alone = run.only_before + run.only_after;
   if (alone > 0)

@@ -4,7 +4,7 @@ import {scaleLinear} from 'd3-scale';
 import {curveStepAfter, line} from 'd3-shape';
 
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_cell, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {titled_table} from '../scroll_box.js';
@@ -35,72 +35,36 @@ function draw_panel(data, rows, until, title, holder, width) {
   for (const row of rows) {
     const series = labels.series(data, 'local_controller', data.combinations[row.combination].local_controller);
     const last = row.steps[row.steps.length - 1];
-    svg
-      .append('path')
-      .attr('class', 'line')
-      .style('stroke', series.colour)
-      .style('stroke-dasharray', series.dash)
-      .attr('d', steps_line([[0, 0], ...row.steps, [until, last[1]]]));
-    svg
-      .append('path')
-      .attr('class', 'mark')
-      .style('fill', series.colour)
-      .attr('d', plots.symbol(series.symbol, 50))
-      .attr('transform', `translate(${x(last[0]).toFixed(1)},${y(last[1]).toFixed(1)})`);
+    plots.draw_line(svg, series, steps_line([[0, 0], ...row.steps, [until, last[1]]]));
+    plots.draw_symbol(svg, series, 50, x(last[0]), y(last[1]));
   }
 }
 
 function table(data, rows, variants) {
-  const column = (text, unit) =>
+  const row_of = (row) =>
     element(
-      'th',
-      {scope: 'col', class: 'number'},
-      element('span', {class: 'header'}, text),
-      element('span', {class: 'unit'}, unit)
+      'tr',
+      {},
+      element('th', {scope: 'row'}, labels.combination(data, row.combination)),
+      number_cell(null, numbers.fixed(row.restricted_mean_s, 1), numbers.interval(row.low, row.high, 1)),
+      element('td', {class: 'number'}, numbers.fixed(row.horizon_s, 0)),
+      element('td', {class: 'number'}, numbers.fixed(100 * row.arrived_share, 1)),
+      element('td', {class: 'number'}, row.robots)
     );
   const made = element(
     'table',
     {class: 'results with-intervals'},
     head_row(
       element('th', {scope: 'col'}, 'combination'),
-      column('restricted mean', 's'),
-      column('time limit', 's'),
-      column('arrived', '%'),
-      column('robots', '–')
+      number_head('restricted mean', 's'),
+      number_head('time limit', 's'),
+      number_head('arrived', '%'),
+      number_head('robots', '–')
+    ),
+    bodies_of(data, variants, 5, (variant) =>
+      rows.filter((row) => variant.combinations.includes(row.combination)).map(row_of)
     )
   );
-  for (const variant of variants) {
-    const own = rows.filter((row) => variant.combinations.includes(row.combination));
-    if (own.length === 0) continue;
-    made.append(
-      element(
-        'tbody',
-        {},
-        data.scenarios.length > 1 && group_row(variant.label, 5),
-        own.map((row) =>
-          element(
-            'tr',
-            {},
-            element('th', {scope: 'row'}, labels.combination(data, row.combination)),
-            element(
-              'td',
-              {class: 'number'},
-              element(
-                'span',
-                {class: 'mean'},
-                
-                numbers.fixed(row.restricted_mean_s, 1)
-              ),
-              element('span', {class: 'interval'}, numbers.interval(row.low, row.high, 1))
-            ),
-            element('td', {class: 'number'}, numbers.fixed(row.horizon_s, 0)),
-            element('td', {class: 'number'}, numbers.fixed(100 * row.arrived_share, 1)),
-            element('td', {class: 'number'}, row.robots)
-          )
-        )
-      )
-    );
-  }
   return titled_table(
     'title-completion',
     'Restricted mean time to arrive',

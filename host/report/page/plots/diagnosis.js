@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // diagnosis.js: scatter plots of two metrics, one panel for each scenario and planner, with rank correlations.
 import * as controls from '../controls.js';
-import {element, fill, head_row} from '../elements.js';
+import {element, fill, head_row, number_cell, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
@@ -35,9 +35,14 @@ export function correlation_of(data, stratum, x, y) {
   );
 }
 
+// Why a correlation has no value.
+function reason(found) {
+  return found.n < numbers.FEWEST ? numbers.too_few(found.n) : `equal values (${found.n})`;
+}
+
 function correlation_words(found) {
   if (!found) return '';
-  if (!numbers.is_number(found.rho)) return `no correlation: too few trials, or equal values (n ${found.n})`;
+  if (!numbers.is_number(found.rho)) return `ρ: ${reason(found)}`;
   const {interval, signed} = numbers;
   return `ρ ${signed(found.rho, 2)} ${interval(found.low, found.high, 2, signed)}, n ${found.n}`;
 }
@@ -58,24 +63,13 @@ function draw_panel(data, trials, chosen, domains, holder, width, detail) {
 }
 
 function correlation_cell(found) {
-  if (!found || !numbers.is_number(found.rho)) {
-    return element(
-      'td',
-      {class: 'number', 'data-about': found ? `too few trials, or equal values (n ${found.n})` : null},
-      numbers.UNDEFINED,
-      found && element('span', {class: 'interval'}, `n ${found.n}`)
-    );
-  }
-  return element(
-    'td',
-    {class: 'number'},
-    element('span', {class: 'mean'}, numbers.signed(found.rho, 2)),
-    element('span', {class: 'interval'}, numbers.interval(found.low, found.high, 2, numbers.signed)),
-    element(
-      'span',
-      {class: 'interval'},
-      `p ${numbers.p_value(found.p)} · n ${found.n} · ties ${numbers.percent(found.ties_share)}`
-    )
+  if (!found) return element('td', {class: 'number'}, numbers.UNDEFINED);
+  if (!numbers.is_number(found.rho)) return element('td', {class: 'number'}, reason(found));
+  return number_cell(
+    null,
+    numbers.signed(found.rho, 2),
+    numbers.interval(found.low, found.high, 2, numbers.signed),
+    `p ${numbers.p_value(found.p)} · n ${found.n} · ties ${numbers.percent(found.ties_share)}`
   );
 }
 
@@ -100,9 +94,7 @@ function correlation_table(data, strata) {
       {class: 'results with-intervals'},
       head_row(
         element('th', {scope: 'col'}, 'scenario and planner'),
-        pairs.map((pair) =>
-          element('th', {scope: 'col', class: 'number'}, element('span', {class: 'header'}, title(pair)))
-        )
+        pairs.map((pair) => number_head(title(pair)))
       ),
       element(
         'tbody',
@@ -130,7 +122,7 @@ function first_choice(data, measured) {
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.trials.id.length < 3)
+  if (data.trials.id.length < numbers.FEWEST)
     return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be computed`;
   return labels.measured_metrics(data).length < 2 ? 'fewer than two metrics have values' : null;
 }

@@ -37,35 +37,24 @@ export function model(data, variant, metric) {
 function draw_rows(svg, rows, left, right) {
   rows.forEach((row, r) => {
     const y = TOP + (r + 0.5) * ROW;
-    const text = svg
-      .append('text')
-      .attr('x', left - 10)
-      .attr('y', y)
-      .attr('dy', '0.32em')
-      .attr('text-anchor', 'end');
+    const text = plots.add(svg, 'text', {x: left - 10, y, dy: '0.32em', 'text-anchor': 'end'});
     plots.fit_text(text, row.label, left - 10);
-    svg.append('g').attr('class', 'grid').append('line').attr('x1', left).attr('x2', right).attr('y1', y).attr('y2', y);
+    plots.add(plots.add(svg, 'g', {class: 'grid'}), 'line', {x1: left, x2: right, y1: y, y2: y});
   });
 }
 
 function draw_undefined_column(svg, right, bottom, trials_without) {
   if (!trials_without) return;
-  svg
-    .append('text')
-    .attr('class', 'soft')
-    .attr('x', right + UNDEFINED / 2 + 4)
-    .attr('y', 14)
-    .attr('text-anchor', 'middle')
-    .style('font-size', '11px')
-    .text('undefined');
-  svg
-    .append('g')
-    .attr('class', 'grid')
-    .append('line')
-    .attr('x1', right + 10)
-    .attr('x2', right + 10)
-    .attr('y1', TOP - 6)
-    .attr('y2', bottom);
+  plots.add(svg, 'text', {
+    class: 'soft',
+    x: right + UNDEFINED / 2 + 4,
+    y: 14,
+    'text-anchor': 'middle',
+    style: {'font-size': '11px'},
+    text: 'undefined',
+  });
+  const x = right + 10;
+  plots.add(plots.add(svg, 'g', {class: 'grid'}), 'line', {x1: x, x2: x, y1: TOP - 6, y2: bottom});
 }
 
 // The median bar, with a rim in the background colour.
@@ -73,15 +62,8 @@ function draw_medians(svg, rows, x) {
   rows.forEach((row, r) => {
     if (row.median === null) return;
     const middle = TOP + (r + 0.5) * ROW;
-    for (const kind of ['median rim', 'median']) {
-      svg
-        .append('line')
-        .attr('class', kind)
-        .attr('x1', x(row.median))
-        .attr('x2', x(row.median))
-        .attr('y1', middle - ROW / 2 + 2)
-        .attr('y2', middle + ROW / 2 - 2);
-    }
+    const at = {x1: x(row.median), x2: x(row.median), y1: middle - ROW / 2 + 2, y2: middle + ROW / 2 - 2};
+    for (const kind of ['median rim', 'median']) plots.add(svg, 'line', {class: kind, ...at});
   });
 }
 

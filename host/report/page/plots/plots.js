@@ -37,14 +37,17 @@ export function responsive(holder, draw) {
   };
 }
 
+// Appends an SVG element to a selection. `style`: by property; all other properties are attributes.
+export function add(parent, name, {style = {}, text, ...attributes}) {
+  const made = parent.append(name);
+  for (const [key, value] of Object.entries(attributes)) made.attr(key, value);
+  for (const [key, value] of Object.entries(style)) made.style(key, value);
+  return text === undefined ? made : made.text(text);
+}
+
 export function frame(holder, width, height, label) {
-  return select(holder)
-    .append('svg')
-    .attr('viewBox', `0 0 ${width} ${height}`)
-    .attr('width', width)
-    .attr('height', height)
-    .attr('role', 'img')
-    .attr('aria-label', label);
+  const viewBox = `0 0 ${width} ${height}`;
+  return add(select(holder), 'svg', {viewBox, width, height, role: 'img', 'aria-label': label});
 }
 
 // The number of ticks that fit.
@@ -63,16 +66,9 @@ export function axis_bottom(parent, scale, y, title, options = {}) {
     .tickSize(4)
     .tickPadding(5)
     .tickFormat(number_format);
-  const made = parent.append('g').attr('class', 'axis').attr('transform', `translate(0,${y})`).call(axis);
-  if (title) {
-    made
-      .append('text')
-      .attr('class', 'title')
-      .attr('x', options.title_x === undefined ? (left + right) / 2 : options.title_x)
-      .attr('y', 34)
-      .attr('text-anchor', 'middle')
-      .text(title);
-  }
+  const made = add(parent, 'g', {class: 'axis', transform: `translate(0,${y})`}).call(axis);
+  const title_x = options.title_x === undefined ? (left + right) / 2 : options.title_x;
+  if (title) add(made, 'text', {class: 'title', x: title_x, y: 34, 'text-anchor': 'middle', text: title});
   return made;
 }
 
@@ -83,7 +79,7 @@ export function axis_left(parent, scale, x) {
     .tickSize(4)
     .tickPadding(4)
     .tickFormat(number_format);
-  return parent.append('g').attr('class', 'axis').attr('transform', `translate(${x},0)`).call(axis);
+  return add(parent, 'g', {class: 'axis', transform: `translate(${x},0)`}).call(axis);
 }
 
 // A linear scale with a margin at both ends; the scale of a single value is widened.
@@ -106,9 +102,28 @@ export function symbol(index, size = 44) {
     .size(size)();
 }
 
+export function draw_line(svg, series, d) {
+  add(svg, 'path', {class: 'line', d, style: {stroke: series.colour, 'stroke-dasharray': series.dash}});
+}
+
+export function draw_symbol(svg, series, size, x, y) {
+  const transform = `translate(${x.toFixed(1)},${y.toFixed(1)})`;
+  add(svg, 'path', {class: 'mark', d: symbol(series.symbol, size), transform, style: {fill: series.colour}});
+}
+
 // The mark of a failed trial.
 export function cross(radius = 3.6) {
   return `M${-radius},${-radius}L${radius},${radius}M${-radius},${radius}L${radius},${-radius}`;
+}
+
+// A symbol at (x, y), filled unless it is of a failed trial.
+export function add_mark(parent, x, y, {path, colour, failed}) {
+  return add(parent, 'path', {
+    class: failed ? 'mark failed' : 'mark',
+    transform: `translate(${x},${y})`,
+    d: path,
+    style: {'--colour': colour, fill: failed ? 'none' : colour},
+  });
 }
 
 // entries: [{label, colour, path, failed?, line?, dash?}]
@@ -117,24 +132,10 @@ export function legend(entries) {
   for (const entry of entries) {
     const item = element('li');
     const width = entry.line ? 28 : 14;
-    const svg = select(item).append('svg').attr('width', width).attr('height', 14).attr('aria-hidden', 'true');
-    if (entry.line)
-      svg
-        .append('line')
-        .attr('x1', 0)
-        .attr('x2', width)
-        .attr('y1', 7)
-        .attr('y2', 7)
-        .attr('class', 'line')
-        .style('stroke', entry.colour)
-        .style('stroke-dasharray', entry.dash);
-    svg
-      .append('path')
-      .attr('transform', `translate(${width / 2},7)`)
-      .attr('d', entry.path)
-      .attr('class', entry.failed ? 'mark failed' : 'mark')
-      .style('--colour', entry.colour)
-      .style('fill', entry.failed ? 'none' : entry.colour);
+    const svg = add(select(item), 'svg', {width, height: 14, 'aria-hidden': 'true'});
+    const line_style = {stroke: entry.colour, 'stroke-dasharray': entry.dash};
+    if (entry.line) add(svg, 'line', {x1: 0, x2: width, y1: 7, y2: 7, class: 'line', style: line_style});
+    add_mark(svg, width / 2, 7, entry);
     item.append(entry.label);
     list.append(item);
   }

@@ -15,27 +15,13 @@ export function frame(holder, width, {x, y}, titles, lines) {
   const bottom = top + BODY;
   const scales = {x: x([MARGIN.left, width - MARGIN.right]), y: y([bottom, top])};
   const svg = plots.frame(holder, width, bottom + MARGIN.bottom, titles.all);
-  svg
-    .append('g')
-    .attr('class', 'grid')
-    .selectAll('line')
-    .data(lines || scales.y.ticks(4))
-    .enter()
-    .append('line')
-    .attr('x1', MARGIN.left)
-    .attr('x2', width - MARGIN.right)
-    .attr('y1', scales.y)
-    .attr('y2', scales.y);
+  const grid = plots.add(svg, 'g', {class: 'grid'});
+  for (const y_of_line of (lines || scales.y.ticks(4)).map(scales.y))
+    plots.add(grid, 'line', {x1: MARGIN.left, x2: width - MARGIN.right, y1: y_of_line, y2: y_of_line});
   plots.axis_bottom(svg, scales.x, bottom, titles.x);
   const left = plots.axis_left(svg, scales.y, MARGIN.left);
   if (titles.y_unit)
-    left
-      .append('text')
-      .attr('class', 'title')
-      .attr('x', -8)
-      .attr('y', top - 11)
-      .attr('text-anchor', 'end')
-      .text(titles.y_unit);
+    plots.add(left, 'text', {class: 'title', x: -8, y: top - 11, 'text-anchor': 'end', text: titles.y_unit});
   return {svg, ...scales};
 }
 

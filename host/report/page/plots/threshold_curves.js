@@ -39,38 +39,18 @@ function series_of(data, curve) {
 function draw_curve(svg, curve, series, x, y) {
   const defined = (point) => numbers.is_number(point[1]);
   const banded = (point) => numbers.is_number(point[2]) && numbers.is_number(point[3]);
-  svg
-    .append('path')
-    .attr('class', 'band')
-    .style('fill', series.colour)
-    .attr(
-      'd',
-      area()
-        .defined(banded)
-        .x((point) => x(point[0]))
-        .y0((point) => y(point[2]))
-        .y1((point) => y(point[3]))(curve.points)
-    );
-  svg
-    .append('path')
-    .attr('class', 'line')
-    .style('stroke', series.colour)
-    .style('stroke-dasharray', series.dash)
-    .attr(
-      'd',
-      line()
-        .defined(defined)
-        .x((point) => x(point[0]))
-        .y((point) => y(point[1]))(curve.points)
-    );
-  for (const point of curve.points.filter(defined)) {
-    svg
-      .append('path')
-      .attr('class', 'mark')
-      .style('fill', series.colour)
-      .attr('d', plots.symbol(series.symbol, 34))
-      .attr('transform', `translate(${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)})`);
-  }
+  const band = area()
+    .defined(banded)
+    .x((point) => x(point[0]))
+    .y0((point) => y(point[2]))
+    .y1((point) => y(point[3]));
+  const means = line()
+    .defined(defined)
+    .x((point) => x(point[0]))
+    .y((point) => y(point[1]));
+  plots.add(svg, 'path', {class: 'band', style: {fill: series.colour}, d: band(curve.points)});
+  plots.draw_line(svg, series, means(curve.points));
+  for (const point of curve.points.filter(defined)) plots.draw_symbol(svg, series, 34, x(point[0]), y(point[1]));
 }
 
 function draw_panel(data, metric, one, extents, holder, width) {

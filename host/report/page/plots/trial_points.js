@@ -134,14 +134,8 @@ export function draw_mark(parent, data, row, x, y) {
   const combination = data.combinations[data.trials.combination[row]];
   const series = labels.series(data, 'local_controller', combination.local_controller);
   const failed = data.trials.outcome[row] !== 'succeeded';
-  return parent
-    .append('path')
-    .attr('transform', `translate(${x.toFixed(1)},${y.toFixed(1)})`)
-    .attr('d', failed ? plots.cross() : plots.symbol(series.symbol))
-    .attr('class', failed ? 'mark failed' : 'mark')
-    .style('--colour', series.colour)
-    .style('fill', failed ? 'none' : series.colour)
-    .node();
+  const path = failed ? plots.cross() : plots.symbol(series.symbol);
+  return plots.add_mark(parent, x.toFixed(1), y.toFixed(1), {path, colour: series.colour, failed}).node();
 }
 
 // The legend of the marks.

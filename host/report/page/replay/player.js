@@ -143,6 +143,7 @@ function make_player(section, data, make_3d_view) {
 
   // The height for the picture with which everything from the title of the section to the buttons is in the window.
   function room() {
+    if (scene.whole_trails) return 0.75 * node.clientWidth;
     const below = time_line.node.offsetHeight + controls.offsetHeight + 3 * ROOM_PX;
     if (fills()) return window.innerHeight - below;
     const navigation = document.getElementById('contents').offsetHeight;
@@ -223,14 +224,12 @@ function make_player(section, data, make_3d_view) {
     redraw();
   }
 
-  // Prints show the start and the whole trails.
-  let t_before_printing = 0;
+  // Paper shows this moment and the whole trails, as wide as a page.
   function print(begins) {
     clock.pause();
-    if (begins) t_before_printing = clock.t;
     scene.whole_trails = begins;
-    clock.go(begins ? 0 : t_before_printing);
-    relook();
+    node.classList.toggle('printed', begins);
+    resize();
   }
 
   let width = 0;
@@ -260,7 +259,7 @@ export function absent(data) {
   return data.replays.length + data.replays_left_out.length > 0 ? null : 'no trace was recorded';
 }
 
-// make_3d_view: replay_3d/view.js's make_view.
+// make_3d_view: replay_3d/view.js's make_view. Resolves when the first replay is shown.
 export function mount(body, data, make_3d_view) {
   if (data.replays.length === 0) {
     body.append(element('p', {class: 'note'}, 'This report embeds no replay.'), ...notes(data));
@@ -276,7 +275,7 @@ export function mount(body, data, make_3d_view) {
     ...notes(data)
   );
   const first = data.replays.find((replay) => replay.why.includes('median')) || data.replays[0];
-  player.open(first.trial);
+  return player.open(first.trial);
 }
 
 // Resolves to whether the trial can be played now.

@@ -2,7 +2,7 @@
 // answer.js: which combination is better: the answer's sentences, and the order that they come from. answer.hpp has the
 // rules; nothing is computed here.
 import * as controls from '../controls.js';
-import {element, fill, head_row, hidden} from '../elements.js';
+import {element, fill, head_row, hidden, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
@@ -28,6 +28,7 @@ export function scope_words(data, answer) {
 export function difference_words(against) {
   if (against.observations === 0) return numbers.UNDEFINED;
   if (against.p_holm === null && against.mean === 0) return '=';
+  if (against.observations < numbers.FEWEST) return numbers.too_few(against.observations);
   const interval = numbers.interval(against.low, against.high, DECIMALS, numbers.signed);
   return [numbers.signed(against.mean, DECIMALS), interval].filter(Boolean).join(' ');
 }
@@ -59,14 +60,7 @@ function row(one) {
 }
 
 function table(answer) {
-  const heads = answer.criteria.map((criterion) =>
-    element(
-      'th',
-      {scope: 'col', class: 'number'},
-      element('span', {class: 'header'}, criterion.name),
-      element('span', {class: 'unit'}, numbers.unit(criterion.unit) || '\u2013')
-    )
-  );
+  const heads = answer.criteria.map(({name, unit}) => number_head(name, numbers.unit(unit) || '\u2013'));
   return element(
     'table',
     {class: 'ranking'},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // failures.js: why robots failed: a table of combinations and causes, with the trials behind each count; and how many
 // robots arrived of each type, where there are several.
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {titled_table} from '../scroll_box.js';
@@ -109,18 +109,12 @@ export function mount(body, data) {
     return;
   }
   const note = element('p', {class: 'note', role: 'status'});
-  const bodies = labels.variants(data).map((variant) => {
-    const rows = data.failures.filter(
-      (row) => labels.is_of(variant.scenario, row.combination) && (row.causes.length > 0 || row.contact.robots > 0)
-    );
-    if (rows.length === 0) return null;
-    return element(
-      'tbody',
-      {},
-      data.scenarios.length > 1 && group_row(variant.label, columns.length + 2),
-      rows.map((row) => row_element(data, row, columns, note))
-    );
-  });
+  const failed = data.failures.filter((row) => row.causes.length > 0 || row.contact.robots > 0);
+  const bodies = bodies_of(data, labels.variants(data), columns.length + 2, (variant) =>
+    failed
+      .filter((row) => labels.is_of(variant.scenario, row.combination))
+      .map((row) => row_element(data, row, columns, note))
+  );
   const table = element(
     'table',
     {class: 'failures'},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // comparisons.js: paired differences between combinations with the same seeds, as a forest plot.
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
@@ -57,11 +57,7 @@ function row_element(data, comparison, x, decimals) {
       given && element('span', {class: 'given'}, ` with ${given}`)
     ),
     interval_rows.cell(estimate, x, sure),
-    number(
-      'difference',
-      element('span', {class: 'mean'}, numbers.signed(estimate.estimate, decimals)),
-      element('span', {class: 'interval'}, numbers.interval(estimate.low, estimate.high, decimals, numbers.signed))
-    ),
+    interval_rows.difference_cell('difference', estimate, decimals, comparison.pairs),
     number('p', numbers.p_value(comparison.p)),
     number('p (Holm)', numbers.p_value(comparison.p_holm)),
     number('effect', numbers.signed(comparison.effect, 2)),
@@ -82,16 +78,11 @@ function side_words(direction) {
 }
 
 function head(metric, title, x) {
-  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
-  const unit = numbers.unit(metric.unit);
   return head_row(
     element('th', {scope: 'col'}, 'first \u2212 second'),
     interval_rows.axis(x, ...side_words(metric.direction)),
-    column(title, unit && element('span', {class: 'unit'}, unit)),
-    column('p'),
-    column('p (Holm)'),
-    column('effect'),
-    column('pairs')
+    number_head(title, numbers.unit(metric.unit)),
+    ['p', 'p (Holm)', 'effect', 'pairs'].map((name) => number_head(name))
   );
 }
 
@@ -105,26 +96,16 @@ function table(data, rows, chosen) {
     estimates.map((one) => one.estimate)
   );
   const {estimate} = TESTS[rows[0].test] || {estimate: 'difference'};
-  const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x));
-  for (const variant of labels.variants(data)) {
-    const own = rows.filter((row) => labels.is_of(variant.scenario, row));
-    if (own.length === 0) continue;
-    made.append(
-      element(
-        'tbody',
-        {},
-        data.scenarios.length > 1 && group_row(variant.label, 7),
-        own.map((row) => row_element(data, row, x, decimals))
-      )
-    );
-  }
+  const bodies = bodies_of(data, labels.variants(data), 7, (variant) =>
+    rows.filter((row) => labels.is_of(variant.scenario, row)).map((row) => row_element(data, row, x, decimals))
+  );
+  const made = element('table', {class: 'forest with-intervals'}, head(metric, estimate, x), bodies);
   return with_svg_button(scroll_box({'aria-label': 'Paired differences'}, made), chosen.metric);
 }
 
 function note_words(data, rows, chosen) {
   const metric = labels.metric(data, chosen.metric);
   const test = TESTS[rows[0].test];
-  const empty = rows.filter((row) => row.pairs === 0).length;
   const declared = (data.layouts.report.comparisons || []).filter((one) => one.metric === chosen.metric);
   const censored = declared.some((one) => one.censored);
   const successes = declared.some((one) => one.both_succeeded);
@@ -136,7 +117,7 @@ function note_words(data, rows, chosen) {
     'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
     `\u22121 to 1. Pairs: seeds ${successes ? 'with which both trials succeeded' : 'with values in both trials'}.` +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
-    (empty > 0 ? ` ${numbers.counted(empty, 'comparison')} had no seed with values of both.` : '')
+    ` Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
   );
 }
 
@@ -145,14 +126,15 @@ export function default_metric(data) {
   const first = (holds) => (data.comparisons.find(holds) || {}).metric;
   return (
     first((one) => one.p_holm !== null && one.p_holm < SIGNIFICANT) ||
-    first((one) => one.mean_difference !== 0) ||
+    first((one) => one.mean_difference) ||
     data.comparisons[0].metric
   );
 }
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.comparisons.length > 0) return null;
+  if (data.comparisons.some((one) => one.pairs >= numbers.FEWEST)) return null;
+  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} seeds`;
   return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
 }
 

@@ -5,7 +5,7 @@ import {extent} from 'd3-array';
 import {scaleLinear} from 'd3-scale';
 import {select} from 'd3-selection';
 
-import {element} from '../elements.js';
+import {element, number_cell} from '../elements.js';
 import * as numbers from '../numbers.js';
 
 const HEIGHT = 22;
@@ -62,31 +62,29 @@ export function cell(row, x, sure) {
   return holder;
 }
 
+// The numbers of a row, `estimate` and its interval; without them, that `count` is too few.
+export function difference_cell(label, {estimate, low, high}, decimals, count) {
+  const few = count && !numbers.is_number(estimate);
+  const value = few ? numbers.too_few(count) : numbers.signed(estimate, decimals);
+  return number_cell(label, value, numbers.interval(low, high, decimals, numbers.signed));
+}
+
 // The axis above the column: ticks, and the meaning of both sides of zero.
 export function axis(x, left_words, right_words) {
   const holder = element('th', {class: 'interval-plot'});
   const svg = svg_of(holder, 36);
   const ticks = x.ticks(5);
   const decimals = Math.max(0, -Math.floor(Math.log10(ticks[1] - ticks[0])));
-  for (const tick of ticks) {
-    svg
-      .append('text')
-      .attr('class', 'soft')
-      .attr('x', percent(x(tick)))
-      .attr('y', 30)
-      .attr('text-anchor', 'middle')
-      .style('font-size', '11px')
-      .text(numbers.signed(tick, decimals));
-  }
-  const words = (text, anchor, at) =>
+  const words = (text, anchor, at, y = 11) =>
     svg
       .append('text')
       .attr('class', 'soft')
       .attr('x', percent(at))
-      .attr('y', 11)
+      .attr('y', y)
       .attr('text-anchor', anchor)
       .style('font-size', '11px')
       .text(text);
+  for (const tick of ticks) words(numbers.signed(tick, decimals), 'middle', x(tick), 30);
   if (left_words) words(left_words, 'start', 0);
   if (right_words) words(right_words, 'end', 100);
   return holder;

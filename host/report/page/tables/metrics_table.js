@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // metrics_table.js: all metrics of one combination, with units, directions and descriptions.
 import * as controls from '../controls.js';
-import {element, fill, head_row, hidden} from '../elements.js';
+import {element, fill, head_row, hidden, number_cell} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
@@ -45,11 +45,7 @@ function row(metric, summary, trials) {
       BETTER[metric.direction],
       hidden(labels.direction_words(metric.direction))
     ),
-    number(
-      'mean',
-      element('span', {class: 'mean'}, show(summary.mean)),
-      element('span', {class: 'interval'}, numbers.interval(summary.low, summary.high, decimals))
-    ),
+    number_cell('mean', show(summary.mean), numbers.interval(summary.low, summary.high, decimals)),
     number('sd', show(summary.sd)),
     number('median', show(summary.median)),
     number('defined', `${summary.defined}/${trials}`),

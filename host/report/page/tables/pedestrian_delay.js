@@ -1,69 +1,49 @@
 // SPDX-License-Identifier: MIT
 // pedestrian_delay.js: the delay of pedestrians by robots, from pairs of trials with and without robots.
 import * as controls from '../controls.js';
-import {element, fill, group_row, head_row} from '../elements.js';
+import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
 import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
 
-const fewest_to_judge = 6; // pairs: a bootstrap over fewer seeds gives intervals that are too narrow
-
 function table_of(data, rows, variants) {
-  const estimates = rows.map((row) => ({estimate: row.mean_s, low: row.low, high: row.high}));
+  const estimates = rows.map((row) => ({...row, estimate: row.mean_s}));
   const x = interval_rows.scale(estimates);
-  const column = (...text) => element('th', {scope: 'col', class: 'number'}, text);
+  const row_of = (one) =>
+    element(
+      'tr',
+      {},
+      element('th', {scope: 'row'}, labels.combination(data, one.combination)),
+      interval_rows.cell(one, x, one.low > 0 || one.high < 0),
+      interval_rows.difference_cell('delay', one, 2, one.pairs),
+      element('td', {class: 'number', 'data-label': 'pairs'}, one.pairs)
+    );
   const table = element(
     'table',
     {class: 'forest with-intervals'},
     head_row(
       element('th', {scope: 'col'}, 'combination'),
       interval_rows.axis(x, '← sooner', 'later →'),
-      column('delay', element('span', {class: 'unit'}, 's')),
-      column('pairs')
+      number_head('delay', 's'),
+      number_head('pairs')
+    ),
+    bodies_of(data, variants, 4, (variant) =>
+      estimates.filter((one) => variant.combinations.includes(one.combination)).map(row_of)
     )
   );
-  for (const variant of variants) {
-    const own = rows.map((row, i) => i).filter((i) => variant.combinations.includes(rows[i].combination));
-    if (own.length === 0) continue;
-    table.append(
-      element(
-        'tbody',
-        {},
-        data.scenarios.length > 1 && group_row(variant.label, 4),
-        own.map((i) =>
-          element(
-            'tr',
-            {},
-            element('th', {scope: 'row'}, labels.combination(data, rows[i].combination)),
-            interval_rows.cell(
-              estimates[i],
-              x,
-              rows[i].pairs >= fewest_to_judge && (rows[i].low > 0 || rows[i].high < 0)
-            ),
-            element(
-              'td',
-              {class: 'number', 'data-label': 'delay'},
-              element('span', {class: 'mean'}, numbers.signed(rows[i].mean_s, 2)),
-              element('span', {class: 'interval'}, numbers.interval(rows[i].low, rows[i].high, 2, numbers.signed))
-            ),
-            element('td', {class: 'number', 'data-label': 'pairs'}, rows[i].pairs)
-          )
-        )
-      )
-    );
-  }
   return with_svg_button(scroll_box({'aria-label': 'Pedestrian delay'}, table));
 }
 
-const measured_rows = (data) => data.pedestrian_delay.filter((row) => numbers.is_number(row.mean_s));
+const measured_rows = (data) => data.pedestrian_delay.filter((row) => row.pairs > 0);
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  return measured_rows(data).length > 0
-    ? null
-    : 'the experiment has no variant of the scenario with robots = 0 as a reference';
+  const rows = measured_rows(data);
+  if (rows.length === 0) return 'the experiment has no variant of the scenario with robots = 0 as a reference';
+  const enough = rows.some((row) => row.pairs >= numbers.FEWEST);
+  return enough ? null : `no combination has ${numbers.FEWEST} pairs with the variant without robots`;
 }
 
 export function mount(body, data) {
@@ -88,8 +68,8 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero and is from at least six pairs; ' +
-        'intervals from fewer pairs are too narrow.'
+      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero. ' +
+        `Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
     )
   );
 }

@@ -2,6 +2,7 @@
 #include "planners/conflict_search/high_level/entered_node.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -27,6 +28,7 @@ EnteredNode::EnteredNode(ConstraintTree& tree, const SearchContext& context)
 }
 
 void EnteredNode::enter(NodeId id) {
+  assert(id >= 0 && id < tree_.node_count());
   if (id_ == id) return;
   id_ = id;
   mdds_.trim();

@@ -2,6 +2,7 @@
 #include "planners/conflict_search/high_level/high_level.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <span>
@@ -31,7 +32,9 @@ HighLevel::HighLevel(const SearchContext& context, const ConflictSearchOptions& 
       queue_(tree_, options.selection, options.suboptimality),
       node_(tree_, context),
       splitter_(tree_, context, options),
-      replanner_(context, options) {}
+      replanner_(context, options) {
+  assert(options.suboptimality >= 1);
+}
 
 ConflictSearchStatistics HighLevel::statistics() const {
   ConflictSearchStatistics out = statistics_;

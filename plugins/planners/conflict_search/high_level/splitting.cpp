@@ -2,6 +2,7 @@
 #include "planners/conflict_search/high_level/splitting.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 
 #include "planners/conflict_search/symmetry/rectangle.hpp"
@@ -32,6 +33,7 @@ NodeConflict::Cardinality cardinality_of(bool raises_a, bool raises_b) {
 }  // namespace
 
 std::uint32_t Splitter::choose_conflict(EnteredNode& node) {
+  assert(!node.conflicts().empty());
   const auto time_and_agents = [this](std::uint32_t index) {
     const Conflict& c = tree_.conflict(index);
     return std::tuple(c.t, c.a, c.b, c.from, c.location);

@@ -2,6 +2,7 @@
 #include "planners/conflict_search/high_level/vertex_cover.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -117,6 +118,7 @@ std::vector<std::size_t> connected_part(const Adjacency& edges, std::size_t star
 }  // namespace
 
 std::int32_t least_edge_weighted_cover(const std::vector<DependentPair>& pairs, StopSignal& stop) {
+  assert(std::all_of(pairs.begin(), pairs.end(), [](const DependentPair& pair) { return pair.weight > 0; }));
   std::vector<std::int32_t> agents;
   for (const DependentPair& pair : pairs) agents.insert(agents.end(), {pair.a, pair.b});
   std::sort(agents.begin(), agents.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "planners/conflict_search/low_level/conflict_table.hpp"
 
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 
@@ -88,6 +89,7 @@ std::int32_t ConflictTable::count_after(Location location, std::int32_t t) const
 }
 
 void ConflictTable::list(std::int32_t agent, PathView path, std::vector<Conflict>& out) const {
+  assert(this->path(agent).empty());
   const auto add = [&](std::int32_t other, Location from, Location to, bool swap, std::int32_t t) {
     if (agent < other)
       out.push_back({agent, other, to, swap ? from : nowhere, t});

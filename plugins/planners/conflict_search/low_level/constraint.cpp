@@ -2,6 +2,7 @@
 #include "planners/conflict_search/low_level/constraint.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace dmrp::planners {
 
@@ -84,6 +85,7 @@ void ConstraintTable::fill(const Agent& agent, std::span<const Constraint> const
 }
 
 bool ConstraintTable::narrow(Location location, std::int32_t t, std::int32_t& first, std::int32_t& end) const {
+  assert(first <= t && t < end);
   bool is_allowed = true;
   std::int32_t allowed_again = 0;
   const auto forbid = [&](std::int32_t from, std::int32_t until) {

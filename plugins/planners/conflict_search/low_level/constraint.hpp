@@ -2,6 +2,7 @@
 // constraint.hpp: the constraints that the high level puts on agents, and a lookup table of one agent's constraints.
 #pragma once
 
+#include <cassert>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -35,6 +36,7 @@ struct Constraint {
 
   // The constraint on another agent that follows, if it binds_others().
   Constraint for_another(std::int32_t other) const {
+    assert(binds_others() && other != agent);
     return {other, Kind::avoid_vertex, location, nowhere, t, kind == Kind::finish_by ? forever : t + 1};
   }
 };
@@ -43,6 +45,7 @@ inline Constraint avoid_vertex(std::int32_t agent, Location location, std::int32
   return {agent, Constraint::Kind::avoid_vertex, location, nowhere, t, t + 1};
 }
 inline Constraint avoid_vertex_range(std::int32_t agent, Location location, std::int32_t t, std::int32_t until) {
+  assert(t < until);
   return {agent, Constraint::Kind::avoid_vertex, location, nowhere, t, until};
 }
 inline Constraint avoid_move(std::int32_t agent, Location from, Location to, std::int32_t t) {

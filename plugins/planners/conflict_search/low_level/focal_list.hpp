@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,7 @@ class FocalList {
 
   // Lower orders come first.
   void push(Id node, std::int32_t f, std::uint64_t order) {
+    assert(f >= least_f_);
     if (f <= focal_bound_)
       push_focal({order, node});
     else

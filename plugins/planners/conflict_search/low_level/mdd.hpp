@@ -3,6 +3,7 @@
 // constraints, as the places where it can be at each time; and a cache of them.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
@@ -35,6 +36,7 @@ class Mdd {
 
   // The nodes at a time up to cost(). Each is on at least one path.
   std::span<const Node> level(std::int32_t t) const {
+    assert(t >= 0 && t <= cost());
     const auto at = static_cast<std::size_t>(t);
     return {nodes_.data() + level_begin_[at], nodes_.data() + level_begin_[at + 1]};
   }

@@ -2,6 +2,7 @@
 #include "planners/conflict_search/symmetry/earliest_arrival.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 
 namespace dmrp::planners {
@@ -13,7 +14,9 @@ constexpr std::int32_t max_visits = 20'000;  // of one search
 }  // namespace
 
 EarliestArrival::EarliestArrival(const GridGraph& graph, StopSignal* stop)
-    : graph_(&graph), stop_(stop), visited_in_(static_cast<std::size_t>(graph.location_count()), 0) {}
+    : graph_(&graph), stop_(stop), visited_in_(static_cast<std::size_t>(graph.location_count()), 0) {
+  assert(graph.is_symmetric());
+}
 
 // One stage for each landmark: the agent is at the landmark at its time, unless it has reached query.to before.
 std::optional<std::int32_t> EarliestArrival::search(const Query& query) {

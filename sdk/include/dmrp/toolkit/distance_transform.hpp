@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,7 @@ class DistanceTransform {
   const std::vector<float>& compute(std::uint32_t width, std::uint32_t height, double resolution_m,
                                     const IsObstacle& is_obstacle,
                                     double cap_m = std::numeric_limits<double>::infinity()) {
+    assert(width <= 30000 && height <= 30000 && resolution_m > 0.0);
     width_ = width;
     height_ = height;
     if (resolution_m != resolution_m_ || cap_m != cap_m_) tabled_m_.clear();

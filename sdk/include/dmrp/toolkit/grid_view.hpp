@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -79,11 +80,13 @@ class GridView {
   bool contains(dmrp_vec2 point) const { return contains(cell_of(point)); }
 
   std::uint32_t index(Cell cell) const {
+    assert(contains(cell));
     return static_cast<std::uint32_t>(cell.row) * width_ + static_cast<std::uint32_t>(cell.column);
   }
   std::uint32_t column(std::uint32_t cell) const { return cell % width_; }
   std::uint32_t row(std::uint32_t cell) const { return cell / width_; }
   Cell cell(std::uint32_t index) const {
+    assert(index < size());
     return {static_cast<std::int32_t>(column(index)), static_cast<std::int32_t>(row(index))};
   }
 
@@ -113,6 +116,7 @@ class GridView {
 
   // The neighbouring cell, whether or not an edge leads there; no_cell outside the grid.
   std::uint32_t neighbour(std::uint32_t index, int direction) const {
+    assert(direction >= 0 && direction < direction_count);
     const auto d = static_cast<std::size_t>(direction);
     const Cell from = cell(index);
     const Cell to = {from.column + direction_dx[d], from.row + direction_dy[d]};

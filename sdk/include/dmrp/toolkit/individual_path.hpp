@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -21,6 +22,7 @@ DMRP_LOCAL inline constexpr int straight_stride = 2;  // every second of the eig
 // The number of straight moves from each cell to the goal, over cells that are not closed; `no_way` without a way.
 inline std::vector<std::uint32_t> straight_steps_to(const GridView& grid, std::uint32_t goal,
                                                     const std::vector<bool>& closed) {
+  assert(goal < grid.size() && closed.size() == grid.size());
   std::vector<std::uint32_t> steps(grid.size(), no_way);
   std::vector<std::uint32_t> queue = {goal};
   steps[goal] = 0;

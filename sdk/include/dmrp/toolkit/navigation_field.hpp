@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -129,6 +130,7 @@ class NavigationField {
   bool has_patch(std::uint32_t cell) const { return reachable(cell) && touching_target(cell) == nullptr; }
 
   Patch patch(std::uint32_t cell) const {
+    assert(has_patch(cell));
     Patch patch = {grid_.center(cell), grid_.resolution_m(), {}};
     patch.directions[4] = directions_[cell];
     for (std::size_t d = 0; d < strides_.size(); ++d) {

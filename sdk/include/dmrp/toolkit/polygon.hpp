@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -60,6 +61,7 @@ inline bool is_convex_ccw(PolygonView polygon) {
 }
 
 inline bool contains(PolygonView polygon, dmrp_vec2 point) {
+  assert(polygon.size() >= 3);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const dmrp_segment edge = polygon.edge(i);
     if (orientation(edge.from, edge.to, point) < 0.0) return false;
@@ -69,6 +71,7 @@ inline bool contains(PolygonView polygon, dmrp_vec2 point) {
 
 // The point of the border nearest to `point`, which may lie inside; among equals the one on the first edge.
 inline dmrp_vec2 closest_border_point(PolygonView polygon, dmrp_vec2 point) {
+  assert(polygon.size() >= 3);
   dmrp_vec2 best = polygon[0];
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -109,6 +112,7 @@ inline double distance(PolygonView polygon, const dmrp_segment& segment) {
 // `count` >= 3 vertices on the circle, the first at angle 0: a polygon inside the circle, whose sides lie at most
 // radius_m * (1 - cos(pi / count)) inside it.
 inline std::vector<dmrp_vec2> polygon_of_circle(dmrp_vec2 center, double radius_m, std::size_t count) {
+  assert(count >= 3);
   std::vector<dmrp_vec2> vertices(count);
   for (std::size_t i = 0; i < count; ++i)
     vertices[i] = center + radius_m * from_angle(2.0 * pi * static_cast<double>(i) / static_cast<double>(count));

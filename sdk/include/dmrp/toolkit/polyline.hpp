@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -54,6 +55,7 @@ std::vector<double> arc_lengths(const Path& path) {
 // The place at this arc length, which is clamped to the path. On a wait it is the end of the wait.
 template <class Path>
 PathPlace place_at(const Path& path, const std::vector<double>& arcs, double arc_m) {
+  assert(path.size() > 0 && arcs.size() == path.size());
   PathPlace place;
   if (path.size() == 1) {
     place.point = position(path[0]);
@@ -113,6 +115,7 @@ PathPlace project(const Path& path, const std::vector<double>& arcs, dmrp_vec2 p
 // no arc lengths and does not allocate; visits the whole path.
 template <class Path, class From>
 dmrp_vec2 point_ahead(const Path& path, const From& from, double look_ahead_m) {
+  assert(look_ahead_m >= 0.0);
   if (path.size() == 0) return position(from);
   dmrp_vec2 at = position(path[0]);
   double nearest = squared_distance(at, position(from));

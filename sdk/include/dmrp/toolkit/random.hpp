@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -89,12 +90,14 @@ class Stream {
 
   // In [low, high), for finite low < high; low if they are equal. Never `high`, despite rounding.
   double uniform(double low, double high) {
+    assert(std::isfinite(low) && std::isfinite(high) && low <= high);
     const double value = low + (high - low) * uniform();
     return value < high ? value : std::nextafter(high, low);
   }
 
   // In [0, count), each with the same probability; count > 0.
   std::uint64_t below(std::uint64_t count) {
+    assert(count > 0);
     const std::uint64_t surplus = (std::uint64_t{0} - count) % count;  // 2^64 mod count
     std::uint64_t value = next_u64();
     while (value < surplus) value = next_u64();
@@ -115,6 +118,7 @@ class Stream {
   // Exact by rejection, in the tails too (Robert: Simulation of truncated normal variables, 1995). In [low, high], for
   // low <= high (either may be infinite) and deviation >= 0; at deviation 0 the mean, clamped.
   double truncated_normal(double mean, double deviation, double low, double high) {
+    assert(low <= high && deviation >= 0.0);
     if (deviation == 0.0) return clamp(mean, low, high);
     const double from = (low - mean) / deviation;
     const double to = (high - mean) / deviation;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,7 @@ struct Ray {
 DMRP_LOCAL inline constexpr double ray_misses = std::numeric_limits<double>::infinity();
 
 inline double ray_to_circle(const Ray& ray, dmrp_vec2 center, double radius_m) {
+  assert(is_unit(ray.direction));
   const dmrp_vec2 to_center = center - ray.origin;
   if (squared_norm(to_center) <= radius_m * radius_m) return 0.0;
   const double along = dot(to_center, ray.direction);
@@ -36,6 +38,7 @@ inline double ray_to_circle(const Ray& ray, dmrp_vec2 center, double radius_m) {
 
 // The ray hits a segment on its own line at the segment's nearer end.
 inline double ray_to_segment(const Ray& ray, const dmrp_segment& segment) {
+  assert(is_unit(ray.direction));
   const dmrp_vec2 to_from = segment.from - ray.origin;
   const dmrp_vec2 to_to = segment.to - ray.origin;
   const double from_side = cross(ray.direction, to_from);
@@ -54,6 +57,7 @@ inline double ray_to_segment(const Ray& ray, const dmrp_segment& segment) {
 
 // Convex, counter-clockwise: the ray clipped by the half-planes of all edges (Cyrus and Beck 1978).
 inline double ray_to_polygon(const Ray& ray, PolygonView polygon) {
+  assert(is_unit(ray.direction) && polygon.size() >= 3);
   double enter = 0.0;
   double leave = ray_misses;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -3,16 +3,22 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 
 #include "vec2.hpp"
 
 namespace dmrp::toolkit {
 
-// lower.x <= upper.x and lower.y <= upper.y; a point or a line if they are equal.
+// A point or a line if its corners' coordinates are equal.
 struct Rectangle {
   dmrp_vec2 lower = {0.0, 0.0};
   dmrp_vec2 upper = {0.0, 0.0};
 };
+
+// Functions that take a rectangle expect that it is.
+constexpr bool is_ordered(const Rectangle& rectangle) {
+  return rectangle.lower.x <= rectangle.upper.x && rectangle.lower.y <= rectangle.upper.y;
+}
 
 constexpr bool contains(const Rectangle& rectangle, dmrp_vec2 point) {
   return rectangle.lower.x <= point.x && point.x <= rectangle.upper.x && rectangle.lower.y <= point.y &&
@@ -20,6 +26,7 @@ constexpr bool contains(const Rectangle& rectangle, dmrp_vec2 point) {
 }
 
 inline dmrp_vec2 closest_point(const Rectangle& rectangle, dmrp_vec2 point) {
+  assert(is_ordered(rectangle));
   return {std::clamp(point.x, rectangle.lower.x, rectangle.upper.x),
           std::clamp(point.y, rectangle.lower.y, rectangle.upper.y)};
 }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +63,7 @@ inline std::string escape_xml(std::string_view text) {
 
 // At most two decimals, rounded half away from zero, no trailing zeros, never "-0". Finite, below 1e15.
 inline std::string format_svg_number(double value) {
+  assert(std::abs(value) < 1e15);
   const std::int64_t hundredths = std::llround(std::abs(value) * 100.0);
   std::string text = value < 0.0 && hundredths != 0 ? "-" : "";
   text += std::to_string(hundredths / 100);
@@ -91,6 +93,7 @@ class SvgPlan {
         scale_(page_width / (world.upper.x - world.lower.x)),
         left_(left_margin),
         top_(heading.empty() ? margin : 3 * margin) {
+    assert(world.lower.x < world.upper.x && page_width > 0.0);
     width_ = left_ + page_width + margin;
     height_ = scale_ * (world.upper.y - world.lower.y) + top_ + 3.0 * margin;
     rectangle(world, {"free"});

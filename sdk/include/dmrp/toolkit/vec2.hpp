@@ -77,6 +77,15 @@ inline double distance(dmrp_vec2 a, dmrp_vec2 b) {
   return norm(b - a);
 }
 
+inline bool is_finite(dmrp_vec2 a) {
+  return std::isfinite(a.x) && std::isfinite(a.y);
+}
+
+// Whether its length is 1, within rounding.
+constexpr bool is_unit(dmrp_vec2 a) {
+  return squared_norm(a) > 1.0 - 1e-6 && squared_norm(a) < 1.0 + 1e-6;
+}
+
 // The unit vector along `a`; zero for the zero vector.
 inline dmrp_vec2 normalized(dmrp_vec2 a) {
   const double length = norm(a);

@@ -8,42 +8,21 @@
 #include "controllers/e3mop/path_follower.hpp"
 #include "controllers/e3mop/path_smoother.hpp"
 #include "controllers/e3mop/velocity_profile.hpp"
+#include "tests/unit/controllers/e3mop/e3mop_paths.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
 
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::e3mop;
+using dmrp::test::discs_window;
 using dmrp::test::e3mop_limits;
+using dmrp::test::Points;
+using dmrp::test::straight;
+using dmrp::test::wavering;
 using dmrp::test::Window;
 using dmrp::toolkit::pi;
 using dmrp::toolkit::Stream;
 
 namespace {
-
-using Points = std::vector<dmrp_vec2>;
-
-Window discs_window(const std::vector<dmrp_vec2>& discs, double radius_m) {
-  return Window({0.0, 0.0, 0.0}, [&](dmrp_vec2 point) {
-    return std::any_of(discs.begin(), discs.end(),
-                       [&](dmrp_vec2 disc) { return dmrp::toolkit::distance(disc, point) < radius_m; });
-  });
-}
-
-Points straight(dmrp_vec2 from, dmrp_vec2 to, int count) {
-  Points points;
-  for (int i = 0; i < count; ++i) points.push_back(dmrp::toolkit::lerp(from, to, i / (count - 1.0)));
-  return points;
-}
-
-// A zigzag path of free points among discs.
-Points wavering(Stream& random, const ClearanceField& field) {
-  while (true) {
-    Points points = straight({-1.5, random.uniform(-1.0, 1.0)}, {1.5, random.uniform(-1.0, 1.0)}, 31);
-    for (std::size_t i = 1; i + 1 < points.size(); ++i)
-      points[i] += {random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03)};
-    if (std::all_of(points.begin(), points.end(), [&](dmrp_vec2 point) { return field.at(point).distance_m >= 0.3; }))
-      return points;
-  }
-}
 
 std::vector<PathPoint> spline_of(const Points& points, std::optional<double> start_theta = {}, double step_m = 0.05) {
   std::vector<PathPoint> path;
@@ -176,29 +155,6 @@ TEST_CASE("The normal matrix is J'J of all residuals") {
       const bool in_band = (i > j ? i - j : j - i) <= smoothing_bandwidth;
       REQUIRE((there[i] - here[i]) / 1e-4 == Approx(in_band ? hessian.symmetric(i, j) : 0.0).margin(1e-4));
     }
-  }
-}
-
-TEST_CASE("Smoothing lowers the objective, keeps the ends, and never moves a point into collision", "[slow]") {
-  Stream random(1, "e3mop.smoothing");
-  PathSmoother smoother;
-  for (int round = 0; round < 40; ++round) {
-    std::vector<dmrp_vec2> discs;
-    for (int k = 0; k < 6; ++k) discs.push_back({random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)});
-    const Window window = discs_window(discs, 0.2);
-    SmoothingSettings settings;
-    settings.weight_smoothness = round % 2 ? 1.0 : 50.0;
-    settings.needed_m = 0.3;
-    const Points before = wavering(random, window.field);
-    Points after = before;
-    const SmoothingResult result = smoother.smooth(after, 2, window.field, settings);
-    CHECK(result.iterations <= 100);
-    CHECK(result.cost < result.first_cost);
-    SmoothingProblem problem;
-    problem.set(after, 2, window.field, settings);
-    if (result.put_back == 0) CHECK(problem.cost() == Approx(result.cost));
-    CHECK((after[0] == before[0] && after[1] == before[1] && after.back() == before.back()));
-    for (const dmrp_vec2 point : after) REQUIRE(window.field.at(point).distance_m >= 0.3);
   }
 }
 

@@ -257,7 +257,7 @@ Trajectory solve_by_ipopt(const Problem& problem, const Trajectory& start, bool 
 
 }  // namespace
 
-TEST_CASE("At least 95 of 100 recorded problems are solved as well as by IPOPT", "[slow]") {
+TEST_CASE("At least 95 of 100 recorded problems are solved as well as by IPOPT") {
   int converged = 0;
   int as_good = 0;
   InteriorPoint solver;

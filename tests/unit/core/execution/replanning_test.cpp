@@ -38,7 +38,8 @@ std::vector<double> replans(const ReplanSettings& settings, double until_s, Plac
   for (int tick = 0; tick <= std::lround(10.0 * until_s); ++tick) {
     const double t_s = 0.1 * tick;
     progress[0].update(place(t_s), 0);
-    if (monitor.due(tick * second_ns / 10, robots, progress)) times.push_back(t_s);
+    const std::vector<double> gained_m = {progress[0].progress_m()};
+    if (monitor.due(tick * second_ns / 10, robots, gained_m, progress)) times.push_back(t_s);
   }
   return times;
 }

@@ -18,6 +18,7 @@
 #include "core/trace/trace_file.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "core/trace/trace_spool.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 
 using namespace dmrp::core;
@@ -202,7 +203,7 @@ TEST_CASE("with any wrong byte a file is read or refused", "[mcap]") {
   dmrp::toolkit::Stream random(1, "mcap.damage");
   int refused = 0;
   int other = 0;  // neither refused nor the whole trace: cut short, or another trace altogether
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < dmrp::test::draws(3000); ++round) {
     TraceBytes damaged = whole;
     damaged[random.below(summary_begin(whole))] ^= static_cast<std::uint8_t>(1 + random.below(255));
     TraceBytes found;
@@ -217,7 +218,7 @@ TEST_CASE("with any wrong byte a file is read or refused", "[mcap]") {
       ++refused;
     }
   }
-  CHECK(refused > 1500);
+  CHECK(refused > dmrp::test::draws(1500));
   CHECK(other < 30);
 }
 

@@ -6,7 +6,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/execution/ending.hpp"
 #include "core/people/crowd_lattice.hpp"
 #include "tests/unit/core/people/sample_worlds.hpp"
 
@@ -73,16 +72,14 @@ TEST_CASE("flows that start in the same or in overlapping regions share the spac
     CHECK(toolkit::contains(toolkit::Rectangle{{5.0, 5.0}, {9.5, 9.5}}, world.people()[i].position));
 }
 
-TEST_CASE("people who leave free their slots, the others keep their ids, and the trial ends with the last one") {
+TEST_CASE("people who leave free their slots, the others keep their ids, until nobody is left") {
   Scenario scenario = room(30);
   scenario.shapes.clear();
   World world = world_of(scenario);
-  EndingMonitor monitor(0, 60 * second_ns);
   std::set<std::uint64_t> there;
   for (const dmrp_person& person : world.people()) there.insert(person.id);
-  std::uint32_t ending = monitor.update(0, {}, {}, world.is_deserted());
   std::map<std::uint64_t, dmrp_vec2> last;
-  while (ending == 0) {
+  while (!world.is_deserted() && world.t_ns() < 60 * second_ns) {
     for (const dmrp_person& person : world.people()) last[person.id] = person.position;
     world.step(straight_on(world));
     REQUIRE(world.person_agents().size() == world.people().size());
@@ -96,22 +93,10 @@ TEST_CASE("people who leave free their slots, the others keep their ids, and the
     }
     REQUIRE(now.size() == world.people().size());
     there = now;
-    ending = monitor.update(world.t_ns(), {}, {}, world.is_deserted());
   }
-  CHECK(ending == DMRP_ENDING_DESERTED);
+  CHECK(world.is_deserted());
   CHECK(world.people().empty());
   CHECK(world.t_ns() < 60 * second_ns);
-}
-
-TEST_CASE("a trial without robots whose people stay ends at the time limit") {
-  Scenario scenario = room(3);
-  scenario.flows[0].respawn = true;
-  const World world = world_of(scenario);
-  EndingMonitor monitor(0, 10 * second_ns);
-  CHECK(monitor.update(0, {}, {}, world.is_deserted()) == 0);
-  CHECK(monitor.update(9 * second_ns, {}, {}, world.is_deserted()) == 0);
-  CHECK(monitor.update(10 * second_ns, {}, {}, world.is_deserted()) == DMRP_ENDING_TIME_LIMIT);
-  CHECK(monitor.robot_ends(DMRP_ENDING_TIME_LIMIT, {}).empty());
 }
 
 TEST_CASE("the crowd at the beginning does not depend on the number of robots") {

@@ -42,7 +42,8 @@ TEST_CASE("Spearman's rank correlation agrees with its textbook examples", "[sta
   SECTION("Siegel, Nonparametric Statistics 1956: authoritarianism and striving for status, 0.82") {
     const std::vector<double> authoritarianism{2, 6, 5, 1, 10, 9, 8, 3, 4, 12, 7, 11};
     const std::vector<double> striving{3, 4, 2, 1, 8, 11, 10, 6, 7, 12, 5, 9};
-    CHECK(spearman(authoritarianism, striving) == Approx(1.0 - 6.0 * 52.0 / (12.0 * 143.0)).epsilon(1e-12));
+    CHECK(rank_correlation(authoritarianism, striving, each_its_own(12)).rho ==
+          Approx(1.0 - 6.0 * 52.0 / (12.0 * 143.0)).epsilon(1e-12));
   }
   SECTION("with ties as Siegel corrects for them: by the sum of squared differences of midranks") {
     const std::vector<double> striving{42, 46, 39, 37, 65, 88, 86, 56, 62, 92, 54, 81};
@@ -50,7 +51,7 @@ TEST_CASE("Spearman's rank correlation agrees with its textbook examples", "[sta
     const double of_x = 12.0 * 143.0 / 12.0;                     // no ties
     const double of_y = 12.0 * 143.0 / 12.0 - 3.0 * 6.0 / 12.0;  // three pairs: (2^3 - 2) / 12 each
     const double squared_differences = 109.5;
-    CHECK(spearman(striving, yielding) ==
+    CHECK(rank_correlation(striving, yielding, each_its_own(12)).rho ==
           Approx((of_x + of_y - squared_differences) / (2.0 * std::sqrt(of_x * of_y))).epsilon(1e-12));
   }
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/trace/trace_elements.hpp"
+#include "core/trace/trace_field_reader.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 
@@ -180,12 +180,15 @@ TEST_CASE("fields that an element of the trace does not have are zero", "[trace]
   for (const dmrp_person& person : people) out.put_array(reinterpret_cast<const std::uint8_t*>(&person), stride);
 
   RecordCursor in(bytes, 0, 1);
-  const TraceElements stored = take_element_count<dmrp_person>(in);
-  std::vector<dmrp_person> taken(stored.count, people[0]);
-  take_elements(in, stored, taken.data());
+  TraceStorage storage;
+  const dmrp_person* taken = nullptr;
+  std::uint32_t count = 0;
+  std::uint32_t to_stride = 0;
+  TraceFieldReader(in, &storage).elements(taken, count, to_stride);
   CHECK(in.at_end());
-  REQUIRE(taken.size() == 3);
-  for (const dmrp_person& person : taken) {
+  CHECK(to_stride == sizeof(dmrp_person));
+  REQUIRE(count == 3);
+  for (const dmrp_person& person : std::span(taken, count)) {
     CHECK(std::memcmp(&person, &people[0], stride) == 0);
     CHECK(person.reaction == DMRP_REACTION_UNSPECIFIED);
     CHECK(person.reserved == 0);

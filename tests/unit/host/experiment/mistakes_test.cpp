@@ -278,6 +278,13 @@ TEST_CASE("mistakes in a scenario file") {
       {"start = [0.5, 0.5]\n", "", "21:1: [[robot]] needs 'start'"},
       {"goal = [9.5, 0.5]", "", "21:1: [[robot]] needs 'goal'"},
       {"goal = [9.5, 0.5]", "goal = [9.5]", "23:8: 'goal' must be [x, y] or [x, y, theta], not 1 number"},
+      // degrees
+      {"start = [0.5, 0.5]", "start = [0.5, 0.5, 90]",
+       "22:20: 'start' has the angle 90, more than a turn: angles are in radians, 90 degrees are 1.5708"},
+      {"[3.5, 7.5, 0.0]", "[3.5, 7.5, -180.0]",
+       "28:33: 'goals' has the angle -180, more than a turn: angles are in radians, -180 degrees are -3.1416"},
+      {"size_m = [0.2, 4.0]", "size_m = [0.2, 4.0]\nangle_rad = 45",
+       "11:13: 'angle_rad' has the angle 45, more than a turn: angles are in radians, 45 degrees are 0.7854"},
       {"goals = ", "goal = [1, 1]\ngoals = ", "28:1: a robot has either 'goal' or 'goals'"},
       {"goals = [[9.5, 3.5], [3.5, 7.5, 0.0]]", "goals = []", "28:9: 'goals' must have at least one"},
       {"start = [0.5, 0.5]", "start = [0.5, \"north\"]", "22:15: 'start' must be a number, not a string"},

@@ -101,6 +101,19 @@ TEST_CASE("settings of [simulation], [recovery] and [robot] are swept, each comb
   check_round_trip(limits);
 }
 
+TEST_CASE("an experiment has at most ten million trials") {
+  const ExperimentFolder folder;
+  const auto with_trials = [](const std::string& trials) {
+    return with(with_tables("[robot.sweep]\nv_max = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]\n"),
+                "trials = 3\n", trials);
+  };
+  CHECK(load(with_trials("trials = 1_000_000\n")).trials == 1'000'000);
+  CHECK(message_of(with(with_trials("trials = 1_000_000\n"), "1.0]", "1.0, 1.1]")) ==
+        "experiment.toml:4:10: 1000000 trials of 11 combinations are 11000000, and an experiment has at most 10000000");
+  CHECK(message_of(with_trials("trials = 1_000_000_000\n")) ==
+        "experiment.toml:4:10: 'trials' must be at most 1000000, not 1000000000");
+}
+
 TEST_CASE("mistakes in sweeps are one line each") {
   const ExperimentFolder folder;
   const auto simulation = [](const std::string& sweep) { return message_of(with_tables("[simulation]\n" + sweep)); };

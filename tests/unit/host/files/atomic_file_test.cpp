@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host/files/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -24,4 +26,31 @@ TEST_CASE("files are replaced atomically, with default permissions", "[files]") 
   REQUIRE(::stat((folder / "a.txt").c_str(), &status) == 0);
   CHECK((status.st_mode & 0777u) == (0666u & ~mask));
   CHECK_THROWS_WITH(write_file_atomically(folder / "no/folder.txt", "x"), Catch::Contains("no/folder.txt"));
+}
+
+TEST_CASE("a pipe, a link and a device stay what they are, and get the content", "[files]") {
+  namespace fs = std::filesystem;
+  const ScratchFolder folder;
+  const fs::path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  const auto is_read = [reader](const std::string& expected) {
+    std::string got(100, ' ');
+    const ssize_t size = ::read(reader, got.data(), got.size());
+    return size >= 0 && got.substr(0, static_cast<std::size_t>(size)) == expected;
+  };
+  write_file_atomically(pipe, "written");
+  CHECK(fs::is_fifo(pipe));
+  CHECK(is_read("written"));
+  ::close(reader);
+
+  write_file_atomically(folder / "target", "a longer text");
+  fs::create_symlink(folder / "target", folder / "link");
+  write_file_atomically(folder / "link", "short");
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(content_of(folder / "target") == "short");
+  fs::create_symlink("/dev/full", folder / "full");
+  CHECK_THROWS_WITH(write_file_atomically(folder / "full", "x"), Catch::Contains("full: No space left"));
+  CHECK(fs::is_symlink(folder / "full"));
+  CHECK_THROWS_WITH(write_file_atomically(folder.path(), "x"), Catch::Contains("Is a directory"));
 }

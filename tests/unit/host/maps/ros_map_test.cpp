@@ -397,7 +397,7 @@ TEST_CASE("damaged maps give an error of one line or a map") {
   }
 }
 
-TEST_CASE("public maps become few shapes that contain every blocked cell", "[data]") {
+TEST_CASE("public maps become few shapes that contain every blocked cell") {
   const auto data = test_data();
   if (!data || !std::filesystem::is_directory(*data / "mrpb")) {
     WARN("skipped: DMRP_TEST_DATA is not set");

@@ -202,11 +202,13 @@ TEST_CASE("with one task the crowd seeds count, from five on the tasks", "[ranki
     CHECK(answer.ranking[1].against[2].observations == 5);
     CHECK(answer.ranking[1].standing == Standing::not_told_apart);  // 2^-4
   }
-  SECTION("ways were not measured") {
+  SECTION("neither tasks nor ways are known") {
     add_trials(trials, "a", 8, with_pace(2.0));
     add_trials(trials, "b", 8, with_pace(2.5));
-    for (TrialRecord& trial : trials)
+    for (TrialRecord& trial : trials) {
+      trial.task.clear();
       std::erase_if(trial.values, [](const MetricValue& value) { return value.metric == "way"; });
+    }
     const Answer answer = answer_of(trials);
     CHECK(answer_heading(answer) == "Under these 8 crowd seeds");
     CHECK(answer.criteria.size() == 2);  // no time without them
@@ -317,4 +319,30 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
     metrics.erase(metrics.begin() + 1);
     CHECK(answers(ranking_layout(), metrics, trials).front().flips.empty());
   }
+}
+
+TEST_CASE("the answer says whether the tasks can tell combinations apart", "[ranking]") {
+  // of two robots so many arrive, each on a task of the repetition's own
+  const auto arriving = [](std::uint32_t robots) {
+    return [=](std::uint32_t i) {
+      const double way_m = 10.0 + i;
+      const std::optional<double> time_s = 2.0 * way_m;
+      return std::vector<RobotResult>{{robots > 0 ? time_s : std::nullopt, true, way_m},
+                                      {robots > 1 ? time_s : std::nullopt, true, way_m}};
+    };
+  };
+  const auto line_of = [&](const std::vector<std::uint32_t>& arrivals, std::uint32_t tasks) -> std::string {
+    std::vector<TrialRecord> trials;
+    for (const std::uint32_t robots : arrivals)
+      add_trials(trials, std::to_string(trials.size()), tasks, arriving(robots));
+    for (const std::string& line : lines_of(trials))
+      if (line.starts_with("The tasks ")) return line;
+    return "";
+  };
+  CHECK(line_of({2, 1, 1}, 12) == "The tasks tell 2 of 3 pairs of combinations apart.");
+  CHECK(line_of({1, 1, 1}, 12) == "The tasks tell 0 of 3 pairs of combinations apart.");
+  CHECK(line_of({1, 1}, 12).empty());  // of two combinations, the line about the first tells
+  CHECK(line_of({2, 2}, 12) == "The tasks are too easy to tell combinations apart by safe: its mean is 1.00.");
+  CHECK(line_of({0, 0}, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
+  CHECK(line_of({2, 1}, 9).empty());
 }

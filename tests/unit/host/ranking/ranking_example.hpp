@@ -55,6 +55,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   double excused = 0.0;
   for (std::uint64_t i = 0; i < robots.size(); ++i) {
     const RobotResult& robot = robots[i];
+    trial.task += std::to_string(robot.way_m) + " ";  // other ways, other tasks
     const bool arrived = robot.time_s.has_value();
     done += arrived ? 1.0 : 0.0;
     safe += arrived && robot.safe ? 1.0 : 0.0;

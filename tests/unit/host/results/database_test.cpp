@@ -41,6 +41,7 @@ void check_same(const TrialRecord& a, const TrialRecord& b) {
   CHECK(a.timing == b.timing);
   CHECK(same_bits(a.sim_time_s, b.sim_time_s));
   CHECK(same_bits(a.wall_time_s, b.wall_time_s));
+  CHECK(a.task == b.task);
   CHECK(a.swept == b.swept);
   REQUIRE(a.values.size() == b.values.size());
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -84,6 +85,7 @@ TrialRecord full_trial(std::uint64_t id) {
   trial.repeatable = false;
   trial.timing = {{"org.example.x", "draws in a thread"}, {"org.example.y", "plan() was stopped by its time budget"}};
   trial.sim_time_s = 1.0 / 3.0;
+  trial.task = "0123456789abcdef";
   trial.swept = {{"", "people", "6"}, {"simulation", "tracking", "it's"}};
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, -1.0 / 3.0});
   trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, std::nullopt, 0.1, 5e-324});
@@ -103,7 +105,7 @@ TrialRecord full_trial(std::uint64_t id) {
   return trial;
 }
 
-// The tables of schema version 1, whose events had no people, severity and place.
+// The tables of schema version 1, whose events had no people, severity and place, and whose trials no task.
 constexpr const char* schema_of_version_1 = R"sql(
 CREATE TABLE trial(
   id INTEGER PRIMARY KEY,
@@ -279,7 +281,7 @@ TEST_CASE("unusable databases are reported with the reason", "[results]") {
   CHECK_THROWS_AS(ResultsDatabase::open(folder / "text.sqlite"), SqliteError);
   CHECK_THROWS_WITH(ResultsDatabase::create(folder / "text.sqlite", example_metrics()), Catch::Contains("exists"));
   SqliteConnection(folder / "other.sqlite", SqliteMode::create).execute("PRAGMA user_version = 7");
-  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 2"));
+  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 3"));
 }
 
 TEST_CASE("results of schema version 1 are read, and upgraded where they are written to", "[results]") {
@@ -297,6 +299,7 @@ TEST_CASE("results of schema version 1 are read, and upgraded where they are wri
   const auto check_old_trial = [](const TrialRecord& trial) {
     CHECK(trial.id == 2);
     CHECK(trial.seed == 7);
+    CHECK(trial.task.empty());
     REQUIRE(trial.values.size() == 1);
     CHECK(trial.values[0].value == 1.0);
     REQUIRE(trial.events.size() == 1);

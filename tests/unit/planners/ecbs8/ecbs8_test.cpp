@@ -337,7 +337,7 @@ TEST_CASE("ECBS-8: the same problem gives the same bits, whatever was planned be
   }
 }
 
-TEST_CASE("ECBS-8 solves 20 robots on three maps of 40x40 cells, and 50 on random-32-32-20", "[data]") {
+TEST_CASE("ECBS-8 solves 20 robots on three maps of 40x40 cells, and 50 on random-32-32-20") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");

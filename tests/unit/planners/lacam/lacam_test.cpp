@@ -161,7 +161,7 @@ TEST_CASE("LaCAM* that is stopped returns the plan that it has, or times out") {
   CHECK(without > 20);
 }
 
-TEST_CASE("LaCAM* plans where prioritized planning jams", "[data]") {
+TEST_CASE("LaCAM* plans where prioritized planning jams") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");

@@ -123,7 +123,7 @@ TEST_CASE("large neighborhood search that is stopped returns the plan that it ha
   CHECK(without > 5);
 }
 
-TEST_CASE("large neighborhood search improves crowded maps", "[data]") {
+TEST_CASE("large neighborhood search improves crowded maps") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");
@@ -145,7 +145,7 @@ TEST_CASE("large neighborhood search improves crowded maps", "[data]") {
 }
 
 // Small sets alone end at 5,372 and more: robots rest in passages that others then go round.
-TEST_CASE("large neighborhood search gets robots out of the way that rest where others have to pass", "[data]") {
+TEST_CASE("large neighborhood search gets robots out of the way that rest where others have to pass") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");
@@ -163,7 +163,7 @@ TEST_CASE("large neighborhood search gets robots out of the way that rest where 
   CHECK(least < 5000);
 }
 
-TEST_CASE("large neighborhood search begins with a prioritized plan as long as that gets on", "[data]") {
+TEST_CASE("large neighborhood search begins with a prioritized plan as long as that gets on") {
   const auto data = test_data();
   if (!data) {
     WARN("skipped: DMRP_TEST_DATA is not set");

@@ -350,15 +350,15 @@ void check_movingai(const std::string& map, int robots) {
 
 }  // namespace
 
-TEST_CASE("SIPP solves 200 robots on random-32-32-20", "[data]") {
+TEST_CASE("SIPP solves 200 robots on random-32-32-20") {
   check_movingai("random-32-32-20", 200);
 }
 
-TEST_CASE("SIPP solves 400 robots on empty-32-32", "[data]") {
+TEST_CASE("SIPP solves 400 robots on empty-32-32") {
   check_movingai("empty-32-32", 400);
 }
 
-TEST_CASE("SIPP solves 80 robots in a maze and in rooms", "[data]") {
+TEST_CASE("SIPP solves 80 robots in a maze and in rooms") {
   check_movingai("maze-32-32-2", 80);
   check_movingai("room-32-32-4", 80);
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// command.hpp: what all commands have in common. A command throws InputError, MachineError, std::system_error or
+// std::runtime_error, which main() reports.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "host/commands/commands.hpp"
+#include "host/program/exit_status.hpp"
+
+namespace dmrp::host {
+
+// The end of a help text: an example, and the exit statuses.
+std::string help_footer(const std::string& example);
+
+// Ends the command's help with an example, and runs the command when it was given. What it returns is the exit status:
+// the command line is left by CLI::RuntimeError, which holds it.
+void finish_command(CLI::App* command, const std::string& example, std::function<int()> run);
+
+// Lines of at most 80 columns.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+};
+
+unsigned default_jobs();  // one per core
+
+}  // namespace dmrp::host

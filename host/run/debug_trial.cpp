@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "host/run/debug_trial.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "core/trace/trace_encoder.hpp"
+#include "core/trace/trace_reader.hpp"
+#include "host/errors/input_error.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/program/exit_status.hpp"
+#include "host/trial/log_line.hpp"
+#include "host/trial/measure.hpp"
+#include "host/trial/run_trial.hpp"
+
+namespace dmrp::host {
+
+namespace {
+
+// In this process: a debugger sees one process, which loads each library once.
+Probe load_here(const std::filesystem::path& file) {
+  const Library library(file);
+  return {library.plugins(), library.warnings(), ""};
+}
+
+void print_values(const MetricResult& result) {
+  for (const MetricValue& value : result.values)
+    if (value.subject_kind == DMRP_SUBJECT_SYSTEM && !value.coordinate)
+      fmt::print("  {:<28}{}\n", value.metric, value.value ? fmt::format("{:.6g}", *value.value) : "-");
+}
+
+class DebuggedTrial {
+ public:
+  DebuggedTrial(const Experiment& experiment, std::uint64_t trial)
+      : experiment_(experiment),
+        combinations_(combinations(experiment)),
+        combination_(combinations_[trial_id(trial, combinations_.size()).combination]),
+        seed_(trial_seed(experiment, trial)),
+        shared_(experiment, experiment.scenarios[combination_.scenario]),
+        guard_(note_),
+        pool_(experiment.libraries, guard_,
+              [this](std::int32_t level, const std::string& plugin, const std::string& text) {
+                std::fputs(log_line(level, plugin, text, logged_, note_).c_str(), stderr);
+              }) {
+    const ScenarioVariant& scenario = experiment.scenarios[combination_.scenario];
+    if (is_drawn(scenario))
+      own_ = std::make_unique<VariantWorld>(experiment, scenario, shared_,
+                                            task_seed(experiment, scenario.scenario.name, scenario.wishes,
+                                                      trial_id(trial, combinations_.size()).repetition));
+    logged_ = {trial, world().simulation.step_ns};
+    // while a breakpoint holds, time passes: it does not count
+    guard_.stop_after_asks(std::numeric_limits<std::int64_t>::max());
+  }
+
+  int run() {
+    try {
+      run_and_measure();
+      return exit_status::done;
+    } catch (const PluginFault& fault) {
+      fmt::print("{}: {}\n", fault.kind(), fault.text());
+      std::fflush(nullptr);
+      if (fault.fatal()) _exit(exit_status::faults);  // no function of the library may be called again
+      return exit_status::faults;
+    }
+  }
+
+ private:
+  void run_and_measure() {
+    std::vector<std::uint8_t> bytes;
+    core::TraceEncoder trace(world().view.world(), [&](std::int64_t, std::span<const std::uint8_t> record) {
+      bytes.insert(bytes.end(), record.begin(), record.end());
+    });
+    const TrialEnding ending = run_trial({experiment_, combination_, world(), seed_}, pool_, trace);
+    core::TraceReader reader(bytes);
+    fmt::print("{} after {:.2f} s\n", reader.reason(), ending.sim_time_s);
+    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
+      const PluginUse& use = experiment_.metrics[i];
+      print_values(measure(reader, world().walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i, seed_,
+                           nanoseconds(experiment_.limits.step_time_s)));
+    }
+  }
+
+  const VariantWorld& world() const { return own_ ? *own_ : shared_; }
+
+  const Experiment& experiment_;
+  std::vector<Combination> combinations_;
+  Combination combination_;
+  std::uint64_t seed_;
+  VariantWorld shared_;
+  std::unique_ptr<const VariantWorld> own_;  // of this trial, if robots are drawn; instances keep pointers into it
+  CallNote note_{};
+  std::optional<LoggedTrial> logged_;
+  CallGuard guard_;
+  InstancePool pool_;
+};
+
+}  // namespace
+
+int debug_trial(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
+  const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
+  const std::uint64_t count = combinations(experiment).size() * experiment.trials;
+  if (trial >= count)
+    throw InputError(fmt::format("--debug {}: {} has the trials 0 to {}", trial, file.string(), count - 1));
+  return DebuggedTrial(experiment, trial).run();
+}
+
+}  // namespace dmrp::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The common part of the models: people who find their ways and respond to robots.
+#pragma once
+
+#include <dmrp/plugin.hpp>
+
+#include "pedestrians/crowd/walkers.hpp"
+#include "pedestrians/crowd/way_finding.hpp"
+
+namespace dmrp::pedestrians {
+
+class CrowdModel : public PedestrianModel {
+ protected:
+  static Descriptor describe_model(const char* id, const char* name) {
+    return Descriptor(id, name, "1.0.0").vendor("dmrp").license("MIT").needs(DMRP_EXT_WALKING_GRID);
+  }
+
+  struct RobotResponse {
+    Param<double> awareness;
+    Param<double> surprised;
+    Param<double> curious;
+    Param<double> scared;
+    Param<double> threatening;
+  };
+
+  RobotResponse robot_response() {
+    return {param("robot_awareness", 1.0)
+                .range(0.0, 1.0)
+                .doc("how much people react to robots: 1 as to people, 0 not at all"),
+            share("surprised_share", "share of people who stop and look at a robot when they see it"),
+            share("curious_share", "share of people who walk up to a robot when they see it"),
+            share("scared_share", "share of people who walk away from a robot when they see it"),
+            share("threatening_share", "share of people who get in a robot's way when they see it")};
+  }
+
+  void start_people(const Start& start, const RobotResponse& to_robots) {
+    ways_.start(walking_grid(extension<dmrp_walking_grid>(), start.world));
+    walkers_.start(start.seed, ways_.grid(),
+                   {to_robots.surprised, to_robots.curious, to_robots.scared, to_robots.threatening});
+  }
+
+  WayFinder ways_;
+  Walkers walkers_;
+
+ private:
+  ParamBuilder<double> share(const char* key, const char* doc) { return param(key, 0.0).range(0.0, 1.0).doc(doc); }
+};
+
+}  // namespace dmrp::pedestrians
