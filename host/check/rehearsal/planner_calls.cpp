@@ -25,7 +25,7 @@ class PlannerCalls {
       std::vector<PathPosition> positions;
       for (const core::RobotState& robot : stage_.world.robots()) {
         const dmrp_vec2 here = {robot.pose.x, robot.pose.y};
-        positions.push_back({here, here, here});
+        positions.push_back({here, here});
       }
       const InForce in_force = {first_.view(), positions};
       plan(&in_force, outputs);
