@@ -21,9 +21,8 @@ RankedCombination ranked(const Contest& contest, std::size_t contestant, const M
   for (const auto& of_situation : contest.trials[contestant])
     trials.insert(trials.end(), of_situation.begin(), of_situation.end());
   result.trials = static_cast<std::uint32_t>(trials.size());
-  for (std::size_t i = 0; i < measures.criteria().size(); ++i) result.means.push_back(measures.mean(trials, i));
-  for (std::size_t i = 0; i < measures.siblings().size(); ++i)
-    result.sibling_means.push_back(measures.sibling_mean(trials, i));
+  for (const Criterion& one : measures.criteria()) result.means.push_back(measures.mean(trials, one));
+  for (const Criterion& one : measures.siblings()) result.sibling_means.push_back(measures.mean(trials, one));
   return result;
 }
 

@@ -24,13 +24,9 @@ inline bool fault_of_a(const Contact& contact) {
   return (contact.flags & DMRP_CONTACT_FAULT_A) != 0;
 }
 
-// For a robot `b` only; false for a person.
+// A robot or a person.
 inline bool fault_of_b(const Contact& contact) {
-  return between_robots(contact) && (contact.flags & DMRP_CONTACT_FAULT_B) != 0;
-}
-
-inline bool fault_of_person(const Contact& contact) {
-  return contact.kind == DMRP_CONTACT_PERSON && (contact.flags & DMRP_CONTACT_FAULT_B) != 0;
+  return (contact.flags & DMRP_CONTACT_FAULT_B) != 0;
 }
 
 // NaN: an older host does not know it.

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <dmrp/plugin.hpp>
-#include <dmrp/toolkit/rectangle.hpp>
-#include <dmrp/toolkit/shape_distance.hpp>
+#include <dmrp/toolkit/disc_sweep.hpp>
 #include <numbers>
 #include <vector>
 
@@ -13,17 +12,11 @@
 
 namespace dmrp::metrics {
 
-inline bool in_sight(const std::vector<const Shape*>& shapes, Vec2 from, Vec2 to) {
-  return std::all_of(shapes.begin(), shapes.end(), [&](const Shape* shape) {
-    return toolkit::distance(*shape, dmrp_segment{from, to}) > 0.0;
+template <class Shapes>
+bool in_sight(const Shapes& shapes, Vec2 from, Vec2 to) {
+  return std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
+    return toolkit::distance(shape, dmrp_segment{from, to}) > 0.0;
   });
-}
-
-inline std::vector<const Shape*> shapes_near(const World& world, Vec2 point, double distance_m) {
-  std::vector<const Shape*> near;
-  for (const Shape& shape : world.shapes())
-    if (toolkit::distance(toolkit::bounds(shape), point) <= distance_m) near.push_back(&shape);
-  return near;
 }
 
 // Whether somebody of this radius and speed could come straight out of a place that the robot does not see and touch it
@@ -35,12 +28,11 @@ inline bool may_be_surprised(const World& world, const Moving& robot, double hor
   const Vec2 here = robot.disc.center;
   const double touching_m = robot.disc.radius_m + radius_m;
   const double reach_m = horizon_s * (toolkit::norm(robot.velocity) + speed) + touching_m + radius_m;
-  const std::vector<const Shape*> near = shapes_near(world, here, reach_m);
-  const toolkit::Rectangle border = {world->lower, world->upper};
+  std::vector<Shape> near;
+  for (const Shape& shape : world.shapes())
+    if (toolkit::distance(toolkit::bounds(shape), here) <= reach_m) near.push_back(shape);
   const auto is_way = [&](Vec2 from, Vec2 to) {
-    return toolkit::depth(border, from) >= radius_m && std::all_of(near.begin(), near.end(), [&](const Shape* shape) {
-             return toolkit::distance(*shape, dmrp_segment{from, to}) >= radius_m;
-           });
+    return toolkit::disc_sweep_is_clear({from, to}, radius_m, near, {world->lower, world->upper});
   };
   for (int k = 1; k <= times && !near.empty(); ++k) {
     const double t_s = horizon_s * k / times;

@@ -63,8 +63,9 @@ void Success::observe(const Sample& sample) {
   for (const Contact& contact : sample.contacts) {
     if (!is_known(contact)) continue;
     touched_[contact.a] = true;
-    if (contact.kind == DMRP_CONTACT_ROBOT) touched_[contact.b] = true;
     if (fault_of_a(contact)) at_fault_[contact.a] = true;
+    if (!between_robots(contact)) continue;
+    touched_[contact.b] = true;
     if (fault_of_b(contact)) at_fault_[contact.b] = true;
   }
 }

@@ -47,66 +47,53 @@ void BrakingResponse::begin(const dmrp_plan*) {
   }
 }
 
+// A wall excuses nobody.
 void BrakingResponse::observe(const Sample& sample) {
+  Moment now = moment_of(sample);
   for (const Contact& contact : sample.contacts) {
     if (!is_known(contact) || !begins(contact)) continue;
-    if (fault_of_a(contact)) judge(contact.a, contact, sample);
-    if (fault_of_b(contact)) judge(contact.b, contact, sample);
+    const std::size_t a = contact.a;
+    const std::size_t b = contact.b + (between_robots(contact) ? 0 : blamed_.size());  // unless it is a wall
+    const bool is_wall = contact.kind == DMRP_CONTACT_STATIC;
+    if (fault_of_a(contact) && (is_wall || !is_excused(a, now.bodies[b], now.t_ns))) blamed_[a] = true;
+    if (between_robots(contact) && fault_of_b(contact) && !is_excused(b, now.bodies[a], now.t_ns)) blamed_[b] = true;
   }
-  remember(sample);
+  while (history_.size() > 1 && history_[1].t_ns <= now.t_ns - memory_ns_) history_.pop_front();
+  history_.push_back(std::move(now));
 }
 
-// A wall excuses nobody.
-void BrakingResponse::judge(std::size_t robot, const Contact& contact, const Sample& sample) {
-  if (blamed_[robot]) return;
-  Other other = {false, robot == contact.a ? contact.b : contact.a, 0.0};
-  if (contact.kind == DMRP_CONTACT_PERSON)
-    other = {true, sample.people[contact.b].id, sample.people[contact.b].radius_m};
-  else if (contact.kind == DMRP_CONTACT_ROBOT)
-    other.radius_m = world().robots()[other.id].footprint->radius_m;
-  blamed_[robot] = contact.kind == DMRP_CONTACT_STATIC || !is_excused(robot, other, sample.t_ns);
-}
-
-// Reuses the buffers of moments that are no longer needed.
-void BrakingResponse::remember(const Sample& sample) {
-  Moment moment;
-  while (history_.size() > 1 && history_[1].t_ns <= sample.t_ns - memory_ns_) {
-    moment = std::move(history_.front());
-    history_.pop_front();
-  }
-  moment.t_ns = sample.t_ns;
-  moment.robots.clear();
-  moment.people.clear();
+BrakingResponse::Moment BrakingResponse::moment_of(const Sample& sample) const {
+  Moment moment = {sample.t_ns, {}};
   for (std::size_t i = 0; i < blamed_.size(); ++i) {
     const Robot& robot = world().robots()[i];
     const Moving now = moving(robot, sample.robots[i]);
-    const double turning =
-        robot.footprint->part_count == 0 ? 0.0 : robot.footprint->radius_m * std::abs(sample.robots[i].velocity.omega);
-    moment.robots.push_back({now, toolkit::norm(now.velocity) + turning});
+    const double turning_m = robot.footprint->part_count == 0 ? 0.0 : robot.footprint->radius_m;
+    moment.bodies.push_back({DMRP_AGENT_ROBOT, i, now,
+                             toolkit::norm(now.velocity) + turning_m * std::abs(sample.robots[i].velocity.omega)});
   }
-  for (const Person& person : sample.people) moment.people.push_back({person.id, moving(person)});
-  history_.push_back(std::move(moment));
+  for (const Person& person : sample.people)
+    moment.bodies.push_back({DMRP_AGENT_PERSON, person.id, moving(person), toolkit::norm(person.velocity)});
+  return moment;
 }
 
-std::optional<Moving> BrakingResponse::find(const Moment& moment, const Other& other) {
-  if (!other.is_person) return moment.robots[other.id].moving;
-  for (const PersonMotion& person : moment.people)
-    if (person.id == other.id) return person.moving;
-  return std::nullopt;
+// Null: it was not there.
+const BrakingResponse::Body* BrakingResponse::find(const Moment& moment, const Body& body) {
+  const auto found = std::find_if(moment.bodies.begin(), moment.bodies.end(),
+                                  [&](const Body& one) { return one.kind == body.kind && one.id == body.id; });
+  return found == moment.bodies.end() ? nullptr : &*found;
 }
 
 double BrakingResponse::horizon_s(std::size_t robot, Vec2 velocity) const {
   return toolkit::norm(velocity) / world().robots()[robot].limits->a_max + reaction_s;
 }
 
-bool BrakingResponse::is_danger(const Moment& moment, std::size_t robot, const Other& other) const {
-  const Moving& self = moment.robots[robot].moving;
+bool BrakingResponse::is_danger(const Moment& moment, std::size_t robot, const Body& other) const {
+  const Moving& self = moment.bodies[robot].moving;
   const double within_s = horizon_s(robot, self.velocity);
-  const std::optional<Moving> there = find(moment, other);
-  if (there && in_sight(shapes_near(world(), self.disc.center, toolkit::distance(self.disc.center, there->disc.center)),
-                        self.disc.center, there->disc.center))
-    return time_to_contact(self, *there) <= within_s;
-  return may_be_surprised(world(), self, within_s, hidden_speed, other.radius_m);
+  const Body* const there = find(moment, other);
+  if (there && in_sight(world().shapes(), self.disc.center, there->moving.disc.center))
+    return time_to_contact(self, there->moving) <= within_s;
+  return may_be_surprised(world(), self, within_s, hidden_speed, other.moving.disc.radius_m);
 }
 
 // In the step after this moment.
@@ -115,19 +102,19 @@ bool BrakingResponse::is_braking(std::size_t moment, std::size_t robot) const {
   const Moment& after = history_[moment + 1];
   const double loss =
       braking_share * world().robots()[robot].limits->a_max * 1e-9 * static_cast<double>(after.t_ns - before.t_ns);
-  return after.robots[robot].speed <= std::max(before.robots[robot].speed - loss, rest_speed);
+  return after.bodies[robot].speed <= std::max(before.bodies[robot].speed - loss, rest_speed);
 }
 
 // Whether the robot would be in no danger had it kept its velocity of the moment before.
-bool BrakingResponse::made_the_danger(std::size_t moment, std::size_t robot, const Other& other) const {
+bool BrakingResponse::made_the_danger(std::size_t moment, std::size_t robot, const Body& other) const {
   if (moment == 0) return false;
-  const std::optional<Moving> there = find(history_[moment], other);
-  Moving self = history_[moment].robots[robot].moving;
-  self.velocity = history_[moment - 1].robots[robot].moving.velocity;
-  return there && !(time_to_contact(self, *there) <= horizon_s(robot, self.velocity));
+  const Body* const there = find(history_[moment], other);
+  Moving self = history_[moment].bodies[robot].moving;
+  self.velocity = history_[moment - 1].bodies[robot].moving.velocity;
+  return there && !(time_to_contact(self, there->moving) <= horizon_s(robot, self.velocity));
 }
 
-bool BrakingResponse::is_excused(std::size_t robot, const Other& other, std::int64_t contact_ns) const {
+bool BrakingResponse::is_excused(std::size_t robot, const Body& other, std::int64_t contact_ns) const {
   if (history_.empty()) return false;
   const std::size_t last = history_.size() - 1;
   std::size_t braking_from = last;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <dmrp/plugin.hpp>
-#include <optional>
 #include <vector>
 
 #include "metrics/measure/bodies.hpp"
@@ -35,33 +34,25 @@ class BrakingResponse final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  struct RobotMotion {
+  // A robot or a person at a sample.
+  struct Body {
+    std::uint32_t kind;  // DMRP_AGENT_*
+    std::uint64_t id;    // of a person; index of a robot
     Moving moving;
-    double speed;  // m/s, of the fastest point of a polygon, which also turns
-  };
-  struct PersonMotion {
-    std::uint64_t id;
-    Moving moving;
+    double speed;  // m/s, of the fastest point: a polygon also turns
   };
   struct Moment {
-    std::int64_t t_ns = 0;
-    std::vector<RobotMotion> robots;
-    std::vector<PersonMotion> people;
-  };
-  struct Other {
-    bool is_person;
-    std::uint64_t id;  // or index of the robot
-    double radius_m;
+    std::int64_t t_ns;
+    std::vector<Body> bodies;  // robots by index, then people
   };
 
-  void judge(std::size_t robot, const Contact& contact, const Sample& sample);
-  void remember(const Sample& sample);
-  bool is_excused(std::size_t robot, const Other& other, std::int64_t contact_ns) const;
-  bool is_danger(const Moment& moment, std::size_t robot, const Other& other) const;
+  Moment moment_of(const Sample& sample) const;
+  static const Body* find(const Moment& moment, const Body& body);
+  bool is_excused(std::size_t robot, const Body& other, std::int64_t contact_ns) const;
+  bool is_danger(const Moment& moment, std::size_t robot, const Body& other) const;
   bool is_braking(std::size_t moment, std::size_t robot) const;
-  bool made_the_danger(std::size_t moment, std::size_t robot, const Other& other) const;
+  bool made_the_danger(std::size_t moment, std::size_t robot, const Body& other) const;
   double horizon_s(std::size_t robot, Vec2 velocity) const;
-  static std::optional<Moving> find(const Moment& moment, const Other& other);
 
   std::int64_t memory_ns_ = 0;
   std::deque<Moment> history_;  // before the present sample, oldest first

@@ -79,7 +79,7 @@ void Collisions::observe(const Sample& sample) {
     if (begins(contact)) {
       latest_[pair] = events_.size();
       events_.push_back({contact.kind, contact.a, std::get<2>(pair), fault_of_a(contact), fault_of_b(contact),
-                         fault_of_person(contact), impact_speed(sample, contact), sample.t_ns, sample.t_ns});
+                         impact_speed(sample, contact), sample.t_ns, sample.t_ns});
     } else if (const auto found = latest_.find(pair); found != latest_.end()) {
       events_[found->second].to_ns = sample.t_ns;
     }
@@ -87,32 +87,25 @@ void Collisions::observe(const Sample& sample) {
 }
 
 std::string Collisions::text_of(const Event& event) const {
-  const std::string robot = "robot " + std::to_string(event.a);
+  const std::string a = "robot " + std::to_string(event.a);
   if (event.kind == DMRP_CONTACT_STATIC) {
     const bool border = event.b >= world().shapes().size();
-    return robot + " against " + (border ? "the border" : world().shapes()[event.b].name);
+    return a + " against " + (border ? "the border" : world().shapes()[event.b].name);
   }
-  if (event.kind == DMRP_CONTACT_ROBOT) {
-    const std::string other = "robot " + std::to_string(event.b);
-    const std::string both = robot + " and " + other;
-    if (event.fault_of_a && event.fault_of_b) return both + ": both at fault";
-    if (event.fault_of_a) return both + ": " + robot + " at fault";
-    if (event.fault_of_b) return both + ": " + other + " at fault";
-    return both + ": neither at fault";
-  }
-  const std::string both = robot + " and person " + std::to_string(event.b);
-  if (event.fault_of_person) return both + (event.fault_of_a ? ": both at fault" : ": person at fault");
-  return both + (event.fault_of_a ? ": robot at fault" : ": neither at fault");
+  const std::string b = (event.kind == DMRP_CONTACT_ROBOT ? "robot " : "person ") + std::to_string(event.b);
+  const std::string at_fault = event.fault_of_a ? event.fault_of_b ? "both" : a : event.fault_of_b ? b : "neither";
+  return a + " and " + b + ": " + at_fault + " at fault";
 }
 
 void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
   Tally system;
   std::vector<Tally> tallies(end.robots.size());
   for (const Event& event : events_) {
-    system.count(event.kind, event.fault_of_a || event.fault_of_b, event.impact_speed);
+    const bool two_robots = event.kind == DMRP_CONTACT_ROBOT;
+    system.count(event.kind, event.fault_of_a || (two_robots && event.fault_of_b), event.impact_speed);
     tallies[event.a].count(event.kind, event.fault_of_a, event.impact_speed);
     std::vector<Subject> robots = {robot_subject(event.a)};
-    if (event.kind == DMRP_CONTACT_ROBOT) {
+    if (two_robots) {
       tallies[event.b].count(event.kind, event.fault_of_b, event.impact_speed);
       robots.push_back(robot_subject(event.b));
     }

@@ -24,7 +24,7 @@ class Collisions final : public Metric {
     std::uint32_t kind;  // DMRP_CONTACT_*
     std::uint32_t a;     // the robot, or the first of two
     std::uint64_t b;     // the partner: index of a shape or robot, id of a person
-    bool fault_of_a, fault_of_b, fault_of_person;
+    bool fault_of_a, fault_of_b;
     double impact_speed;  // m/s; NaN: the trace does not have it
     std::int64_t from_ns, to_ns;
   };

@@ -109,8 +109,8 @@ TEST_CASE("contacts with people have a fault") {
   CHECK(m.robot("collisions", 0) == 4.0);
   CHECK(m.robot("collisions_at_fault", 0) == 2.0);
   REQUIRE(m.events.size() == 4);
-  CHECK(m.events[0].text == "robot 0 and person 7: robot at fault");
-  CHECK(m.events[1].text == "robot 0 and person 8: person at fault");
+  CHECK(m.events[0].text == "robot 0 and person 7: robot 0 at fault");
+  CHECK(m.events[1].text == "robot 0 and person 8: person 8 at fault");
   CHECK(m.events[2].text == "robot 0 and person 9: both at fault");
   CHECK(m.events[3].text == "robot 0 and person 10: neither at fault");
 }
