@@ -142,7 +142,7 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   CHECK(std::isnan(sample.contacts[0].impact_speed));
   REQUIRE(sample.call_count == 1);
   CHECK(sample.calls[0].kind == DMRP_CALL_PEOPLE);
-  CHECK(sample.calls[0].reserved == 0);
+  CHECK(sample.calls[0].other == 0);
   CHECK(sample.calls[0].duration_ns == 2'293);
 
   REQUIRE(trace.end());
