@@ -111,22 +111,17 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
 
 // Pairs of combinations whose order a sibling of the first criterion turns round.
 std::string flip_line(const Answer& answer) {
-  std::vector<std::string> by_sibling;
-  for (std::size_t sibling = 0; sibling < answer.siblings.size(); ++sibling) {
-    std::vector<std::string> pairs;
-    for (const OrderFlip& flip : answer.flips) {
-      if (flip.sibling != sibling) continue;
-      const RankedCombination& before = answer.ranking[flip.before];
-      const RankedCombination& behind = answer.ranking[flip.behind];
-      pairs.push_back(fmt::format("{} ({:.2f}; {} {:.2f}) is before {} ({:.2f}; {} {:.2f})", combination_name(behind),
-                                  behind.sibling_means[sibling], answer.criteria.front().name, behind.means[0],
-                                  combination_name(before), before.sibling_means[sibling], answer.criteria.front().name,
-                                  before.means[0]));
-    }
-    if (!pairs.empty())
-      by_sibling.push_back(fmt::format("by {}, {}", answer.siblings[sibling].name, list_words(pairs)));
+  const std::string& first = answer.criteria.front().name;
+  std::vector<std::string> pairs;
+  for (const OrderFlip& flip : answer.flips) {
+    const auto words = [&](const RankedCombination& one) {
+      return fmt::format("{} ({:.2f}; {} {:.2f})", combination_name(one), one.sibling_means[flip.sibling], first,
+                         one.means[0]);
+    };
+    pairs.push_back(fmt::format("by {}, {} is before {}", answer.siblings[flip.sibling].name,
+                                words(answer.ranking[flip.behind]), words(answer.ranking[flip.before])));
   }
-  return fmt::format("The order depends on whose fault contacts are: {}.", fmt::join(by_sibling, "; "));
+  return fmt::format("The order depends on whose fault contacts are: {}.", list_words(pairs));
 }
 
 // Whether these tasks can tell the combinations apart; "" where too few tasks were met.

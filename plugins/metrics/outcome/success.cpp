@@ -3,7 +3,7 @@
 
 #include "metrics/measure/contact_fault.hpp"
 #include "metrics/measure/describe_metric.hpp"
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {
@@ -80,9 +80,6 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
     success.push_back(succeeded ? 1.0 : 0.0);
     safe_success.push_back(succeeded && !at_fault_[robot] ? 1.0 : 0.0);
     contact_free_success.push_back(succeeded && !touched_[robot] ? 1.0 : 0.0);
-    sink.robot("success", robot, success.back());
-    sink.robot("safe_success", robot, safe_success.back());
-    sink.robot("contact_free_success", robot, contact_free_success.back());
     if (!succeeded)
       sink.event({"success",
                   end.t_ns,
@@ -90,10 +87,10 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
                   {robot_subject(robot)},
                   "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
   }
-  sink.system("success", mean_of_defined(success));
+  give_mean(sink, "success", success);
   sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);
-  sink.system("safe_success", mean_of_defined(safe_success));
-  sink.system("contact_free_success", mean_of_defined(contact_free_success));
+  give_mean(sink, "safe_success", safe_success);
+  give_mean(sink, "contact_free_success", contact_free_success);
 }
 
 }  // namespace dmrp::metrics
