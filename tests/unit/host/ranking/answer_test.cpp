@@ -309,10 +309,11 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
   SECTION("each sibling by itself") {
     const std::vector<RobotResult> one_is_excused{{20.0, false, 10.0, true, true}, {40.0, true, 20.0}};
     add_trials(trials, "excused", 20, first(16, one_is_excused));  // safe .6, excused 1
-    CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
-                                     "The order depends on whose fault contacts are: by untouched done, P + unsafe "
-                                     "(0.90; safe 0.90) is before P + touched (0.75; safe 1.00) and by excused done, P + "
-                                     "excused (1.00; safe 0.60) is before P + unsafe (0.90; safe 0.90).")));
+    CHECK_THAT(lines_of(trials),
+               Catch::VectorContains(
+                   std::string("The order depends on whose fault contacts are: by untouched done, P + unsafe "
+                               "(0.90; safe 0.90) is before P + touched (0.75; safe 1.00) and by excused done, P + "
+                               "excused (1.00; safe 0.60) is before P + unsafe (0.90; safe 0.90).")));
   }
   SECTION("nor where the sibling was not measured") {
     std::vector<MetricColumn> metrics = ranking_metrics();
