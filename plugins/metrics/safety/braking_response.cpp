@@ -32,7 +32,7 @@ Descriptor BrakingResponse::describe() {
           "ability from the first moment of danger, plus reaction_s, until it stood, and did not drive on: the other "
           "is in sight and both would touch at constant velocities within the robot's stopping time plus reaction_s; "
           "or it is not, and somebody could come out of a place that the robot does not see at hidden_speed and "
-          "touch it within that time; system: mean over robots");
+          "touch it within that time");
 }
 
 // Full braking from the greatest speed, and the danger before it.
