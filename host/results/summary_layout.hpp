@@ -24,10 +24,10 @@ struct SummaryTableColumn {
 
 // The metrics by which combinations are ordered (host/ranking/answer.hpp).
 struct AnswerMetrics {
-  std::vector<std::string> shares;  // of robots, the most important first; higher is better
-  std::string stricter;             // of the first share; orders that it turns round are named. Empty: none
-  std::string time;                 // of a robot's arrival; lower is better
-  std::string way_length;           // of a robot's shortest way, by which its time is divided
+  std::vector<std::string> shares;    // of robots, the most important first; higher is better
+  std::vector<std::string> siblings;  // of the first share, stricter or milder; orders that one turns round are named
+  std::string time;                   // of a robot's arrival; lower is better
+  std::string way_length;             // of a robot's shortest way, by which its time is divided
 };
 
 struct SummaryLayout {

@@ -45,7 +45,7 @@ inline dmrp_robot_sample at(double x, double y, double speed = 0.0, std::uint32_
 }
 
 inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b, std::uint32_t flags) {
-  return {kind, flags, a, b, 0.01, {0.0, 0.0}};
+  return {kind, flags, a, b, 0.01, {0.0, 0.0}, std::nan("")};
 }
 
 // An array element as in a later version of the contract: metrics must use the stride.
@@ -66,11 +66,14 @@ using Points = std::vector<dmrp_vec2>;
 
 class SyntheticTrial {
  public:
-  // Robots are discs of 0.25 m with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
+  // Robots are discs of 0.25 m, brake by 1 m/s^2 and have one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
   // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
   explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
     footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;
-    for (dmrp_robot& robot : robots_) robot.footprint = footprint_.get();
+    for (dmrp_robot& robot : robots_) {
+      robot.footprint = footprint_.get();
+      robot.limits = limits_.get();
+    }
     for (std::size_t robot = 0; robot < robot_count; ++robot) route(robot, {0, 0, 0}, {{0, 0, std::nan("")}});
     box("shelf B", {899, 899}, {901, 901});
     walking_grid({-16, -16}, 4.0, std::vector<std::vector<float>>(8, std::vector<float>(8, 5.0F)));
@@ -328,6 +331,8 @@ class SyntheticTrial {
 
   // addresses stay when the trial is moved
   std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
+  std::unique_ptr<dmrp_limits> limits_ =
+      std::make_unique<dmrp_limits>(dmrp_limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
   std::unique_ptr<dmrp_grid> planning_grid_ =
