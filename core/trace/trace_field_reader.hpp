@@ -87,8 +87,8 @@ class TraceFieldReader {
     take_array(to, count);
   }
 
-  // Elements that are stored as in memory. Fields that the trace does not have become zero; fields that it has beyond
-  // ours are skipped.
+  // Elements that are stored as in memory. Fields that the trace does not have become absent_trace_fields; fields that
+  // it has beyond ours are skipped.
   template <class Element>
   void elements(const Element*& to, std::uint32_t& count, std::uint32_t& to_stride) {
     constexpr TraceElementSize size = trace_element_size<Element>;
@@ -157,9 +157,10 @@ class TraceFieldReader {
 
   template <class Element>
   void take_element(std::size_t stride, Element& to) {
+    to = absent_trace_fields<Element>;
     std::memcpy(&to, in_.take_bytes(stride).data(), std::min(stride, sizeof(Element)));
   }
-  // Calls of format version 1 have no `reserved` before the duration.
+  // Calls of format version 1 have no `other` before the duration.
   void take_element(std::size_t stride, dmrp_call& to) {
     if (version() > 1) return take_element<dmrp_call>(stride, to);
     values(to.kind, to.robot, to.status, to.duration_ns);

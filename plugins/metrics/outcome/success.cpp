@@ -79,12 +79,11 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
     sink.robot("success", robot, success.back());
     sink.robot("safe_success", robot, safe_success.back());
     sink.robot("contact_free_success", robot, contact_free_success.back());
-    if (!succeeded)
-      sink.event({"success",
-                  end.t_ns,
-                  end.t_ns,
-                  {robot_subject(robot)},
-                  "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
+    if (succeeded) continue;
+    std::vector<Subject> robots = {robot_subject(robot)};  // and the culprit
+    if (end.robots[robot].culprit < end.robots.size()) robots.push_back(robot_subject(end.robots[robot].culprit));
+    sink.event({"success", end.t_ns, end.t_ns, robots,
+                "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
   }
   sink.system("success", mean_of_defined(success));
   sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);

@@ -43,7 +43,7 @@ typedef struct dmrp_contact {
   dmrp_vec2 point;
 } dmrp_contact;
 
-// Kinds of call. Open list (recovery.h, referee.h).
+// Kinds of call. Open list (recovery.h, draft/processor_time.h, referee.h).
 #define DMRP_CALL_PLAN 1
 #define DMRP_CALL_CONTROL 2
 #define DMRP_CALL_PEOPLE 3

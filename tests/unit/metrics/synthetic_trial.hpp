@@ -48,6 +48,11 @@ inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b
   return {kind, flags, a, b, 0.01, {0.0, 0.0}};
 }
 
+// The referee's change of a robot's class, for calls().
+inline dmrp_call becomes(std::uint32_t robot, std::uint32_t status, std::uint32_t other = DMRP_NOBODY) {
+  return {DMRP_CALL_CLASS, robot, static_cast<std::int32_t>(status), other, 0};
+}
+
 // An array element as in a later version of the contract: metrics must use the stride.
 template <class Element>
 struct Longer {
@@ -66,11 +71,16 @@ using Points = std::vector<dmrp_vec2>;
 
 class SyntheticTrial {
  public:
-  // Robots are discs of 0.25 m with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
+  // Robots are discs of 0.25 m that drive 1 m/s with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
   // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
   explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
     footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;
-    for (dmrp_robot& robot : robots_) robot.footprint = footprint_.get();
+    limits_->struct_size = sizeof(dmrp_limits);
+    limits_->v_max = 1.0;
+    for (dmrp_robot& robot : robots_) {
+      robot.footprint = footprint_.get();
+      robot.limits = limits_.get();
+    }
     for (std::size_t robot = 0; robot < robot_count; ++robot) route(robot, {0, 0, 0}, {{0, 0, std::nan("")}});
     box("shelf B", {899, 899}, {901, 901});
     walking_grid({-16, -16}, 4.0, std::vector<std::vector<float>>(8, std::vector<float>(8, 5.0F)));
@@ -251,11 +261,13 @@ class SyntheticTrial {
       ends_[robot].element.state = arrived ? DMRP_ROBOT_FINISHED : DMRP_ROBOT_ACTIVE;
       ends_[robot].element.failure = arrived ? DMRP_FAILURE_NONE : DMRP_FAILURE_TIMEOUT;
       ends_[robot].element.arrival_ns = arrived ? nanoseconds(arrival_s) : -1;
+      ends_[robot].element.culprit = DMRP_NOBODY;
     }
     return *this;
   }
-  SyntheticTrial& failure(std::size_t robot, std::uint32_t reason) {
+  SyntheticTrial& failure(std::size_t robot, std::uint32_t reason, std::uint32_t culprit = DMRP_NOBODY) {
     ends_[robot].element.failure = reason;
+    ends_[robot].element.culprit = culprit;
     return *this;
   }
 
@@ -328,6 +340,7 @@ class SyntheticTrial {
 
   // addresses stay when the trial is moved
   std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
+  std::unique_ptr<dmrp_limits> limits_ = std::make_unique<dmrp_limits>();
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
   std::unique_ptr<dmrp_grid> planning_grid_ =

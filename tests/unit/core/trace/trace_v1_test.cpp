@@ -141,7 +141,7 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   CHECK(sample.contacts[0].depth_m == 0.032438300444769974);
   REQUIRE(sample.call_count == 1);
   CHECK(sample.calls[0].kind == DMRP_CALL_PEOPLE);
-  CHECK(sample.calls[0].reserved == 0);
+  CHECK(sample.calls[0].other == 0);
   CHECK(sample.calls[0].duration_ns == 2'293);
 
   REQUIRE(trace.end());
@@ -149,5 +149,7 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   REQUIRE(trace.end()->robot_count == 2);
   CHECK(trace.end()->robots[1].failure == DMRP_FAILURE_TIMEOUT);
   CHECK(trace.end()->robots[1].arrival_ns == -1);
+  CHECK(trace.end()->robots[1].visits == 0);
+  CHECK(trace.end()->robots[1].culprit == DMRP_NOBODY);
   CHECK(trace.reason() == "time limit");
 }
