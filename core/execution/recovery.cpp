@@ -29,7 +29,7 @@ RecoveryLadder::RecoveryLadder(const World& world, std::vector<bool> has_costmap
   assert(has_costmap_.size() == robots_.size());
 }
 
-std::optional<RecoveryAction> RecoveryLadder::act(std::uint32_t robot, bool held) {
+std::optional<RecoveryAction> RecoveryLadder::act(std::uint32_t robot, double gained_m, bool waits) {
   assert(robot < robots_.size());
   Climber& climber = robots_[robot];
   const RobotState& state = world_.robots()[robot];
@@ -38,7 +38,7 @@ std::optional<RecoveryAction> RecoveryLadder::act(std::uint32_t robot, bool held
     return std::nullopt;
   }
   if (climber.phase == Phase::none) {
-    if (!is_stuck(robot, held) || climber.recoveries >= settings().retries) return std::nullopt;
+    if (!is_stuck(robot, gained_m, waits) || climber.recoveries >= settings().retries) return std::nullopt;
     ++climber.recoveries;
     climber.failed = 0;
     if (!begin_step(robot)) return std::nullopt;
@@ -69,20 +69,19 @@ void RecoveryLadder::controller_answered(std::uint32_t robot, bool has_command) 
   climber.controller_fails = now_ns - climber.command_ns > settings().failure_tolerance_ns;
 }
 
-bool RecoveryLadder::is_stuck(std::uint32_t robot, bool held) {
+bool RecoveryLadder::is_stuck(std::uint32_t robot, double gained_m, bool waits) {
   Climber& climber = robots_[robot];
-  const RobotState& state = world_.robots()[robot];
-  const dmrp_vec2 here = toolkit::position(state.pose);
-  if (climber.goal_index != state.goal_index) {
-    climber.goal_index = state.goal_index;
+  const std::uint32_t goal_index = world_.robots()[robot].goal_index;
+  if (climber.goal_index != goal_index) {
+    climber.goal_index = goal_index;
     climber.recoveries = 0;
-    climber.place.reset();
+    climber.gained_m.reset();
   }
-  if (held || !climber.place || toolkit::distance(*climber.place, here) > settings().required_movement_radius_m) {
-    climber.place = here;
-    climber.place_ns = world_.t_ns();
+  if (waits || !climber.gained_m || gained_m - *climber.gained_m > settings().required_movement_radius_m) {
+    climber.gained_m = gained_m;
+    climber.gained_ns = world_.t_ns();
   }
-  return climber.controller_fails || world_.t_ns() - climber.place_ns > settings().movement_time_allowance_ns;
+  return climber.controller_fails || world_.t_ns() - climber.gained_ns > settings().movement_time_allowance_ns;
 }
 
 bool RecoveryLadder::is_able(std::uint32_t robot, RecoveryStep step) const {
@@ -121,7 +120,7 @@ void RecoveryLadder::finish(std::uint32_t robot) {
   Climber& climber = robots_[robot];
   climber.phase = Phase::none;
   climber.begins = false;
-  climber.place.reset();
+  climber.gained_m.reset();
   climber.command_ns = world_.t_ns();
   climber.controller_fails = false;
 }

@@ -28,8 +28,8 @@ struct RecoveryAction {
 
 // The recoveries of all robots in a trial.
 //
-// A recovery begins when its robot has moved no farther than required_movement_radius_m for longer than
-// movement_time_allowance_ns, or when its controller had no command for longer than failure_tolerance_ns, and the robot
+// A recovery begins when its robot has gained (Referee::gained_m()) no more than required_movement_radius_m for longer
+// than movement_time_allowance_ns, or when its controller had no command for longer than failure_tolerance_ns, and the robot
 // has had fewer than `retries` on its way to its present goal. The robot brakes, and takes the step of the ladder after
 // the one that it took last; the first one follows the last. A step that fails hands over to the next one in the same
 // recovery. A recovery is over when a step has succeeded or all have failed, and the robot stands.
@@ -48,8 +48,9 @@ class RecoveryLadder {
   RecoveryLadder(const World& world, std::vector<bool> has_costmap);
 
   // What the robot does until the next control tick; nothing if its controller is to drive, or if it is not active. Call
-  // it at every control tick. `held`: the robot waits for others as the plan says, which is no lack of progress.
-  std::optional<RecoveryAction> act(std::uint32_t robot, bool held);
+  // it at every control tick with what the robot has gained. `waits`: at its goal, or for others as the plan says, which
+  // is no lack of progress.
+  std::optional<RecoveryAction> act(std::uint32_t robot, double gained_m, bool waits);
 
   // What the controller answered at this control tick.
   void controller_answered(std::uint32_t robot, bool has_command);
@@ -67,10 +68,9 @@ class RecoveryLadder {
     std::size_t failed = 0;        // steps of this recovery
     std::uint32_t recoveries = 0;  // on the way to this goal
     std::uint32_t goal_index = 0;
-    // progress
-    std::optional<dmrp_vec2> place;  // where the robot was seen to move last
-    std::int64_t place_ns = 0;
-    std::int64_t command_ns = 0;  // of the controller's last command
+    std::optional<double> gained_m;  // when it was seen to gain last
+    std::int64_t gained_ns = 0;      // that time
+    std::int64_t command_ns = 0;     // of the controller's last command
     bool controller_fails = false;
     // of the step that acts
     std::int64_t step_ns = 0;  // its beginning
@@ -81,7 +81,7 @@ class RecoveryLadder {
 
   const RecoverySettings& settings() const { return world_.settings().recovery; }
   RecoveryStep step_of(const Climber& climber) const { return settings().steps[climber.next]; }
-  bool is_stuck(std::uint32_t robot, bool held);
+  bool is_stuck(std::uint32_t robot, double gained_m, bool waits);
   bool is_able(std::uint32_t robot, RecoveryStep step) const;
   bool begin_step(std::uint32_t robot);
   bool step_failed(std::uint32_t robot);

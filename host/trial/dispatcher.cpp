@@ -211,6 +211,7 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
   return positions;
 }
 
+// Whether the robot is at the last waypoint that the order releases, and waits for others.
 bool Dispatcher::is_held(std::uint32_t robot) const {
   const Course& course = courses_[robot];
   if (course.path.empty() || course.released + 1 == course.path.size() || course.cut < course.released) return false;

@@ -58,9 +58,6 @@ class Dispatcher {
 
   Guidance guidance(std::uint32_t robot) const;
 
-  // Whether the robot is at the last waypoint that the order releases, and waits for others.
-  bool is_held(std::uint32_t robot) const;
-
   // All robots on their courses, valid until the next update or plan.
   std::span<const core::CoursePlace> places() const { return places_; }
 
@@ -85,6 +82,7 @@ class Dispatcher {
   bool by_waypoint() const { return variant_.simulation.dispatch == core::Dispatch::waypoint; }
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
   bool ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const;
+  bool is_held(std::uint32_t robot) const;
   void find_stages(Course& course) const;
   std::int64_t time_on_path_ns(std::uint32_t robot) const;
   void release();

@@ -167,7 +167,9 @@ class Run {
   bool recovers(std::uint32_t robot) {
     if (settings_.recovery.retries == 0) return false;
     const bool recovered = recoveries_.is_recovering(robot);
-    const auto action = recoveries_.act(robot, dispatcher_.is_held(robot));
+    const std::uint32_t now = referee_.class_of(robot);
+    const bool waits = now == DMRP_CLASS_HELD || now == DMRP_CLASS_SETTLING;
+    const auto action = recoveries_.act(robot, referee_.gained_m()[robot], waits);
     if (!action) {
       if (recovered) plugins_.note_recovery(robot, DMRP_RECOVERY_NONE);
       referee_.recovers(robot, false);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/execution/clear_way.hpp"
+#include "core/execution/referee.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
 using namespace dmrp;
@@ -51,14 +52,19 @@ Scenario hall() {
 struct Trial {
   Trial(const Scenario& scenario, const RobotSettings& type, const SimulationSettings& settings,
         bool has_costmap = true)
-      : world(scenario, type, settings, geometry_of(scenario), 1),
+      : geometry(geometry_of(scenario)),
+        grids(*geometry, RobotTypes(type), 1.0, 0.1),
+        world(scenario, type, settings, geometry, 1),
+        referee(world, grids, {}, 1),
+        courses(world.robots().size()),
         ladder(world, std::vector<bool>(world.robots().size(), has_costmap)) {}
 
   void run(double until_s, const Controller& controller = standing, bool held = false) {
-    for (; world.t_ns() < std::llround(until_s * 1e9); world.step(std::vector<dmrp_vec2>(world.people().size()))) {
+    for (; world.t_ns() < std::llround(until_s * 1e9); step()) {
       if (world.t_ns() % world.settings().control_period_ns != 0) continue;
       const double t_s = 1e-9 * static_cast<double>(world.t_ns());
-      if (const auto action = ladder.act(0, held)) {
+      referee.judge_progress(courses);
+      if (const auto action = ladder.act(0, referee.gained_m()[0], held)) {
         if (action->begins) {
           steps.push_back(*action->begins);
           begun_s.push_back(t_s);
@@ -73,9 +79,19 @@ struct Trial {
     }
   }
 
+  void step() {
+    world.step(std::vector<dmrp_vec2>(world.people().size()));
+    referee.command_given(0);
+    referee.judge_arrivals(courses);
+  }
+
   const RobotState& state() const { return world.robots()[0]; }
 
+  std::shared_ptr<const StaticGeometry> geometry;
+  PlanningGrids grids;
   World world;
+  Referee referee;
+  std::vector<CoursePlace> courses;
   RecoveryLadder ladder;
   Steps steps;                  // that began
   std::vector<double> begun_s;  // when
@@ -84,7 +100,7 @@ struct Trial {
 
 }  // namespace
 
-TEST_CASE("a robot that moved no farther than half a metre for ten seconds recovers") {
+TEST_CASE("a robot that gained no more than half a metre for ten seconds recovers") {
   Trial standing_still(hall(), {}, with_ladder({RecoveryStep::wait}));
   standing_still.run(10.05);
   CHECK(standing_still.steps.empty());

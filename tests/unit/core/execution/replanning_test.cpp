@@ -89,5 +89,5 @@ TEST_CASE("inactive robots cause no replanning") {
   ReplanMonitor monitor(settings, 1);
   std::vector<RobotState> robots(1);
   robots[0].state = DMRP_ROBOT_FINISHED;
-  CHECK_FALSE(monitor.due(5 * second_ns, robots, std::vector<PathProgress>(1)));
+  CHECK_FALSE(monitor.due(5 * second_ns, robots, std::vector<double>(1), std::vector<PathProgress>(1)));
 }
