@@ -33,10 +33,10 @@ inline constexpr TraceElementSize trace_element_size<dmrp_call> = {20, 24};
 template <>
 inline constexpr TraceElementSize trace_element_size<dmrp_robot_end> = {16, 16};
 
-// The fields that an element of a trace does not have.
+// The fields that an older trace does not have: zero, unless the contract names another value.
 template <class Element>
-inline constexpr Element absent_trace_fields = {};
+inline constexpr Element absent_fields = {};
 template <>
-inline constexpr dmrp_robot_end absent_trace_fields<dmrp_robot_end> = {0, 0, 0, 0, DMRP_NOBODY};
+inline constexpr dmrp_robot_end absent_fields<dmrp_robot_end> = {0, 0, 0, 0, DMRP_NOBODY};
 
 }  // namespace dmrp::core

@@ -87,8 +87,8 @@ class TraceFieldReader {
     take_array(to, count);
   }
 
-  // Elements that are stored as in memory. Fields that the trace does not have become absent_trace_fields; fields that
-  // it has beyond ours are skipped.
+  // Elements that are stored as in memory. Fields that the trace does not have become absent_fields; fields that it has
+  // beyond ours are skipped.
   template <class Element>
   void elements(const Element*& to, std::uint32_t& count, std::uint32_t& to_stride) {
     constexpr TraceElementSize size = trace_element_size<Element>;
@@ -157,7 +157,7 @@ class TraceFieldReader {
 
   template <class Element>
   void take_element(std::size_t stride, Element& to) {
-    to = absent_trace_fields<Element>;
+    to = absent_fields<Element>;
     std::memcpy(&to, in_.take_bytes(stride).data(), std::min(stride, sizeof(Element)));
   }
   // Calls of format version 1 have no `other` before the duration.

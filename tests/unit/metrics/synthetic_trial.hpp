@@ -71,12 +71,10 @@ using Points = std::vector<dmrp_vec2>;
 
 class SyntheticTrial {
  public:
-  // Robots are discs of 0.25 m that drive 1 m/s with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
+  // Robots are discs of 0.25 m with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
   // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
   explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
     footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;
-    limits_->struct_size = sizeof(dmrp_limits);
-    limits_->v_max = 1.0;
     for (dmrp_robot& robot : robots_) {
       robot.footprint = footprint_.get();
       robot.limits = limits_.get();
@@ -340,7 +338,8 @@ class SyntheticTrial {
 
   // addresses stay when the trial is moved
   std::unique_ptr<dmrp_footprint> footprint_ = std::make_unique<dmrp_footprint>();
-  std::unique_ptr<dmrp_limits> limits_ = std::make_unique<dmrp_limits>();
+  std::unique_ptr<dmrp_limits> limits_ =
+      std::make_unique<dmrp_limits>(dmrp_limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
   std::unique_ptr<dmrp_grid> planning_grid_ =

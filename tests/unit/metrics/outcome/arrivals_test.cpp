@@ -134,8 +134,8 @@ TEST_CASE("the shortest way passes walls at any angle, gaps as wide as the robot
 }
 
 TEST_CASE("success_at counts the robots that succeed within multiples of their least time") {
-  SyntheticTrial trial(4);  // 1 m/s
-  for (std::size_t robot = 0; robot < 4; ++robot) trial.route(robot, {0, 0, 0}, {{10, 0, free_heading}});
+  SyntheticTrial trial(4);  // 8 m at 0.8 m/s
+  for (std::size_t robot = 0; robot < 4; ++robot) trial.route(robot, {0, 0, 0}, {{8, 0, free_heading}});
   trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}, {{0, 0}}});
   trial.end(40.0, {15.0, 15.1, 20.0, 30.0}).failure(3, DMRP_FAILURE_OSCILLATION);
   const Measurement m = measure("dmrp.metric.spl", trial);
