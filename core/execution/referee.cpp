@@ -64,7 +64,9 @@ Referee::Referee(World& world, const PlanningGrids& grids, Settings settings, st
   continues_ = random.uniform() < continued_share;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
     robots_[i].pose = robots_[i].still_pose = world_.robots()[i].pose;
-    if (is_active(i)) begin_goal(i);
+    if (!is_active(i)) continue;
+    begin_goal(i);
+    changes_.push_back({DMRP_CALL_CLASS, i, DMRP_CLASS_MOVING, DMRP_NOBODY, 0});
   }
   judge_arrivals(std::vector<CoursePlace>(robots_.size()));
 }

@@ -91,7 +91,7 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
-  // Changes of class and visits since the last call, as records of the trace (dmrp/referee.h).
+  // Changes of class since the last call, the first of all robots, as records of the trace (dmrp/referee.h).
   std::vector<dmrp_call> take_changes() { return std::move(changes_); }
 
   // The outcome of every robot at the end of the trial.
