@@ -64,7 +64,9 @@ Referee::Referee(World& world, const PlanningGrids& grids, Settings settings, st
   continues_ = random.uniform() < continued_share;
   for (std::uint32_t i = 0; i < robots_.size(); ++i) {
     robots_[i].pose = robots_[i].still_pose = world_.robots()[i].pose;
-    if (is_active(i)) begin_goal(i);
+    if (!is_active(i)) continue;
+    begin_goal(i);
+    changes_.push_back({DMRP_CALL_CLASS, i, DMRP_CLASS_MOVING, DMRP_NOBODY, 0});
   }
   judge_arrivals(std::vector<CoursePlace>(robots_.size()));
 }
@@ -104,6 +106,7 @@ void Referee::judge_arrivals(std::span<const CoursePlace> courses) {
       begin_goal(i);
     } else if (!courses[i].returns) {
       world_.park(i);
+      it.distances.reset();
     } else if (visits) {
       it.waits_since_ns = world_.t_ns();
     }
@@ -239,13 +242,15 @@ void Referee::watch_standstill(std::span<const CoursePlace> courses) {
   if (!still || settings_.replans) still_since_ns_ = world_.t_ns();
 }
 
-// Whether somebody near an active robot has moved by least_progress_m since it last did.
+// Whether somebody near an active robot has moved by least_progress_m since they last did, or will go on as recorded.
 bool Referee::people_stir() {
   bool stir = false;
-  for (const dmrp_agent& person : world_.person_agents()) {
-    const dmrp_vec2 here = toolkit::position(person.pose);
-    const auto [known, is_new] = people_.try_emplace(person.id, here);
-    if (!is_new && toolkit::distance(known->second, here) < least_progress_m) continue;
+  const auto people = world_.person_agents();
+  for (std::size_t place = 0; place < people.size(); ++place) {
+    const dmrp_vec2 here = toolkit::position(people[place].pose);
+    const auto [known, is_new] = people_.try_emplace(people[place].id, here);
+    const bool stands = !is_new && toolkit::distance(known->second, here) < least_progress_m;
+    if (stands && !world_.is_recorded(place)) continue;
     known->second = here;
     for (std::uint32_t i = 0; i < robots_.size() && !stir; ++i)
       stir = is_active(i) && toolkit::distance(toolkit::position(world_.robots()[i].pose), here) < neighbourhood_m;

@@ -91,7 +91,7 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
-  // Changes of class and visits since the last call, as records of the trace (dmrp/referee.h).
+  // Changes of class since the last call, the first of all robots, as records of the trace (dmrp/referee.h).
   std::vector<dmrp_call> take_changes() { return std::move(changes_); }
 
   // The outcome of every robot at the end of the trial.
@@ -111,10 +111,10 @@ class Referee {
     double turned_rad;
   };
   struct Watched {
-    std::shared_ptr<const GoalDistances> distances;
-    double nearest_m = 0.0;          // the least distance to the goal so far
-    std::optional<double> credit_m;  // unset until a course leads to the goal
-    std::uint64_t course = 0;        // of arc_m
+    std::shared_ptr<GoalDistances> distances;  // of an active robot
+    double nearest_m = 0.0;                    // the least distance to the goal so far
+    std::optional<double> credit_m;            // unset until a course leads to the goal
+    std::uint64_t course = 0;                  // of arc_m
     double arc_m = 0.0;
     std::deque<Moment> window;  // up to the latest moment that is a whole window old
     double travelled_m = 0.0;

@@ -15,11 +15,11 @@
 //   array of elements             u32 count · u32 stride · the elements as in memory
 //   ... that point to something   u32 count · each element as a block
 //
-// New fields are appended to a block or an element. A reader takes those that are missing as zero and skips those that
-// it does not know. A new kind of record or any other change of the layout makes a new format version.
+// New fields are appended to a block or an element. A reader takes those that are missing as zero (the culprit of a
+// robot's end as DMRP_NOBODY) and skips those that it does not know. A new kind of record or any other change of the layout makes a new format version.
 //
 // Version 1, of the contract's first draft, is read too. It has neither strides nor lengths of structs; people of 112
-// bytes, waypoints and calls without `reserved`, footprints of one polygon, and a second grid after the planning grid.
+// bytes, waypoints without `reserved`, calls without `other`, footprints of one polygon, and a second grid after the planning grid.
 #pragma once
 
 #include <cstddef>

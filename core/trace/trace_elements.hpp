@@ -40,5 +40,7 @@ inline constexpr Element absent_fields = {};
 template <>
 inline constexpr dmrp_contact absent_fields<dmrp_contact> = {
     0, 0, 0, 0, 0.0, {0.0, 0.0}, std::numeric_limits<double>::quiet_NaN()};
+template <>
+inline constexpr dmrp_robot_end absent_fields<dmrp_robot_end> = {0, 0, 0, 0, DMRP_NOBODY};
 
 }  // namespace dmrp::core

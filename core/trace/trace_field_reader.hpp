@@ -160,7 +160,7 @@ class TraceFieldReader {
     to = absent_fields<Element>;
     std::memcpy(&to, in_.take_bytes(stride).data(), std::min(stride, sizeof(Element)));
   }
-  // Calls of format version 1 have no `reserved` before the duration.
+  // Calls of format version 1 have no `other` before the duration.
   void take_element(std::size_t stride, dmrp_call& to) {
     if (version() > 1) return take_element<dmrp_call>(stride, to);
     values(to.kind, to.robot, to.status, to.duration_ns);

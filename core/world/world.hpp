@@ -65,6 +65,9 @@ class World {
   // The input of pedestrian models, by slot: parallel to person_agents().
   std::span<const dmrp_person> people() const { return population_.people(); }
 
+  // Whether the person at this place of people() follows a track.
+  bool is_recorded(std::size_t place) const { return population_.is_recorded(place); }
+
   // There are no robots and no people, and no people will appear.
   bool is_deserted() const { return robots_.empty() && population_.is_over(t_ns_); }
 

@@ -100,7 +100,7 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
     if (std::find(answer.cells.begin(), answer.cells.end(), cell) == answer.cells.end()) continue;
     robots += other.robots;
     for (const FailureCause& cause : other.causes) add_cause(causes, cause);
-    add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials});
+    add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials, 0});
   }
   std::uint32_t unsafe = 0;
   for (const FailureCause& cause : causes) unsafe += cause.robots;

@@ -2,15 +2,21 @@
 #include "host/ranking/failure_causes.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace dmrp::host {
 namespace {
 
-void count(std::vector<FailureCause>& causes, const std::string& cause, std::uint32_t robots, std::uint64_t trial) {
-  auto found = std::find_if(causes.begin(), causes.end(), [&](const FailureCause& one) { return one.cause == cause; });
-  if (found == causes.end()) found = causes.insert(causes.end(), {cause, 0, {}});
-  found->robots += robots;
-  if (found->trials.empty() || found->trials.back() != trial) found->trials.push_back(trial);
+FailureCause& found_or_added(std::vector<FailureCause>& causes, const std::string& cause) {
+  const auto found =
+      std::find_if(causes.begin(), causes.end(), [&](const FailureCause& one) { return one.cause == cause; });
+  return found != causes.end() ? *found : causes.emplace_back(FailureCause{cause, 0, {}, 0});
+}
+
+void count(FailureCause& cause, std::uint32_t robots, std::uint64_t trial) {
+  cause.robots += robots;
+  if (cause.trials.empty() || cause.trials.back() != trial) cause.trials.push_back(trial);
 }
 
 void sort_by_frequency(std::vector<FailureCause>& causes) {
@@ -37,17 +43,19 @@ std::vector<std::uint64_t> robots_with(const TrialRecord& trial, const std::stri
 
 void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const TrialRecord& trial) {
   failures.robots += trial.robots;
-  if (trial.outcome == trial_outcome::fault) return count(failures.causes, "fault", trial.robots, trial.id);
-  for (const MetricEvent& event : trial.events)
-    if (event.metric == layout.arrived) count(failures.causes, cause_of(event), 1, trial.id);
+  if (trial.outcome == trial_outcome::fault)
+    return count(found_or_added(failures.causes, "fault"), trial.robots, trial.id);
+  std::set<std::pair<std::string, std::uint32_t>> roots;  // by cause
+  for (const MetricEvent& event : trial.events) {
+    if (event.metric != layout.arrived) continue;
+    FailureCause& cause = found_or_added(failures.causes, cause_of(event));
+    count(cause, 1, trial.id);
+    if (event.robots.size() > 1 && roots.emplace(cause.cause, event.robots[1]).second) ++cause.roots;
+  }
   if (layout.answer.shares.empty()) return;
   const auto arrived = robots_with(trial, layout.arrived, 1.0);
   for (const std::uint64_t robot : robots_with(trial, layout.answer.shares.front(), 0.0))
-    if (std::binary_search(arrived.begin(), arrived.end(), robot)) {
-      ++failures.contact.robots;
-      if (failures.contact.trials.empty() || failures.contact.trials.back() != trial.id)
-        failures.contact.trials.push_back(trial.id);
-    }
+    if (std::binary_search(arrived.begin(), arrived.end(), robot)) count(failures.contact, 1, trial.id);
 }
 
 }  // namespace
@@ -59,7 +67,7 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
     const CombinationLabels labels = combination_of(trial);
     auto found = std::find_if(failures.begin(), failures.end(),
                               [&](const CombinationFailures& one) { return one.combination == labels; });
-    if (found == failures.end()) found = failures.insert(failures.end(), {labels, 0, {}, {"contact", 0, {}}});
+    if (found == failures.end()) found = failures.insert(failures.end(), {labels, 0, {}, {"contact", 0, {}, 0}});
     add_trial(*found, layout, trial);
   }
   for (CombinationFailures& one : failures) sort_by_frequency(one.causes);
@@ -67,16 +75,19 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
 }
 
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause) {
-  auto found = std::find_if(causes.begin(), causes.end(), [&](const auto& one) { return one.cause == cause.cause; });
-  if (found == causes.end()) found = causes.insert(causes.end(), {cause.cause, 0, {}});
-  found->robots += cause.robots;
+  FailureCause& sum = found_or_added(causes, cause.cause);
+  sum.robots += cause.robots;
+  sum.roots += cause.roots;
 }
 
 std::string cause_words(std::vector<FailureCause> causes) {
   sort_by_frequency(causes);
   std::string words;
-  for (const FailureCause& cause : causes)
-    if (cause.robots > 0) words += (words.empty() ? "" : ", ") + std::to_string(cause.robots) + " " + cause.cause;
+  for (const FailureCause& cause : causes) {
+    if (cause.robots == 0) continue;
+    words += (words.empty() ? "" : ", ") + std::to_string(cause.robots) + " " + cause.cause;
+    if (cause.roots > 0) words += " (roots: " + std::to_string(cause.roots) + ")";
+  }
   return words;
 }
 

@@ -17,6 +17,7 @@ struct FailureCause {
   std::string cause;  // as the event of the failure says, "fault" for robots of a trial that ended in one
   std::uint32_t robots = 0;
   std::vector<std::uint64_t> trials;  // ids
+  std::uint32_t roots = 0;            // robots that hold or block these: those that the events name second
 };
 
 struct CombinationFailures {
@@ -32,10 +33,10 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
 // Adds the robots of a cause to a list.
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause);
 
-// "212 deadlock, 34 oscillation", the most frequent first; "" without robots.
+// "9 held behind another robot (roots: 2), 3 stuck", the most frequent first; "" without robots.
 std::string cause_words(std::vector<FailureCause> causes);
 
-// "246 did not arrive: 212 deadlock, 34 oscillation"; "" if all arrived.
+// "12 did not arrive: 9 held behind another robot (roots: 2), 3 stuck"; "" if all arrived.
 std::string failures_line(std::span<const CombinationFailures> failures);
 
 }  // namespace dmrp::host

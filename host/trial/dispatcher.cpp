@@ -140,6 +140,10 @@ void Dispatcher::release() {
   for (std::uint32_t i = 0; i < courses_.size(); ++i) {
     const Course& course = courses_[i];
     if (course.path.empty()) continue;
+    if (world_.robots()[i].state == DMRP_ROBOT_FINISHED) {  // it leaves its last cell no more, however it came there
+      dependencies_.reached(i, dependencies_.last_stage(i));
+      continue;
+    }
     const std::uint32_t passed = progress_[i].waypoint();
     const std::uint32_t next = std::min<std::uint32_t>(passed + 1, course.released);
     if (progress_[i].has_begun() || is_near(i, course.path[0])) dependencies_.reached(i, course.stages[passed]);

@@ -12,6 +12,7 @@
 #include "metrics/interaction/person_standoff.hpp"
 #include "metrics/outcome/arrivals.hpp"
 #include "metrics/outcome/completion_time.hpp"
+#include "metrics/outcome/first_cause.hpp"
 #include "metrics/outcome/path_length.hpp"
 #include "metrics/outcome/planning_time.hpp"
 #include "metrics/outcome/speed.hpp"
@@ -37,7 +38,7 @@
 // The order of lists and documents, and of measurement where an experiment names no metrics.
 DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::PlanningTime,
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Arrivals, dmrp::metrics::Spl,
-             dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
+             dmrp::metrics::FirstCause, dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
              dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::RootConflicts,
              dmrp::metrics::Collisions, dmrp::metrics::BrakingResponse, dmrp::metrics::Clearance,
              dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock,

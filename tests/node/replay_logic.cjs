@@ -47,7 +47,8 @@ function packed() {
       {
         ...robot(1),
         arrival: undefined,
-        failure: 'deadlock',
+        failure: 'held behind another robot',
+        culprit: 0,
         state: [0, 0, 2, 2],
         scans: {first: 0, step: 1570796, beams: 4, samples: [0, 2], ranges: [100, -100, 200, 0, 0, 0, 0, 300]},
       },
@@ -92,7 +93,7 @@ function packed() {
     events: [
       {metric: 'blocking', from: 0, to: 200, robots: [0, 1], text: 'they block each other'},
       {metric: 'touches', from: 100, to: 200, robots: [0, 1], text: 'robot 0 and robot 1'},
-      {metric: 'done', from: 200, to: 200, robots: [1], text: 'robot 1 failed: deadlock'},
+      {metric: 'done', from: 200, to: 200, robots: [1, 0], text: 'robot 1 failed: held behind another robot'},
     ],
     end: {t: 240, reason: 'time limit'},
   };
@@ -204,7 +205,7 @@ const tests = {
       [0, 'metric', 'they block each other'],
       [0.1, 'plan', 'the planner returned no plan'],
       [0.1, 'contact', 'robot 0 and robot 1 touch at 0.42 m/s: both at fault'],
-      [0.2, 'failure', 'robot 1 failed: deadlock'],
+      [0.2, 'failure', 'robot 1 failed: held behind another robot, robot 0'],
       [0.22, 'contact', 'robot 1 and the border touch: robot 1 at fault'],
       [0.24, 'arrival', 'robot 0 arrived'],
     ]);

@@ -99,7 +99,8 @@ class MetricCalls {
     inputs_.clear();
     const bool failed = stage_.settings.fails_to_plan;
     const std::vector<dmrp_robot_end> ends(
-        robot_count_, {DMRP_ROBOT_ACTIVE, failed ? std::uint32_t{DMRP_FAILURE_NO_PLAN} : DMRP_FAILURE_TIMEOUT, -1});
+        robot_count_,
+        {DMRP_ROBOT_ACTIVE, failed ? std::uint32_t{DMRP_FAILURE_NO_PLAN} : DMRP_FAILURE_TIMEOUT, -1, 0, DMRP_NOBODY});
     const dmrp_trial_end* const end = inputs_.one(
         dmrp_trial_end{0, failed ? std::uint32_t{DMRP_ENDING_NO_PLAN} : DMRP_ENDING_TIME_LIMIT, stage_.world.t_ns(),
                        inputs_.array(ends.data(), ends.size()), robot_count_, inputs_.stride<dmrp_robot_end>()});

@@ -126,7 +126,7 @@ Json answer_json(const Answer& answer, std::span<const CombinationFailures> fail
 }
 
 Json cause_json(const FailureCause& cause) {
-  return {{"cause", cause.cause}, {"robots", cause.robots}, {"trials", cause.trials}};
+  return {{"cause", cause.cause}, {"robots", cause.robots}, {"roots", cause.roots}, {"trials", cause.trials}};
 }
 
 Json failures_json(const CombinationFailures& failures) {

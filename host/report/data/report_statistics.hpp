@@ -10,7 +10,7 @@
 //                     words, against: [{observations, mean, low, high, p_holm}]}]}]: answer.hpp; the first is over
 //                     everything
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
-//   failures          [{combination: labels, robots, causes: [{cause, robots, trials}], contact: {likewise}}],
+//   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp
 //   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
 //                     ties_share}]

@@ -116,6 +116,7 @@ void write_end_of_robot(json& robot, const dmrp_robot_end& end) {
                                                     "blocked by a robot",
                                                     "stuck"};  // by DMRP_FAILURE_*
   if (end.failure != DMRP_FAILURE_NONE && end.failure < failures.size()) robot["failure"] = failures.at(end.failure);
+  if (end.culprit != DMRP_NOBODY) robot["culprit"] = end.culprit;
   if (end.arrival_ns >= 0) robot["arrival"] = milliseconds(end.arrival_ns);
 }
 

@@ -17,7 +17,8 @@
 //                "speed": D,                        negative backwards; ends with the robot's task,
 //                "deviation": D,                    as does the distance from the current path; -1 without a path
 //                "scans"?: {"first", "step", "beams", "samples": D, "ranges": []},       if recorded: see below
-//                "failure"?, "arrival"?}],          "deadlock", ..., or the time of arrival
+//                "failure"?, "culprit"?, "arrival"?}],     "stuck", ..., by the robot that holds or blocks it, or
+//                                                   the time of arrival
 //    "people": [{"id", "group", "radius", "from", "x": D, "y": D}],     from sample `from` on
 //    "plans": [{"revision", "made", "from", "paths": [{"x": D, "y": D, "t": D}]}],   no paths: the planner returned no plan
 //    "plan": R,                                     index of the current plan, -1 for none

@@ -1,54 +1,61 @@
 // SPDX-License-Identifier: MIT
 #include "metrics/interaction/blocked_time.hpp"
 
-#include <cmath>
-
 #include "metrics/measure/describe_metric.hpp"
 #include "metrics/measure/in_seconds.hpp"
 #include "metrics/measure/per_robot.hpp"
-#include "metrics/measure/speed_of.hpp"
 
 namespace dmrp::metrics {
-namespace {
-
-constexpr double moving_speed = 0.01;  // m/s
-
-}  // namespace
 
 Descriptor BlockedTime::describe() {
+  const auto lower = Direction::lower_is_better;
+  const auto both = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.blocked_time", "Blocked time")
-      .summary("time without progress along the path")
-      .source("own definition; waits that the plan demands count too")
-      .value(
-          "blocked_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
-          "length of the union of all windows of window_s, after the robot first moved (|v| >= 0.01 m/s) and while it "
-          "is active, in which it progressed by less than progress_m along its paths; undefined if planning failed");
+      .summary("time without progress, by its cause, as the host's referee sees it")
+      .source("own definition: sums over the classes of dmrp/referee.h")
+      .value("blocked_time", "s", lower, both,
+             "active time of a robot that may drive and gained less than 0.2 m in its last 20 s: the sum of the next "
+             "three; undefined if planning failed, as all of these, and in traces of hosts before the referee")
+      .value("blocked_time_person", "s", lower, both, "of this, with a person first on the next metre of its course")
+      .value("blocked_time_robot", "s", lower, both, "of this, with a robot first there")
+      .value("blocked_time_stuck", "s", lower, both, "of this, with nobody there")
+      .value("held_time", "s", lower, both,
+             "active time in which the plan's order lets the robot wait for another (execution = \"ordered\")")
+      .value("circling_time", "s", lower, both,
+             "blocked time in which the robot travelled over 1 m or turned over 4 pi in its last 20 s");
 }
 
 void BlockedTime::begin(const dmrp_plan*) {
-  active_.begin(world().robots().size());
-  robots_.assign(world().robots().size(), {});
-  for (RobotProgress& robot : robots_) robot.progress.begin(std::llround(window_s * 1e9));
+  classes_.begin(world().robots().size());
+  times_.assign(world().robots().size(), {});
 }
 
 void BlockedTime::observe(const Sample& sample) {
-  active_.observe(sample);
-  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
-    if (!active_.in_step(robot)) continue;
-    RobotProgress& state = robots_[robot];
-    const RobotSample& now = sample.robots[robot];
-    state.measured = true;
-    state.started = state.started || speed_of(now) >= moving_speed;
-    if (!state.started) continue;
-    state.progress.observe(sample, now);
-    if (state.progress.stalls(progress_m)) state.blocked.add(state.progress.since_ns(), sample.t_ns);
+  classes_.observe(sample);
+  for (std::size_t robot = 0; robot < times_.size(); ++robot) {
+    const auto now = classes_.in_step(robot);
+    if (!now) continue;
+    Times& times = times_[robot];
+    times.measured = true;
+    if (now->kind < times.ns.size()) times.ns[now->kind] += sample.dt_ns;
+    if (now->circles) times.circling_ns += sample.dt_ns;
   }
 }
 
 void BlockedTime::finish(const TrialEnd&, MetricSink& sink) {
-  give_mean(sink, "blocked_time", values_of(robots_, [](const RobotProgress& state) {
-              return state.measured ? in_seconds(state.blocked.value_ns()) : undefined;
-            }));
+  const auto give_time = [&](const char* name, auto&& ns_of) {
+    give_mean(sink, name, values_of(times_, [&](const Times& times) {
+                return times.measured ? in_seconds(ns_of(times)) : undefined;
+              }));
+  };
+  give_time("blocked_time", [](const Times& times) {
+    return times.ns[DMRP_CLASS_BLOCKED_PERSON] + times.ns[DMRP_CLASS_BLOCKED_ROBOT] + times.ns[DMRP_CLASS_STUCK];
+  });
+  give_time("blocked_time_person", [](const Times& times) { return times.ns[DMRP_CLASS_BLOCKED_PERSON]; });
+  give_time("blocked_time_robot", [](const Times& times) { return times.ns[DMRP_CLASS_BLOCKED_ROBOT]; });
+  give_time("blocked_time_stuck", [](const Times& times) { return times.ns[DMRP_CLASS_STUCK]; });
+  give_time("held_time", [](const Times& times) { return times.ns[DMRP_CLASS_HELD]; });
+  give_time("circling_time", [](const Times& times) { return times.circling_ns; });
 }
 
 }  // namespace dmrp::metrics

@@ -1,40 +1,34 @@
 // SPDX-License-Identifier: MIT
-// blocked_time.hpp: the time in which robots make no progress after they first moved.
+// blocked_time.hpp: the time in which robots make no progress, by its cause.
 #pragma once
 
+#include <dmrp/referee.h>
+
+#include <array>
+#include <cstdint>
 #include <dmrp/plugin.hpp>
 #include <vector>
 
-#include "metrics/measure/active_steps.hpp"
-#include "metrics/measure/recent_progress.hpp"
-#include "metrics/measure/time_span.hpp"
+#include "metrics/measure/referee_classes.hpp"
 
 namespace dmrp::metrics {
 
 class BlockedTime final : public Metric {
  public:
   static Descriptor describe();
-  Param<double> window_s = param("window_s", 2.0)
-                               .unit("s")
-                               .range(0.001, 1000.0)
-                               .doc("a robot without progress for this time counts as blocked");
-  Param<double> progress_m =
-      param("progress_m", 0.1).unit("m").range(0.0, 100.0).doc("less than this within a window is no progress");
-
   void begin(const dmrp_plan* plan) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  struct RobotProgress {
-    bool measured = false;  // was active in at least one step
-    bool started = false;
-    RecentProgress progress;
-    UnionLength blocked;
+  struct Times {
+    bool measured = false;                                   // was active in at least one step
+    std::array<std::int64_t, DMRP_CLASS_STUCK + 1> ns = {};  // by class
+    std::int64_t circling_ns = 0;
   };
 
-  ActiveSteps active_;
-  std::vector<RobotProgress> robots_;  // by robot
+  RefereeClasses classes_;
+  std::vector<Times> times_;  // by robot
 };
 
 }  // namespace dmrp::metrics

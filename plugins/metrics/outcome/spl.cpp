@@ -2,11 +2,14 @@
 #include "metrics/outcome/spl.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/in_seconds.hpp"
 #include "metrics/measure/per_robot.hpp"
+#include "metrics/measure/thresholds.hpp"
 #include "metrics/outcome/shortest_way.hpp"
 
 namespace dmrp::metrics {
@@ -14,6 +17,12 @@ namespace {
 
 // The size of the walking grid's cells.
 constexpr double cell_m = 0.25;
+
+const std::vector<double> least_times = {1.5, 2.0, 3.0};
+
+bool succeeded(const RobotEnd& end) {
+  return end.arrival_ns >= 0 && end.failure == DMRP_FAILURE_NONE;
+}
 
 }  // namespace
 
@@ -26,6 +35,9 @@ Descriptor Spl::describe() {
       .value("shortest_length", "m", Direction::none, Subjects::system_and_robots,
              "l: the shortest way of the robot's disc from its start through its goals among the static shapes, within "
              "about 1 %; system: sum over robots; undefined if there is no way")
+      .value("success_at", "1", Direction::higher_is_better, Subjects::system,
+             "share of robots that succeed within 1.5, 2 and 3 times their least time, shortest_length at v_max")
+      .curve()
       .needs(DMRP_EXT_WALKING_GRID);
 }
 
@@ -51,13 +63,21 @@ void Spl::finish(const TrialEnd& end, MetricSink& sink) {
   std::vector<double> spl, shortest_m;
   for (std::size_t robot = 0; robot < world().robots().size(); ++robot) {
     shortest_m.push_back(search.tour_length(world().robots()[robot]));
-    const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
     const double longer_m = std::max(driven_.of_robot(robot), shortest_m.back());
     const double ratio = longer_m == 0.0 ? 1.0 : shortest_m.back() / longer_m;
-    spl.push_back(succeeded ? ratio : 0.0);
+    spl.push_back(succeeded(end.robots[robot]) ? ratio : 0.0);
   }
   give_mean(sink, "spl", spl);
   give(sink, "shortest_length", shortest_m, &sum_of_defined);
+  give_curve(sink, "success_at", least_times, [&](double multiple) {
+    std::vector<double> in_time;
+    for (std::size_t robot = 0; robot < shortest_m.size(); ++robot) {
+      const double limit_s = multiple * shortest_m[robot] / world().robots()[robot].limits->v_max;
+      const bool arrives = succeeded(end.robots[robot]) && in_seconds(end.robots[robot].arrival_ns) <= limit_s;
+      in_time.push_back(std::isnan(limit_s) ? undefined : arrives ? 1.0 : 0.0);
+    }
+    return mean_of_defined(in_time);
+  });
 }
 
 }  // namespace dmrp::metrics

@@ -74,18 +74,17 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
   std::vector<double> success, safe_success, contact_free_success;
   bool all = true;
   for (std::size_t robot = 0; robot < at_fault_.size(); ++robot) {
-    // a robot that oscillated counts as failed even if it arrived later
+    // a robot that circled may be excluded though it arrived
     const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
     all = all && succeeded;
     success.push_back(succeeded ? 1.0 : 0.0);
     safe_success.push_back(succeeded && !at_fault_[robot] ? 1.0 : 0.0);
     contact_free_success.push_back(succeeded && !touched_[robot] ? 1.0 : 0.0);
-    if (!succeeded)
-      sink.event({"success",
-                  end.t_ns,
-                  end.t_ns,
-                  {robot_subject(robot)},
-                  "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
+    if (succeeded) continue;
+    std::vector<Subject> robots = {robot_subject(robot)};  // and the culprit
+    if (end.robots[robot].culprit < end.robots.size()) robots.push_back(robot_subject(end.robots[robot].culprit));
+    sink.event({"success", end.t_ns, end.t_ns, robots,
+                "robot " + std::to_string(robot) + " failed: " + reason(end.robots[robot].failure)});
   }
   give_mean(sink, "success", success);
   sink.system("trial_success", success.empty() ? undefined : all ? 1.0 : 0.0);

@@ -18,5 +18,6 @@
 #include "metric.h"
 #include "pedestrian_model.h"
 #include "recovery.h"
+#include "referee.h"
 
 #endif

@@ -8,8 +8,9 @@
 #include "trial_end.h"
 
 // A kind of dmrp_call, beside those of sample.h. No call: the class of the active robot `robot` is `status` from this
-// control tick on; `other` is the robot that holds or blocks it, or DMRP_NOBODY. The class at the start is MOVING.
-#define DMRP_CALL_CLASS 6
+// control tick on; `other` is the robot that holds or blocks it, or DMRP_NOBODY. The first sample has the class of every
+// active robot, MOVING, later ones have changes.
+#define DMRP_CALL_CLASS 7
 
 // What an active robot does: exactly one of these, and bits. Open list.
 #define DMRP_CLASS_MOVING 0      // gained 0.2 m in its last 20 s, or begins

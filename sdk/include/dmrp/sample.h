@@ -46,7 +46,7 @@ typedef struct dmrp_contact {
   double impact_speed;  // m/s, relative, along the normal, 0 or more; NaN: not the first sample of its event
 } dmrp_contact;
 
-// Kinds of call. Open list (recovery.h, referee.h).
+// Kinds of call. Open list (recovery.h, draft/processor_time.h, referee.h).
 #define DMRP_CALL_PLAN 1
 #define DMRP_CALL_CONTROL 2
 #define DMRP_CALL_PEOPLE 3

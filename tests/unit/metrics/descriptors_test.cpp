@@ -46,14 +46,22 @@ std::map<std::string, double> read_parameters(const std::string& file, const dmr
 
 TEST_CASE("the metrics declare the values that results are read by, each once") {
   // properties of the crowd and of the task are neither better nor worse
-  const std::set<std::string> neither_better_nor_worse = {
-      "people_nearby",         "sto_cell_size",          "shortest_length",          "neighbours",
-      "schedule_error_s",      "proxemics_social",       "pedestrian_desired_speed", "root_conflicts",
-      "root_conflicts_waited", "root_conflicts_detoured"};
+  const std::set<std::string> neither_better_nor_worse = {"first_cause",
+                                                          "culprit",
+                                                          "people_nearby",
+                                                          "sto_cell_size",
+                                                          "shortest_length",
+                                                          "neighbours",
+                                                          "schedule_error_s",
+                                                          "proxemics_social",
+                                                          "pedestrian_desired_speed",
+                                                          "root_conflicts",
+                                                          "root_conflicts_waited",
+                                                          "root_conflicts_detoured"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
-  const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance", "ibtr_by_speed_fraction",
-                                        "ldf_by_distance", "pedestrian_progress"};
+  const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance",    "ibtr_by_speed_fraction",
+                                        "ldf_by_distance", "pedestrian_progress", "success_at"};
   std::map<std::string, std::string> units;
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
     const dmrp_descriptor& descriptor = *entry().descriptor(i);
@@ -124,7 +132,16 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"danger_time_person", "%"},
                                                        {"ttc_min", "s"},
                                                        {"ttc_low_time", "%"},
+                                                       {"success_at", "1"},
+                                                       {"first_cause", "1"},
+                                                       {"culprit", "1"},
+                                                       {"held_behind", "1"},
                                                        {"blocked_time", "s"},
+                                                       {"blocked_time_person", "s"},
+                                                       {"blocked_time_robot", "s"},
+                                                       {"blocked_time_stuck", "s"},
+                                                       {"held_time", "s"},
+                                                       {"circling_time", "s"},
                                                        {"deadlocks", "1"},
                                                        {"deadlock_time", "s"},
                                                        {"person_standoff", "1"},
@@ -177,7 +194,8 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
                                       "mission_time",
                                       "throughput",
                                       "contact_free_success",
-                                      "braking_response_success"};
+                                      "braking_response_success",
+                                      "success_at"};
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
     const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name has a value
     CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));
@@ -196,9 +214,10 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
 TEST_CASE("in a trial with a plan, only values without events or people are undefined") {
   SyntheticTrial trial(2);  // nobody moves, nobody arrives
   trial.planning_grid(6, 1).plan({{{0, 0}, {1, 0}}, {{5, 0}}});
-  for (int t = 0; t <= 3; ++t) trial.sample(t, {at(0, 0), at(5, 0)});
+  for (int t = 0; t <= 3; ++t)
+    trial.sample(t, {at(0, 0), at(5, 0)}).calls({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
   trial.end(3.0, {never, never});
-  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan"};
+  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit"};
   const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
                                            "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",

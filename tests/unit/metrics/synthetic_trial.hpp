@@ -48,6 +48,11 @@ inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b
   return {kind, flags, a, b, 0.01, {0.0, 0.0}, std::nan("")};
 }
 
+// The referee's change of a robot's class, for calls().
+inline dmrp_call becomes(std::uint32_t robot, std::uint32_t status, std::uint32_t other = DMRP_NOBODY) {
+  return {DMRP_CALL_CLASS, robot, static_cast<std::int32_t>(status), other, 0};
+}
+
 // An array element as in a later version of the contract: metrics must use the stride.
 template <class Element>
 struct Longer {
@@ -254,11 +259,13 @@ class SyntheticTrial {
       ends_[robot].element.state = arrived ? DMRP_ROBOT_FINISHED : DMRP_ROBOT_ACTIVE;
       ends_[robot].element.failure = arrived ? DMRP_FAILURE_NONE : DMRP_FAILURE_TIMEOUT;
       ends_[robot].element.arrival_ns = arrived ? nanoseconds(arrival_s) : -1;
+      ends_[robot].element.culprit = DMRP_NOBODY;
     }
     return *this;
   }
-  SyntheticTrial& failure(std::size_t robot, std::uint32_t reason) {
+  SyntheticTrial& failure(std::size_t robot, std::uint32_t reason, std::uint32_t culprit = DMRP_NOBODY) {
     ends_[robot].element.failure = reason;
+    ends_[robot].element.culprit = culprit;
     return *this;
   }
 

@@ -52,7 +52,7 @@ function robot_events(replay) {
         kind: 'failure',
         t: failure_time(replay, robot),
         robot,
-        text: `robot ${robot.index} failed: ${robot.failure}`,
+        text: `robot ${robot.index} failed: ${robot.failure}${robot.culprit === null ? '' : `, robot ${robot.culprit}`}`,
       });
   }
   return list.map(({kind, t, robot, text}) => ({
@@ -60,7 +60,7 @@ function robot_events(replay) {
     lane: 'robots',
     from: t,
     to: t,
-    robots: [robot.index],
+    robots: robot.culprit === null ? [robot.index] : [robot.index, robot.culprit],
     at: null,
     text,
   }));

@@ -77,6 +77,7 @@ function robot(packed, index, count) {
     deviation: deltas(packed.deviation).map((value) => (value < 0 ? NaN : value)),
     scans: scans(packed.scans, count),
     failure: packed.failure || '',
+    culprit: packed.culprit ?? null,
     arrival: packed.arrival === undefined ? null : packed.arrival / 1000,
   };
 }

@@ -39,6 +39,11 @@ export function open(data, cell, note) {
     'if the run kept its trace.';
 }
 
+// "9 (roots: 2)"
+export function count_words(cell) {
+  return cell.roots > 0 ? `${cell.robots} (roots: ${cell.roots})` : String(cell.robots);
+}
+
 function count_element(data, cell, note) {
   if (cell.robots === 0) return element('td', {class: 'number none'}, '\u2013');
   const title = `${numbers.counted(cell.trials.length, 'trial')}: ${cell.trials.slice(0, 8).join(', ')}${
@@ -47,7 +52,7 @@ function count_element(data, cell, note) {
   return element(
     'td',
     {class: 'number'},
-    element('button', {type: 'button', class: 'count', title, onclick: () => open(data, cell, note)}, String(cell.robots))
+    element('button', {type: 'button', class: 'count', title, onclick: () => open(data, cell, note)}, count_words(cell))
   );
 }
 
@@ -131,8 +136,9 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Numbers of robots; a number opens the replay of such a trial. Contact: robots that arrived, but touched somebody ' +
-        'or something by their own fault. Combinations without either are left out.'
+      'Numbers of robots; a number opens the replay of such a trial. Roots: the robots that hold or block these, ' +
+        'through all that wait. Contact: robots that arrived, but touched somebody or something by their own fault. ' +
+        'Combinations without either are left out.'
     ),
     note,
     by_type

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dmrp/descriptor.h>
+#include <dmrp/referee.h>
 #include <dmrp/sample.h>
 #include <dmrp/status.h>
 #include <dmrp/trial_end.h>
@@ -112,7 +113,7 @@ struct ExampleSample {
   std::array<dmrp_robot_sample, 2> robots{};
   std::array<dmrp_person, 2> people{};
   std::array<dmrp_contact, 2> contacts{};
-  std::array<dmrp_call, 3> calls{};
+  std::array<dmrp_call, 4> calls{};
   dmrp_sample sample{};
 
   ExampleSample(std::int64_t k, const dmrp_plan* plan) {
@@ -128,7 +129,8 @@ struct ExampleSample {
     contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}, std::nan("")};
     calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
     calls[1] = {DMRP_CALL_CONTROL, 1, DMRP_NO_SOLUTION, 0, 11'000};
-    calls[2] = {DMRP_CALL_PEOPLE, 0, DMRP_OK, 0, 3'000};
+    calls[2] = {DMRP_CALL_CLASS, 0, DMRP_CLASS_HELD, 1, 0};
+    calls[3] = {DMRP_CALL_PEOPLE, 0, DMRP_OK, 0, 3'000};
     sample.struct_size = sizeof(dmrp_sample);
     sample.control_tick = k % 5 == 0;
     sample.t_ns = k * 20'000'000;
@@ -144,7 +146,7 @@ struct ExampleSample {
     sample.contact_count = k % 3 == 0 ? 2 : 0;
     sample.contact_stride = sizeof(dmrp_contact);
     sample.calls = calls.data();
-    sample.call_count = k % 5 == 0 ? 3 : 1;
+    sample.call_count = k % 5 == 0 ? 4 : 1;
     sample.call_stride = sizeof(dmrp_call);
   }
   ExampleSample(const ExampleSample&) = delete;
@@ -184,8 +186,8 @@ inline core::TraceBytes example_trace(std::int64_t samples, const core::TraceEnc
       trace.scan(1, {sizeof(dmrp_scan), 3, 20'000'000, -0.5, 0.5, 0.0, 10.0, ranges.data()});
     }
   }
-  const std::array<dmrp_robot_end, 2> robots{
-      {{DMRP_ROBOT_FAILED, DMRP_FAILURE_TIMEOUT, -1}, {DMRP_ROBOT_FINISHED, DMRP_FAILURE_NONE, 0}}};
+  const std::array<dmrp_robot_end, 2> robots{{{DMRP_ROBOT_FAILED, DMRP_FAILURE_HELD_BEHIND, -1, 1, 1},
+                                              {DMRP_ROBOT_FINISHED, DMRP_FAILURE_NONE, 0, 2, DMRP_NOBODY}}};
   const dmrp_trial_end end{sizeof(dmrp_trial_end), DMRP_ENDING_TIME_LIMIT, samples * 20'000'000, robots.data(), 2,
                            sizeof(dmrp_robot_end)};
   trace.end(end, "time limit");

@@ -163,8 +163,8 @@ TEST_CASE("fields that a trace has beyond ours are skipped", "[trace]") {
 
 TEST_CASE("elements shorter than those of version 1.0 of the contract are refused", "[trace]") {
   const TraceBytes trace = example_trace(8);
-  for (const std::size_t size : {sizeof(dmrp_goal), sizeof(dmrp_waypoint), sizeof(dmrp_robot_sample),
-                                 sizeof(dmrp_person), sizeof(dmrp_call), sizeof(dmrp_robot_end)}) {
+  for (const std::size_t size :
+       {sizeof(dmrp_goal), sizeof(dmrp_waypoint), sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_call)}) {
     const TraceBytes cut = OtherVersion(0, size, 8).of(trace);
     CHECK(cut.size() < trace.size());
     CHECK_THROWS_WITH(TraceReader(cut), Catch::Contains("elements shorter than those of version 1.0"));
@@ -203,6 +203,30 @@ TEST_CASE("contacts of an older trace have no impact speed", "[trace]") {
   REQUIRE(read->contact_count == 2);
   CHECK(read->contacts[0].depth_m == 0.0011);
   CHECK(std::isnan(read->contacts[0].impact_speed));
+}
+
+TEST_CASE("the end of a robot without visits and culprit has none", "[trace]") {
+  const std::vector<dmrp_robot_end> ends(2, {DMRP_ROBOT_FAILED, DMRP_FAILURE_TIMEOUT, -1, 3, 1});
+  const std::size_t stride = trace_element_size<dmrp_robot_end>.least;
+  TraceBytes bytes;
+  ByteWriter out(bytes);
+  out.put(std::uint32_t{2});
+  out.put(static_cast<std::uint32_t>(stride));
+  for (const dmrp_robot_end& end : ends) out.put_array(reinterpret_cast<const std::uint8_t*>(&end), stride);
+
+  RecordCursor in(bytes, 0, trace_format_version);
+  TraceStorage storage;
+  const dmrp_robot_end* taken = nullptr;
+  std::uint32_t count = 0;
+  std::uint32_t to_stride = 0;
+  TraceFieldReader(in, &storage).elements(taken, count, to_stride);
+  REQUIRE(count == 2);
+  for (const dmrp_robot_end& end : std::span(taken, count)) {
+    CHECK(end.failure == DMRP_FAILURE_TIMEOUT);
+    CHECK(end.arrival_ns == -1);
+    CHECK(end.visits == 0);
+    CHECK(end.culprit == DMRP_NOBODY);
+  }
 }
 
 TEST_CASE("contacts of unknown kinds are left out", "[trace]") {

@@ -205,8 +205,10 @@ TEST_CASE("a trace keeps end, notes and trajectories", "[trace]") {
   CHECK(trace.end()->ending == DMRP_ENDING_TIME_LIMIT);
   CHECK(trace.end()->t_ns == 80'000'000);
   REQUIRE(trace.end()->robot_count == 2);
-  CHECK(trace.end()->robots[0].failure == DMRP_FAILURE_TIMEOUT);
+  CHECK(trace.end()->robots[0].failure == DMRP_FAILURE_HELD_BEHIND);
   CHECK(trace.end()->robots[0].arrival_ns == -1);
+  CHECK(trace.end()->robots[0].visits == 1);
+  CHECK(trace.end()->robots[0].culprit == 1);
   CHECK(trace.end()->robots[1].state == DMRP_ROBOT_FINISHED);
   CHECK(trace.reason() == "time limit");
   REQUIRE(trace.notes().size() == 1);

@@ -150,5 +150,7 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   REQUIRE(trace.end()->robot_count == 2);
   CHECK(trace.end()->robots[1].failure == DMRP_FAILURE_TIMEOUT);
   CHECK(trace.end()->robots[1].arrival_ns == -1);
+  CHECK(trace.end()->robots[1].visits == 0);
+  CHECK(trace.end()->robots[1].culprit == DMRP_NOBODY);
   CHECK(trace.reason() == "time limit");
 }

@@ -36,6 +36,25 @@ TEST_CASE("failures are counted by combination and cause", "[ranking]") {
   CHECK(failures_line(failures) == "6 did not arrive: 3 deadlock, 2 fault, 1 no plan");
 }
 
+TEST_CASE("the robots that others wait for are counted once a trial and cause", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 2, [](std::uint32_t) {
+    const RobotResult fails{std::nullopt, true, 10.0};
+    return std::vector<RobotResult>(5, fails);
+  });
+  for (TrialRecord& trial : trials)
+    for (std::uint32_t robot = 0; robot < 4; ++robot) {
+      trial.events[robot].text = "robot " + std::to_string(robot) + " failed: held behind another robot";
+      trial.events[robot].robots.push_back(robot < 3 ? 4 : 9);
+    }
+  const auto failures = failure_causes(ranking_layout(), trials);
+  REQUIRE(failures.size() == 1);
+  CHECK(failures[0].causes[0].robots == 8);
+  CHECK(failures[0].causes[0].roots == 4);
+  CHECK(failures[0].causes[1].roots == 0);
+  CHECK(failures_line(failures) == "10 did not arrive: 8 held behind another robot (roots: 4), 2 deadlock");
+}
+
 TEST_CASE("there is nothing to say where all arrived", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "a", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}}; });

@@ -413,3 +413,40 @@ TEST_CASE("execution in order: robots that dawdle pass shared cells as planned, 
   CHECK(pairs > 20 * seeds);
   CHECK(out_of_order_when_free > 0);  // free execution does not keep the order
 }
+
+TEST_CASE("in order, plans that push robots out of their cells and back are driven to their ends") {
+  const std::string planner = GENERATE("dmrp.planner.pibt", "dmrp.planner.lacam");
+  std::uint32_t visits = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Stage stage(crowded_hall(seed));
+    stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+    stage.experiment.global_planners = {stage.use(planner)};
+    stage.experiment.simulation.execution = core::Execution::ordered;
+    CAPTURE(planner, seed);
+    CHECK(stage.run(seed));
+    const dmrp_trial_end& end = *stage.reader->end();
+    for (std::uint32_t i = 0; i < end.robot_count; ++i)
+      visits += DMRP_AT(dmrp_robot_end, end.robots, end.robot_stride, i)->visits;
+  }
+  CHECK(visits > 20 * 20);  // some leave their goals to give way, and come back
+}
+
+TEST_CASE("a robot that gives way at its goal is not parked in another's way") {
+  core::Scenario pocket = lanes({5.5});
+  pocket.upper = {12.0, 3.0};
+  pocket.time_limit_s = 120.0;
+  for (const auto& [lower, upper] :
+       {std::pair<dmrp_vec2, dmrp_vec2>{{0.0, 0.0}, {12.0, 1.0}}, {{0.0, 2.0}, {5.0, 3.0}}, {{6.0, 2.0}, {12.0, 3.0}}})
+    pocket.shapes.push_back(
+        {"wall", core::Shape::Kind::polygon, {}, 0.0, {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}, 2.0});
+  pocket.robots[0].start.x = 2.5;
+  pocket.robots.push_back({"r1", {10.5, 1.5, any_heading}, {{0.5, 1.5, any_heading}}});
+  Stage stage(pocket);
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.cbs")};
+  stage.experiment.simulation.execution = GENERATE(core::Execution::free, core::Execution::ordered);
+  CHECK(stage.run());
+  const dmrp_trial_end& end = *stage.reader->end();
+  CHECK(end.ending == DMRP_ENDING_ARRIVED);
+  CHECK(DMRP_AT(dmrp_robot_end, end.robots, end.robot_stride, 0)->visits == 2);
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ISR, CSR, flowtime, makespan, throughput and SPL: cases computed by hand.
+// ISR, CSR, flowtime, makespan, throughput, SPL and first causes: cases computed by hand.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
@@ -130,5 +130,44 @@ TEST_CASE("the shortest way passes walls at any angle, gaps as wide as the robot
     trial.walking_grid({0, 0}, 1.0, {{o, b, o}, {o, b, o}});
     trial.route(0, {0.5, 0.5, 0}, {{2.5, 0.5, free_heading}});
     CHECK(std::isnan(length()));
+  }
+}
+
+TEST_CASE("success_at counts the robots that succeed within multiples of their least time") {
+  SyntheticTrial trial(4);  // 8 m at 0.8 m/s
+  for (std::size_t robot = 0; robot < 4; ++robot) trial.route(robot, {0, 0, 0}, {{8, 0, free_heading}});
+  trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}, {{0, 0}}});
+  trial.end(40.0, {15.0, 15.1, 20.0, 30.0}).failure(3, DMRP_FAILURE_OSCILLATION);
+  const Measurement m = measure("dmrp.metric.spl", trial);
+  CHECK(m.curves.at("success_at") == std::map<double, double>{{1.5, 0.25}, {2.0, 0.75}, {3.0, 0.75}});
+}
+
+TEST_CASE("a robot that waits for another failed by the other's cause") {
+  SyntheticTrial trial(6);
+  trial.plan(std::vector<Points>(6, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(6, at(0, 0)));
+  trial.calls({becomes(0, DMRP_CLASS_MOVING)});
+  trial.end(40.0, {never, never, never, never, never, 30.0});
+  trial.failure(0, DMRP_FAILURE_HELD_BEHIND, 2).failure(1, DMRP_FAILURE_HELD_BEHIND, 2);
+  trial.failure(2, DMRP_FAILURE_BLOCKED_ROBOT, 5);
+  trial.failure(3, DMRP_FAILURE_STUCK).failure(4, DMRP_FAILURE_HELD_BEHIND, 5);  // which arrived
+  const Measurement m = measure("dmrp.metric.first_cause", trial);
+  const std::vector<double> causes = {DMRP_FAILURE_BLOCKED_ROBOT, DMRP_FAILURE_BLOCKED_ROBOT,
+                                      DMRP_FAILURE_BLOCKED_ROBOT, DMRP_FAILURE_STUCK, DMRP_FAILURE_HELD_BEHIND};
+  for (std::size_t robot = 0; robot < causes.size(); ++robot) CHECK(m.robot("first_cause", robot) == causes[robot]);
+  CHECK(m.robot("culprit", 0) == 2.0);
+  CHECK(m.robot("culprit", 2) == 5.0);
+  CHECK(std::isnan(m.robot("culprit", 3)));
+  CHECK(m.robot("held_behind", 1) == 1.0);
+  CHECK(m.robot("held_behind", 2) == 0.0);
+  for (const char* name : {"first_cause", "culprit", "held_behind"}) CHECK(std::isnan(m.robot(name, 5)));
+  CHECK(m.system("first_cause") == DMRP_FAILURE_BLOCKED_ROBOT);
+  CHECK(m.system("culprit") == 2.0);  // as often as 5
+  CHECK(m.system("held_behind") == 3.0);
+  SECTION("the event of its failure names both") {
+    const Measurement success = measure("dmrp.metric.success", trial);
+    REQUIRE(success.events.size() == 5);
+    CHECK(success.events[0].robots == std::vector<std::uint32_t>{0, 2});
+    CHECK(success.events[0].text == "robot 0 failed: held behind another robot");
+    CHECK(success.events[3].robots == std::vector<std::uint32_t>{3});
   }
 }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "metrics/outcome/first_cause.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
+
+namespace dmrp::metrics {
+namespace {
+
+// The least of those that occur most often.
+double most_frequent(const std::vector<double>& values) {
+  std::map<double, int> counts;
+  for (const double value : values)
+    if (!std::isnan(value)) ++counts[value];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? undefined : most->first;
+}
+
+}  // namespace
+
+Descriptor FirstCause::describe() {
+  return describe_metric("dmrp.metric.first_cause", "First cause")
+      .summary("why robots failed, and which robot was the cause")
+      .source("own definition: the ends of robots in dmrp/trial_end.h")
+      .value("first_cause", "1", Direction::none, Subjects::system_and_robots,
+             "of a robot that failed: why, 1 time limit (it still made progress), 2 circled and arrived where the "
+             "experiment excludes that, 4 no command, 7 circling, 8 blocked by a person, 9 by a robot, 10 stuck; of a "
+             "robot that is held behind another, the other's reason, or 6 if that has none; system: of most robots; "
+             "undefined without a failure, if planning failed, and in traces of hosts before the referee")
+      .value("culprit", "1", Direction::none, Subjects::system_and_robots,
+             "index of the robot that blocks the failed one or holds it, through all that wait; system: of most "
+             "robots; undefined where nobody does")
+      .value("held_behind", "1", Direction::lower_is_better, Subjects::system_and_robots,
+             "of a robot that failed: 1 if it is held behind another by the plan's order, else 0; system: sum over "
+             "robots; undefined as first_cause");
+}
+
+void FirstCause::begin(const dmrp_plan*) {
+  classes_.begin(world().robots().size());
+}
+
+void FirstCause::observe(const Sample& sample) {
+  classes_.observe(sample);
+}
+
+void FirstCause::finish(const TrialEnd& end, MetricSink& sink) {
+  std::vector<double> causes, culprits, held;
+  for (const RobotEnd& robot : end.robots) {
+    const bool failed = classes_.are_known() && robot.failure != DMRP_FAILURE_NONE;
+    const bool is_held = robot.failure == DMRP_FAILURE_HELD_BEHIND;
+    const bool has_culprit = robot.culprit < end.robots.size();
+    const std::uint32_t of_culprit = is_held && has_culprit ? end.robots[robot.culprit].failure : DMRP_FAILURE_NONE;
+    causes.push_back(failed ? of_culprit != DMRP_FAILURE_NONE ? of_culprit : robot.failure : undefined);
+    culprits.push_back(failed && has_culprit ? robot.culprit : undefined);
+    held.push_back(failed ? is_held : undefined);
+  }
+  give(sink, "first_cause", causes, &most_frequent);
+  give(sink, "culprit", culprits, &most_frequent);
+  give(sink, "held_behind", held, &sum_of_defined);
+}
+
+}  // namespace dmrp::metrics
