@@ -57,7 +57,7 @@ std::vector<std::vector<double>> complete(const std::vector<std::vector<double>>
   return out;
 }
 
-void test_pairs(const Contest& contest, const Measures& measures, const Criteria& criteria, Discrimination& result) {
+void test_pairs(const Contest& contest, const Measures& measures, Discrimination& result) {
   const PairsApart found = pairs_apart(contest, measures);
   result.pairs = found.pairs;
   result.separated = found.apart;
@@ -136,7 +136,7 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
     result.at_ceiling += means.back() >= DiscriminationBars().ceiling - rounding ? 1 : 0;
   }
   result.mean_share = core::mean(means);
-  test_pairs(contest, measures, criteria, result);
+  test_pairs(contest, measures, result);
   result.share_effect = block_effect(complete_shares);
   if (criteria.time) result.time_effect = block_effect(complete(times));
   result.half_agreement = half_agreement(criteria, shares, times);
