@@ -132,7 +132,7 @@ int verify_command(const VerifyOptions& options) {
 
   std::vector<TrialRecord> trials = database.trials_with_events_of("");
   const std::size_t others = std::erase_if(trials, [](const TrialRecord& trial) { return !is_comparable(trial); });
-  if (others > 0) warn(plural(others, "trial") + " with faults, or that may come out otherwise, cannot be compared");
+  if (others > 0) warn(plural(others, "trial") + " with faults, or not repeatable, cannot be compared");
   if (trials.empty()) throw InputError(fmt::format("{}: has no trial to compare", directory.string()));
   trials = chosen(std::move(trials), options.trials, options.seed);
   for (TrialRecord& trial : trials) trial.events = database.events(trial.id);

@@ -185,7 +185,8 @@ std::vector<std::string> changes_between(const Manifest& before, const Manifest&
   if (before.identity.empty() || after.identity.empty()) return changes;  // of older versions
   const std::vector<KeyDifference> keys = differences(before.identity, after.identity);
   for (std::size_t i = 0; i < std::min(keys.size(), most_keys); ++i)
-    changes.push_back(fmt::format("{}: {}, now {}", keys[i].key, keys[i].before, keys[i].now));
+    changes.push_back(fmt::format("{}: {}, now {}{}", keys[i].key, keys[i].before, keys[i].now,
+                                  keys[i].key == "behaviour" ? " (dmrp-host itself moves values)" : ""));
   if (keys.size() > most_keys) changes.push_back(fmt::format("and {} more keys", keys.size() - most_keys));
   return changes;
 }

@@ -83,7 +83,7 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
   KeyReader reader;
   for (std::string line; std::getline(lines, line);) reader.read(line);
   std::map<std::string, std::string> identity = reader.take();
-  identity["dmrp.behaviour"] = std::to_string(behaviour);
+  identity["behaviour"] = std::to_string(behaviour);
   for (const char* key : {"experiment.name", "experiment.trials", "experiment.plugins"}) identity.erase(key);
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})

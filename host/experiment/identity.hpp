@@ -11,7 +11,7 @@
 namespace dmrp::host {
 
 // Raised by every change of the host or its plugins that moves values: runs of two behaviours are neither merged nor
-// continued.
+// continued. The first key of the identity.
 inline constexpr int behaviour = 2;
 
 // Each key with its value as TOML text: "simulation.step_s" -> "0.02", "local_controller[1].use" -> "\"dmrp...\"".

@@ -39,7 +39,7 @@ struct SummaryLayout {
   // trials.
   std::vector<std::string> counts_failures;
 
-  // Metrics of plans, which do not change where a robot fails on its way.
+  // Metrics of plans, which do not change where a robot fails on its way. The first is defined where there is a plan.
   std::vector<std::string> of_plans;
 
   AnswerMetrics answer;

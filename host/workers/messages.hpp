@@ -46,8 +46,8 @@ struct Job {
   std::string trace_file;                   // in the worker's scratch folder; "" for none
   std::string scratch_file;                 // where a large trace goes until it has been measured
   std::vector<std::uint32_t> skip_metrics;  // ended in a fault in an earlier attempt
-  std::string plan;                         // name of its stored plan; "" for none
-  std::string new_plan;                     // where the paths of its first plan go; "" if that is stored
+  std::string plan{};                       // name of its stored plan; "" for none
+  std::string new_plan{};                   // where the paths of its first plan go; "" if that is stored
 };
 
 // Calls `send` with the pieces of a result, in order: each side holds one as text at a time.

@@ -161,6 +161,7 @@ class Supervisor {
       StoredPlan stored = plans_.read_call(plan);
       if (!stored.fault) return trial;
       trial.end_without_plan(std::move(stored));
+      fs::remove(stored_trace(*number));  // of an earlier attempt
       end_trial(trial.take_record());
     }
     return std::nullopt;
