@@ -70,7 +70,7 @@ void Success::finish(const TrialEnd& end, MetricSink& sink) {
   std::vector<double> success, safe_success, contact_free_success;
   bool all = true;
   for (std::size_t robot = 0; robot < at_fault_.size(); ++robot) {
-    // a robot that oscillated counts as failed even if it arrived later
+    // an experiment may exclude robots that circled
     const bool succeeded = end.robots[robot].arrival_ns >= 0 && end.robots[robot].failure == DMRP_FAILURE_NONE;
     all = all && succeeded;
     success.push_back(succeeded ? 1.0 : 0.0);
