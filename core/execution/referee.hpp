@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/execution/goal_distances.hpp"
@@ -92,7 +93,7 @@ class Referee {
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
   // Changes of class since the last call, the first of all robots, as records of the trace (dmrp/referee.h).
-  std::vector<dmrp_call> take_changes() { return std::move(changes_); }
+  std::vector<dmrp_call> take_changes() { return std::exchange(changes_, {}); }
 
   // The outcome of every robot at the end of the trial.
   std::vector<dmrp_robot_end> robot_ends(std::uint32_t ending) const;

@@ -183,11 +183,12 @@ void FoxgloveChannels::put_contact(const dmrp_sample& sample, const dmrp_contact
   else
     other = contact.b < shapes_.size() ? shapes_[contact.b] : "the border";
   std::string text = name_of(contact.a) + " touches " + other;
+  if (DMRP_STRIDE_HAS(dmrp_contact, sample.contact_stride, impact_speed) && !std::isnan(contact.impact_speed))
+    text += " at " + std::to_string(contact.impact_speed) + " m/s";
   const bool fault_a = (contact.flags & DMRP_CONTACT_FAULT_A) != 0;
   const bool fault_b = (contact.flags & DMRP_CONTACT_FAULT_B) != 0;
   if (fault_a || fault_b)
     text += "; at fault: " + (fault_a ? name_of(contact.a) + (fault_b ? " and " + other : "") : other);
-  if ((contact.flags & DMRP_CONTACT_UNAVOIDABLE) != 0) text += "; not to be avoided";
   put_log(log_, sample.t_ns, Level::warning, "contact", text);
 
   entity_.clear();

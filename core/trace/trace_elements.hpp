@@ -7,6 +7,7 @@
 #include <dmrp/trial_end.h>
 
 #include <cstddef>
+#include <limits>
 
 namespace dmrp::core {
 
@@ -36,6 +37,9 @@ inline constexpr TraceElementSize trace_element_size<dmrp_robot_end> = {16, 16};
 // The fields that an older trace does not have: zero, unless the contract names another value.
 template <class Element>
 inline constexpr Element absent_fields = {};
+template <>
+inline constexpr dmrp_contact absent_fields<dmrp_contact> = {
+    0, 0, 0, 0, 0.0, {0.0, 0.0}, std::numeric_limits<double>::quiet_NaN()};
 template <>
 inline constexpr dmrp_robot_end absent_fields<dmrp_robot_end> = {0, 0, 0, 0, DMRP_NOBODY};
 

@@ -42,7 +42,7 @@ void add_deepest(std::uint32_t a, std::uint32_t b, std::span<const Gap> gaps, do
                  std::vector<Overlap>& found) {
   const auto deepest =
       std::min_element(gaps.begin(), gaps.end(), [](const Gap& one, const Gap& two) { return one.gap_m < two.gap_m; });
-  if (-deepest->gap_m > depth_m) found.push_back({a, b, -deepest->gap_m, deepest->overlap});
+  if (-deepest->gap_m > depth_m) found.push_back({a, b, -deepest->gap_m, deepest->overlap, deepest->normal});
 }
 
 }  // namespace
@@ -259,7 +259,7 @@ void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::s
     const double depth = bodies[body].radius_m - distance_m;
     // the disc reaches from its centre to radius_m behind the surface
     if (depth > depth_m)
-      found.push_back({body, shape, depth, bodies[body].position - outward * (distance_m + 0.5 * depth)});
+      found.push_back({body, shape, depth, bodies[body].position - outward * (distance_m + 0.5 * depth), outward});
   };
   for (const auto& [body, shape] : shape_neighbours_) {
     if (body >= count) break;
@@ -300,7 +300,7 @@ void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::span<
     const double depth = bodies[a].radius_m + bodies[b].radius_m - distance_m;
     if (!(depth > depth_m)) continue;
     const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
-    found.push_back({a, b, depth, bodies[a].position - normal * (bodies[a].radius_m - 0.5 * depth)});
+    found.push_back({a, b, depth, bodies[a].position - normal * (bodies[a].radius_m - 0.5 * depth), normal});
   }
 }
 

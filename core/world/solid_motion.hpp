@@ -49,7 +49,8 @@ struct Overlap {
   std::uint32_t a = 0;  // body
   std::uint32_t b = 0;  // body, shape, or StaticGeometry::border()
   double depth_m = 0.0;
-  dmrp_vec2 point{};  // in the middle of the overlap
+  dmrp_vec2 point{};   // in the middle of the overlap
+  dmrp_vec2 normal{};  // unit, from b toward a
 };
 
 // Keeps bodies solid: removes the part of each displacement that would deepen an overlap. Where two bodies approach

@@ -96,8 +96,7 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
-      motion_(geometry_, simulation.step_ns),
-      tracker_(braking_of_robots(), sight_of_robots()) {
+      motion_(geometry_, simulation.step_ns) {
   proposed_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i)
@@ -109,24 +108,6 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
   robot_agents_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i) check_goal(i);
   update_agents();
-}
-
-ContactTracker::Sight World::sight_of_robots() const {
-  std::vector<double> ranges_m;
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) ranges_m.push_back(robot_settings(i).lidar.range_max_m);
-  return {settings_.control_period_ns,
-          [geometry = geometry_, ranges_m](std::uint32_t robot, dmrp_vec2 from, dmrp_vec2 person) {
-            return toolkit::distance(from, person) <= ranges_m[robot] && geometry->line_of_sight(from, person);
-          }};
-}
-
-std::vector<ContactTracker::Braking> World::braking_of_robots() const {
-  std::vector<ContactTracker::Braking> braking;
-  for (std::uint32_t i = 0; i < robots_.size(); ++i) {
-    const RobotSettings& robot = robot_settings(i);
-    braking.push_back({robot.a_max, std::hypot(robot.v_max, robot.v_y_max), command_latency_ns(i)});
-  }
-  return braking;
 }
 
 dmrp_twist World::set_command(std::uint32_t robot, const dmrp_twist& command) {
@@ -331,9 +312,12 @@ void World::update_person_agents() {
 
 void World::find_contacts() {
   contacts_.clear();
+  normals_.clear();
+  turning_.clear();
   const auto robot_count = static_cast<std::uint32_t>(robots_.size());
   const auto add = [&](std::uint32_t kind, const Overlap& overlap, std::uint32_t b) {
-    contacts_.push_back({kind, 0, overlap.a, b, overlap.depth_m, overlap.point});
+    contacts_.push_back({kind, 0, overlap.a, b, overlap.depth_m, overlap.point, 0.0});
+    normals_.push_back(overlap.normal);
   };
   motion_.overlaps_with_shapes(bodies_, outlines_, robot_count, contact_depth_m, overlaps_);
   for (const Overlap& overlap : overlaps_) add(DMRP_CONTACT_STATIC, overlap, overlap.b);
@@ -342,7 +326,9 @@ void World::find_contacts() {
     if (overlap.b < robot_count) add(DMRP_CONTACT_ROBOT, overlap, overlap.b);
   for (const Overlap& overlap : overlaps_)
     if (overlap.b >= robot_count) add(DMRP_CONTACT_PERSON, overlap, overlap.b - robot_count);
-  tracker_.update(t_ns_, robot_agents_, person_agents_, contacts_);
+  for (std::size_t i = 0; i < outlines_.size(); ++i)
+    turning_.push_back(outlines_[i].parts.empty() ? 0.0 : robots_[i].velocity.omega);
+  tracker_.update(t_ns_, {robot_agents_, person_agents_, turning_}, normals_, contacts_);
 }
 
 }  // namespace dmrp::core

@@ -106,8 +106,6 @@ class World {
   std::int64_t command_latency_ns(std::uint32_t robot) const {
     return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
   }
-  std::vector<ContactTracker::Braking> braking_of_robots() const;
-  ContactTracker::Sight sight_of_robots() const;
   dmrp_twist take_command(std::uint32_t robot, const dmrp_twist& command);
   void stop(std::uint32_t robot);
   void apply_due_commands();
@@ -144,6 +142,8 @@ class World {
   std::vector<dmrp_agent> person_agents_;
   std::vector<dmrp_agent> person_agents_before_;  // of the previous step
   std::vector<dmrp_contact> contacts_;
+  std::vector<dmrp_vec2> normals_;  // of contacts_
+  std::vector<double> turning_;     // of outlines_, rad/s
 };
 
 }  // namespace dmrp::core

@@ -37,6 +37,7 @@ not in plugins/ come with dmrp-host.
 | scenarios, parameters, plugins | the files that it names, as they were |
 | manifest.json | program, machine, the SHA-256 of all files, and what the experiment means, key by key |
 | results.sqlite, trace_digests.txt | where it was run: its results, and fingerprints of its traces |
+| plans | where it was run: the plans that its trials were given |
 )",
       manifest.experiment.name, manifest.dmrp_version, manifest.commit);
 }

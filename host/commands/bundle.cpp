@@ -15,6 +15,7 @@
 #include "host/run/run_description.hpp"
 #include "host/run/run_directory.hpp"
 #include "host/verify/stored_digests.hpp"
+#include "host/workers/stored_plan.hpp"
 
 namespace dmrp::host {
 
@@ -95,6 +96,8 @@ void bundle_run(const fs::path& run, const fs::path& out, bool with_plugins) {
   write_whole(out, [&] {
     write_bundle(experiment, original, manifest, BundleLayout(experiment, manifest, with_plugins), out);
     copy_results(run, out);
+    const StoredPlans plans(run);
+    for (const std::string& name : plans.names()) StoredPlans(out).copy(plans, name);
   });
 }
 

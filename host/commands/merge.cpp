@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "host/commands/command.hpp"
+#include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
@@ -22,6 +23,7 @@
 #include "host/results/trace_path.hpp"
 #include "host/run/run_directory.hpp"
 #include "host/run/run_results.hpp"
+#include "host/workers/stored_plan.hpp"
 
 namespace dmrp::host {
 
@@ -37,6 +39,7 @@ struct MergeOptions {
 struct Part {
   RunDirectory directory;
   std::string shown;
+  StoredPlans plans;
   std::string experiment{};  // the text of experiment.toml
   std::string effective{};   // and of effective.toml
   Manifest manifest{};
@@ -46,7 +49,7 @@ struct Part {
 };
 
 Part read_part(const fs::path& path) {
-  Part part = {RunDirectory::open_finished(path, path.string()), path.string()};
+  Part part = {RunDirectory::open_finished(path, path.string()), path.string(), StoredPlans(path)};
   part.experiment = read_file(path / "experiment.toml", (path / "experiment.toml").string());
   part.effective = read_file(path / "effective.toml", (path / "effective.toml").string());
   part.manifest = read_manifest(path / "manifest.json");
@@ -105,6 +108,23 @@ void check_whole(const std::vector<Part>& parts) {
                                  missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
+// Trials of one plan can be in several parts: which must have made the same one.
+void check_plans(const std::vector<Part>& parts) {
+  std::map<std::string, const Part*> owners;
+  for (const Part& part : parts)
+    for (const std::string& name : part.plans.names()) {
+      const auto [owner, is_new] = owners.emplace(name, &part);
+      if (is_new) continue;
+      const StoredPlan first = owner->second->plans.read_call(name);
+      const StoredPlan other = part.plans.read_call(name);
+      if (outcome_of(first) == outcome_of(other)) continue;
+      const std::string difference =
+          fmt::format("{}: plan {} is another than that of {}", part.shown, name, owner->second->shown);
+      if (first.timing.empty() && other.timing.empty()) throw InputError(difference);
+      warn(difference + ": the planner depends on timing, and trials of this plan are not comparable");
+    }
+}
+
 Manifest joined_manifest(const std::vector<Part>& parts) {
   Manifest manifest = parts.front().manifest;
   manifest.command_line = command_line();
@@ -159,6 +179,7 @@ int merge_command(const MergeOptions& options) {
   for (const Part& part : parts) check_same(parts.front(), part);
   check_apart(parts);
   check_whole(parts);
+  check_plans(parts);
   if (std::error_code ignored; fs::exists(options.out, ignored) && !fs::is_empty(options.out, ignored))
     throw InputError(fmt::format("{}: exists already and is not empty", options.out.string()));
   const RunDirectory made = RunDirectory::make(options.out, "");
@@ -172,6 +193,7 @@ int merge_command(const MergeOptions& options) {
   copy_results(parts, database);
   for (const Part& part : parts) {
     copy_traces(part, out);
+    for (const std::string& name : part.plans.names()) StoredPlans(out).copy(part.plans, name);
     append_log(part, out);
   }
 

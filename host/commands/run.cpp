@@ -23,6 +23,7 @@
 #include "host/run/run_directory.hpp"
 #include "host/run/run_results.hpp"
 #include "host/terminal/progress.hpp"
+#include "host/workers/stored_plan.hpp"
 #include "host/workers/supervisor.hpp"
 
 namespace dmrp::host {
@@ -160,6 +161,7 @@ int run_command(const RunOptions& options) {
   const std::uint64_t in_shard = PlannedTrials(shard.index, shard.count, count, {}).all();
   const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line()));
   ResultsDatabase database = ResultsDatabase::open(files.database());
+  if (options.retry_faults) StoredPlans(files.directory()).delete_faults();
   PlannedTrials trials(shard.index, shard.count, count,
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
                                                                      : ResultsDatabase::Finished::all));

@@ -15,6 +15,7 @@
 #include "host/run/run_directory.hpp"
 #include "host/verify/stored_digests.hpp"
 #include "host/verify/trial_differences.hpp"
+#include "host/workers/stored_plan.hpp"
 #include "host/workers/supervisor.hpp"
 
 namespace dmrp::host {
@@ -64,16 +65,22 @@ std::vector<TrialRecord> chosen(std::vector<TrialRecord> trials, std::size_t cou
   return trials;
 }
 
-// Runs them in the order given.
+// Runs them in the order given, with the plans that the run has stored.
 class Rerun {
  public:
-  Rerun(const Experiment& experiment, unsigned jobs) : experiment_(experiment), jobs_(jobs) {}
+  Rerun(const Experiment& experiment, const fs::path& before, unsigned jobs)
+      : experiment_(experiment), before_(before), jobs_(jobs) {}
 
   RunEnding run(const std::vector<TrialRecord>& trials) {
     if (experiment_.traces != RecordTraces::none) fs::create_directories(folder_.path() / "traces");
     ResultsDatabase database = ResultsDatabase::create(folder_.path() / "results.sqlite", columns_of(experiment_));
     std::vector<std::uint64_t> numbers;
-    for (const TrialRecord& trial : trials) numbers.push_back(trial.id);
+    const StoredPlans plans(folder_.path());
+    const std::vector<Combination> all = combinations(experiment_);
+    for (const TrialRecord& trial : trials) {
+      numbers.push_back(trial.id);
+      plans.copy(before_, plan_name(all[trial_id(trial.id, all.size()).combination], trial.repetition));
+    }
     const SupervisorSettings settings = {jobs_, folder_.path(), combinations(experiment_).size() * experiment_.trials};
     const SupervisorSinks sinks = {
         [&](TrialRecord&& trial) { database.write(trial); },
@@ -89,6 +96,7 @@ class Rerun {
 
  private:
   const Experiment& experiment_;
+  const StoredPlans before_;
   unsigned jobs_;
   TemporaryFolder folder_;
   std::map<std::uint64_t, TrialRecord> trials_;
@@ -124,11 +132,11 @@ int verify_command(const VerifyOptions& options) {
 
   std::vector<TrialRecord> trials = database.trials_with_events_of("");
   const std::size_t others = std::erase_if(trials, [](const TrialRecord& trial) { return !is_comparable(trial); });
-  if (others > 0) warn(plural(others, "trial") + " with faults or stopped by a clock cannot be compared");
+  if (others > 0) warn(plural(others, "trial") + " with faults, or not repeatable, cannot be compared");
   if (trials.empty()) throw InputError(fmt::format("{}: has no trial to compare", directory.string()));
   trials = chosen(std::move(trials), options.trials, options.seed);
   for (TrialRecord& trial : trials) trial.events = database.events(trial.id);
-  Rerun rerun(experiment, options.jobs);
+  Rerun rerun(experiment, directory, options.jobs);
   if (rerun.run(trials) == RunEnding::interrupted) return exit_status::interrupted;
 
   std::size_t different = 0;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
@@ -80,6 +82,43 @@ class Values {
   SystemValues values_;
 };
 
+// Rows by controller alone are means over planners: a task counts where every planner of the row has a plan, or a planner
+// that finds none for hard tasks would raise or lower them.
+class SolvedTasks {
+ public:
+  SolvedTasks(const TableSpec& spec, std::span<const TrialRecord> trials, const std::string& planned) : spec_(spec) {
+    for (const TrialRecord& trial : trials) {
+      if (trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+      planners_[row_of(trial)].insert(trial.global_planner);
+      if (system_value(trial, planned)) solved_.insert({task_of(trial), trial.global_planner});
+    }
+  }
+
+  // Whether a row has several planners.
+  bool matter() const {
+    return std::any_of(planners_.begin(), planners_.end(), [](const auto& row) { return row.second.size() > 1; });
+  }
+
+  bool hold(const TrialRecord& trial) const {
+    const std::set<std::string>& planners = planners_.at(row_of(trial));
+    return planners.size() == 1 || std::all_of(planners.begin(), planners.end(), [&](const std::string& planner) {
+             return solved_.contains({task_of(trial), planner});
+           });
+  }
+
+ private:
+  using Task = std::tuple<std::string, std::uint32_t, std::uint64_t>;
+  static Task task_of(const TrialRecord& trial) { return {trial.scenario, trial.robots, trial.seed}; }
+  std::string row_of(const TrialRecord& trial) const {
+    const CombinationLabels row = only(combination_of(trial), spec_.rows);
+    return place_of(row) + "\n" + name_of(row);
+  }
+
+  const TableSpec& spec_;
+  std::map<std::string, std::set<std::string>> planners_;  // by row
+  std::set<std::pair<Task, std::string>> solved_;
+};
+
 // Whether all trials of a cell belong to the marked row: its labels that are not empty.
 bool is_marked(const BestMark& mark, const std::string& metric, const std::vector<std::size_t>& cell,
                std::span<const TrialRecord> trials, bool by_controller) {
@@ -113,6 +152,7 @@ std::string table_caption(const MeanTable& table) {
     if (column.median) append(medians, " and ", column.header);
   std::string words =
       table.spec.title + ": means over trials" + (medians.empty() ? "" : ", medians of ") + medians + ".";
+  if (table.solved_alone) words += " Over the tasks for which every planner has a plan.";
   if (any_cell([](const TableCell& cell) { return cell.best; }))
     words += " Bold: told apart from all others of its column by paired tests (Holm, 5 %).";
   if (any_cell([](const TableCell& cell) { return cell.value && cell.defined < cell.trials; }))
@@ -123,25 +163,31 @@ std::string table_caption(const MeanTable& table) {
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                           std::span<const TrialRecord> trials) {
   std::erase_if(spec.metrics, [&](const auto& column) { return !index_of(metrics, column.metric); });
+  const auto has = [&](Label label) {
+    return std::find(spec.rows.begin(), spec.rows.end(), label) != spec.rows.end() ||
+           std::find(spec.columns.begin(), spec.columns.end(), label) != spec.columns.end();
+  };
+  const bool by_controller = has(Label::local_controller);
+  const std::string planned = layout.of_plans.empty() ? "" : layout.of_plans.front();
+  const SolvedTasks solved(spec, trials, planned);
+  const bool solved_alone =
+      by_controller && !has(Label::global_planner) && index_of(metrics, planned) && solved.matter();
   std::vector<CombinationLabels> rows;
   std::vector<CombinationLabels> columns;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (trials[i].robots == 0 || trials[i].outcome == trial_outcome::skipped) continue;
     const CombinationLabels labels = combination_of(trials[i]);
-    cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}].push_back(i);
+    std::vector<std::size_t>& cell =
+        cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}];
+    if (!solved_alone || solved.hold(trials[i])) cell.push_back(i);
   }
 
-  const auto has = [&](Label label) {
-    return std::find(spec.rows.begin(), spec.rows.end(), label) != spec.rows.end() ||
-           std::find(spec.columns.begin(), spec.columns.end(), label) != spec.columns.end();
-  };
-  const bool by_controller = has(Label::local_controller);
   const std::vector<BestMark> marks = best_marks(
       layout, metrics, trials, by_controller ? Contestants::planners_and_controllers : Contestants::planners);
   const Values values(layout, metrics, trials);
 
-  MeanTable table{spec, {}, {}, {}};
+  MeanTable table{spec, {}, {}, {}, solved_alone};
   for (const SummaryTableColumn& column : spec.metrics) {
     const std::string& unit = metrics[*index_of(metrics, column.metric)].unit;
     table.units.push_back(unit == "1" ? "" : unit);

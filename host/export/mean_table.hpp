@@ -48,6 +48,7 @@ struct MeanTable {
   std::vector<std::string> units;  // by metric
   std::vector<std::string> spans;  // titles of `columns`; empty without
   std::vector<TableRow> rows;      // those of a group stand together
+  bool solved_alone = false;       // by controller: over the tasks for which every planner of the row has a plan
 };
 
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,

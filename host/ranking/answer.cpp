@@ -21,8 +21,8 @@ RankedCombination ranked(const Contest& contest, std::size_t contestant, const M
   for (const auto& of_situation : contest.trials[contestant])
     trials.insert(trials.end(), of_situation.begin(), of_situation.end());
   result.trials = static_cast<std::uint32_t>(trials.size());
-  for (std::size_t i = 0; i < measures.criteria().size(); ++i) result.means.push_back(measures.mean(trials, i));
-  if (measures.stricter()) result.stricter_mean = measures.stricter_mean(trials);
+  for (const Criterion& one : measures.criteria()) result.means.push_back(measures.mean(trials, one));
+  for (const Criterion& one : measures.siblings()) result.sibling_means.push_back(measures.mean(trials, one));
   return result;
 }
 
@@ -71,14 +71,13 @@ std::optional<std::uint64_t> needed(const Answer& answer) {
   return core::pairs_needed(sd, wished_difference, level);
 }
 
-std::vector<OrderFlip> flips_of(const std::vector<RankedCombination>& ranking) {
-  std::vector<OrderFlip> flips;
+void add_flips(Answer& answer, std::size_t sibling) {
+  const std::vector<RankedCombination>& ranking = answer.ranking;
   for (std::size_t before = 0; before < ranking.size(); ++before)
     for (std::size_t behind = before + 1; behind < ranking.size(); ++behind)
       if (ranking[before].means[0] > ranking[behind].means[0] + rounding &&
-          ranking[before].stricter_mean < ranking[behind].stricter_mean - rounding)
-        flips.push_back({before, behind});
-  return flips;
+          ranking[before].sibling_means[sibling] < ranking[behind].sibling_means[sibling] - rounding)
+        answer.flips.push_back({sibling, before, behind});
 }
 
 Answer answer_of(const Contest& contest, const Measures& measures) {
@@ -110,10 +109,8 @@ Answer answer_of(const Contest& contest, const Measures& measures) {
   answer.needed = needed(answer);
   if (answer.in_general && answer.observations >= least_for_needed && answer.criteria.front().share)
     answer.pairs = pairs_apart(contest, measures);
-  if (measures.stricter()) {
-    answer.stricter = measures.stricter()->name;
-    answer.flips = flips_of(answer.ranking);
-  }
+  answer.siblings = measures.siblings();
+  for (std::size_t i = 0; i < answer.siblings.size(); ++i) add_flips(answer, i);
   return answer;
 }
 

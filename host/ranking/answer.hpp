@@ -38,16 +38,17 @@ struct RankedCombination {
   std::string local_controller;
   std::uint32_t trials = 0;
   std::vector<double> means;          // by criterion; NaN: undefined
-  double stricter_mean = 0.0;         // in the stricter sibling of the first criterion; meaningless where there is none
+  std::vector<double> sibling_means;  // by sibling of the first criterion
   std::vector<AgainstFirst> against;  // by criterion; empty for the first
   Standing standing = Standing::first;
   std::optional<std::size_t> decided;  // the first criterion that tells it apart, for it or against it
 };
 
-// Two combinations (places in the ranking) whose order in the first criterion its stricter sibling turns round.
+// Two combinations (places in the ranking) whose order in the first criterion one of its siblings turns round.
 struct OrderFlip {
+  std::size_t sibling = 0;
   std::size_t before = 0;  // has the higher mean in the first criterion
-  std::size_t behind = 0;  // has the higher mean in the stricter one
+  std::size_t behind = 0;  // has the higher mean in the sibling
 };
 
 // Over the trials of one scenario, number of robots and pedestrian model, or of several.
@@ -59,8 +60,8 @@ struct Answer {
   std::uint32_t observations = 0;  // of the first
   std::vector<Criterion> criteria;
   std::vector<RankedCombination> ranking;  // the best first
-  std::string stricter;                    // the stricter sibling of the first criterion, for readers; empty: none
-  std::vector<OrderFlip> flips;            // by the places of `before`, then of `behind`
+  std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
+  std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
   PairsApart pairs;                        // of combinations; none of fewer than ten tasks
 
   // Observations that would show a difference of 5 points in the first criterion, from the largest deviation among

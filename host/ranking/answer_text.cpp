@@ -109,18 +109,19 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
                                    combination_name(one), unsafe, cause_words(causes));
 }
 
-// Pairs of combinations whose order the stricter sibling of the first criterion turns round.
+// Pairs of combinations whose order a sibling of the first criterion turns round.
 std::string flip_line(const Answer& answer) {
+  const std::string& first = answer.criteria.front().name;
   std::vector<std::string> pairs;
   for (const OrderFlip& flip : answer.flips) {
-    const RankedCombination& before = answer.ranking[flip.before];
-    const RankedCombination& behind = answer.ranking[flip.behind];
-    pairs.push_back(fmt::format("{} ({:.2f}; {} {:.2f}) is before {} ({:.2f}; {} {:.2f})", combination_name(behind),
-                                behind.stricter_mean, answer.criteria.front().name, behind.means[0],
-                                combination_name(before), before.stricter_mean, answer.criteria.front().name,
-                                before.means[0]));
+    const auto words = [&](const RankedCombination& one) {
+      return fmt::format("{} ({:.2f}; {} {:.2f})", combination_name(one), one.sibling_means[flip.sibling], first,
+                         one.means[0]);
+    };
+    pairs.push_back(fmt::format("by {}, {} is before {}", answer.siblings[flip.sibling].name,
+                                words(answer.ranking[flip.behind]), words(answer.ranking[flip.before])));
   }
-  return fmt::format("The order depends on whose fault contacts are: by {}, {}.", answer.stricter, list_words(pairs));
+  return fmt::format("The order depends on whose fault contacts are: {}.", list_words(pairs));
 }
 
 // Whether these tasks can tell the combinations apart; "" where too few tasks were met.

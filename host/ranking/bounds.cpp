@@ -61,9 +61,10 @@ std::vector<BoundedValue> observations(const Contest& contest, const Bounds& bou
 
 Find share_of(const Measures& measures) {
   return [&measures](std::size_t lower, std::size_t upper, std::size_t trial) -> std::optional<BoundedValue> {
-    const auto of_lower = measures.value(lower, 0);
-    const auto of_upper = measures.value(upper, 0);
-    const auto of_trial = measures.value(trial, 0);
+    const Criterion& first = measures.criteria().front();
+    const auto of_lower = measures.value(lower, first);
+    const auto of_upper = measures.value(upper, first);
+    const auto of_trial = measures.value(trial, first);
     if (!of_lower || !of_upper || !of_trial) return std::nullopt;
     return BoundedValue{*of_lower, *of_upper, *of_trial};
   };

@@ -9,16 +9,13 @@
 namespace dmrp::host {
 namespace {
 
-// None: it was not measured.
-std::optional<std::size_t> column_of(std::span<const MetricColumn> metrics, const std::string& name) {
+// Unless it was not measured.
+void add_share(std::vector<Criterion>& shares, std::span<const MetricColumn> metrics, std::string name) {
   const auto found =
       std::find_if(metrics.begin(), metrics.end(), [&](const auto& metric) { return metric.name == name; });
-  return found == metrics.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - metrics.begin()));
-}
-
-Criterion share_of(std::string metric) {
-  std::replace(metric.begin(), metric.end(), '_', ' ');
-  return {metric, true};
+  if (found == metrics.end()) return;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  shares.push_back({name, true, static_cast<std::size_t>(found - metrics.begin())});
 }
 
 }  // namespace
@@ -27,36 +24,33 @@ Measures::Measures(const SummaryLayout& layout, std::span<const MetricColumn> me
                    std::span<const TrialRecord> trials)
     : trials_(trials), values_(system_values(metrics, trials)) {
   for (const std::string& share : layout.answer.shares) {
-    const auto column = column_of(metrics, share);
-    if (!column) continue;
-    criteria_.push_back(share_of(share));
-    metrics_.push_back(*column);
-    const auto stricter = column_of(metrics, layout.answer.stricter);
-    if (!stricter || share != layout.answer.shares.front()) continue;
-    stricter_ = share_of(layout.answer.stricter);
-    stricter_metric_ = *stricter;
+    add_share(criteria_, metrics, share);
+    if (share != layout.answer.shares.front() || criteria_.empty()) continue;
+    for (const std::string& sibling : layout.answer.siblings) add_share(siblings_, metrics, sibling);
   }
-  ways_ = robot_values(trials, layout.answer.way_length);
+  const RobotValues ways = robot_values(trials, layout.answer.way_length);
   times_ = robot_values(trials, layout.answer.time);
+  bool any_time = false;
   for (std::size_t trial = 0; trial < times_.size(); ++trial)
     for (std::size_t robot = 0; robot < times_[trial].size(); ++robot) {
       std::optional<double>& time = times_[trial][robot];
-      const std::optional<double>& way = ways_[trial][robot];
+      const std::optional<double>& way = ways[trial][robot];
       time = time && way && *way > 0.0 ? std::optional(*time / *way) : std::nullopt;
-      any_time_ = any_time_ || time;
+      any_time = any_time || time;
     }
-  if (any_time_ && !criteria_.empty()) criteria_.push_back({"time", false});
+  if (any_time && !criteria_.empty()) criteria_.push_back({"time", false, 0});
 }
 
 Difference Measures::difference(std::size_t criterion) const {
   if (criteria_[criterion].share)
-    return difference_of([this, metric = metrics_[criterion]](std::size_t trial) { return share(trial, metric); });
+    return difference_of(
+        [this, metric = criteria_[criterion].metric](std::size_t trial) { return share(trial, metric); });
   return [this](std::span<const std::size_t> a, std::span<const std::size_t> b) {
     return time_difference(a.front(), b.front());
   };
 }
 
-double Measures::mean(std::span<const std::size_t> trials, std::size_t criterion) const {
+double Measures::mean(std::span<const std::size_t> trials, const Criterion& criterion) const {
   std::vector<double> values;
   for (const std::size_t trial : trials) {
     if (const auto found = value(trial, criterion)) values.push_back(*found);
@@ -64,16 +58,8 @@ double Measures::mean(std::span<const std::size_t> trials, std::size_t criterion
   return core::mean(values);
 }
 
-double Measures::stricter_mean(std::span<const std::size_t> trials) const {
-  std::vector<double> values;
-  for (const std::size_t trial : trials) {
-    if (const auto found = share(trial, stricter_metric_)) values.push_back(*found);
-  }
-  return core::mean(values);
-}
-
-std::optional<double> Measures::value(std::size_t trial, std::size_t criterion) const {
-  return criteria_[criterion].share ? share(trial, metrics_[criterion]) : time(trial);
+std::optional<double> Measures::value(std::size_t trial, const Criterion& criterion) const {
+  return criterion.share ? share(trial, criterion.metric) : time(trial);
 }
 
 // A trial that ended in a fault counts as 0.

@@ -20,8 +20,9 @@ inline constexpr double rounding = 1e-9;
 // Something in which combinations are compared: a share of robots (higher is better), or the time of arrival over the
 // length of the robot's shortest way (lower is better), of robots that arrive with both.
 struct Criterion {
-  std::string name;   // for readers
-  bool share = true;  // false: the time, in s/m
+  std::string name;        // for readers
+  bool share = true;       // false: the time, in s/m
+  std::size_t metric = 0;  // of a share: its column
 };
 
 // How trials are compared in each criterion.
@@ -32,14 +33,13 @@ class Measures {
 
   const std::vector<Criterion>& criteria() const { return criteria_; }
 
-  // The stricter sibling of the first criterion, a share, if both were measured.
-  const std::optional<Criterion>& stricter() const { return stricter_; }
+  // The siblings of the first criterion, shares, as far as they and it were measured.
+  const std::vector<Criterion>& siblings() const { return siblings_; }
   const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
   Difference difference(std::size_t criterion) const;
-  double mean(std::span<const std::size_t> trials, std::size_t criterion) const;  // NaN: undefined
-  double stricter_mean(std::span<const std::size_t> trials) const;                // likewise
-  std::optional<double> value(std::size_t trial, std::size_t criterion) const;
+  double mean(std::span<const std::size_t> trials, const Criterion& criterion) const;  // NaN: undefined
+  std::optional<double> value(std::size_t trial, const Criterion& criterion) const;
 
  private:
   std::optional<double> share(std::size_t trial, std::size_t metric) const;
@@ -48,13 +48,9 @@ class Measures {
 
   std::span<const TrialRecord> trials_;
   SystemValues values_;
-  RobotValues ways_;
   RobotValues times_;  // over the lengths of the shortest ways
-  bool any_time_ = false;
   std::vector<Criterion> criteria_;
-  std::vector<std::size_t> metrics_;  // of the criteria that are shares
-  std::optional<Criterion> stricter_;
-  std::size_t stricter_metric_ = 0;
+  std::vector<Criterion> siblings_;
 };
 
 // Whether means a come before means b, by criterion. An undefined time comes last.

@@ -31,7 +31,7 @@ double mean_of(const Contest& contest, const Measures& measures, std::size_t con
   std::vector<std::size_t> trials;
   for (const auto& of_situation : contest.trials[contestant])
     trials.insert(trials.end(), of_situation.begin(), of_situation.end());
-  return measures.mean(trials, criterion);
+  return measures.mean(trials, measures.criteria()[criterion]);
 }
 
 }  // namespace

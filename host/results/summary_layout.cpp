@@ -43,8 +43,8 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
   for (const auto& [key, value] : json.items()) {
     if (key == "shares")
       answer.shares = value.get<std::vector<std::string>>();
-    else if (key == "stricter")
-      answer.stricter = value.get<std::string>();
+    else if (key == "siblings")
+      answer.siblings = value.get<std::vector<std::string>>();
     else if (key == "time")
       answer.time = value.get<std::string>();
     else if (key == "way_length")

@@ -24,10 +24,10 @@ struct SummaryTableColumn {
 
 // The metrics by which combinations are ordered (host/ranking/answer.hpp).
 struct AnswerMetrics {
-  std::vector<std::string> shares;  // of robots, the most important first; higher is better
-  std::string stricter;             // of the first share; orders that it turns round are named. Empty: none
-  std::string time;                 // of a robot's arrival; lower is better
-  std::string way_length;           // of a robot's shortest way, by which its time is divided
+  std::vector<std::string> shares;    // of robots, the most important first; higher is better
+  std::vector<std::string> siblings;  // of the first share, stricter or milder; orders that one turns round are named
+  std::string time;                   // of a robot's arrival; lower is better
+  std::string way_length;             // of a robot's shortest way, by which its time is divided
 };
 
 struct SummaryLayout {
@@ -39,7 +39,7 @@ struct SummaryLayout {
   // trials.
   std::vector<std::string> counts_failures;
 
-  // Metrics of plans, which do not change where a robot fails on its way.
+  // Metrics of plans, which do not change where a robot fails on its way. The first is defined where there is a plan.
   std::vector<std::string> of_plans;
 
   AnswerMetrics answer;

@@ -42,7 +42,7 @@ void make_directory(const fs::path& path) {
 // The run was killed before it had a database.
 bool was_never_begun(const fs::path& path) {
   constexpr std::array first_files = {"experiment.toml", "effective.toml", "manifest.json", "traces",
-                                      "results.new",     "log.txt",        "scratch"};
+                                      "results.new",     "log.txt",        "scratch",       "plans"};
   std::error_code error;
   bool has_begun = !fs::is_directory(path, error) || fs::is_empty(path, error);
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {

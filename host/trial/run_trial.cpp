@@ -11,7 +11,6 @@
 #include "core/execution/replanning.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/dispatcher.hpp"
-#include "host/trial/trial_plugins.hpp"
 
 namespace dmrp::host {
 
@@ -41,7 +40,8 @@ class Run {
       : settings_(settings_of(trial)),
         world_(trial.variant.scenario, trial.variant.types, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
-        plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace),
+        plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace,
+                 {can_replan(settings_) ? nullptr : trial.first_plan.given, trial.first_plan.on_made}),
         trace_(trace),
         dispatcher_(trial.variant, world_),
         referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)},

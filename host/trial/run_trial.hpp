@@ -7,15 +7,18 @@
 #include "core/trace/trace_encoder.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/trial/instance_pool.hpp"
+#include "host/trial/trial_plugins.hpp"
 #include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
 
+// Where nothing can replan, first_plan.given takes the planner's place.
 struct Trial {
   const Experiment& experiment;
   const Combination& combination;
   const VariantWorld& variant;
   std::uint64_t seed;
+  FirstPlan first_plan{};
 };
 
 struct TrialEnding {

@@ -33,14 +33,19 @@ std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32
 
 TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, const Combination& combination,
                            const VariantWorld& variant, const core::World& world, std::uint64_t seed,
-                           core::TraceEncoder& trace)
+                           core::TraceEncoder& trace, FirstPlan first_plan)
     : experiment_(experiment),
       variant_(variant),
       world_(world),
+      first_plan_(std::move(first_plan)),
       scanned_trace_(experiment.scans && experiment.traces != RecordTraces::none ? &trace : nullptr),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
   copy_world();
-  if (combination.global_planner >= 0) start_planner(combination, pool, seed);
+  if (combination.global_planner >= 0) {
+    planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
+    if (!first_plan_.given || (annotated_trace_ && asks_for(planner_use_->info, DMRP_EXT_ANNOTATE)))
+      start_planner(pool, seed);
+  }
   if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
   if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
 }
@@ -50,8 +55,7 @@ core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
   return lidars_.try_emplace(type.type, type.lidar, variant_.geometry).first->second;
 }
 
-void TrialPlugins::start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
+void TrialPlugins::start_planner(InstancePool& pool, std::uint64_t seed) {
   planner_ = &pool.get(*planner_use_, DMRP_NO_ROBOT);
   offer(*planner_, DMRP_KIND_GLOBAL_PLANNER, annotated_trace_);
   planner_->start(variant_.view.world(), instance_seed(seed, "global_planner", 0),
@@ -134,9 +138,13 @@ void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const Call
 }
 
 Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
-  Plan plan = make_plan(*planner_, planner_use_->info, variant_, world_, in_force,
+  const auto source = [&](const dmrp_planning_problem& problem) {
+    return planner_ ? call_planner(*planner_, problem, step) : *first_plan_.given;
+  };
+  Plan plan = make_plan(source, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
-  if (plan.planner_called) {
+  if (!in_force && planner_ && first_plan_.on_made) first_plan_.on_made(plan);
+  if (plan.answered) {
     note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
     note_call(DMRP_CALL_PLAN_PROCESSOR_TIME, 0, {plan.status, plan.processor_ns});
   }
@@ -261,8 +269,9 @@ void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
   end_of(pedestrian_model_);
   end_of(foreseeing_model_);
   // found late: any plugin of the trial can have done it
-  if (pedestrian_model_) return world_input_.check(pedestrian_model_->site("trial_end", step), world_text);
-  if (planner_) world_input_.check(planner_->site("trial_end", step), world_text);
+  for (const Instance* instance :
+       {pedestrian_model_, planner_, controllers_.empty() ? nullptr : controllers_[0].instance})
+    if (instance) return world_input_.check(instance->site("trial_end", step), world_text);
 }
 
 }  // namespace dmrp::host

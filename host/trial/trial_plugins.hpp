@@ -6,6 +6,7 @@
 #include <dmrp/metric.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,12 +36,19 @@ struct GuidedRobot {
   Guidance guidance;
 };
 
+// The first plan of a trial, if it is there already: then the planner is not asked for it.
+struct FirstPlan {
+  const PlannerAnswer* given = nullptr;
+  std::function<void(const PlannerAnswer&)> on_made;  // called with a valid plan, or none, of the planner; may be empty
+};
+
 class TrialPlugins {
  public:
-  // Takes the combination's instances from the pool and starts them for this trial. Their annotations go to `trace`. All
-  // functions throw PluginFault.
+  // Takes the combination's instances from the pool and starts them for this trial: the planner only if it is asked for
+  // a plan, or annotates. Their annotations go to `trace`. All functions throw PluginFault.
   TrialPlugins(InstancePool& pool, const Experiment& experiment, const Combination& combination,
-               const VariantWorld& variant, const core::World& world, std::uint64_t seed, core::TraceEncoder& trace);
+               const VariantWorld& variant, const core::World& world, std::uint64_t seed, core::TraceEncoder& trace,
+               FirstPlan first_plan = {});
   TrialPlugins(const TrialPlugins&) = delete;
   TrialPlugins& operator=(const TrialPlugins&) = delete;
 
@@ -84,7 +92,7 @@ class TrialPlugins {
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 
  private:
-  void start_planner(const Combination& combination, InstancePool& pool, std::uint64_t seed);
+  void start_planner(InstancePool& pool, std::uint64_t seed);
   void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void foresee_people(const Combination& combination, InstancePool& pool, std::uint64_t seed);
@@ -104,8 +112,9 @@ class TrialPlugins {
   const Experiment& experiment_;
   const VariantWorld& variant_;
   const core::World& world_;
-  const PluginUse* planner_use_ = nullptr;  // nullptr without robots, as planner_
-  Instance* planner_ = nullptr;
+  FirstPlan first_plan_;
+  const PluginUse* planner_use_ = nullptr;  // nullptr without robots
+  Instance* planner_ = nullptr;             // nullptr where it is not asked
   Instance* pedestrian_model_ = nullptr;
   struct Controller {
     Instance* instance;

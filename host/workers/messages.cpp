@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host/workers/messages.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "host/results/result_bytes.hpp"
+#include "host/workers/stored_plan.hpp"
 #include "host/workers/whole_number.hpp"
 
 namespace dmrp::host {
@@ -63,7 +68,7 @@ void from_json(const nlohmann::json& json, MetricEvent& e) {
   e.place = place.is_null() ? std::nullopt : std::optional(dmrp_vec2{place.at(0), place.at(1)});
 }
 
-DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics)
+DMRP_FIELDS(Job, trial, stamp, trace_file, scratch_file, skip_metrics, plan, new_plan)
 
 void to_json(nlohmann::json& json, const TimingReason& reason) {
   json = nlohmann::json::array({reason.plugin, reason.text});
@@ -87,6 +92,44 @@ void from_json(const nlohmann::json& json, FaultRecord& f) {
   f.signal = whole_number<std::int32_t>(json.at("signal"));
   json.at("detail").get_to(f.detail);
   json.at("rerun").get_to(f.rerun);
+}
+
+void to_json(nlohmann::json& json, const PlanStatistic& statistic) {
+  // JSON has no infinity: as text
+  json = nlohmann::json::array({statistic.name, statistic.value});
+  if (!std::isfinite(statistic.value)) json[1] = fmt::format("{}", statistic.value);
+}
+void from_json(const nlohmann::json& json, PlanStatistic& statistic) {
+  json.at(0).get_to(statistic.name);
+  statistic.value =
+      json.at(1).is_string() ? std::strtod(json.at(1).get<std::string>().c_str(), nullptr) : json.at(1).get<double>();
+}
+
+void to_json(nlohmann::json& json, const StoredPlan& plan) {
+  json = {{"timing", plan.timing}};
+  if (plan.fault) {
+    json["fault"] = *plan.fault;
+    json["task"] = plan.task;
+    return;
+  }
+  json["status"] = plan.answer.status;
+  json["planning_ns"] = plan.answer.planning_ns;
+  json["processor_ns"] = plan.answer.processor_ns;
+  json["statistics"] = plan.answer.statistics;
+  json["paths_sha256"] = plan.paths_sha256;
+}
+void from_json(const nlohmann::json& json, StoredPlan& plan) {
+  json.at("timing").get_to(plan.timing);
+  if (json.contains("fault")) {
+    plan.fault = json.at("fault").get<FaultRecord>();
+    json.at("task").get_to(plan.task);
+    return;
+  }
+  plan.answer.status = whole_number<std::int32_t>(json.at("status"));
+  plan.answer.planning_ns = whole_number<std::int64_t>(json.at("planning_ns"));
+  plan.answer.processor_ns = whole_number<std::int64_t>(json.at("processor_ns"));
+  json.at("statistics").get_to(plan.answer.statistics);
+  json.at("paths_sha256").get_to(plan.paths_sha256);
 }
 
 // An array, not an object: there are many values. JSON keeps the bits of finite doubles (shortest round trip).

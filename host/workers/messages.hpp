@@ -4,6 +4,7 @@
 //   worker     -> {"type": "ready", "digest"}        of what the worker has read (loaded_digest())
 //   supervisor -> Job                                one trial
 //   worker     -> {"type": "began"}                  the worker begins it
+//   worker     -> {"type": "planned"} + StoredPlan   the first plan of the trial, whose paths stand in Job::new_plan
 //   worker     -> {"type": "measuring", "index"}     a metric begins
 //   worker     -> {"type": "metric", "last"} + MetricResult  a piece of what a metric has given; with the last, the
 //                                                    metric has finished
@@ -37,12 +38,16 @@ class UnbelievableMessage : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct StoredPlan;  // stored_plan.hpp
+
 struct Job {
   std::uint64_t trial = 0;
   std::uint64_t stamp = 0;                  // another one for each attempt, not 0
   std::string trace_file;                   // in the worker's scratch folder; "" for none
   std::string scratch_file;                 // where a large trace goes until it has been measured
   std::vector<std::uint32_t> skip_metrics;  // ended in a fault in an earlier attempt
+  std::string plan{};                       // name of its stored plan; "" for none
+  std::string new_plan{};                   // where the paths of its first plan go; "" if that is stored
 };
 
 // Calls `send` with the pieces of a result, in order: each side holds one as text at a time.
@@ -62,6 +67,8 @@ void to_json(nlohmann::json& json, const TrialDone& done);
 void from_json(const nlohmann::json& json, TrialDone& done);
 void to_json(nlohmann::json& json, const MetricResult& result);
 void from_json(const nlohmann::json& json, MetricResult& result);
+void to_json(nlohmann::json& json, const StoredPlan& plan);  // without paths
+void from_json(const nlohmann::json& json, StoredPlan& plan);
 void to_json(nlohmann::json& json, const FaultRecord& fault);
 void from_json(const nlohmann::json& json, FaultRecord& fault);
 

@@ -13,6 +13,7 @@
 
 #include "host/process/fault_kind.hpp"
 #include "host/results/result_bytes.hpp"
+#include "host/workers/stored_plan.hpp"
 #include "host/workers/whole_number.hpp"
 
 namespace dmrp::host {
@@ -199,6 +200,13 @@ OpenTrial::State OpenTrial::end_attempt(FaultRecord fault) {
   record_.values.clear();
   record_.events.clear();
   return State::done;
+}
+
+void OpenTrial::end_without_plan(StoredPlan stored) {
+  record_.outcome = trial_outcome::fault;
+  record_.faults = {std::move(*stored.fault)};
+  record_.task = std::move(stored.task);
+  add_timing(stored.timing);
 }
 
 void OpenTrial::restart() {

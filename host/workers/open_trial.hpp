@@ -40,6 +40,9 @@ class OpenTrial {
   // otherwise the trial is over.
   State end_attempt(FaultRecord fault);
 
+  // Ends before it begins, by the fault of the planner in another trial of the same plan.
+  void end_without_plan(StoredPlan stored);
+
   // Forgets this attempt, except for faults of metrics.
   void restart();
 

@@ -14,6 +14,10 @@ fs::path scratch_folders(const fs::path& run_directory) {
   return run_directory / "scratch";
 }
 
+fs::path run_directory_of(const fs::path& scratch_folder) {
+  return scratch_folder.parent_path().parent_path();
+}
+
 ScratchFolder::ScratchFolder(const fs::path& run_directory) {
   const fs::path folders = fs::absolute(scratch_folders(run_directory));
   fs::create_directories(folders);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // scratch_folder.hpp: the folder in which one worker writes its files. Nothing of it is a result until the supervisor has
-// taken it (stored_trace.hpp).
+// taken it (stored_file.hpp).
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@ namespace dmrp::host {
 
 // Within the run directory, on the file system of the results.
 std::filesystem::path scratch_folders(const std::filesystem::path& run_directory);
+std::filesystem::path run_directory_of(const std::filesystem::path& scratch_folder);
 
 class ScratchFolder {
  public:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,7 +27,8 @@
 #include "host/workers/open_trial.hpp"
 #include "host/workers/rerun_command.hpp"
 #include "host/workers/scratch_folder.hpp"
-#include "host/workers/stored_trace.hpp"
+#include "host/workers/stored_file.hpp"
+#include "host/workers/stored_plan.hpp"
 #include "host/workers/whole_number.hpp"
 #include "host/workers/worker_fault.hpp"
 #include "host/workers/worker_process.hpp"
@@ -57,8 +59,9 @@ struct Slot {
   Watch work;       // the start of the worker, or its trial
   Watch long_call;  // the last that took long
   bool ready = false;
-  bool listening = true;  // the worker's end of the channel is open
-  int trials_begun = 0;   // by this worker
+  bool listening = true;    // the worker's end of the channel is open
+  bool makes_plan = false;  // its trial has still to give the plan that others wait for
+  int trials_begun = 0;     // by this worker
   std::optional<OpenTrial> trial;
   std::optional<std::uint64_t> last_trial;  // that this worker finished
 };
@@ -78,6 +81,8 @@ class Supervisor {
         settings_(settings),
         sinks_(sinks),
         digest_(loaded_digest(experiment)),
+        combinations_(combinations(experiment)),
+        plans_(settings.run_directory),
         planned_(std::move(trials)),
         open_trials_(planned_.left()) {
     const fs::path log = settings.run_directory / "log.txt";
@@ -113,7 +118,7 @@ class Supervisor {
  private:
   // Starts a worker if the slot has none, and gives an idle worker a trial.
   void assign_work(Slot& slot) {
-    if (slot.trial || (again_.empty() && planned_.left() == 0)) return;
+    if (slot.trial || (again_.empty() && waiting_.empty() && planned_.left() == 0)) return;
     if (!slot.worker) {
       slot = Slot();
       slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
@@ -124,6 +129,7 @@ class Supervisor {
     }
     if (!slot.ready) return;
     slot.trial = next_trial();
+    if (!slot.trial) return;
     slot.trial->started_ns = monotonic_ns();
     slot.work = {slot.trial->started_ns, slot.worker->process().waited_for_processor_ns()};
     // a worker that has died is noticed by its end
@@ -132,15 +138,55 @@ class Supervisor {
     Job job = slot.trial->begin(new_stamp());
     if (experiment_.traces != RecordTraces::none) job.trace_file = scratch_trace(slot, job.trial).string();
     job.scratch_file = (slot.scratch->path() / "samples").string();
+    job.plan = plan_of(job.trial);
+    slot.makes_plan = !job.plan.empty() && !plans_.has(job.plan);
+    if (slot.makes_plan) {
+      job.new_plan = scratch_plan(slot).string();
+      planning_[job.plan] = job.trial;
+    }
     slot.worker->channel().send(job);
   }
 
-  OpenTrial next_trial() {
-    if (again_.empty()) return OpenTrial(experiment_, blank_record(experiment_, *planned_.next()));
-    OpenTrial trial = std::move(again_.back());
-    again_.pop_back();
-    return trial;
+  // Nothing if all trials that are left wait for plans. Of a fault of the planner each trial of the plan has a row.
+  std::optional<OpenTrial> next_trial() {
+    if (!again_.empty()) {
+      OpenTrial trial = std::move(again_.back());
+      again_.pop_back();
+      return trial;
+    }
+    while (const auto number = next_number()) {
+      OpenTrial trial(experiment_, blank_record(experiment_, *number));
+      const std::string plan = plan_of(*number);
+      if (!plans_.has(plan)) return trial;
+      StoredPlan stored = plans_.read_call(plan);
+      if (!stored.fault) return trial;
+      trial.end_without_plan(std::move(stored));
+      fs::remove(stored_trace(*number));  // of an earlier attempt
+      end_trial(trial.take_record());
+    }
+    return std::nullopt;
   }
+
+  // The first trial in order that need not wait for the plan that another one makes.
+  std::optional<std::uint64_t> next_number() {
+    const auto waits = [this](std::uint64_t trial) { return planning_.contains(plan_of(trial)); };
+    if (const auto ready = std::find_if_not(waiting_.begin(), waiting_.end(), waits); ready != waiting_.end()) {
+      const std::uint64_t trial = *ready;
+      waiting_.erase(ready);
+      return trial;
+    }
+    while (const auto trial = planned_.next()) {
+      if (!waits(*trial)) return trial;
+      waiting_.push_back(*trial);
+    }
+    return std::nullopt;
+  }
+
+  std::string plan_of(std::uint64_t trial) const {
+    const TrialId id = trial_id(trial, combinations_.size());
+    return plan_name(combinations_[id.combination], id.repetition);
+  }
+  static fs::path scratch_plan(const Slot& slot) { return slot.scratch->path() / "plan.csv"; }
 
   // For one trial.
   void allow_cpu(Slot& slot) const {
@@ -231,6 +277,7 @@ class Supervisor {
   }
 
   void read_trial_message(Slot& slot, const std::string& type, const nlohmann::json& message) {
+    if (type == "planned") return store_plan(slot, message);
     const OpenTrial::State state = slot.trial->take(message);
     if (type == "began") {
       ++slot.trials_begun;
@@ -238,6 +285,42 @@ class Supervisor {
     }
     if (type == "fault" && state != OpenTrial::State::running) end_process(slot);  // fatal
     settle(slot, state);
+  }
+
+  // Other trials may have it from now on, however this one ends.
+  void store_plan(Slot& slot, const nlohmann::json& message) {
+    slot.trial->check_sender(message);
+    if (!std::exchange(slot.makes_plan, false)) throw UnbelievableMessage("of a plan that was not asked for");
+    const std::string name = plan_of(slot.trial->record().id);
+    const fs::path csv = plans_.csv_file(name);
+    const auto make_folder = [&] { fs::create_directories(csv.parent_path()); };
+    make_folder();
+    if (!store_file(scratch_plan(slot), csv, make_folder))
+      throw UnbelievableMessage("of a plan that is not in the scratch folder of the worker");
+    StoredPlan plan = message.get<StoredPlan>();
+    plan.fault.reset();
+    plans_.write_call(name, std::move(plan));
+    planning_.erase(name);
+  }
+
+  // A trial that makes the plan of others has ended.
+  void end_planning(const TrialRecord& record) {
+    const std::string name = plan_of(record.id);
+    const auto own = planning_.find(name);
+    if (own == planning_.end() || own->second != record.id) return;
+    planning_.erase(own);
+    if (const FaultRecord* const fault = planner_fault(record))
+      plans_.write_call(name, {{}, record.timing, *fault, record.task});
+  }
+
+  // The fault by which the planner gives no first plan; nullptr if there is none.
+  const FaultRecord* planner_fault(const TrialRecord& record) const {
+    if (record.outcome != trial_outcome::fault || record.faults.empty()) return nullptr;
+    const FaultRecord& fault = record.faults.back();
+    const Combination& combination = combinations_[trial_id(record.id, combinations_.size()).combination];
+    const PluginUse& planner = experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
+    const bool plans = fault.function == "create" || fault.function == "start" || fault.function == "plan";
+    return plans && fault.plugin == planner.info.id ? &fault : nullptr;
   }
 
   void settle(Slot& slot, OpenTrial::State state) {
@@ -274,9 +357,14 @@ class Supervisor {
     }
     TrialRecord record = slot.trial->take_record();
     record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
-    for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(experiment_, record.id, settings_.trial_count);
     slot.trial.reset();
     slot.last_trial = record.id;
+    end_planning(record);
+    end_trial(std::move(record));
+  }
+
+  void end_trial(TrialRecord&& record) {
+    for (FaultRecord& fault : record.faults) fault.rerun = rerun_command(experiment_, record.id, settings_.trial_count);
     --open_trials_;
     sinks_.on_trial(std::move(record));
   }
@@ -298,7 +386,7 @@ class Supervisor {
       fs::remove(stored);  // of an earlier attempt
       return true;
     }
-    return store_trace(scratch_trace(slot, record.id), stored, make_folder) || record.outcome == trial_outcome::fault;
+    return store_file(scratch_trace(slot, record.id), stored, make_folder) || record.outcome == trial_outcome::fault;
   }
 
   void run_again(Slot& slot) {
@@ -442,13 +530,17 @@ class Supervisor {
   const SupervisorSettings& settings_;
   const SupervisorSinks& sinks_;
   const std::string digest_;
+  const std::vector<Combination> combinations_;
+  const StoredPlans plans_;
   const bool watches_memory_ = experiment_.limits.memory_mb > 0 && !MemoryGroup::available();
   const bool counts_resident_memory_ = counts_resident_memory(experiment_);
   std::int64_t next_look_at_memory_ns_ = 0;
   Descriptor log_;
   Watchdog watchdog_;
   PlannedTrials planned_;
-  std::vector<OpenTrial> again_;  // trials that have begun and lost their worker
+  std::vector<OpenTrial> again_;                   // trials that have begun and lost their worker
+  std::vector<std::uint64_t> waiting_;             // in order, for the plan that another trial makes
+  std::map<std::string, std::uint64_t> planning_;  // by plan: the trial that makes it
   std::vector<Slot> slots_;
   std::uint64_t open_trials_;
   int failed_starts_ = 0;

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -29,6 +31,8 @@
 #include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 #include "host/workers/messages.hpp"
+#include "host/workers/scratch_folder.hpp"
+#include "host/workers/stored_plan.hpp"
 
 namespace dmrp::host {
 
@@ -79,10 +83,17 @@ class Sender {
   std::uint64_t trial_ = 0;
 };
 
+void write_text(const std::string& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  if (!(out << text << std::flush)) throw std::system_error(errno, std::generic_category(), file);
+}
+
 class Worker {
  public:
-  Worker(const Experiment& experiment, LineChannel& channel, Sender& sender, CallNote& note)
+  Worker(const Experiment& experiment, const std::filesystem::path& run_directory, LineChannel& channel, Sender& sender,
+         CallNote& note)
       : experiment_(experiment),
+        plans_(run_directory),
         combinations_(combinations(experiment)),
         channel_(channel),
         sender_(sender),
@@ -129,10 +140,12 @@ class Worker {
 
     guard_.reset_timing();
     logged_ = {job.trial, world.simulation.step_ns};
+    std::optional<StoredPlan> stored;
     TrialDone done;
     done.task = task_hash(world.scenario);
     try {
-      const TrialEnding ending = run_trial({experiment_, combination, world, seed}, pool_, trace);
+      const TrialEnding ending = run_trial(
+          {experiment_, combination, world, seed, first_plan_of(job, combination, stored, done.timing)}, pool_, trace);
       done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
       done.sim_time_s = ending.sim_time_s;
       guard_.check_no_children();
@@ -147,9 +160,35 @@ class Worker {
       measure_all(kept, world, seed, job, events);
       finish(kept, std::move(events));
     }
-    done.timing = guard_.timing();
+    for (TimingReason& reason : guard_.timing()) done.timing.push_back(std::move(reason));
     sender_.send(typed("done", done));
     if (own) pool_.clear();  // instances may keep pointers into their world
+  }
+
+  // As stored, or to be stored. A trial is as repeatable as the plan that it gets.
+  FirstPlan first_plan_of(const Job& job, const Combination& combination, std::optional<StoredPlan>& stored,
+                          std::vector<TimingReason>& timing) {
+    if (job.plan.empty()) return {};
+    const std::string& planner =
+        experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)].info.id;
+    if (job.new_plan.empty()) {
+      stored = plans_.read(job.plan);
+      timing = stored->timing;
+    }
+    return {stored ? &stored->answer : nullptr, [&, planner](const PlannerAnswer& made) {
+              if (!stored) return store(job, planner, made);
+              timing.clear();
+              if (!same_plan(made, stored->answer))
+                timing.push_back({planner, "its first plan is another than the run has stored"});
+            }};
+  }
+
+  void store(const Job& job, const std::string& planner, const PlannerAnswer& made) {
+    std::vector<TimingReason> timing = guard_.timing();
+    std::erase_if(timing, [&](const TimingReason& reason) { return reason.plugin != planner; });
+    umask(umask_);  // the planner can have changed it
+    write_text(job.new_plan, plan_csv(made.paths));
+    sender_.send(typed("planned", StoredPlan{made, std::move(timing)}));
   }
 
   static void finish(KeptTrace& kept, std::vector<MetricEvent> events) {
@@ -193,6 +232,7 @@ class Worker {
   }
 
   const Experiment& experiment_;
+  const StoredPlans plans_;
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   Sender& sender_;
@@ -236,7 +276,7 @@ int run_worker(const WorkerTask& task) {
       return {{}, {}, std::find(all.begin(), all.end(), file) == all.end() ? "" : "the supervisor has left it out"};
     };
     const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors, refuse_unloadable);
-    Worker(experiment, channel, sender, shared.note()).serve();
+    Worker(experiment, run_directory_of(task.scratch), channel, sender, shared.note()).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;

@@ -22,6 +22,7 @@
 #include "metrics/paper/ldf.hpp"
 #include "metrics/paper/pfd.hpp"
 #include "metrics/paper/sto.hpp"
+#include "metrics/safety/braking_response.hpp"
 #include "metrics/safety/clearance.hpp"
 #include "metrics/safety/collisions.hpp"
 #include "metrics/safety/time_to_collision.hpp"
@@ -39,9 +40,10 @@ DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::P
              dmrp::metrics::CompletionTime, dmrp::metrics::Speed, dmrp::metrics::Arrivals, dmrp::metrics::Spl,
              dmrp::metrics::FirstCause, dmrp::metrics::Sto, dmrp::metrics::Ibtr, dmrp::metrics::Ldf, dmrp::metrics::Pfd,
              dmrp::metrics::StoPhysical, dmrp::metrics::ScheduleError, dmrp::metrics::RootConflicts,
-             dmrp::metrics::Collisions, dmrp::metrics::Clearance, dmrp::metrics::TimeToCollision,
-             dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock, dmrp::metrics::PersonStandoff,
-             dmrp::metrics::OpenStandstill, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby,
-             dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork,
-             dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness, dmrp::metrics::IdleTime,
-             dmrp::metrics::ClippedCommands, dmrp::metrics::Recoveries, dmrp::metrics::ComputeTime)
+             dmrp::metrics::Collisions, dmrp::metrics::BrakingResponse, dmrp::metrics::Clearance,
+             dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock,
+             dmrp::metrics::PersonStandoff, dmrp::metrics::OpenStandstill, dmrp::metrics::Neighbours,
+             dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion,
+             dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness,
+             dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands, dmrp::metrics::Recoveries,
+             dmrp::metrics::ComputeTime)

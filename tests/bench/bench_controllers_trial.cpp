@@ -145,7 +145,9 @@ class Recording {
     const host::PluginUse& use = trial_.experiment.global_planners[0];
     host::Instance& planner = pool.get(use, DMRP_NO_ROBOT);
     planner.start(trial_.variant.view.world(), instance_seed(trial_.seed, "global_planner", 0), budget_ns);
-    const host::Plan plan = host::make_plan(planner, use.info, trial_.variant, world_, nullptr, budget_ns, 0);
+    const host::Plan plan =
+        host::make_plan([&](const dmrp_planning_problem& problem) { return host::call_planner(planner, problem, 0); },
+                        use.info, trial_.variant, world_, nullptr, budget_ns, 0);
     if (!plan.exists()) throw std::runtime_error("the planner found no plan");
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
       Driver& driver = *drivers_[i];

@@ -77,7 +77,7 @@ function packed() {
         at: [1500, 700],
         depth: 4,
         fault: 'both',
-        unavoidable: false,
+        speed: 420,
       },
       {
         kind: 'static',
@@ -88,7 +88,6 @@ function packed() {
         at: [0, 0],
         depth: 1,
         fault: 'robot',
-        unavoidable: false,
       },
     ],
     events: [
@@ -205,7 +204,7 @@ const tests = {
     assert.deepStrictEqual(plain(found.map((event) => [event.from, event.kind, event.text])), [
       [0, 'metric', 'they block each other'],
       [0.1, 'plan', 'the planner returned no plan'],
-      [0.1, 'contact', 'robot 0 and robot 1 touch: both at fault'],
+      [0.1, 'contact', 'robot 0 and robot 1 touch at 0.42 m/s: both at fault'],
       [0.2, 'failure', 'robot 1 failed: held behind another robot, robot 0'],
       [0.22, 'contact', 'robot 1 and the border touch: robot 1 at fault'],
       [0.24, 'arrival', 'robot 0 arrived'],

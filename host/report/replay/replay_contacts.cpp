@@ -12,7 +12,8 @@ void ReplayContacts::observe(const dmrp_sample& sample) {
     const auto [latest, first_of_pair] = latest_.try_emplace({contact.kind, contact.a, other}, events_.size());
     if (first_of_pair || (contact.flags & DMRP_CONTACT_BEGINS) != 0) {
       latest->second = events_.size();
-      events_.push_back({contact.kind, contact.a, other, contact.flags, sample.t_ns, sample.t_ns, 0.0, contact.point});
+      events_.push_back({contact.kind, contact.a, other, contact.flags, sample.t_ns, sample.t_ns, 0.0, contact.point,
+                         contact.impact_speed});
     }
     ReplayContact& event = events_[latest->second];
     event.to_ns = sample.t_ns;

@@ -17,9 +17,10 @@ struct ReplayContact {
   std::uint64_t other = 0;  // `b`; the id, not the index, of a person
   std::uint32_t flags = 0;  // DMRP_CONTACT_*, of the first sample
   std::int64_t from_ns = 0;
-  std::int64_t to_ns = 0;  // of the last sample
-  double depth_m = 0.0;    // maximum
-  dmrp_vec2 point{};       // at the beginning
+  std::int64_t to_ns = 0;     // of the last sample
+  double depth_m = 0.0;       // maximum
+  dmrp_vec2 point{};          // at the beginning
+  double impact_speed = 0.0;  // m/s; NaN: not known
 };
 
 // Expects every sample in order.

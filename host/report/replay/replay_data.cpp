@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -85,8 +86,8 @@ json contacts_json(const ReplayContacts& contacts) {
                     {"to", milliseconds(contact.to_ns)},
                     {"at", {thousandths(contact.point.x), thousandths(contact.point.y)}},
                     {"depth", thousandths(contact.depth_m)},
-                    {"fault", faults.at(fault)},
-                    {"unavoidable", (contact.flags & DMRP_CONTACT_UNAVOIDABLE) != 0}});
+                    {"fault", faults.at(fault)}});
+    if (!std::isnan(contact.impact_speed)) list.back()["speed"] = thousandths(contact.impact_speed);
   }
   return list;
 }

@@ -23,7 +23,7 @@
 //    "plans": [{"revision", "made", "from", "paths": [{"x": D, "y": D, "t": D}]}],   no paths: the planner returned no plan
 //    "plan": R,                                     index of the current plan, -1 for none
 //    "contacts": [{"kind": "static" | "robot" | "person", "robot", "other", "from", "to", "at": [x, y], "depth",
-//                  "fault": "none" | "robot" | "other" | "both", "unavoidable"}],
+//                  "fault": "none" | "robot" | "other" | "both", "speed"?}],      of the impact, if known
 //                                                   other: index of a shape (their number: the border) or
 //                                                   of a robot, or a person's id
 //    "events": [{"metric", "from", "to", "robots": [], "text"}],

@@ -50,7 +50,11 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
                   fmt::format("its stride is {}, at least {}", path.stride, size_v1_0<dmrp_waypoint>));
   std::vector<dmrp_waypoint> waypoints;
   waypoints.reserve(path.count);
-  for (std::uint32_t i = 0; i < path.count; ++i) waypoints.push_back(copy_element(path.waypoints, path.stride, i));
+  for (std::uint32_t i = 0; i < path.count; ++i) {
+    waypoints.push_back(copy_element(path.waypoints, path.stride, i));
+    // one NaN for all: a stored plan has the same bits
+    if (std::isnan(waypoints.back().theta)) waypoints.back().theta = core::free_heading;
+  }
   collected.paths[robot] = std::move(waypoints);
   collected.given[robot] = true;
   return DMRP_OK;
@@ -207,7 +211,7 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
   return true;
 }
 
-Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step) {
   Plan plan;
   plan.revision = in_force ? in_force->plan.revision + 1 : 1;
@@ -216,19 +220,14 @@ Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& va
 
   StagedProblem problem;
   if (!stage_problem(variant, world, in_force, time_budget_ns, problem)) return plan;
-  plan.planner_called = true;
-  PlannerAnswer answer = call_planner(planner, problem.c, step);
-  plan.status = answer.status;
-  plan.planning_ns = answer.planning_ns;
-  plan.processor_ns = answer.processor_ns;
-  plan.statistics = std::move(answer.statistics);
-  if (answer.paths.empty()) return plan;
+  static_cast<PlannerAnswer&>(plan) = source(problem.c);
+  plan.answered = true;
+  if (!plan.exists()) return plan;
   const PlanVerdict verdict = validate_plan(
-      problem.c, answer.paths, info.connectivity,
+      problem.c, plan.paths, info.connectivity,
       [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); });
   if (const std::string breach = breach_of(verdict, info); !breach.empty())
-    throw PluginFault(fault_kind::bad_output, planner.site("plan", step), breach);
-  plan.paths = std::move(answer.paths);
+    throw PluginFault(fault_kind::bad_output, {info.id, "plan", step}, breach);
   plan.conflicts = verdict.conflicts;
   return plan;
 }

@@ -6,6 +6,7 @@
 #include <dmrp/metric.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -24,19 +25,24 @@ struct PlanStatistic {
   double value;
 };
 
-// A plan, and the C structs that view it.
-class Plan {
- public:
-  PlannedPaths paths;  // empty if there is no plan
-  std::vector<PlanStatistic> statistics;
-  std::uint64_t revision = 0;
+// What one call of plan() gives.
+struct PlannerAnswer {
   std::int32_t status = DMRP_NO_SOLUTION;
-  std::int64_t from_ns = 0;
-  std::int64_t step_duration_ns = 0;
   std::int64_t planning_ns = 0;   // wall time
   std::int64_t processor_ns = 0;  // of all threads of the process
-  std::uint32_t conflicts = 0;    // of an uncoordinated planner
-  bool planner_called = false;    // false where the robots cannot be put on distinct cells
+  std::string text;               // of set_error()
+  PlannedPaths paths;             // one per robot; empty if there is no plan
+  std::vector<PlanStatistic> statistics;
+};
+
+// A plan, and the C structs that view it.
+class Plan : public PlannerAnswer {
+ public:
+  std::uint64_t revision = 0;
+  std::int64_t from_ns = 0;
+  std::int64_t step_duration_ns = 0;
+  std::uint32_t conflicts = 0;  // of an uncoordinated planner
+  bool answered = false;        // false where the robots cannot be put on distinct cells
 
   bool exists() const { return !paths.empty(); }
 
@@ -79,26 +85,19 @@ struct InForce {
 bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem);
 
-// The result of one call of plan(), not yet validated.
-struct PlannerAnswer {
-  std::int32_t status = DMRP_NO_SOLUTION;
-  std::int64_t planning_ns = 0;   // wall time
-  std::int64_t processor_ns = 0;  // of all threads of the process
-  std::string text;               // of set_error()
-  PlannedPaths paths;             // one per robot; empty if there is no plan
-  std::vector<PlanStatistic> statistics;
-};
-
 // Calls plan() once; `step`: the physics steps since the trial's start. Throws PluginFault.
 PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step);
 
 // How a plan breaks the contract, or a promise of its planner, in one line; "" if it does not.
 std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info);
 
-// Makes a plan. `time_budget_ns` is wall time, `step` the physics steps since the start. The plan does not exist() after
-// NO_SOLUTION or TIMEOUT, or if the robots cannot be put on distinct cells. Throws PluginFault, of kind bad_output if the
-// plan breaks the contract.
-Plan make_plan(Instance& planner, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
+// Gives the plan for a problem: by a call of the planner, not yet validated, or as it was stored.
+using PlanSource = std::function<PlannerAnswer(const dmrp_planning_problem& problem)>;
+
+// Makes a plan of the planner `info`. `time_budget_ns` is wall time, `step` the physics steps since the start. The plan
+// does not exist() after NO_SOLUTION or TIMEOUT, or if the robots cannot be put on distinct cells. Throws PluginFault, of
+// kind bad_output if the plan breaks the contract.
+Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step);
 
 // The path that a robot's controller follows. Plans lead to the centre of a goal's cell: where the goal is not there, this

@@ -20,18 +20,18 @@ inline bool begins(const Contact& contact) {
   return (contact.flags & DMRP_CONTACT_BEGINS) != 0;
 }
 
-// An unavoidable contact is not the robot's fault, however it moved.
-inline bool unavoidable(const Contact& contact) {
-  return (contact.flags & DMRP_CONTACT_UNAVOIDABLE) != 0;
-}
-
 inline bool fault_of_a(const Contact& contact) {
-  return (contact.flags & DMRP_CONTACT_FAULT_A) != 0 && !unavoidable(contact);
+  return (contact.flags & DMRP_CONTACT_FAULT_A) != 0;
 }
 
-// For a robot `b` only; false for a person.
+// A robot or a person.
 inline bool fault_of_b(const Contact& contact) {
-  return between_robots(contact) && (contact.flags & DMRP_CONTACT_FAULT_B) != 0 && !unavoidable(contact);
+  return (contact.flags & DMRP_CONTACT_FAULT_B) != 0;
+}
+
+// NaN: an older host does not know it.
+inline double impact_speed(const Sample& sample, const Contact& contact) {
+  return DMRP_STRIDE_HAS(Contact, sample.contacts.stride(), impact_speed) ? contact.impact_speed : undefined;
 }
 
 }  // namespace dmrp::metrics

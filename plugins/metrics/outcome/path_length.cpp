@@ -5,7 +5,7 @@
 #include <dmrp/toolkit/polyline.hpp>
 
 #include "metrics/measure/describe_metric.hpp"
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/per_robot.hpp"
 
 namespace dmrp::metrics {
 namespace {
@@ -56,24 +56,16 @@ void PathLength::observe(const Sample& sample) {
 }
 
 void PathLength::finish(const TrialEnd&, MetricSink& sink) {
-  CompensatedSum driven_m, planned_m;
-  double turns = 0.0;
-  for (std::size_t robot = 0; robot < world().robots().size(); ++robot) {
-    if (!first_plan_) continue;
-    sink.robot("path_length", robot, driven_.of_robot(robot));
-    driven_m.add(driven_.of_robot(robot));
+  std::vector<double> driven_m, planned_m, turns;
+  for (std::size_t robot = 0; first_plan_ && robot < world().robots().size(); ++robot) {
     const Path path = Plan(*first_plan_).path(robot);
-    const double length_m = toolkit::length(path);
-    const double turns_of_robot = count_turns(path);
-    sink.robot("planned_length", robot, length_m);
-    sink.robot("plan_turns", robot, turns_of_robot);
-    planned_m.add(length_m);
-    turns += turns_of_robot;
+    driven_m.push_back(driven_.of_robot(robot));
+    planned_m.push_back(toolkit::length(path));
+    turns.push_back(count_turns(path));
   }
-  const bool measured = first_plan_ && !world().robots().empty();
-  sink.system("path_length", measured ? driven_m.value() : undefined);
-  sink.system("planned_length", measured ? planned_m.value() : undefined);
-  sink.system("plan_turns", measured ? turns : undefined);
+  give(sink, "path_length", driven_m, &sum_of_defined);
+  give(sink, "planned_length", planned_m, &sum_of_defined);
+  give(sink, "plan_turns", turns, &sum_of_defined);
 }
 
 }  // namespace dmrp::metrics

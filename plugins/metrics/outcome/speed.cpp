@@ -2,6 +2,7 @@
 #include "metrics/outcome/speed.hpp"
 
 #include "metrics/measure/describe_metric.hpp"
+#include "metrics/measure/per_robot.hpp"
 #include "metrics/measure/speed_of.hpp"
 
 namespace dmrp::metrics {
@@ -28,15 +29,8 @@ void Speed::observe(const Sample& sample) {
 }
 
 void Speed::finish(const TrialEnd&, MetricSink& sink) {
-  std::vector<double> means, deviations;
-  for (std::size_t robot = 0; robot < speed_.size(); ++robot) {
-    means.push_back(speed_[robot].mean());
-    deviations.push_back(speed_[robot].standard_deviation());
-    sink.robot("mean_speed", robot, means.back());
-    sink.robot("speed_sd", robot, deviations.back());
-  }
-  sink.system("mean_speed", mean_of_defined(means));
-  sink.system("speed_sd", mean_of_defined(deviations));
+  give_mean(sink, "mean_speed", values_of(speed_, [](const TimeMoments& speed) { return speed.mean(); }));
+  give_mean(sink, "speed_sd", values_of(speed_, [](const TimeMoments& speed) { return speed.standard_deviation(); }));
 }
 
 }  // namespace dmrp::metrics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "metrics/safety/collisions.hpp"
 
+#include <cmath>
+
 #include "metrics/measure/contact_fault.hpp"
 #include "metrics/measure/describe_metric.hpp"
 
@@ -9,15 +11,16 @@ namespace {
 
 // The counts of events of one robot or of the system.
 struct Tally {
-  int all = 0, at_fault = 0, with_static = 0, with_robots = 0, with_people = 0, unavoidable = 0;
+  double all = 0.0, at_fault = 0.0, with_static = 0.0, with_robots = 0.0, with_people = 0.0;
+  double impact_speed = undefined;
 
-  void count(std::uint32_t kind, bool fault, bool is_unavoidable) {
+  void count(std::uint32_t kind, bool fault, double speed) {
     ++all;
     at_fault += fault;
     with_static += kind == DMRP_CONTACT_STATIC;
     with_robots += kind == DMRP_CONTACT_ROBOT;
     with_people += kind == DMRP_CONTACT_PERSON;
-    unavoidable += is_unavoidable;
+    impact_speed = std::fmax(impact_speed, speed);
   }
 };
 
@@ -28,7 +31,7 @@ void give_all(const Tally& tally, Give&& give) {
   give("collisions_static", tally.with_static);
   give("collisions_robot", tally.with_robots);
   give("collisions_person", tally.with_people);
-  give("collisions_unavoidable", tally.unavoidable);
+  give("impact_speed", tally.impact_speed);
 }
 
 }  // namespace
@@ -38,20 +41,22 @@ Descriptor Collisions::describe() {
   const auto robots = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.collisions", "Collisions")
       .summary("contacts of robots as events (rising edges 0.5 s apart), by partner and by fault")
-      .source("rising-edge events attributed as in HuNavSim; fault by the benchmark's rule")
+      .source("rising-edge events attributed as in HuNavSim; fault by passive motion safety: Bouraine et al. 2012")
       .value("collisions", "1", lower, robots,
              "contact events of the robot, regardless of fault; system: all events, one between two robots once; "
              "undefined if planning failed, like all that follow")
       .value("collisions_at_fault", "1", lower, robots,
-             "contact events at the robot's fault; system: events at the fault of at least one robot")
+             "contact events at the robot's fault: it was neither at rest nor moving away when they touched; system: "
+             "events at the fault of at least one robot")
       .value("collisions_static", "1", lower, robots,
              "contact events with walls, furniture or the world's border; system: all")
       .value("collisions_robot", "1", lower, robots,
              "contact events between robots; counted for both, once for the system")
       .value("collisions_person", "1", lower, robots, "contact events with people, regardless of fault; system: all")
-      .value("collisions_unavoidable", "1", lower, robots,
-             "contact events with people that were not on a collision course one braking time earlier: nobody is at "
-             "fault; system: all")
+      .value("impact_speed", "m/s", lower, robots,
+             "maximum over contact events, regardless of fault, of the speed at which the two surfaces closed along "
+             "the normal when they touched; undefined without a contact, and in traces that do not have it; system: "
+             "maximum")
       .channels(DMRP_CHANNEL_PEOPLE);
 }
 
@@ -74,7 +79,7 @@ void Collisions::observe(const Sample& sample) {
     if (begins(contact)) {
       latest_[pair] = events_.size();
       events_.push_back({contact.kind, contact.a, std::get<2>(pair), fault_of_a(contact), fault_of_b(contact),
-                         unavoidable(contact), sample.t_ns, sample.t_ns});
+                         impact_speed(sample, contact), sample.t_ns, sample.t_ns});
     } else if (const auto found = latest_.find(pair); found != latest_.end()) {
       events_[found->second].to_ns = sample.t_ns;
     }
@@ -82,41 +87,34 @@ void Collisions::observe(const Sample& sample) {
 }
 
 std::string Collisions::text_of(const Event& event) const {
-  const std::string robot = "robot " + std::to_string(event.a);
+  const std::string a = "robot " + std::to_string(event.a);
   if (event.kind == DMRP_CONTACT_STATIC) {
     const bool border = event.b >= world().shapes().size();
-    return robot + " against " + (border ? "the border" : world().shapes()[event.b].name);
+    return a + " against " + (border ? "the border" : world().shapes()[event.b].name);
   }
-  if (event.kind == DMRP_CONTACT_ROBOT) {
-    const std::string other = "robot " + std::to_string(event.b);
-    const std::string both = robot + " and " + other;
-    if (event.fault_of_a && event.fault_of_b) return both + ": both at fault";
-    if (event.fault_of_a) return both + ": " + robot + " at fault";
-    if (event.fault_of_b) return both + ": " + other + " at fault";
-    return both + ": neither at fault";
-  }
-  const std::string both = robot + " and person " + std::to_string(event.b);
-  if (event.unavoidable) return both + ": unavoidable";
-  return both + (event.fault_of_a ? ": robot at fault" : ": person at fault");
+  const std::string b = (event.kind == DMRP_CONTACT_ROBOT ? "robot " : "person ") + std::to_string(event.b);
+  const std::string at_fault = event.fault_of_a ? event.fault_of_b ? "both" : a : event.fault_of_b ? b : "neither";
+  return a + " and " + b + ": " + at_fault + " at fault";
 }
 
 void Collisions::finish(const TrialEnd& end, MetricSink& sink) {
   Tally system;
   std::vector<Tally> tallies(end.robots.size());
   for (const Event& event : events_) {
-    system.count(event.kind, event.fault_of_a || event.fault_of_b, event.unavoidable);
-    tallies[event.a].count(event.kind, event.fault_of_a, event.unavoidable);
+    const bool two_robots = event.kind == DMRP_CONTACT_ROBOT;
+    system.count(event.kind, event.fault_of_a || (two_robots && event.fault_of_b), event.impact_speed);
+    tallies[event.a].count(event.kind, event.fault_of_a, event.impact_speed);
     std::vector<Subject> robots = {robot_subject(event.a)};
-    if (event.kind == DMRP_CONTACT_ROBOT) {
-      tallies[event.b].count(event.kind, event.fault_of_b, event.unavoidable);
+    if (two_robots) {
+      tallies[event.b].count(event.kind, event.fault_of_b, event.impact_speed);
       robots.push_back(robot_subject(event.b));
     }
     sink.event({"collisions", event.from_ns, event.to_ns, robots, text_of(event)});
   }
   for (std::size_t robot = 0; robot < tallies.size(); ++robot)
     give_all(tallies[robot],
-             [&](const char* name, int count) { sink.robot(name, robot, planned_ ? count : undefined); });
-  give_all(system, [&](const char* name, int count) { sink.system(name, planned_ ? count : undefined); });
+             [&](const char* name, double value) { sink.robot(name, robot, planned_ ? value : undefined); });
+  give_all(system, [&](const char* name, double value) { sink.system(name, planned_ ? value : undefined); });
 }
 
 }  // namespace dmrp::metrics

@@ -24,7 +24,8 @@ class Collisions final : public Metric {
     std::uint32_t kind;  // DMRP_CONTACT_*
     std::uint32_t a;     // the robot, or the first of two
     std::uint64_t b;     // the partner: index of a shape or robot, id of a person
-    bool fault_of_a, fault_of_b, unavoidable;
+    bool fault_of_a, fault_of_b;
+    double impact_speed;  // m/s; NaN: the trace does not have it
     std::int64_t from_ns, to_ns;
   };
   using Pair = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>;  // kind, a, b

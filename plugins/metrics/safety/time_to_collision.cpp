@@ -8,20 +8,6 @@
 
 namespace dmrp::metrics {
 
-// The smallest tau > 0 with |dp + dv tau| = r1 + r2; 0 if they overlap already, NaN if they never meet.
-double TimeToCollision::of_pair(const Moving& a, const Moving& b) {
-  const Vec2 apart = b.disc.center - a.disc.center;
-  const Vec2 drift = b.velocity - a.velocity;
-  const double reach_m = a.disc.radius_m + b.disc.radius_m;
-  const double gap = toolkit::squared_norm(apart) - reach_m * reach_m;
-  if (gap < 0.0) return 0.0;
-  const double approach = -toolkit::dot(apart, drift);
-  if (!(approach > 0.0)) return undefined;
-  const double discriminant = approach * approach - toolkit::squared_norm(drift) * gap;
-  if (discriminant < 0.0) return undefined;
-  return gap / (approach + std::sqrt(discriminant));  // the smaller root, without cancellation
-}
-
 Descriptor TimeToCollision::describe() {
   return describe_metric("dmrp.metric.time_to_collision", "Time to collision")
       .summary("time until a robot would touch another robot or a person at constant velocities")
@@ -46,15 +32,15 @@ void TimeToCollision::observe(const Sample& sample) {
   active_.observe(sample);
   robots_.clear();
   for (std::size_t robot = 0; robot < times_.size(); ++robot)
-    robots_.push_back({disc_of(world().robots()[robot], sample.robots[robot]), world_velocity(sample.robots[robot])});
+    robots_.push_back(moving(world().robots()[robot], sample.robots[robot]));
   if (robots_.size() + sample.people.size() < 2) return;
   for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
     if (!active_.in_step(robot)) continue;
     double soonest_s = undefined;
     for (std::size_t other = 0; other < robots_.size(); ++other)
-      if (other != robot) soonest_s = std::fmin(soonest_s, of_pair(robots_[robot], robots_[other]));
+      if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], robots_[other]));
     for (const Person& person : sample.people)
-      soonest_s = std::fmin(soonest_s, of_pair(robots_[robot], {disc_of(person), person.velocity}));
+      soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], moving(person)));
     times_[robot].least_s = std::fmin(times_[robot].least_s, soonest_s);
     times_[robot].below.add(soonest_s < threshold_s, sample.dt_ns);
   }

@@ -22,16 +22,10 @@ class TimeToCollision final : public Metric {
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  struct Moving {
-    Disc disc;
-    Vec2 velocity;  // m/s, world frame
-  };
   struct Times {
     double least_s = undefined;
     TimeShare below;
   };
-
-  static double of_pair(const Moving& a, const Moving& b);
 
   ActiveSteps active_;
   std::vector<Times> times_;    // by robot

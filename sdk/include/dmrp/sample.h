@@ -27,11 +27,13 @@ typedef struct dmrp_robot_sample {
 #define DMRP_CONTACT_ROBOT 2   // `a`, `b` robots, a < b
 #define DMRP_CONTACT_PERSON 3  // `a` a robot, `b` an index into sample.people
 
-// Bits of a contact. Open list.
+// Bits of a contact. Open list. Fault is passive motion safety (Bouraine, Fraichard, Salhi 2012): a body is at fault
+// unless it was at rest (slower than 0.05 m/s) or moving away from the other when they touched; a wall is at rest.
+// Whether a braking response excuses a robot at fault is no bit: a metric judges it by the samples before.
 #define DMRP_CONTACT_BEGINS 1u       // first sample of an event: this pair was not in contact for the last 0.5 s
 #define DMRP_CONTACT_FAULT_A 2u      // robot `a` is at fault
 #define DMRP_CONTACT_FAULT_B 4u      // robot `b`, or the person, is at fault
-#define DMRP_CONTACT_UNAVOIDABLE 8u  // the person was not on a collision course one braking time before
+#define DMRP_CONTACT_UNAVOIDABLE 8u  // no longer set, and ignored where an older trace has it
 
 // Two bodies that overlap by more than 1 mm at this sample. Array element.
 typedef struct dmrp_contact {
@@ -41,6 +43,7 @@ typedef struct dmrp_contact {
   uint32_t b;
   double depth_m;
   dmrp_vec2 point;
+  double impact_speed;  // m/s, relative, along the normal, 0 or more; NaN: not the first sample of its event
 } dmrp_contact;
 
 // Kinds of call. Open list (recovery.h, draft/processor_time.h, referee.h).
@@ -80,7 +83,7 @@ typedef struct dmrp_sample {
 } dmrp_sample;
 
 DMRP_ASSERT_SIZE(dmrp_robot_sample, 96);
-DMRP_ASSERT_SIZE(dmrp_contact, 40);
+DMRP_ASSERT_SIZE(dmrp_contact, 48);
 DMRP_ASSERT_SIZE(dmrp_call, 24);
 DMRP_ASSERT_SIZE(dmrp_sample, 96);
 

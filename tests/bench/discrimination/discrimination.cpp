@@ -24,14 +24,14 @@ namespace {
 
 constexpr std::uint64_t halvings = 100;
 
-// The criterion that counts as the share, and the time; its index.
+// The criterion that counts as the share, and the time.
 struct Criteria {
-  std::size_t share = 0;
-  std::optional<std::size_t> time;
+  Criterion share;
+  std::optional<Criterion> time;
 };
 
 // [entry][task]: means over a task's situations; NaN: undefined.
-std::vector<std::vector<double>> by_task(const Contest& contest, const Measures& measures, std::size_t criterion) {
+std::vector<std::vector<double>> by_task(const Contest& contest, const Measures& measures, const Criterion& criterion) {
   std::map<std::size_t, std::size_t> positions;  // of tasks
   for (const Situation& situation : contest.situations) positions.try_emplace(situation.task, positions.size());
   std::vector<std::vector<double>> table;
@@ -57,14 +57,14 @@ std::vector<std::vector<double>> complete(const std::vector<std::vector<double>>
   return out;
 }
 
-void test_pairs(const Contest& contest, const Measures& measures, const Criteria& criteria, Discrimination& result) {
+void test_pairs(const Contest& contest, const Measures& measures, Discrimination& result) {
   const PairsApart found = pairs_apart(contest, measures);
   result.pairs = found.pairs;
   result.separated = found.apart;
   std::vector<double> deviations;
   for (std::size_t a = 0; a < result.entries.size(); ++a)
     for (std::size_t b = a + 1; b < result.entries.size(); ++b) {
-      const std::vector<double> differences = paired_differences(contest, a, b, measures.difference(criteria.share));
+      const std::vector<double> differences = paired_differences(contest, a, b, measures.difference(0));
       if (differences.size() > 1) deviations.push_back(core::sample_sd(differences));
     }
   result.median_deviation = deviations.empty() ? core::undefined : core::median(deviations);
@@ -72,8 +72,7 @@ void test_pairs(const Contest& contest, const Measures& measures, const Criteria
 }
 
 // The entries' scores over some of the tasks: their positions in the order of better ones, equal ones alike.
-std::vector<double> positions_over(const Measures& measures, const Criteria& criteria,
-                                   const std::vector<std::vector<double>>& shares,
+std::vector<double> positions_over(const Criteria& criteria, const std::vector<std::vector<double>>& shares,
                                    const std::vector<std::vector<double>>& times, const std::vector<char>& chosen) {
   const auto mean_over = [&](const std::vector<double>& row) {
     std::vector<double> values;
@@ -81,8 +80,8 @@ std::vector<double> positions_over(const Measures& measures, const Criteria& cri
       if (chosen[task] && !std::isnan(row[task])) values.push_back(row[task]);
     return core::mean(values);
   };
-  std::vector<Criterion> order = {measures.criteria()[criteria.share]};
-  if (criteria.time) order.push_back(measures.criteria()[*criteria.time]);
+  std::vector<Criterion> order = {criteria.share};
+  if (criteria.time) order.push_back(*criteria.time);
   std::vector<std::vector<double>> means;
   for (std::size_t entry = 0; entry < shares.size(); ++entry) {
     means.push_back({mean_over(shares[entry])});
@@ -95,8 +94,8 @@ std::vector<double> positions_over(const Measures& measures, const Criteria& cri
   return positions;
 }
 
-double half_agreement(const Measures& measures, const Criteria& criteria,
-                      const std::vector<std::vector<double>>& shares, const std::vector<std::vector<double>>& times) {
+double half_agreement(const Criteria& criteria, const std::vector<std::vector<double>>& shares,
+                      const std::vector<std::vector<double>>& times) {
   const std::size_t tasks = shares.front().size();
   if (tasks < 2) return core::undefined;
   std::vector<double> found;
@@ -109,8 +108,8 @@ double half_agreement(const Measures& measures, const Criteria& criteria,
     for (std::size_t k = 0; k < tasks / 2; ++k) first[order[k]] = 1;
     std::vector<char> second(tasks, 1);
     for (std::size_t task = 0; task < tasks; ++task) second[task] = first[task] ? 0 : 1;
-    const double tau = kendall_tau(positions_over(measures, criteria, shares, times, first),
-                                   positions_over(measures, criteria, shares, times, second));
+    const double tau =
+        kendall_tau(positions_over(criteria, shares, times, first), positions_over(criteria, shares, times, second));
     if (!std::isnan(tau)) found.push_back(tau);
   }
   return core::mean(found);
@@ -137,10 +136,10 @@ Discrimination discrimination_of(const Contest& contest, const Measures& measure
     result.at_ceiling += means.back() >= DiscriminationBars().ceiling - rounding ? 1 : 0;
   }
   result.mean_share = core::mean(means);
-  test_pairs(contest, measures, criteria, result);
+  test_pairs(contest, measures, result);
   result.share_effect = block_effect(complete_shares);
   if (criteria.time) result.time_effect = block_effect(complete(times));
-  result.half_agreement = half_agreement(measures, criteria, shares, times);
+  result.half_agreement = half_agreement(criteria, shares, times);
   return result;
 }
 
@@ -173,8 +172,8 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
                                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
   if (measures.criteria().empty() || !measures.criteria().front().share) return {};
-  Criteria criteria;
-  if (!measures.criteria().back().share) criteria.time = measures.criteria().size() - 1;
+  Criteria criteria = {measures.criteria().front(), {}};
+  if (!measures.criteria().back().share) criteria.time = measures.criteria().back();
   std::vector<CombinationLabels> cells;
   for (const TrialRecord& trial : trials) {
     const CombinationLabels cell = {trial.scenario, trial.robots, "", "", trial.pedestrian_model};

@@ -18,7 +18,9 @@ class FaultyPlanner final : public dmrp::GlobalPlanner {
 
   dmrp::Param<std::string> fault = param("fault", "none").doc("what is wrong with it");
 
+  // Logs each call.
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
+    log(dmrp::LogLevel::info, "plans");
     if (const dmrp::Status status = misbehave(fault); status != dmrp::Status::ok) return status;
     if (*fault == "no_solution") return dmrp::Status::no_solution;
     if (*fault == "timeout") return dmrp::Status::timeout;
@@ -27,6 +29,7 @@ class FaultyPlanner final : public dmrp::GlobalPlanner {
     std::vector<dmrp::Vec2> eastward = line({0.5, 2.5}, {1.0, 0.0}, 7);
     std::vector<dmrp::Vec2> southward = line({3.5, 5.5}, {0.0, -1.0}, 6);
     if (*fault != "conflict") southward.insert(southward.begin(), 2, southward.front());
+    if (*fault == "restless") southward.insert(southward.begin(), calls_++, southward.front());
     if (*fault == "teleport") eastward.erase(eastward.begin() + 3);
     if (*fault == "wrong_start") eastward.erase(eastward.begin());
     if (*fault == "wrong_end") eastward.pop_back();
@@ -41,6 +44,8 @@ class FaultyPlanner final : public dmrp::GlobalPlanner {
   }
 
  private:
+  std::size_t calls_ = 0;  // in all trials
+
   static std::vector<dmrp::Vec2> line(dmrp::Vec2 from, dmrp::Vec2 step, int count) {
     std::vector<dmrp::Vec2> points;
     for (int i = 0; i < count; ++i) points.push_back({from.x + i * step.x, from.y + i * step.y});

@@ -84,6 +84,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"trial_success", "1"},
                                                        {"safe_success", "1"},
                                                        {"contact_free_success", "1"},
+                                                       {"braking_response_success", "1"},
                                                        {"path_length", "m"},
                                                        {"planned_length", "m"},
                                                        {"plan_turns", "1"},
@@ -97,7 +98,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"collisions_static", "1"},
                                                        {"collisions_robot", "1"},
                                                        {"collisions_person", "1"},
-                                                       {"collisions_unavoidable", "1"},
+                                                       {"impact_speed", "m/s"},
                                                        {"sto", "1"},
                                                        {"sto_cell_size", "m"},
                                                        {"people_nearby", "1"},
@@ -183,9 +184,18 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
 TEST_CASE("a trial without a plan has a value for every name, and 0 only where no event is a result") {
   SyntheticTrial trial(3);
   trial.end(0.0, {never, never, never});  // no plan, no sample
-  const std::set<std::string> zero = {
-      "isr",          "csr",          "spl",        "shortest_length",      "success",   "trial_success",
-      "safe_success", "mission_time", "throughput", "contact_free_success", "success_at"};
+  const std::set<std::string> zero = {"isr",
+                                      "csr",
+                                      "spl",
+                                      "shortest_length",
+                                      "success",
+                                      "trial_success",
+                                      "safe_success",
+                                      "mission_time",
+                                      "throughput",
+                                      "contact_free_success",
+                                      "braking_response_success",
+                                      "success_at"};
   for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
     const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name has a value
     CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));
@@ -208,7 +218,8 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
     trial.sample(t, {at(0, 0), at(5, 0)}).calls({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
   trial.end(3.0, {never, never});
   const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit"};
-  const std::set<std::string> no_motion = {"ttc_min", "path_irregularity", "schedule_error_s", "schedule_deviation_s"};
+  const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
+                                           "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                           "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> nobody = {"clearance_person_min",     "clearance_person_mean", "danger_time_person",

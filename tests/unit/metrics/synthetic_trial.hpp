@@ -45,7 +45,7 @@ inline dmrp_robot_sample at(double x, double y, double speed = 0.0, std::uint32_
 }
 
 inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b, std::uint32_t flags) {
-  return {kind, flags, a, b, 0.01, {0.0, 0.0}};
+  return {kind, flags, a, b, 0.01, {0.0, 0.0}, std::nan("")};
 }
 
 // The referee's change of a robot's class, for calls().
@@ -71,7 +71,7 @@ using Points = std::vector<dmrp_vec2>;
 
 class SyntheticTrial {
  public:
-  // Robots are discs of 0.25 m with one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
+  // Robots are discs of 0.25 m, brake by 1 m/s^2 and have one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
   // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
   explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
     footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;

@@ -16,7 +16,6 @@ function other_body(replay, contact) {
 }
 
 function fault_words(contact) {
-  if (contact.unavoidable) return 'unavoidable';
   return {
     none: 'neither at fault',
     both: 'both at fault',
@@ -26,6 +25,7 @@ function fault_words(contact) {
 }
 
 function contact_event(replay, contact) {
+  const speed = contact.speed === undefined ? '' : ` at ${contact.speed.toFixed(2)} m/s`;
   return {
     kind: 'contact',
     lane: 'contacts',
@@ -33,7 +33,7 @@ function contact_event(replay, contact) {
     to: contact.to,
     robots: contact.kind === 'robot' ? [contact.robot, contact.other] : [contact.robot],
     at: contact.at,
-    text: `robot ${contact.robot} and ${other_body(replay, contact)} touch: ${fault_words(contact)}`,
+    text: `robot ${contact.robot} and ${other_body(replay, contact)} touch${speed}: ${fault_words(contact)}`,
   };
 }
 

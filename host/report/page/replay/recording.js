@@ -119,6 +119,7 @@ export function from_json(packed) {
       to: one.to / 1000,
       at: point(one.at),
       depth: one.depth / 1000,
+      speed: one.speed === undefined ? undefined : one.speed / 1000,
     })),
     events: packed.events.map((one) => ({...one, from: one.from / 1000, to: one.to / 1000})),
   };

@@ -384,18 +384,28 @@ TEST_CASE("planted misbehaviours end without success, each with its class") {
        [](double t_s, std::uint32_t, const World&, Stream&) -> Motion {
          return {{std::fmod(t_s, 10.0) < 5.0 ? 0.3 : -0.3, 0.0}};
        }},
+      {"swaps its place with another's for ever",
+       {DMRP_FAILURE_CIRCLING},
+       [](double t_s, std::uint32_t i, const World&, Stream&) -> Motion {
+         return {{(std::fmod(t_s, 20.0) < 10.0) == (i == 0) ? 0.4 : -0.4, 0.0}};
+       }},
   };
   Stream random(static_cast<std::uint64_t>(draw), "referee.planted");
   const double y = std::floor(random.uniform(5.0, 25.0)) + 0.5;
   for (const Misbehaviour& it : planted) {
     CAPTURE(it.name, draw);
-    Match match(hall({robot({20.5, y, random.uniform(-pi, pi)}, dmrp_vec2{50.5, y})}), 180.0);
+    Match match(hall({robot({20.5, y, random.uniform(-pi, pi)}, dmrp_vec2{50.5, y}),
+                      robot({24.5, y + 2.0, random.uniform(-pi, pi)}, dmrp_vec2{54.5, y + 2.0})}),
+                180.0);
     match.plan(0, {{20.5, y}, {50.5, y}});
+    match.plan(1, {{24.5, y + 2.0}, {54.5, y + 2.0}});
     const std::uint32_t ending = match.run(
         200.0, [&](double t_s, std::uint32_t i, const World& world) { return it.drive(t_s, i, world, random); });
-    const dmrp_robot_end end = match.end_of(0, ending);
-    CHECK(end.state != DMRP_ROBOT_FINISHED);
-    CHECK(it.failures.count(end.failure) == 1);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const dmrp_robot_end end = match.end_of(i, ending);
+      CHECK(end.state != DMRP_ROBOT_FINISHED);
+      CHECK(it.failures.count(end.failure) == 1);
+    }
   }
 }
 

@@ -125,8 +125,8 @@ struct ExampleSample {
     people[1] = {
         static_cast<std::uint64_t>(100 + k), 0, 8, {2.0, x}, {0.1, -1.1}, 0.3, 0.7, {x, 4.0}, {0.0, 3.0}, {5.0, 5.0},
         DMRP_REACTION_UNSPECIFIED,           0};
-    contacts[0] = {DMRP_CONTACT_STATIC, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 2, 0.0011, {0.0, 0.5}};
-    contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}};
+    contacts[0] = {DMRP_CONTACT_STATIC, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 2, 0.0011, {0.0, 0.5}, 0.35};
+    contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}, std::nan("")};
     calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
     calls[1] = {DMRP_CALL_CONTROL, 1, DMRP_NO_SOLUTION, 0, 11'000};
     calls[2] = {DMRP_CALL_CLASS, 0, DMRP_CLASS_HELD, 1, 0};

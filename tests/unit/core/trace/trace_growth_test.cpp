@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces of other versions of the plugin contract: longer elements, longer structs, elements that lack a field.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -192,6 +193,16 @@ TEST_CASE("fields that an element of the trace does not have are zero", "[trace]
     CHECK(person.reaction == DMRP_REACTION_UNSPECIFIED);
     CHECK(person.reserved == 0);
   }
+}
+
+TEST_CASE("contacts of an older trace have no impact speed", "[trace]") {
+  const TraceBytes older = OtherVersion(0, sizeof(dmrp_contact), sizeof(double)).of(example_trace(1));
+  TraceReader trace(older);
+  const dmrp_sample* read = trace.next_sample();
+  REQUIRE(read);
+  REQUIRE(read->contact_count == 2);
+  CHECK(read->contacts[0].depth_m == 0.0011);
+  CHECK(std::isnan(read->contacts[0].impact_speed));
 }
 
 TEST_CASE("the end of a robot without visits and culprit has none", "[trace]") {

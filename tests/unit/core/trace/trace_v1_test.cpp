@@ -139,6 +139,7 @@ TEST_CASE("a trace of version 1 gives its samples and its end", "[trace]") {
   CHECK(sample.contacts[0].flags == DMRP_CONTACT_FAULT_B);
   CHECK(sample.contacts[0].b == 1);
   CHECK(sample.contacts[0].depth_m == 0.032438300444769974);
+  CHECK(std::isnan(sample.contacts[0].impact_speed));
   REQUIRE(sample.call_count == 1);
   CHECK(sample.calls[0].kind == DMRP_CALL_PEOPLE);
   CHECK(sample.calls[0].other == 0);

@@ -113,6 +113,36 @@ TEST_CASE("a column of medians is not moved by one slow trial", "[export]") {
   CHECK_THAT(latex_table(table_of(mean)), Contains("means over trials."));
 }
 
+TEST_CASE("rows by controller are over the tasks that every planner solves", "[export]") {
+  std::vector<TrialRecord> trials;
+  for (const char* planner : {"strong", "weak"})
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const bool planned = std::string(planner) == "strong" || i < 2;
+      // the strong planner's robots do not arrive in the hard tasks either
+      trials.push_back(ranking_trial(planner, "C", i, {i < 2 ? RobotResult{} : RobotResult{std::nullopt}}));
+      if (!planned)
+        for (MetricValue& value : trials.back().values)
+          if (value.metric == "planned") value.value.reset();
+    }
+  const auto table_of = [&](std::vector<Label> rows) {
+    return make_mean_table({"t", "Results", std::move(rows), {}, {{"done", "success", 2, "", false, ""}}},
+                           ranking_layout(), ranking_metrics(), trials);
+  };
+  const MeanTable by_controller = table_of({Label::local_controller});
+  REQUIRE(by_controller.rows.size() == 1);
+  CHECK(by_controller.rows[0].cells[0].trials == 4);
+  CHECK(*by_controller.rows[0].cells[0].value == Approx(1.0));
+  CHECK_THAT(table_caption(by_controller), Contains("Over the tasks for which every planner has a plan."));
+
+  // a combination without a plan counts 0
+  const MeanTable combinations = table_of({Label::global_planner, Label::local_controller});
+  REQUIRE(combinations.rows.size() == 2);
+  CHECK(*combinations.rows[1].cells[0].value == Approx(0.5));
+  CHECK_THAT(table_caption(combinations), !Contains("Over the tasks"));
+  std::erase_if(trials, [](const TrialRecord& trial) { return trial.global_planner == "strong"; });
+  CHECK(*table_of({Label::local_controller}).rows[0].cells[0].value == Approx(0.5));
+}
+
 TEST_CASE("names are escaped for LaTeX", "[export]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "50%_a&b{c}\\d~e", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}}; });

@@ -280,7 +280,7 @@ TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
   CHECK(found[0].tasks == 6);
 }
 
-TEST_CASE("orders that the stricter share turns round are flagged", "[ranking]") {
+TEST_CASE("orders that a sibling of the first share turns round are flagged", "[ranking]") {
   const std::vector<RobotResult> one_is_touched{{20.0, true, 10.0, true}, {40.0, true, 20.0}};
   const auto first = [](std::uint32_t count, const std::vector<RobotResult>& robots) {
     return [=](std::uint32_t i) { return i < count ? robots : both_arrive; };
@@ -306,7 +306,16 @@ TEST_CASE("orders that the stricter share turns round are flagged", "[ranking]")
     CHECK(answer_of(trials).flips.empty());
     for (const std::string& line : lines_of(trials)) CHECK_THAT(line, !Contains("whose fault"));
   }
-  SECTION("nor where the stricter share was not measured") {
+  SECTION("each sibling by itself") {
+    const std::vector<RobotResult> one_is_excused{{20.0, false, 10.0, true, true}, {40.0, true, 20.0}};
+    add_trials(trials, "excused", 20, first(16, one_is_excused));  // safe .6, excused 1
+    CHECK_THAT(lines_of(trials),
+               Catch::VectorContains(
+                   std::string("The order depends on whose fault contacts are: by untouched done, P + unsafe "
+                               "(0.90; safe 0.90) is before P + touched (0.75; safe 1.00) and by excused done, P + "
+                               "excused (1.00; safe 0.60) is before P + unsafe (0.90; safe 0.90).")));
+  }
+  SECTION("nor where the sibling was not measured") {
     std::vector<MetricColumn> metrics = ranking_metrics();
     metrics.erase(metrics.begin() + 1);
     CHECK(answers(ranking_layout(), metrics, trials).front().flips.empty());

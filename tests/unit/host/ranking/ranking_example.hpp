@@ -15,16 +15,16 @@
 namespace dmrp::test {
 
 inline std::vector<host::MetricColumn> ranking_metrics() {
-  return {{"safe", "1", DMRP_DIRECTION_HIGHER, false, ""},  {"untouched_done", "1", DMRP_DIRECTION_HIGHER, false, ""},
-          {"done", "1", DMRP_DIRECTION_HIGHER, false, ""},  {"time", "s", DMRP_DIRECTION_LOWER, false, ""},
-          {"length", "m", DMRP_DIRECTION_LOWER, false, ""}, {"planned", "m", DMRP_DIRECTION_LOWER, false, ""},
-          {"plan_ms", "ms", DMRP_DIRECTION_LOWER, true, ""}};
+  return {{"safe", "1", DMRP_DIRECTION_HIGHER, false, ""},   {"untouched_done", "1", DMRP_DIRECTION_HIGHER, false, ""},
+          {"done", "1", DMRP_DIRECTION_HIGHER, false, ""},   {"time", "s", DMRP_DIRECTION_LOWER, false, ""},
+          {"length", "m", DMRP_DIRECTION_LOWER, false, ""},  {"planned", "m", DMRP_DIRECTION_LOWER, false, ""},
+          {"plan_ms", "ms", DMRP_DIRECTION_LOWER, true, ""}, {"excused_done", "1", DMRP_DIRECTION_HIGHER, false, ""}};
 }
 
 inline host::SummaryLayout ranking_layout() {
   return host::parse_summary_layout(R"({"arrived": "done", "counts_failures": ["safe", "untouched_done", "done"],
       "of_plans": ["planned", "plan_ms"],
-      "answer": {"shares": ["safe", "done"], "stricter": "untouched_done", "time": "time", "way_length": "way"}})",
+      "answer": {"shares": ["safe", "done"], "siblings": ["untouched_done", "excused_done"], "time": "time", "way_length": "way"}})",
                                     "layout");
 }
 
@@ -34,6 +34,7 @@ struct RobotResult {
   bool safe = true;
   double way_m = 10.0;
   bool touched = false;  // though not at its fault; an unsafe robot is touched, too
+  bool excused = false;  // though unsafe
 };
 
 // A trial of two robots in the mall.
@@ -51,6 +52,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   double done = 0.0;
   double safe = 0.0;
   double untouched = 0.0;
+  double excused = 0.0;
   for (std::uint64_t i = 0; i < robots.size(); ++i) {
     const RobotResult& robot = robots[i];
     trial.task += std::to_string(robot.way_m) + " ";  // other ways, other tasks
@@ -58,6 +60,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
     done += arrived ? 1.0 : 0.0;
     safe += arrived && robot.safe ? 1.0 : 0.0;
     untouched += arrived && robot.safe && !robot.touched ? 1.0 : 0.0;
+    excused += arrived && (robot.safe || robot.excused) ? 1.0 : 0.0;
     trial.values.push_back({"done", DMRP_SUBJECT_ROBOT, i, std::nullopt, arrived ? 1.0 : 0.0});
     trial.values.push_back({"safe", DMRP_SUBJECT_ROBOT, i, std::nullopt, arrived && robot.safe ? 1.0 : 0.0});
     trial.values.push_back({"time", DMRP_SUBJECT_ROBOT, i, std::nullopt, robot.time_s});
@@ -77,6 +80,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   };
   system("safe", safe / count);
   system("untouched_done", untouched / count);
+  system("excused_done", excused / count);
   system("done", done / count);
   system("time", done == count ? robots.front().time_s : std::nullopt);
   system("length", length_m);

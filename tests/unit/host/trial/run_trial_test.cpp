@@ -71,6 +71,31 @@ TEST_CASE("a trial keeps its word to every plugin, and the next one does not rem
   CHECK(std::memcmp(first.data(), second.data(), first.size() * sizeof(first[0])) == 0);
 }
 
+TEST_CASE("a given plan takes the place of a call where nothing can replan") {
+  CheckedStage first;
+  PlannerAnswer made;
+  first.first_plan.on_made = [&](const PlannerAnswer& answer) { made = answer; };
+  CHECK(first.run().succeeded);
+  REQUIRE(made.paths.size() == 2);
+
+  CheckedStage second(2, "nothing");
+  bool asked = false;
+  second.first_plan = {&made, [&](const PlannerAnswer&) { asked = true; }};
+  CHECK(second.run().succeeded);
+  CHECK_FALSE(asked);
+  CHECK(second.reader->first_plan()->planning_ns == first.reader->first_plan()->planning_ns);
+  const auto one = motion(*first.reader);
+  const auto other = motion(*second.reader);
+  REQUIRE(one.size() == other.size());
+  CHECK(std::memcmp(one.data(), other.data(), one.size() * sizeof(one[0])) == 0);
+
+  CheckedStage replans(2, "nothing");
+  replans.experiment.simulation.replan.period_ns = 1'000'000'000;
+  replans.first_plan = {&made, [&](const PlannerAnswer&) { asked = true; }};
+  CHECK_FALSE(replans.run().succeeded);
+  CHECK(asked);
+}
+
 TEST_CASE("what plugins say goes to the trace where it is wanted, and changes nothing else") {
   CheckedStage silent;
   silent.run();

@@ -84,7 +84,7 @@ struct Stage {
   host::TrialEnding run() {
     open();
     trace = std::make_unique<TraceInMemory>(variant->view.world());
-    const host::TrialEnding ending = run_trial({experiment, combination, *variant, 1}, *pool, **trace);
+    const host::TrialEnding ending = run_trial({experiment, combination, *variant, 1, first_plan}, *pool, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending;
   }
@@ -110,6 +110,7 @@ struct Stage {
   host::CallGuard guard{note};
   host::Experiment experiment;
   host::Combination combination;
+  host::FirstPlan first_plan;
   std::unique_ptr<host::VariantWorld> variant;
   std::unique_ptr<host::InstancePool> pool;
   std::unique_ptr<TraceInMemory> trace;

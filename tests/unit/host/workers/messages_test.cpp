@@ -20,13 +20,20 @@ T through_text(const T& value) {
 }  // namespace
 
 TEST_CASE("messages keep all their fields") {
-  const Job job =
-      through_text(Job{1ull << 40, 0xFFFF'FFFF'FFFF'FFFFu, "traces/trial_000007.mcap", "trial_000007.scratch", {2, 5}});
+  const Job job = through_text(Job{1ull << 40,
+                                   0xFFFF'FFFF'FFFF'FFFFu,
+                                   "traces/trial_000007.mcap",
+                                   "trial_000007.scratch",
+                                   {2, 5},
+                                   "one",
+                                   "plan.csv"});
   CHECK(job.trial == 1ull << 40);
   CHECK(job.stamp == 0xFFFF'FFFF'FFFF'FFFFu);
   CHECK(job.trace_file == "traces/trial_000007.mcap");
   CHECK(job.scratch_file == "trial_000007.scratch");
   CHECK(job.skip_metrics == std::vector<std::uint32_t>{2, 5});
+  CHECK(job.plan == "one");
+  CHECK(job.new_plan == "plan.csv");
 
   const TrialDone done = through_text(TrialDone{trial_outcome::failed, {{"org.x", "reads a \"clock\""}}, 0.1 + 0.2});
   CHECK(done.outcome == "failed");

@@ -81,7 +81,7 @@ TEST_CASE("safe success requires that no contact is the robot's fault") {
           contact(DMRP_CONTACT_ROBOT, 1, 2, begins | fault_b),                             // 2 drove into 1
           contact(DMRP_CONTACT_PERSON, 3, 0, begins | fault_a),                            // 3 drove into a person
           contact(DMRP_CONTACT_PERSON, 4, 1, begins | fault_b),                            // a person walked into 4
-          contact(DMRP_CONTACT_PERSON, 5, 2, begins | fault_a | DMRP_CONTACT_UNAVOIDABLE)  // 5 could not have braked
+          contact(DMRP_CONTACT_PERSON, 5, 2, begins | fault_a | DMRP_CONTACT_UNAVOIDABLE)  // of an older trace: ignored
       });
   trial.end(1.0);
 
@@ -91,8 +91,8 @@ TEST_CASE("safe success requires that no contact is the robot's fault") {
   CHECK(m.robot("safe_success", 2) == 0.0);
   CHECK(m.robot("safe_success", 3) == 0.0);
   CHECK(m.robot("safe_success", 4) == 1.0);
-  CHECK(m.robot("safe_success", 5) == 1.0);
-  CHECK(m.system("safe_success") == 0.5);  // 3 of 6
+  CHECK(m.robot("safe_success", 5) == 0.0);
+  CHECK(m.system("safe_success") == Approx(2.0 / 6.0));
   for (std::uint32_t robot = 0; robot < 6; ++robot) CHECK(m.robot("contact_free_success", robot) == 0.0);
   CHECK(m.system("success") == 1.0);
   CHECK(m.system("trial_success") == 1.0);

@@ -12,7 +12,6 @@ namespace {
 constexpr std::uint32_t begins = DMRP_CONTACT_BEGINS;
 constexpr std::uint32_t fault_a = DMRP_CONTACT_FAULT_A;
 constexpr std::uint32_t fault_b = DMRP_CONTACT_FAULT_B;
-constexpr std::uint32_t unavoidable = DMRP_CONTACT_UNAVOIDABLE;
 constexpr std::uint32_t with_static = DMRP_CONTACT_STATIC;
 constexpr std::uint32_t with_robot = DMRP_CONTACT_ROBOT;
 constexpr std::uint32_t with_person = DMRP_CONTACT_PERSON;
@@ -74,7 +73,6 @@ TEST_CASE("collisions count for each robot and once for the system") {
   CHECK(m.system("collisions_static") == 1.0);
   CHECK(m.system("collisions_robot") == 3.0);
   CHECK(m.system("collisions_person") == 0.0);
-  CHECK(m.system("collisions_unavoidable") == 0.0);
   CHECK(m.robot("collisions", 0) == 2.0);  // with 1, with 2
   CHECK(m.robot("collisions", 1) == 2.0);  // with 0, with 2
   CHECK(m.robot("collisions", 2) == 3.0);  // border, 0, 1
@@ -93,27 +91,47 @@ TEST_CASE("collisions count for each robot and once for the system") {
 
 TEST_CASE("contacts with people have a fault") {
   SyntheticTrial trial(1);
-  trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).people({7, 8, 9});
+  trial.plan({{{0, 0}}}).sample(0.0, {at(0, 0)}).people({7, 8, 9, 10});
   trial.sample(1.0, {at(0, 0)})
-      .people({7, 8, 9})
+      .people({7, 8, 9, 10})
       .contacts({
-          contact(with_person, 0, 0, begins | fault_a),                // the robot's
-          contact(with_person, 0, 1, begins | fault_b),                // the person's
-          contact(with_person, 0, 2, begins | fault_a | unavoidable),  // nobody's: the robot could not have braked
+          contact(with_person, 0, 0, begins | fault_a),            // the robot's
+          contact(with_person, 0, 1, begins | fault_b),            // the person's
+          contact(with_person, 0, 2, begins | fault_a | fault_b),  // both drove and walked into each other
+          contact(with_person, 0, 3, begins),                      // both stood: somebody pushed the person
       });
   trial.end(1.0);
 
   const Measurement m = measure("dmrp.metric.collisions", trial);
-  CHECK(m.system("collisions") == 3.0);
-  CHECK(m.system("collisions_person") == 3.0);
-  CHECK(m.system("collisions_at_fault") == 1.0);
-  CHECK(m.system("collisions_unavoidable") == 1.0);
-  CHECK(m.robot("collisions", 0) == 3.0);
-  CHECK(m.robot("collisions_at_fault", 0) == 1.0);
-  REQUIRE(m.events.size() == 3);
-  CHECK(m.events[0].text == "robot 0 and person 7: robot at fault");
-  CHECK(m.events[1].text == "robot 0 and person 8: person at fault");
-  CHECK(m.events[2].text == "robot 0 and person 9: unavoidable");
+  CHECK(m.system("collisions") == 4.0);
+  CHECK(m.system("collisions_person") == 4.0);
+  CHECK(m.system("collisions_at_fault") == 2.0);
+  CHECK(m.robot("collisions", 0) == 4.0);
+  CHECK(m.robot("collisions_at_fault", 0) == 2.0);
+  REQUIRE(m.events.size() == 4);
+  CHECK(m.events[0].text == "robot 0 and person 7: robot 0 at fault");
+  CHECK(m.events[1].text == "robot 0 and person 8: person 8 at fault");
+  CHECK(m.events[2].text == "robot 0 and person 9: both at fault");
+  CHECK(m.events[3].text == "robot 0 and person 10: neither at fault");
+}
+
+TEST_CASE("the impact speed is the greatest of a robot's events") {
+  const auto at_speed = [](std::uint32_t kind, std::uint32_t a, std::uint32_t b, double speed) {
+    dmrp_contact made = contact(kind, a, b, begins | fault_a);
+    made.impact_speed = speed;
+    return made;
+  };
+  SyntheticTrial trial(3);
+  const std::vector<dmrp_robot_sample> robots(3, at(0, 0));
+  trial.plan({{{0, 0}}, {{0, 0}}, {{0, 0}}}).sample(0.0, robots);
+  trial.sample(1.0, robots).contacts({at_speed(with_static, 0, 0, 0.3), at_speed(with_robot, 0, 1, 0.5)});
+  trial.sample(2.0, robots).contacts({at_speed(with_static, 0, 0, 0.2)});
+  trial.end(2.0);
+  const Measurement m = measure("dmrp.metric.collisions", trial);
+  CHECK(m.robot("impact_speed", 0) == 0.5);
+  CHECK(m.robot("impact_speed", 1) == 0.5);
+  CHECK(std::isnan(m.robot("impact_speed", 2)));
+  CHECK(m.system("impact_speed") == 0.5);
 }
 
 TEST_CASE("contacts follow people whose indices change") {
@@ -147,7 +165,11 @@ TEST_CASE("a trial without contacts has 0 collisions") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{3, 0}}}).sample(0.0, {at(0, 0), at(3, 0)}).sample(1.0, {at(0, 0), at(3, 0)}).end(1.0);
   const Measurement m = measure("dmrp.metric.collisions", trial);
-  for (const auto& [key, value] : m.values) CHECK(value == 0.0);
+  for (const auto& [key, value] : m.values)
+    if (std::get<0>(key) == "impact_speed")
+      CHECK(std::isnan(value));  // nothing to measure
+    else
+      CHECK(value == 0.0);
   CHECK(m.values.size() == 18);  // 6 names for the system and 2 robots
   CHECK(m.events.empty());
 }

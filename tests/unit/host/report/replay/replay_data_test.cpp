@@ -196,10 +196,11 @@ TEST_CASE("contacts are events with fault and depth, besides metric events", "[r
                             {"at", {0, 500}},
                             {"depth", 1},
                             {"fault", "robot"},
-                            {"unavoidable", false}});
+                            {"speed", 350}});
   CHECK(contacts[1]["kind"] == "person");
   CHECK(contacts[1]["other"] == 100);
   CHECK(contacts[1]["fault"] == "other");
+  CHECK_FALSE(contacts[1].contains("speed"));  // not known
   CHECK(contacts[3]["other"] == 103);
   CHECK(replay["events"] == json::array({{{"metric", "blocking"},
                                           {"from", 1500},

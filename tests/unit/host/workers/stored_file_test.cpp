@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The supervisor takes a trace from a folder in which plugins can have done anything.
-#include "host/workers/stored_trace.hpp"
+#include "host/workers/stored_file.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@ TEST_CASE("a trace takes the place of an older one") {
   const dmrp::test::ScratchFolder folder;
   write(folder / "written", "new");
   write(folder / "stored", "old");
-  CHECK(store_trace(folder / "written", folder / "stored", [] {}));
+  CHECK(store_file(folder / "written", folder / "stored", [] {}));
   CHECK(dmrp::test::content_of(folder / "stored") == "new");
   CHECK_FALSE(fs::exists(folder / "written"));
 }
@@ -37,27 +37,27 @@ TEST_CASE("what is no file is no trace") {
   const dmrp::test::ScratchFolder folder;
   write(folder / "secret", "of the user");
   write(folder / "stored", "old");
-  CHECK_FALSE(store_trace(folder / "missing", folder / "stored", [] {}));
+  CHECK_FALSE(store_file(folder / "missing", folder / "stored", [] {}));
   fs::create_symlink(folder / "secret", folder / "link");
-  CHECK_FALSE(store_trace(folder / "link", folder / "stored", [] {}));
+  CHECK_FALSE(store_file(folder / "link", folder / "stored", [] {}));
   fs::create_directory(folder / "directory");
-  CHECK_FALSE(store_trace(folder / "directory", folder / "stored", [] {}));
+  CHECK_FALSE(store_file(folder / "directory", folder / "stored", [] {}));
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK_FALSE(store_trace(folder / "pipe", folder / "stored", [] {}));
+  CHECK_FALSE(store_file(folder / "pipe", folder / "stored", [] {}));
   CHECK(dmrp::test::content_of(folder / "stored") == "old");
 }
 
 TEST_CASE("a folder that is gone is the machine's failure") {
   const dmrp::test::ScratchFolder folder;
   write(folder / "written", "new");
-  CHECK_THROWS_AS(store_trace(folder / "written", folder / "none" / "stored", [] {}), std::system_error);
+  CHECK_THROWS_AS(store_file(folder / "written", folder / "none" / "stored", [] {}), std::system_error);
 }
 
 TEST_CASE("a folder that is deleted meanwhile is made again") {
   const dmrp::test::ScratchFolder folder;
   write(folder / "written", "new");
   const auto make_folder = [&] { fs::create_directory(folder / "traces"); };
-  CHECK(store_trace(folder / "written", folder / "traces" / "stored", make_folder));
+  CHECK(store_file(folder / "written", folder / "traces" / "stored", make_folder));
   CHECK(dmrp::test::content_of(folder / "traces" / "stored") == "new");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/workers/stored_trace.hpp"
+#include "host/workers/stored_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -15,8 +15,8 @@
 
 namespace dmrp::host {
 
-bool store_trace(const std::filesystem::path& written, const std::filesystem::path& stored,
-                 const std::function<void()>& make_folder) {
+bool store_file(const std::filesystem::path& written, const std::filesystem::path& stored,
+                const std::function<void()>& make_folder) {
   // neither follows a link, nor waits for a pipe's other end
   const Descriptor file(open(written.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat found {};
