@@ -19,7 +19,7 @@ Descriptor Arrivals::describe() {
           "Pathfinding, SoCS 2019")
       .value("isr", "1", higher, Subjects::system_and_robots,
              "individual success rate: 1 if the robot was at its last goal at the end, else 0. Unlike in success, a "
-             "robot that oscillated but arrived counts")
+             "robot that circled counts, whatever the experiment excludes")
       .value("csr", "1", higher, Subjects::system, "1 if isr is 1 for every robot, else 0")
       .value("flowtime", "s", lower, Subjects::system,
              "sum over robots of the time of final arrival; undefined unless all arrive")
