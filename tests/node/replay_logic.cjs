@@ -150,6 +150,7 @@ const tests = {
         goal: [0, 0],
         arrival: undefined,
         failure: 'no plan',
+        culprit: undefined,
         scans: undefined,
       });
     const replay = recording.from_json(none);
