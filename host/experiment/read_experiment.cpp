@@ -162,9 +162,16 @@ void check_processes(const TomlTable& root, Experiment& experiment) {
 }
 
 TomlKeys root_keys() {
-  TomlKeys root = {
-      "",
-      {{"experiment"}, {"scenario"}, {"simulation"}, {"recovery"}, {"ending"}, {"robot"}, {"robot_type"}, {"record"}, {"limits"}}};
+  TomlKeys root = {"",
+                   {{"experiment"},
+                    {"scenario"},
+                    {"simulation"},
+                    {"recovery"},
+                    {"ending"},
+                    {"robot"},
+                    {"robot_type"},
+                    {"record"},
+                    {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
   return root;
