@@ -58,7 +58,7 @@ run_directed --jobs 1 --out "$scratch/directed"
 run_directed --jobs 2 --out "$scratch/directed_two"
 query "$scratch/directed_two" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id IN (1, 6);"
 run_directed --resume --jobs 2 --out "$scratch/directed_two"
-[[ $(values_of "$scratch/directed_two") == $(values_of "$scratch/directed") ]] ||
+[[ $(values_of "$scratch/directed_two") == "$(values_of "$scratch/directed")" ]] ||
   fail "with replanning, --jobs 2 and --resume differ from --jobs 1"
 [[ $(values_of "$scratch/directed") != "$expected" ]] || fail "dispatch and execution should change values"
 

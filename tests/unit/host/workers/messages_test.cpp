@@ -35,7 +35,8 @@ TEST_CASE("messages keep all their fields") {
   CHECK(job.plan == "one");
   CHECK(job.new_plan == "plan.csv");
 
-  const TrialDone done = through_text(TrialDone{trial_outcome::failed, {{"org.x", "reads a \"clock\""}}, 0.1 + 0.2});
+  const TrialDone done =
+      through_text(TrialDone{trial_outcome::failed, {{"org.x", "reads a \"clock\""}}, 0.1 + 0.2, "abc"});
   CHECK(done.outcome == "failed");
   CHECK(done.timing == std::vector<TimingReason>{{"org.x", "reads a \"clock\""}});
   CHECK(done.sim_time_s == 0.1 + 0.2);

@@ -67,7 +67,7 @@ TEST_CASE("a mistake in a plan is named by line and column") {
 
 TEST_CASE("a stored plan keeps the planner's call and statistics, or its fault") {
   const dmrp::test::ScratchFolder folder;
-  const StoredPlans plans(folder / ".");
+  const StoredPlans plans(folder / "run");
   CHECK(plans.names().empty());
   StoredPlan made;
   made.answer = {DMRP_TIMEOUT, 12,      34,
@@ -92,14 +92,13 @@ TEST_CASE("a stored plan keeps the planner's call and statistics, or its fault")
   CHECK(plans.names() == std::vector<std::string>{"one", "two"});
   CHECK(outcome_of(plans.read_call("one")) != outcome_of(plans.read_call("two")));
 
-  const dmrp::test::ScratchFolder other;
-  const StoredPlans copied(other / ".");
-  for (const std::string& name : {"one", "two", "none"}) copied.copy(plans, name);
+  const StoredPlans copied(folder / "other");
+  for (const char* const name : {"one", "two", "none"}) copied.copy(plans, name);
   CHECK(copied.names() == plans.names());
   CHECK(same_plan(copied.read("one").answer, made.answer));
   copied.delete_faults();
   CHECK(copied.names() == std::vector<std::string>{"one"});
-  write(folder / "plans" / "one.json", "{}");
+  write(folder / "run" / "plans" / "one.json", "{}");
   CHECK_THROWS_AS(plans.read_call("one"), InputError);
 }
 
