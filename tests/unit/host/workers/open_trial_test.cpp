@@ -55,7 +55,7 @@ class Conversation {
     return say(message);
   }
   State done(const char* outcome, const std::vector<TimingReason>& timing = {}) {
-    json message = TrialDone{outcome, timing, 1.5};
+    json message = TrialDone{outcome, timing, 1.5, ""};
     message["type"] = "done";
     return say(message);
   }

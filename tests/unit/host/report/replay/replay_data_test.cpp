@@ -214,8 +214,13 @@ TEST_CASE("a lasting contact is one event", "[report]") {
   test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 5; ++k) {
     test::ExampleSample at(k, nullptr);
-    at.contacts[0] = {
-        DMRP_CONTACT_ROBOT, k == 0 ? DMRP_CONTACT_BEGINS : 0U, 0, 1, 0.002 + 0.001 * static_cast<double>(k), {1, 1}};
+    at.contacts[0] = {DMRP_CONTACT_ROBOT,
+                      k == 0 ? DMRP_CONTACT_BEGINS : 0U,
+                      0,
+                      1,
+                      0.002 + 0.001 * static_cast<double>(k),
+                      {1, 1},
+                      0.4};
     at.sample.contact_count = 1;
     trace->sample(at.sample);
   }
