@@ -89,7 +89,7 @@ expect_encounters mall 2
 expect_length library dmrp.planner.cbs 80
 expect_length library dmrp.planner.ecbs8 75.3
 expect_world library 8 180.0
-expect_encounters library 4
+expect_encounters library 3
 
 expect_length office dmrp.planner.cbs 43
 expect_length office dmrp.planner.ecbs8 33

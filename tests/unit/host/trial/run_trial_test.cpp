@@ -156,7 +156,7 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   CHECK(system_of(stage.measured(), "samples") == 1.0);
   stage.reader->rewind();
   const dmrp_sample* sample = stage.reader->next_sample();
-  REQUIRE(sample->call_count == 2);
+  REQUIRE(sample->call_count == 4);  // and the class of each robot
   CHECK(sample->calls->kind == DMRP_CALL_PLAN);
   CHECK(sample->calls->status == stage.reader->plans()[0].plan.status);
   CHECK(sample->calls->duration_ns == stage.reader->plans()[0].plan.planning_ns);

@@ -72,7 +72,7 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
                                                                 std::llround(1000 * std::hypot(10 / 3.0 - 1.5, 0.4)),
                                                                 std::llround(1000 * std::hypot(5.0 - 1.5, 0.4)),
                                                                 std::llround(1000 * off_both)});
-  CHECK(first["failure"] == "time limit");
+  CHECK(first["failure"] == "held behind another robot");
   CHECK_FALSE(first.contains("arrival"));
 
   const json& second = replay["robots"][1];  // finished from the beginning
