@@ -186,6 +186,17 @@ TEST_CASE("a controller gets every new plan with the next revision, and robots a
   }
 }
 
+TEST_CASE("a plan that is made on the way does not send a robot back to its cell's centre") {
+  Stage stage(lanes({9.5}));
+  stage.experiment.simulation.replan.period_ns = second_ns;
+  stage.experiment.simulation.dispatch = core::Dispatch::waypoint;
+  Stage::set(stage.experiment.local_controllers[0], "by_waypoint");
+  CHECK(stage.run());
+  CHECK(stage.reader->plans().size() > 5);
+  const std::vector<std::string> notes = stage.notes();  // all of one length
+  CHECK(std::is_sorted(notes.begin(), notes.end()));
+}
+
 TEST_CASE("plans avoid a failed robot") {
   Stage stage(lanes({11.5, 11.5}));
   stage.experiment.simulation.replan.period_ns = 2 * second_ns;
