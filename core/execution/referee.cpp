@@ -12,11 +12,11 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double look_ahead_m = 1.0;     // of the course: who is there blocks it
+constexpr double look_ahead_m = 1.0;     // of the course: a body there blocks it
 constexpr double blocked_gap_m = 0.1;    // from the strip that the body sweeps
 constexpr double still_m = 0.05;         // a robot that moves no farther
 constexpr double still_rad = 0.1;        // and turns no farther stands
-constexpr double neighbourhood_m = 3.0;  // of standing robots: who moves here may open their way
+constexpr double neighbourhood_m = 3.0;  // of standing robots: somebody who moves here may open their way
 
 bool is_settling(const RobotState& robot) {
   return robot.settling_since_ns >= 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// referee.hpp: who makes progress, who has arrived, when a trial ends, and why a robot failed.
+// referee.hpp: progress, arrival, the end of a trial, and why a robot failed.
 //
 // Every other part that asks one of these questions reads the referee's answer: replanning, endings, metrics (through
 // the changes of class in the trace).
