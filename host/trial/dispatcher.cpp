@@ -69,7 +69,7 @@ void Dispatcher::set_plan(const Plan& plan) {
     course.path = path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
     course.released = static_cast<std::uint32_t>(course.path.size() - 1);
     course.early_visit = last_early_visit(course.path, 0.7 * cell_m);
-    course.begins_behind = begins_behind(i, course.path);
+    course.behind = waypoints_behind(i, course.path);
     for (std::uint32_t k = 1; k + 1 < course.path.size(); ++k)
       if (turns_back(course.path, k)) course.turns.push_back(k);
     course.is_new = true;
@@ -160,24 +160,26 @@ void Dispatcher::release() {
 
 void Dispatcher::advance(std::uint32_t robot) {
   Course& course = courses_[robot];
-  const auto is_passed = [&] {
-    return (course.target == 0 && course.begins_behind) || is_near(robot, course.path[course.target]);
-  };
+  const auto is_passed = [&] { return course.target < course.behind || is_near(robot, course.path[course.target]); };
   while (course.target < course.cut && !ends_at_goal(robot, course.target) && is_passed()) {
     ++course.target;
     course.is_new = true;
   }
 }
 
-// Whether the robot is in the first cell of a path, off its centre, and can drive straight on: a plan that is made on
-// the way begins there.
-bool Dispatcher::begins_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const {
-  if (path.size() < 2) return false;
+// How many waypoints at the beginning of a path the robot need not drive back to: it is in their cell, off its centre, and
+// can drive straight on. A plan that is made on the way begins so.
+std::uint32_t Dispatcher::waypoints_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const {
+  const dmrp_vec2 first = toolkit::position(path.front());
+  const auto next =
+      std::find_if(path.begin(), path.end(), [&](const dmrp_waypoint& w) { return toolkit::position(w) != first; });
   const dmrp_grid view = variant_.planning_grid.view();
   const toolkit::GridView grid(view);
   const dmrp_vec2 here = toolkit::position(world_.robots()[robot].pose);
-  return grid.cell_of(here) == grid.cell_of(toolkit::position(path[0])) &&
-         variant_.geometry->sweep_is_free(here, toolkit::position(path[1]), world_.robot_settings(robot).radius_m);
+  const bool goes_on =
+      next != path.end() && grid.cell_of(here) == grid.cell_of(first) &&
+      variant_.geometry->sweep_is_free(here, toolkit::position(*next), world_.robot_settings(robot).radius_m);
+  return goes_on ? static_cast<std::uint32_t>(next - path.begin()) : 0;
 }
 
 bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const {

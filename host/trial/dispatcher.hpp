@@ -75,14 +75,14 @@ class Dispatcher {
     std::uint32_t cut = 0;              // the last waypoint that the controller gets
     std::uint32_t target = 0;           // the waypoint that the robot drives to, if dispatch is by waypoint
     std::int64_t early_visit = -1;      // the last waypoint at the last goal from which the course leaves and returns
-    bool begins_behind = false;         // the robot need not drive back to the first waypoint
+    std::uint32_t behind = 0;           // waypoints at the beginning to which the robot need not drive back
     bool is_new = false;                // the controller does not have it yet
   };
 
   bool ordered() const { return variant_.simulation.execution == core::Execution::ordered; }
   bool by_waypoint() const { return variant_.simulation.dispatch == core::Dispatch::waypoint; }
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
-  bool begins_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const;
+  std::uint32_t waypoints_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const;
   bool ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const;
   bool is_held(std::uint32_t robot) const;
   void find_stages(Course& course) const;
