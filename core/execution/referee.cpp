@@ -22,7 +22,7 @@ bool is_settling(const RobotState& robot) {
   return robot.settling_since_ns >= 0;
 }
 
-// From the robot's position along the next metre of its course.
+// The way begins at the robot's position and follows the next metre of its course.
 std::vector<dmrp_vec2> way_ahead(dmrp_vec2 from, const CoursePlace& course) {
   std::vector<dmrp_vec2> way = {from};
   double left_m = look_ahead_m;
@@ -47,7 +47,7 @@ double distance_by(const std::vector<dmrp_vec2>& way, dmrp_vec2 point, double re
   return std::numeric_limits<double>::infinity();
 }
 
-// Of the course's waypoints that lead to this goal.
+// The length of the course's part that leads to this goal.
 double leg_m(const CoursePlace& course, std::uint32_t goal_index) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < course.path.size(); ++i)
@@ -199,7 +199,7 @@ Referee::Verdict Referee::classify(std::uint32_t robot, const CoursePlace& cours
   return verdict;
 }
 
-// By the first body on the next metre of the course.
+// The first body on the next metre of the course blocks the robot.
 Referee::Verdict Referee::blocked_by(std::uint32_t robot, const CoursePlace& course) const {
   const std::vector<dmrp_vec2> way = way_ahead(toolkit::position(world_.robots()[robot].pose), course);
   const double own_m = world_.robot_settings(robot).radius_m + blocked_gap_m;

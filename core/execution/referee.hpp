@@ -79,7 +79,7 @@ class Referee {
   // After every step, with the courses before it: robots visit goals and park.
   void judge_arrivals(std::span<const CoursePlace> courses);
 
-  // At every control tick, before replanning: progress and class. Robots whose controllers are silent fail.
+  // Judges progress and class; call it at every control tick, before replanning. Robots whose controllers are silent fail.
   void judge_progress(std::span<const CoursePlace> courses);
 
   // DMRP_ENDING_*, 0 until the trial is over.
@@ -88,7 +88,7 @@ class Referee {
   // Whether a robot has waited at its last goal for a window, to be parked by a plan. Once a window.
   bool wants_plan();
 
-  // Of all robots, over the whole trial; never decreases.
+  // What each robot has gained in the whole trial, in metres. It never decreases.
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 

@@ -30,7 +30,7 @@ struct ContactBodies {
 // samples of an event have the fault of the first.
 class ContactTracker {
  public:
-  // Of the contacts at t_ns. `normals`: unit, from b toward a, by contact. Call it at every step, also without contacts,
+  // Takes the contacts at t_ns. `normals`: unit, from b toward a, by contact. Call it at every step, also without contacts,
   // with increasing times.
   void update(std::int64_t t_ns, const ContactBodies& bodies, std::span<const dmrp_vec2> normals,
               std::span<dmrp_contact> contacts);

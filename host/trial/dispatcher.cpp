@@ -23,7 +23,7 @@ dmrp_vec2 position_at(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns)
   return from + share * (toolkit::position(*after) - from);
 }
 
-// At a waypoint before the last: whether the path turns by more than 135 degrees.
+// Whether the path turns by more than 135 degrees at a waypoint, which is not the last.
 bool turns_back(const std::vector<dmrp_waypoint>& path, std::size_t at) {
   constexpr double cosine = -0.70710678118654752;
   const dmrp_vec2 here = toolkit::position(path[at]);

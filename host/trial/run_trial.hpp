@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-// Where nothing can replan, first_plan.given takes the planner's place.
+// A given first plan takes the planner's place where nothing can replan.
 struct Trial {
   const Experiment& experiment;
   const Combination& combination;
