@@ -2,7 +2,6 @@
 #include "core/scene/broad_phase.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision_object.h>
 
@@ -17,13 +16,6 @@ namespace {
 using Object = fcl::CollisionObjectd;
 using Tree = fcl::DynamicAABBTreeCollisionManagerd;
 
-// All bodies have the same height.
-fcl::Transform3d at(dmrp_vec2 point) {
-  fcl::Transform3d transform = fcl::Transform3d::Identity();
-  transform.translation() = fcl::Vector3d(point.x, point.y, 0.0);
-  return transform;
-}
-
 // The index of an object is stored in FCL's user data pointer.
 void set_index(Object& object, std::size_t index) {
   object.setUserData(reinterpret_cast<void*>(index));
@@ -32,9 +24,21 @@ std::uint32_t index_of(const Object& object) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::size_t>(object.getUserData()));
 }
 
-Object box_object(const toolkit::Rectangle& box) {
-  const auto geometry = std::make_shared<fcl::Boxd>(box.upper.x - box.lower.x, box.upper.y - box.lower.y, 1.0);
-  return Object(geometry, at({0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y)}));
+// What a tree knows of an object is its box. All boxes have the same height.
+class BoxObject : public Object {
+ public:
+  explicit BoxObject(const toolkit::Rectangle& box) : Object(std::make_shared<fcl::Sphered>(0.0)) { cover(box); }
+
+  void cover(const toolkit::Rectangle& box) {
+    aabb = fcl::AABBd({box.lower.x, box.lower.y, 0.0}, {box.upper.x, box.upper.y, 0.0});
+  }
+};
+
+// The query of this thread: trees are shared, and a query that allocates its object costs twice as much.
+Object& query_for(const toolkit::Rectangle& box) {
+  thread_local BoxObject query(box);
+  query.cover(box);
+  return query;
 }
 
 // The object of a pair that is not `query`.
@@ -52,7 +56,7 @@ struct BoxTree::Implementation {
 BoxTree::BoxTree(std::span<const toolkit::Rectangle> boxes) : implementation_(std::make_unique<Implementation>()) {
   std::vector<Object*> pointers;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    implementation_->objects.push_back(std::make_unique<Object>(box_object(boxes[i])));
+    implementation_->objects.push_back(std::make_unique<BoxObject>(boxes[i]));
     set_index(*implementation_->objects.back(), i);
     pointers.push_back(implementation_->objects.back().get());
   }
@@ -67,7 +71,7 @@ BoxTree& BoxTree::operator=(BoxTree&&) noexcept = default;
 void BoxTree::touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const {
   assert(toolkit::is_ordered(box));
   found.clear();
-  Object query = box_object(box);
+  Object& query = query_for(box);
   struct Search {
     const Object* query;
     std::vector<std::uint32_t>* found;
@@ -82,7 +86,7 @@ void BoxTree::touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>
 
 std::pair<double, std::uint32_t> BoxTree::nearest(dmrp_vec2 point,
                                                   const std::function<double(std::uint32_t)>& distance_to) const {
-  Object query = box_object({point, point});
+  Object& query = query_for({point, point});
   struct Search {
     const Object* query;
     const std::function<double(std::uint32_t)>* distance_to;

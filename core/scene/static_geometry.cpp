@@ -148,12 +148,8 @@ bool StaticGeometry::sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m
 
 double StaticGeometry::clearance(toolkit::PolygonView polygon, double at_most_m) const {
   double nearest_m = at_most_m;
-  toolkit::Rectangle box = {polygon[0], polygon[0]};
-  for (const dmrp_vec2 vertex : polygon) {
-    nearest_m = std::min(nearest_m, toolkit::depth(rectangle(), vertex));
-    box = {{std::min(box.lower.x, vertex.x), std::min(box.lower.y, vertex.y)},
-           {std::max(box.upper.x, vertex.x), std::max(box.upper.y, vertex.y)}};
-  }
+  for (const dmrp_vec2 vertex : polygon) nearest_m = std::min(nearest_m, toolkit::depth(rectangle(), vertex));
+  const toolkit::Rectangle box = toolkit::bounds(polygon);
   std::vector<std::uint32_t> near;
   tree_.touching(box_around(box.lower, box.upper, at_most_m), near);
   for (const std::uint32_t shape : near) {

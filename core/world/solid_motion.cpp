@@ -37,14 +37,6 @@ void push(SolidBody& body, dmrp_vec2 change, double max_push_m) {
   if (length_m > at_most_m) body.displacement = body.displacement * (at_most_m / length_m);
 }
 
-// Adds the deepest overlap of two bodies, if it is deeper than `depth_m`.
-void add_deepest(std::uint32_t a, std::uint32_t b, std::span<const Gap> gaps, double depth_m,
-                 std::vector<Overlap>& found) {
-  const auto deepest =
-      std::min_element(gaps.begin(), gaps.end(), [](const Gap& one, const Gap& two) { return one.gap_m < two.gap_m; });
-  if (-deepest->gap_m > depth_m) found.push_back({a, b, -deepest->gap_m, deepest->overlap, deepest->normal});
-}
-
 }  // namespace
 
 std::array<Wall, 4> walls_around(const StaticGeometry& geometry, dmrp_vec2 point) {
@@ -246,61 +238,6 @@ void SolidMotion::stop_violators(std::span<SolidBody> bodies) const {
       if (constraint.b != no_body) bodies[constraint.b].displacement = {0.0, 0.0};
       stopped = true;
     }
-  }
-}
-
-void SolidMotion::overlaps_with_shapes(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
-                                       std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
-  assert(count <= bodies.size());
-  found.clear();
-  find_neighbours(bodies);
-  outlines_.place(bodies, outlines);
-  const auto add = [&](std::uint32_t body, std::uint32_t shape, double distance_m, dmrp_vec2 outward) {
-    const double depth = bodies[body].radius_m - distance_m;
-    // the disc reaches from its centre to radius_m behind the surface
-    if (depth > depth_m)
-      found.push_back({body, shape, depth, bodies[body].position - outward * (distance_m + 0.5 * depth), outward});
-  };
-  for (const auto& [body, shape] : shape_neighbours_) {
-    if (body >= count) break;
-    if (!outlines_.is_disc(body)) {
-      add_deepest(body, shape, outlines_.to_shape(bodies, body, geometry_->sdk_shapes()[shape]), depth_m, found);
-      continue;
-    }
-    const SurfaceDistance surface = geometry_->distance_to(shape, bodies[body].position);
-    add(body, shape, surface.distance_m, surface.outward);
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (!outlines_.is_disc(i)) {
-      add_deepest(i, geometry_->border(), outlines_.to_border(bodies, i, *geometry_), depth_m, found);
-      continue;
-    }
-    const auto walls = walls_around(*geometry_, bodies[i].position);
-    const auto nearest = std::min_element(
-        walls.begin(), walls.end(), [](const Wall& one, const Wall& two) { return one.distance_m < two.distance_m; });
-    add(i, geometry_->border(), nearest->distance_m, nearest->inward);
-  }
-  std::sort(found.begin(), found.end(),
-            [](const Overlap& one, const Overlap& two) { return std::pair(one.a, one.b) < std::pair(two.a, two.b); });
-}
-
-void SolidMotion::overlaps_between(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
-                                   std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
-  assert(count <= bodies.size());
-  found.clear();
-  find_neighbours(bodies);
-  outlines_.place(bodies, outlines);
-  for (const auto& [a, b] : body_neighbours_) {
-    if (a >= count) break;
-    if (!outlines_.is_disc(a) || !outlines_.is_disc(b)) {
-      add_deepest(a, b, outlines_.between(bodies, a, b), depth_m, found);
-      continue;
-    }
-    const double distance_m = toolkit::distance(bodies[a].position, bodies[b].position);
-    const double depth = bodies[a].radius_m + bodies[b].radius_m - distance_m;
-    if (!(depth > depth_m)) continue;
-    const dmrp_vec2 normal = direction_between(bodies[b].position, bodies[a].position, distance_m);
-    found.push_back({a, b, depth, bodies[a].position - normal * (bodies[a].radius_m - 0.5 * depth), normal});
   }
 }
 

@@ -24,6 +24,8 @@ inline constexpr double solid_depth_m = 0.0015;
 // The speed at which contact can push a person who stands, m/s.
 inline constexpr double max_push_speed = 1.0;
 
+using IndexPairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
+
 // One of the four sides of the border, as seen from a point.
 struct Wall {
   dmrp_vec2 inward;
@@ -42,15 +44,6 @@ struct SolidBody {
   double radius_m = 0.0;  // of the disc, or of the circle around `position` that contains the outline
   dmrp_vec2 displacement{};
   ContactResponse response = ContactResponse::stop;
-};
-
-// Two bodies, or a body and a shape, that overlap.
-struct Overlap {
-  std::uint32_t a = 0;  // body
-  std::uint32_t b = 0;  // body, shape, or StaticGeometry::border()
-  double depth_m = 0.0;
-  dmrp_vec2 point{};   // in the middle of the overlap
-  dmrp_vec2 normal{};  // unit, from b toward a
 };
 
 // Keeps bodies solid: removes the part of each displacement that would deepen an overlap. Where two bodies approach
@@ -74,12 +67,11 @@ class SolidMotion {
   // `outlines` are those of the first bodies; empty if all bodies are discs.
   void resolve(std::span<SolidBody> bodies, std::span<SolidOutline> outlines = {});
 
-  // Overlaps deeper than `depth_m` at the present positions, with shapes or between bodies, ordered by a, then b; a is
-  // one of the first `count` bodies. All three functions expect the same bodies in the same order.
-  void overlaps_with_shapes(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines,
-                            std::uint32_t count, double depth_m, std::vector<Overlap>& found);
-  void overlaps_between(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines, std::uint32_t count,
-                        double depth_m, std::vector<Overlap>& found);
+  // Finds the pairs that can meet in a step from here, in ascending order. Both functions expect the same bodies in the
+  // same order.
+  void find_neighbours(std::span<const SolidBody> bodies);
+  IndexPairs body_neighbours() const { return body_neighbours_; }
+  IndexPairs shape_neighbours() const { return shape_neighbours_; }  // body, shape
 
  private:
   static constexpr std::uint32_t no_body = 0xFFFFFFFFu;
@@ -92,7 +84,6 @@ class SolidMotion {
     double allowed_m;
   };
 
-  void find_neighbours(std::span<const SolidBody> bodies);
   bool neighbours_are_fresh(std::span<const SolidBody> bodies) const;
   void limit_turns(std::span<const SolidBody> bodies, std::span<SolidOutline> outlines);
   void collect_constraints(std::span<const SolidBody> bodies);
@@ -113,7 +104,7 @@ class SolidMotion {
 
   // Pairs that can meet as long as no body is farther than reach_m_ from its position at the search.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> body_neighbours_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> shape_neighbours_;  // body, shape
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> shape_neighbours_;
   double reach_m_ = 0.0;
   std::vector<dmrp_vec2> found_at_;
   std::vector<double> found_radii_m_;

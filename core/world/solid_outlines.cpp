@@ -11,14 +11,6 @@
 #include "core/world/solid_motion.hpp"
 
 namespace dmrp::core {
-namespace {
-
-// The middle of the overlap of a polygon with a disc that it approaches along `normal`, from the disc.
-dmrp_vec2 middle_of_overlap(dmrp_vec2 center, double radius_m, const Separation& apart) {
-  return center + apart.normal * (radius_m + 0.5 * apart.distance_m);
-}
-
-}  // namespace
 
 void SolidOutlines::place(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines) {
   assert(outlines.size() <= bodies.size());
@@ -48,11 +40,7 @@ std::span<const Gap> SolidOutlines::to_shape(std::span<const SolidBody> bodies, 
   for (const Part& part : placed_[a]) {
     const Separation apart = is_circle ? separation(part.now, shape.center, shape.radius_m)
                                        : separation(part.now, toolkit::polygon_of(shape));
-    Gap gap = {apart.normal, apart.distance_m, growth(part, bodies[a].position, -apart.normal), 0.0, {}};
-    if (gap.gap_m < 0.0)
-      gap.overlap = is_circle ? middle_of_overlap(shape.center, shape.radius_m, apart)
-                              : core::middle_of_overlap(part.now, toolkit::polygon_of(shape));
-    gaps_.push_back(gap);
+    gaps_.push_back({apart.normal, apart.distance_m, growth(part, bodies[a].position, -apart.normal), 0.0});
   }
   return gaps_;
 }
@@ -63,12 +51,8 @@ std::span<const Gap> SolidOutlines::to_border(std::span<const SolidBody> bodies,
   gaps_.clear();
   for (const Part& part : placed_[a])
     for (const Wall& wall : walls_around(geometry, bodies[a].position)) {
-      const auto deepest = std::min_element(part.now.begin(), part.now.end(), [&](dmrp_vec2 one, dmrp_vec2 two) {
-        return toolkit::dot(one, wall.inward) < toolkit::dot(two, wall.inward);
-      });
-      const double gap_m = wall.distance_m + toolkit::dot(*deepest - bodies[a].position, wall.inward);
-      gaps_.push_back({wall.inward, gap_m, growth(part, bodies[a].position, -wall.inward), 0.0,
-                       *deepest - wall.inward * (0.5 * gap_m)});
+      const double gap_m = wall.distance_m - extent(part.now, bodies[a].position, -wall.inward);
+      gaps_.push_back({wall.inward, gap_m, growth(part, bodies[a].position, -wall.inward), 0.0});
     }
   return gaps_;
 }
@@ -89,19 +73,13 @@ std::span<const Gap> SolidOutlines::between(std::span<const SolidBody> bodies, s
     const auto a_growth_m = [&](dmrp_vec2 normal) { return growth(part, bodies[a].position, -normal); };
     if (is_disc(b)) {
       const Separation apart = separation(part.now, other.position, other.radius_m);
-      gaps_.push_back({apart.normal, apart.distance_m, a_growth_m(apart.normal), 0.0,
-                       middle_of_overlap(other.position, other.radius_m, apart)});
+      gaps_.push_back({apart.normal, apart.distance_m, a_growth_m(apart.normal), 0.0});
       continue;
     }
     for (const Part& other_part : placed_[b]) {
       const Separation apart = separation(part.now, other_part.now);
-      Gap gap = {apart.normal,
-                 apart.distance_m,
-                 a_growth_m(apart.normal),
-                 growth(other_part, other.position, apart.normal),
-                 {}};
-      if (gap.gap_m < 0.0) gap.overlap = core::middle_of_overlap(part.now, other_part.now);
-      gaps_.push_back(gap);
+      gaps_.push_back(
+          {apart.normal, apart.distance_m, a_growth_m(apart.normal), growth(other_part, other.position, apart.normal)});
     }
   }
   return gaps_;

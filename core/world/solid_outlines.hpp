@@ -26,7 +26,6 @@ struct Gap {
   double gap_m = 0.0;       // along the normal; negative: they overlap
   double a_growth_m = 0.0;  // by which the turn of a reduces the gap
   double b_growth_m = 0.0;
-  dmrp_vec2 overlap{};  // its middle, if they overlap
 };
 
 // Places the outlines of bodies in the world, at their headings before and after the intended turns.

@@ -96,7 +96,8 @@ World::World(const Scenario& scenario, const RobotTypes& types, const Simulation
       goals_(goals_of_all(scenario, simulation.goal)),
       robot_positions_(positions_of(robots_)),
       population_(scenario, geometry_, routes, seed, kept_clear(scenario, robot_positions_)),
-      motion_(geometry_, simulation.step_ns) {
+      motion_(geometry_, simulation.step_ns),
+      checks_(geometry_) {
   proposed_.resize(robots_.size());
   proposed_displacements_.resize(robots_.size());
   for (std::uint32_t i = 0; i < robots_.size(); ++i)
@@ -319,9 +320,11 @@ void World::find_contacts() {
     contacts_.push_back({kind, 0, overlap.a, b, overlap.depth_m, overlap.point, 0.0});
     normals_.push_back(overlap.normal);
   };
-  motion_.overlaps_with_shapes(bodies_, outlines_, robot_count, contact_depth_m, overlaps_);
+  motion_.find_neighbours(bodies_);
+  checks_.place(bodies_, outlines_);
+  checks_.with_shapes(motion_.shape_neighbours(), robot_count, contact_depth_m, overlaps_);
   for (const Overlap& overlap : overlaps_) add(DMRP_CONTACT_STATIC, overlap, overlap.b);
-  motion_.overlaps_between(bodies_, outlines_, robot_count, contact_depth_m, overlaps_);
+  checks_.between(motion_.body_neighbours(), robot_count, contact_depth_m, overlaps_);
   for (const Overlap& overlap : overlaps_)
     if (overlap.b < robot_count) add(DMRP_CONTACT_ROBOT, overlap, overlap.b);
   for (const Overlap& overlap : overlaps_)

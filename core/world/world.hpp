@@ -17,6 +17,7 @@
 #include "core/scene/scenario.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/static_geometry.hpp"
+#include "core/world/collision_checks.hpp"
 #include "core/world/contact_events.hpp"
 #include "core/world/drive.hpp"
 #include "core/world/solid_motion.hpp"
@@ -132,6 +133,7 @@ class World {
   std::vector<dmrp_vec2> robot_positions_;
   Population population_;
   SolidMotion motion_;
+  CollisionChecks checks_;
   ContactTracker tracker_;
   std::vector<SolidBody> bodies_;                  // robots, then people
   std::vector<SolidOutline> outlines_;             // of robots; empty if all are discs

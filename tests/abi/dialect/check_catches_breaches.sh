@@ -52,6 +52,8 @@ refuse core/world/a.cpp "$licence" '#include "../world/world.hpp"'
 refuse plugins/planners/a.cpp "$licence" '#include "mapf/problem.hpp"'
 refuse tests/unit/core/world/a.cpp "$licence" 'TEST_CASE("x") {}'
 refuse core/world/a.cpp "$licence" 'using namespace std;'
+refuse core/world/a.cpp "$licence" 'request.enable_signed_distance = true;'
+refuse tests/bench/a.cpp "$licence" 'fcl::Cylinderd(0.3, 1.0)'
 refuse host/trial/a.cpp "$licence" '  setlocale(LC_ALL, "C");'
 refuse tests/unit/core/nowhere/a_test.cpp "$licence"
 echo "$caught breaches caught"

@@ -16,18 +16,19 @@ inline PolygonView polygon_of(const dmrp_shape& shape) {
   return {shape.vertices, shape.vertex_count};
 }
 
-// The axis-aligned bounding box of a shape.
-inline Rectangle bounds(const dmrp_shape& shape) {
-  if (shape.kind == DMRP_SHAPE_CIRCLE) {
-    const dmrp_vec2 reach = {shape.radius_m, shape.radius_m};
-    return {shape.center - reach, shape.center + reach};
-  }
-  Rectangle box = {shape.vertices[0], shape.vertices[0]};
-  for (const dmrp_vec2 vertex : polygon_of(shape)) {
+// The axis-aligned bounding box of a polygon or a shape.
+inline Rectangle bounds(PolygonView polygon) {
+  Rectangle box = {polygon[0], polygon[0]};
+  for (const dmrp_vec2 vertex : polygon) {
     box.lower = {std::min(box.lower.x, vertex.x), std::min(box.lower.y, vertex.y)};
     box.upper = {std::max(box.upper.x, vertex.x), std::max(box.upper.y, vertex.y)};
   }
   return box;
+}
+inline Rectangle bounds(const dmrp_shape& shape) {
+  if (shape.kind != DMRP_SHAPE_CIRCLE) return bounds(polygon_of(shape));
+  const dmrp_vec2 reach = {shape.radius_m, shape.radius_m};
+  return {shape.center - reach, shape.center + reach};
 }
 
 // To the shape's outline, negative inside.
