@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "controllers/mppi/batch.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace dmrp::controllers::mppi {
 
 namespace {
-
-using Lanes = std::array<float, lanes>;
-
-Lanes filled(float value) {
-  Lanes all;
-  all.fill(value);
-  return all;
-}
 
 // Where the rows of one step begin in the table of noise.
 struct NoiseRows {
@@ -33,43 +24,30 @@ struct State {
 
 // Euler's step as in nav2: moves along the heading before the turn.
 void move(State& s, float step_s, bool holonomic) {
-  for (int l = 0; l < lanes; ++l) {
-    s.x[l] += s.v_x[l] * s.cosine[l] * step_s;
-    s.y[l] += s.v_x[l] * s.sine[l] * step_s;
-  }
+  s.x += s.v_x * s.cosine * step_s;
+  s.y += s.v_x * s.sine * step_s;
   if (holonomic) {
-    for (int l = 0; l < lanes; ++l) {
-      s.x[l] -= s.v_y[l] * s.sine[l] * step_s;
-      s.y[l] += s.v_y[l] * s.cosine[l] * step_s;
-    }
+    s.x -= s.v_y * s.sine * step_s;
+    s.y += s.v_y * s.cosine * step_s;
   }
-  for (int l = 0; l < lanes; ++l) {
-    // series up to the ninth power: exact to a float's precision for turns below 1 rad
-    const float turn = s.omega[l] * step_s;
-    const float q = turn * turn;
-    const float sine = turn * (1.0f - q / 6.0f * (1.0f - q / 20.0f * (1.0f - q / 42.0f * (1.0f - q / 72.0f))));
-    const float cosine = 1.0f - q / 2.0f * (1.0f - q / 12.0f * (1.0f - q / 30.0f * (1.0f - q / 56.0f)));
-    const float before = s.cosine[l];
-    s.cosine[l] = before * cosine - s.sine[l] * sine;
-    s.sine[l] = s.sine[l] * cosine + before * sine;
-    s.theta[l] += turn;
-  }
+  // series up to the ninth power: exact to a float's precision for turns below 1 rad
+  const Lanes turn = s.omega * step_s;
+  const Lanes q = turn * turn;
+  const Lanes sine = turn * (1.0f - q / 6.0f * (1.0f - q / 20.0f * (1.0f - q / 42.0f * (1.0f - q / 72.0f))));
+  const Lanes cosine = 1.0f - q / 2.0f * (1.0f - q / 12.0f * (1.0f - q / 30.0f * (1.0f - q / 56.0f)));
+  const Lanes before = s.cosine;
+  s.cosine = before * cosine - s.sine * sine;
+  s.sine = s.sine * cosine + before * sine;
+  s.theta += turn;
 }
 
 constexpr float unbounded = -std::numeric_limits<float>::infinity();
 
 // The next control of one axis: mean and noise, at least `least`, within reach of the velocity, which it becomes.
-void choose(float mean, float deviation, const float* noise, float reach, float least, Lanes& velocity,
-            float* control) {
-  for (int l = 0; l < lanes; ++l) {
-    const float wanted = std::max(mean + deviation * noise[l], least);
-    velocity[l] = std::min(std::max(wanted, velocity[l] - reach), velocity[l] + reach);
-    control[l] = velocity[l];
-  }
-}
-
-void store(const Lanes& from, float* to) {
-  std::copy(from.begin(), from.end(), to);
+void choose(float mean, float deviation, const Eigen::Map<const Lanes>& noise, float reach, float least,
+            Lanes& velocity, Lanes& control) {
+  velocity = (mean + deviation * noise).max(least).max(velocity - reach).min(velocity + reach);
+  control = velocity;
 }
 
 }  // namespace
@@ -93,14 +71,16 @@ void sample(const Model& model, const Sequence& mean, const Noise& noise, std::u
   const float reach = model.limits.a_max * model.step_s;
   const float turn_reach = model.limits.alpha_max * model.step_s;
   const Velocity& deviation = model.deviation;
+  const auto all = [](float value) { return Lanes::Constant(value); };
+  const State start = {all(now.v_x), all(now.v_y), all(now.omega),       all(0.0f),
+                       all(0.0f),    all(theta),   all(std::cos(theta)), all(std::sin(theta))};
   for (int block = 0; block < batch.blocks; ++block) {
-    State s = {filled(now.v_x), filled(now.v_y), filled(now.omega),       filled(0.0f),
-               filled(0.0f),    filled(theta),   filled(std::cos(theta)), filled(std::sin(theta))};
+    State s = start;
     for (int i = 0; i < batch.steps; ++i) {
       move(s, model.step_s, model.holonomic);
-      store(s.x, batch.x.row(block, i));
-      store(s.y, batch.y.row(block, i));
-      store(s.theta, batch.theta.row(block, i));
+      batch.x.row(block, i) = s.x;
+      batch.y.row(block, i) = s.y;
+      batch.theta.row(block, i) = s.theta;
       const Velocity& m = mean[static_cast<std::size_t>(i)];
       const NoiseRows& row = rows[static_cast<std::size_t>(i)];
       choose(m.v_x, deviation.v_x, noise.block(row.v_x, block), reach, model.slowest_m_s, s.v_x,

@@ -44,21 +44,20 @@ class Field {
  public:
   void resize(int blocks, int steps) {
     steps_ = steps;
-    values_.assign(static_cast<std::size_t>(blocks) * static_cast<std::size_t>(steps) * lanes, 0.0f);
+    values_.assign(static_cast<std::size_t>(blocks) * static_cast<std::size_t>(steps), Lanes::Zero());
   }
-  float* row(int block, int step) { return values_.data() + offset(block, step); }
-  const float* row(int block, int step) const { return values_.data() + offset(block, step); }
+  Lanes& row(int block, int step) { return values_[place(block, step)]; }
+  const Lanes& row(int block, int step) const { return values_[place(block, step)]; }
 
   float& at(int sample, int step) { return row(sample / lanes, step)[sample % lanes]; }
   float at(int sample, int step) const { return row(sample / lanes, step)[sample % lanes]; }
 
  private:
-  std::size_t offset(int block, int step) const {
-    return (static_cast<std::size_t>(block) * static_cast<std::size_t>(steps_) + static_cast<std::size_t>(step)) *
-           lanes;
+  std::size_t place(int block, int step) const {
+    return static_cast<std::size_t>(block) * static_cast<std::size_t>(steps_) + static_cast<std::size_t>(step);
   }
 
-  std::vector<float> values_;
+  std::vector<Lanes> values_;
   int steps_ = 0;
 };
 

@@ -34,19 +34,20 @@ void CostField::look(const dmrp_costmap& map, const Footprint& footprint, double
 void CostField::set_table(const CostTable& table) {
   table_ = table;
   if (!by_cells_) return;
-  const std::size_t cells = std::size_t{map_->width} * map_->height;
-  values_.resize(cells + 1);
   CostTable by_cost = table;
   for (std::size_t cost = surely_free_ + std::size_t{1}; cost < by_cost.size(); ++cost) by_cost[cost] = in_contact;
-  for (std::size_t i = 0; i < cells; ++i) values_[i] = by_cost[map_->costs[i]];
-  values_[cells] = by_cost[DMRP_COST_FREE];
+  const std::size_t width = map_->width, height = map_->height;
+  values_.assign((width + 2) * (height + 2), by_cost[DMRP_COST_FREE]);
+  for (std::size_t row = 0; row < height; ++row)
+    for (std::size_t column = 0; column < width; ++column)
+      values_[(row + 1) * (width + 2) + column + 1] = by_cost[map_->costs[row * width + column]];
 }
 
-void CostField::sum(const Batch& batch, int block, int stride, float step_s, std::array<float, lanes>& sums) const {
-  sums.fill(0.0f);
+Lanes CostField::sum(const Batch& batch, int block, int stride, float step_s) const {
+  Lanes sums = Lanes::Zero();
   for (int i = 0; i < batch.steps; i += stride) {
-    const float* x = batch.x.row(block, i);
-    const float* y = batch.y.row(block, i);
+    const Lanes& x = batch.x.row(block, i);
+    const Lanes& y = batch.y.row(block, i);
     if (by_cells_)
       add_cells(x, y, sums);
     else
@@ -54,33 +55,27 @@ void CostField::sum(const Batch& batch, int block, int stride, float step_s, std
     const double ahead_s = static_cast<double>(step_s) * (i + 1);
     for (const MovingDisc& disc : discs_) add_disc(disc, ahead_s, x, y, sums);
   }
+  return sums;
 }
 
-void CostField::add_cells(const float* x, const float* y, std::array<float, lanes>& sums) const {
+void CostField::add_cells(const Lanes& x, const Lanes& y, Lanes& sums) const {
   const auto left = static_cast<float>(map_->origin.x - robot_.x);
   const auto bottom = static_cast<float>(map_->origin.y - robot_.y);
   const auto cells_per_m = static_cast<float>(1.0 / map_->resolution_m);
-  const auto width = static_cast<std::int32_t>(map_->width);
-  const auto height = static_cast<std::int32_t>(map_->height);
-  const std::int32_t outside = width * height;
-  std::array<std::int32_t, lanes> cell;
-  for (int l = 0; l < lanes; ++l) {
-    // one is added, so that the fraction before the first cell is not rounded into it
-    const float across = std::min(std::max((x[l] - left) * cells_per_m + 1.0f, 0.0f), static_cast<float>(width + 1));
-    const float up = std::min(std::max((y[l] - bottom) * cells_per_m + 1.0f, 0.0f), static_cast<float>(height + 1));
-    const std::int32_t column = static_cast<std::int32_t>(across) - 1;
-    const std::int32_t row = static_cast<std::int32_t>(up) - 1;
-    const bool inside = column >= 0 && column < width && row >= 0 && row < height;
-    cell[static_cast<std::size_t>(l)] = inside ? row * width + column : outside;
-  }
-  for (std::size_t l = 0; l < lanes; ++l) sums[l] += values_[static_cast<std::size_t>(cell[l])];
+  const auto width = static_cast<std::int32_t>(map_->width) + 2;  // with the border, which takes NaN too
+  const auto height = static_cast<std::int32_t>(map_->height) + 2;
+  const Lanes column = Lanes::Zero().max((x - left) * cells_per_m + 1.0f).min(static_cast<float>(width - 1));
+  const Lanes row = Lanes::Zero().max((y - bottom) * cells_per_m + 1.0f).min(static_cast<float>(height - 1));
+  Eigen::Array<std::int32_t, lanes, 1> cell;
+  for (int l = 0; l < lanes; ++l)
+    cell[l] = static_cast<std::int32_t>(row[l]) * width + static_cast<std::int32_t>(column[l]);
+  for (int l = 0; l < lanes; ++l) sums[l] += values_[static_cast<std::size_t>(cell[l])];
 }
 
 // For polygons, and for a robot that already stands too close to an obstacle.
-void CostField::add_footprints(const float* x, const float* y, const float* theta,
-                               std::array<float, lanes>& sums) const {
+void CostField::add_footprints(const Lanes& x, const Lanes& y, const Lanes& theta, Lanes& sums) const {
   const CostmapView view(*map_);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (int l = 0; l < lanes; ++l) {
     const Vec2 at = robot_ + Vec2{static_cast<double>(x[l]), static_cast<double>(y[l])};
     const std::uint8_t cost = view.cost(at);
     if (cost <= surely_free_) {
@@ -93,23 +88,13 @@ void CostField::add_footprints(const float* x, const float* y, const float* thet
 }
 
 // An agent inflates like every obstacle.
-void CostField::add_disc(const MovingDisc& disc, double ahead_s, const float* x, const float* y,
-                         std::array<float, lanes>& sums) const {
+void CostField::add_disc(const MovingDisc& disc, double ahead_s, const Lanes& x, const Lanes& y, Lanes& sums) const {
   const Vec2 at = disc.at + ahead_s * disc.velocity;
-  const auto agent_x = static_cast<float>(at.x);
-  const auto agent_y = static_cast<float>(at.y);
   const double reach_m = disc.contact_m + map_->inflation_radius_m - map_->inscribed_radius_m;
-  std::array<float, lanes> squared;
-  float nearest = in_contact;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const float dx = x[l] - agent_x;
-    const float dy = y[l] - agent_y;
-    squared[l] = dx * dx + dy * dy;
-  }
-  for (std::size_t l = 0; l < lanes; ++l) nearest = std::min(nearest, squared[l]);
-  if (nearest > reach_m * reach_m) return;
+  const Lanes squared = (x - static_cast<float>(at.x)).square() + (y - static_cast<float>(at.y)).square();
+  if (squared.minCoeff() > reach_m * reach_m) return;
   const CostmapView view(*map_);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (int l = 0; l < lanes; ++l) {
     const double gap_m = std::sqrt(static_cast<double>(squared[l])) - disc.contact_m;
     if (gap_m <= 0.0)
       sums[l] += in_contact;

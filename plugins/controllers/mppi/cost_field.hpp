@@ -29,7 +29,7 @@ class CostField {
   void set_table(const CostTable& table);
 
   // For the samples of one block: the values of every stride-th pose, summed. At least in_contact where one collides.
-  void sum(const Batch& batch, int block, int stride, float step_s, std::array<float, lanes>& sums) const;
+  Lanes sum(const Batch& batch, int block, int stride, float step_s) const;
 
   // Whether a point is in the window of the map.
   bool contains(Vec2 point) const { return CostmapView(*map_).index_of(point) >= 0; }
@@ -50,10 +50,9 @@ class CostField {
     double contact_m;  // between the centres
   };
 
-  void add_cells(const float* x, const float* y, std::array<float, lanes>& sums) const;
-  void add_footprints(const float* x, const float* y, const float* theta, std::array<float, lanes>& sums) const;
-  void add_disc(const MovingDisc& disc, double ahead_s, const float* x, const float* y,
-                std::array<float, lanes>& sums) const;
+  void add_cells(const Lanes& x, const Lanes& y, Lanes& sums) const;
+  void add_footprints(const Lanes& x, const Lanes& y, const Lanes& theta, Lanes& sums) const;
+  void add_disc(const MovingDisc& disc, double ahead_s, const Lanes& x, const Lanes& y, Lanes& sums) const;
 
   const dmrp_costmap* map_ = nullptr;
   std::optional<FootprintCheck> check_;
@@ -62,7 +61,7 @@ class CostField {
   std::uint8_t surely_free_ = 0;  // up to this cost, no pose collides
   std::vector<MovingDisc> discs_;
   CostTable table_{};
-  std::vector<float> values_;  // of the cells; then one for all points outside
+  std::vector<float> values_;  // of the cells, in a border of cells for all points outside
 };
 
 }  // namespace dmrp::controllers::mppi

@@ -2,7 +2,6 @@
 #include "controllers/mppi/critics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <limits>
@@ -11,20 +10,14 @@ namespace dmrp::controllers::mppi {
 
 namespace {
 
-using Lanes = std::array<float, lanes>;
-
 constexpr auto pi = static_cast<float>(toolkit::pi);
-
-float raised(float cost, int power) {
-  float product = cost;
-  for (int i = 1; i < power; ++i) product *= cost;
-  return product;
-}
 
 // Adds weight times value, raised to the power, to the samples of a block.
 void add(const Weight& weight, int block, const Lanes& values, Costs& costs) {
-  float* cost = costs.data() + block * lanes;
-  for (int l = 0; l < lanes; ++l) cost[l] += raised(weight.weight * values[static_cast<std::size_t>(l)], weight.power);
+  const Lanes cost = weight.weight * values;
+  Lanes product = cost;
+  for (int i = 1; i < weight.power; ++i) product *= cost;
+  Eigen::Map<Lanes>(costs.data() + block * lanes) += product;
 }
 
 // The difference of two angles that are less than a few turns apart, in [-pi, pi].
@@ -36,14 +29,13 @@ float turn(float from, float to) {
 }
 
 // The velocities of a sample at a step: those now, then its controls.
-const float* velocities(const Field& controls, int block, int step, const Lanes& now) {
-  return step == 0 ? now.data() : controls.row(block, step - 1);
+const Lanes& velocities(const Field& controls, int block, int step, const Lanes& now) {
+  return step == 0 ? now : controls.row(block, step - 1);
 }
 
-Lanes filled(float value) {
-  Lanes all;
-  all.fill(value);
-  return all;
+// The squared distances of the samples' poses from a point.
+auto squared_distances(const Batch& batch, int block, int step, float x, float y) {
+  return (batch.x.row(block, step) - x).square() + (batch.y.row(block, step) - y).square();
 }
 
 // Where the path leads through obstacles, trajectories aim at its first free point after them.
@@ -83,18 +75,18 @@ void add_constraint(const Batch& batch, const Model& model, const Weight& weight
   const Limits& limits = model.limits;
   const float fastest = model.holonomic ? std::hypot(limits.v_max, limits.v_y_max) : limits.v_max;
   const float slowest = model.holonomic ? -std::hypot(limits.v_min, limits.v_y_max) : limits.v_min;
-  const Lanes now_x = filled(batch.now.v_x);
-  const Lanes now_y = filled(batch.now.v_y);
+  const Lanes now_x = Lanes::Constant(batch.now.v_x);
+  const Lanes now_y = Lanes::Constant(batch.now.v_y);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums{};
+    Lanes sums = Lanes::Zero();
     for (int i = 0; i < batch.steps; ++i) {
-      const float* v_x = velocities(batch.v_x, block, i, now_x);
-      const float* v_y = model.holonomic ? velocities(batch.v_y, block, i, now_y) : nullptr;
-      Lanes speed;
-      for (int l = 0; l < lanes; ++l)
-        speed[l] = v_y ? std::copysign(std::sqrt(v_x[l] * v_x[l] + v_y[l] * v_y[l]), v_x[l]) : v_x[l];
-      for (int l = 0; l < lanes; ++l)
-        sums[l] += model.step_s * (std::max(speed[l] - fastest, 0.0f) + std::max(slowest - speed[l], 0.0f));
+      const Lanes& v_x = velocities(batch.v_x, block, i, now_x);
+      Lanes speed = v_x;
+      if (model.holonomic) {
+        speed = (v_x.square() + velocities(batch.v_y, block, i, now_y).square()).sqrt();
+        speed = speed.binaryExpr(v_x, [](float size, float sign) { return std::copysign(size, sign); });
+      }
+      sums += model.step_s * ((speed - fastest).max(0.0f) + (slowest - speed).max(0.0f));
     }
     add(weight, block, sums, costs);
   }
@@ -104,13 +96,10 @@ void add_constraint(const Batch& batch, const Model& model, const Weight& weight
 void add_prefer_forward(const Batch& batch, const Model& model, const Weight& weight, float threshold_m,
                         const Scene& scene, Costs& costs) {
   if (scene.goal_distance_m < threshold_m) return;
-  const Lanes now = filled(batch.now.v_x);
+  const Lanes now = Lanes::Constant(batch.now.v_x);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums{};
-    for (int i = 0; i < batch.steps; ++i) {
-      const float* v_x = velocities(batch.v_x, block, i, now);
-      for (int l = 0; l < lanes; ++l) sums[l] += model.step_s * std::max(-v_x[l], 0.0f);
-    }
+    Lanes sums = Lanes::Zero();
+    for (int i = 0; i < batch.steps; ++i) sums += model.step_s * (-velocities(batch.v_x, block, i, now)).max(0.0f);
     add(weight, block, sums, costs);
   }
 }
@@ -118,14 +107,11 @@ void add_prefer_forward(const Batch& batch, const Model& model, const Weight& we
 // The mean turning rate.
 void add_twirling(const Batch& batch, const Weight& weight, const Scene& scene, Costs& costs) {
   if (scene.goal_distance_m < scene.goal_tolerance_m) return;
-  const Lanes now = filled(batch.now.omega);
+  const Lanes now = Lanes::Constant(batch.now.omega);
   const float share = 1.0f / static_cast<float>(batch.steps);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums{};
-    for (int i = 0; i < batch.steps; ++i) {
-      const float* omega = velocities(batch.omega, block, i, now);
-      for (int l = 0; l < lanes; ++l) sums[l] += share * std::abs(omega[l]);
-    }
+    Lanes sums = Lanes::Zero();
+    for (int i = 0; i < batch.steps; ++i) sums += share * velocities(batch.omega, block, i, now).abs();
     add(weight, block, sums, costs);
   }
 }
@@ -135,16 +121,9 @@ void add_goal(const Batch& batch, const Weight& weight, float threshold_m, const
   if (!(scene.goal_distance_m < threshold_m)) return;
   const float share = 1.0f / static_cast<float>(batch.steps);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums{};
-    for (int i = 0; i < batch.steps; ++i) {
-      const float* x = batch.x.row(block, i);
-      const float* y = batch.y.row(block, i);
-      for (int l = 0; l < lanes; ++l) {
-        const float dx = x[l] - scene.goal_x;
-        const float dy = y[l] - scene.goal_y;
-        sums[l] += share * std::sqrt(dx * dx + dy * dy);
-      }
-    }
+    Lanes sums = Lanes::Zero();
+    for (int i = 0; i < batch.steps; ++i)
+      sums += share * squared_distances(batch, block, i, scene.goal_x, scene.goal_y).sqrt();
     add(weight, block, sums, costs);
   }
 }
@@ -154,9 +133,9 @@ void add_goal_angle(const Batch& batch, const Weight& weight, float threshold_m,
   if (!(scene.goal_distance_m < threshold_m) || std::isnan(scene.goal_theta)) return;
   const float share = 1.0f / static_cast<float>(batch.steps);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums{};
+    Lanes sums = Lanes::Zero();
     for (int i = 0; i < batch.steps; ++i) {
-      const float* theta = batch.theta.row(block, i);
+      const Lanes& theta = batch.theta.row(block, i);
       for (int l = 0; l < lanes; ++l) sums[l] += share * std::abs(turn(theta[l], scene.goal_theta));
     }
     add(weight, block, sums, costs);
@@ -168,17 +147,9 @@ void add_path_follow(const Batch& batch, const Weight& weight, int offset_from_f
                      const Scene& scene, Costs& costs) {
   if (scene.path_x.size() < 2 || scene.goal_distance_m < threshold_m) return;
   const std::size_t target = target_point(scene, offset_from_furthest);
-  for (int block = 0; block < batch.blocks; ++block) {
-    const float* x = batch.x.row(block, batch.steps - 1);
-    const float* y = batch.y.row(block, batch.steps - 1);
-    Lanes distances;
-    for (int l = 0; l < lanes; ++l) {
-      const float dx = x[l] - scene.path_x[target];
-      const float dy = y[l] - scene.path_y[target];
-      distances[l] = std::sqrt(dx * dx + dy * dy);
-    }
-    add(weight, block, distances, costs);
-  }
+  for (int block = 0; block < batch.blocks; ++block)
+    add(weight, block,
+        squared_distances(batch, block, batch.steps - 1, scene.path_x[target], scene.path_y[target]).sqrt(), costs);
 }
 
 // How far the heading at a trajectory's end points away from the path, if the robot's heading now does.
@@ -221,31 +192,26 @@ void add_path_align(const Batch& batch, const PathAlignSettings& settings, const
   }
   const auto farthest = static_cast<float>(segments - 1);
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes driven{}, sums{}, counts{};
+    Lanes driven = Lanes::Zero(), sums = driven, counts = driven;
     for (int i = settings.point_step; i < batch.steps; i += settings.point_step) {
-      const float* x = batch.x.row(block, i);
-      const float* y = batch.y.row(block, i);
-      const float* theta = batch.theta.row(block, i);
-      const float* x_before = batch.x.row(block, i - settings.point_step);
-      const float* y_before = batch.y.row(block, i - settings.point_step);
-      std::array<std::int32_t, lanes> index;
+      const Lanes& x = batch.x.row(block, i);
+      const Lanes& y = batch.y.row(block, i);
+      const Lanes& theta = batch.theta.row(block, i);
+      const int before = i - settings.point_step;
+      driven += ((x - batch.x.row(block, before)).square() + (y - batch.y.row(block, before)).square()).sqrt();
+      const Lanes point = (driven / path_spacing_m + 0.5f).min(farthest);
+      Lanes free, dx, dy, aside;
       for (int l = 0; l < lanes; ++l) {
-        const float dx = x[l] - x_before[l];
-        const float dy = y[l] - y_before[l];
-        driven[l] += std::sqrt(dx * dx + dy * dy);
-        index[l] = static_cast<std::int32_t>(std::min(driven[l] / path_spacing_m + 0.5f, farthest));
+        const auto at = static_cast<std::size_t>(static_cast<std::int32_t>(point[l]));
+        free[l] = scene.path_free[at] ? 1.0f : 0.0f;
+        dx[l] = scene.path_x[at] - x[l];
+        dy[l] = scene.path_y[at] - y[l];
+        aside[l] = settings.use_path_orientations ? turn(scene.path_theta[at], theta[l]) : 0.0f;
       }
-      for (int l = 0; l < lanes; ++l) {
-        const auto at = static_cast<std::size_t>(index[l]);
-        const float free = scene.path_free[at] ? 1.0f : 0.0f;
-        const float dx = scene.path_x[at] - x[l];
-        const float dy = scene.path_y[at] - y[l];
-        const float aside = settings.use_path_orientations ? turn(scene.path_theta[at], theta[l]) : 0.0f;
-        sums[l] += free * std::sqrt(dx * dx + dy * dy + aside * aside);
-        counts[l] += free;
-      }
+      sums += free * (dx.square() + dy.square() + aside.square()).sqrt();
+      counts += free;
     }
-    for (int l = 0; l < lanes; ++l) sums[l] /= std::max(counts[l], 1.0f);
+    sums /= counts.max(1.0f);
     add(settings.weight, block, sums, costs);
   }
 }
@@ -264,13 +230,9 @@ bool add_cost(const Batch& batch, const Model& model, const CostSettings& settin
   const Weight per_point = {settings.weight.weight / 254.0f / static_cast<float>(points), settings.weight.power};
   bool any_is_free = false;
   for (int block = 0; block < batch.blocks; ++block) {
-    Lanes sums;
-    field.sum(batch, block, settings.point_step, model.step_s, sums);
-    for (float& sum : sums) {
-      any_is_free |= sum < in_contact;
-      if (sum >= in_contact) sum = settings.collision_cost;
-    }
-    add(per_point, block, sums, costs);
+    const Lanes sums = field.sum(batch, block, settings.point_step, model.step_s);
+    any_is_free |= (sums < in_contact).any();
+    add(per_point, block, (sums >= in_contact).select(settings.collision_cost, sums), costs);
   }
   return any_is_free;
 }
@@ -291,25 +253,22 @@ bool add_obstacles(const Batch& batch, const Model& model, const ObstaclesSettin
   bool any_is_free = false;
   for (int block = 0; block < batch.blocks; ++block) {
     Lanes& sums = critical[static_cast<std::size_t>(block)];
-    field.sum(batch, block, 1, model.step_s, sums);
-    for (const float sum : sums) any_is_free |= sum < in_contact;
+    sums = field.sum(batch, block, 1, model.step_s);
+    any_is_free |= (sums < in_contact).any();
   }
   field.set_table(repulsions);
   float least = std::numeric_limits<float>::infinity();
   for (int block = 0; block < batch.blocks; ++block) {
     Lanes& sums = repulsive[static_cast<std::size_t>(block)];
-    field.sum(batch, block, 1, model.step_s, sums);
-    for (const float sum : sums) least = std::min(least, sum);
+    sums = field.sum(batch, block, 1, model.step_s);
+    least = std::min(least, sums.minCoeff());
   }
   for (std::size_t block = 0; block < critical.size(); ++block) {
-    Lanes sums;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const bool collides = critical[block][l] >= in_contact;
-      const float raw = collides ? settings.collision_cost : critical[block][l];
-      const float beyond = collides ? 0.0f : (repulsive[block][l] - least) / static_cast<float>(batch.steps);
-      sums[l] = settings.critical_weight * raw + settings.repulsion_weight * beyond;
-    }
-    add({1.0f, settings.power}, static_cast<int>(block), sums, costs);
+    const auto collides = critical[block] >= in_contact;
+    const Lanes raw = collides.select(settings.collision_cost, critical[block]);
+    const Lanes beyond = collides.select(0.0f, (repulsive[block] - least) / static_cast<float>(batch.steps));
+    add({1.0f, settings.power}, static_cast<int>(block),
+        settings.critical_weight * raw + settings.repulsion_weight * beyond, costs);
   }
   return any_is_free;
 }

@@ -33,8 +33,8 @@ std::uint32_t Noise::row(std::uint32_t cycle, std::uint32_t step, std::uint32_t 
   return toolkit::philox4x32_10({cycle, step, axis, 0}, key_)[0] % table_size;
 }
 
-const float* Noise::block(std::uint32_t row, int block) const {
-  return table_ + (row + static_cast<std::uint32_t>(block * lanes)) % table_size;
+Eigen::Map<const Lanes> Noise::block(std::uint32_t row, int block) const {
+  return Eigen::Map<const Lanes>(table_ + (row + static_cast<std::uint32_t>(block * lanes)) % table_size);
 }
 
 }  // namespace dmrp::controllers::mppi

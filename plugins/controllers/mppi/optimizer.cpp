@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace dmrp::controllers::mppi {
 
 namespace {
-
-using Lanes = std::array<float, lanes>;
 
 // A quadratic Savitzky-Golay filter over nine controls.
 constexpr std::array<float, 9> smoothing = {-21.0f / 231.0f, 14.0f / 231.0f, 39.0f / 231.0f,
@@ -20,25 +19,11 @@ constexpr std::size_t half_width = 4;
 // Shorter sequences are not smoothed.
 constexpr std::size_t least_smoothed = 21;
 
-float total(const Lanes& values) {
-  float sum = 0.0f;
-  for (const float value : values) sum += value;
-  return sum;
-}
-
-// Adds scale times (control - mean) to the samples of a block, for one axis and step.
-void add_deviation(const float* control, float mean, float scale, float* cost) {
-  for (int l = 0; l < lanes; ++l) cost[l] += scale * (control[l] - mean);
-}
-
 float weighted_mean(const Field& controls, const Batch& batch, int step, const std::vector<float>& weights) {
-  Lanes sums{};
-  for (int block = 0; block < batch.blocks; ++block) {
-    const float* control = controls.row(block, step);
-    const float* weight = weights.data() + block * lanes;
-    for (int l = 0; l < lanes; ++l) sums[l] += weight[l] * control[l];
-  }
-  return total(sums);
+  Lanes sums = Lanes::Zero();
+  for (int block = 0; block < batch.blocks; ++block)
+    sums += Eigen::Map<const Lanes>(weights.data() + block * lanes) * controls.row(block, step);
+  return std::accumulate(sums.begin(), sums.end(), 0.0f);  // one after the other
 }
 
 float within(float value, float around, float reach) {
@@ -83,12 +68,12 @@ void Optimizer::add_control_costs(const Batch& batch, std::vector<float>& costs)
   };
   const Velocity scales = {scale(model_.deviation.v_x), scale(model_.deviation.v_y), scale(model_.deviation.omega)};
   for (int block = 0; block < batch.blocks; ++block) {
-    float* cost = costs.data() + block * lanes;
+    Eigen::Map<Lanes> cost(costs.data() + block * lanes);
     for (int i = 0; i < model_.steps; ++i) {
       const Velocity& mean = sequence_[static_cast<std::size_t>(i)];
-      add_deviation(batch.v_x.row(block, i), mean.v_x, scales.v_x * mean.v_x, cost);
-      add_deviation(batch.omega.row(block, i), mean.omega, scales.omega * mean.omega, cost);
-      if (model_.holonomic) add_deviation(batch.v_y.row(block, i), mean.v_y, scales.v_y * mean.v_y, cost);
+      cost += scales.v_x * mean.v_x * (batch.v_x.row(block, i) - mean.v_x);
+      cost += scales.omega * mean.omega * (batch.omega.row(block, i) - mean.omega);
+      if (model_.holonomic) cost += scales.v_y * mean.v_y * (batch.v_y.row(block, i) - mean.v_y);
     }
   }
 }

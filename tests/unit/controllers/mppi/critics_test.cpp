@@ -141,6 +141,20 @@ TEST_CASE("MPPI's goal critics cost mean distance and mean deviation of the head
   }
 }
 
+// Not approximated, which would differ between processors.
+TEST_CASE("MPPI's distances are the roots that the standard library takes") {
+  Batch batch = standing();
+  Scene scene = along_x(2);
+  for (int i = 0; i < 1000; ++i) {
+    batch.x.at(i % lanes, steps - 1) = 0.37f * static_cast<float>(i);
+    batch.y.at(i % lanes, steps - 1) = 1.0f / static_cast<float>(i + 1);
+    Costs costs(lanes, 0.0f);
+    add_path_follow(batch, {1.0f, 1}, 0, 1.4f, scene, costs);
+    const float dx = batch.x.at(i % lanes, steps - 1), dy = batch.y.at(i % lanes, steps - 1);
+    REQUIRE(costs[static_cast<std::size_t>(i % lanes)] == std::sqrt(dx * dx + dy * dy));
+  }
+}
+
 TEST_CASE("MPPI's path-follow critic pulls to a point beyond the furthest reached") {
   const Batch batch = driving(0.1f);
   Scene scene = along_x(40);  // to 1.95 m

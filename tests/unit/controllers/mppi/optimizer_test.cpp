@@ -2,6 +2,7 @@
 // Sampling, weighting and smoothing of MPPI.
 #include "controllers/mppi/optimizer.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -89,6 +90,50 @@ TEST_CASE("MPPI's trajectories are those of their controls, within the accelerat
       v_x = batch.v_x.at(s, i);
       omega = batch.omega.at(s, i);
       if (holonomic) v_y = batch.v_y.at(s, i);
+    }
+  }
+}
+
+TEST_CASE("MPPI's samples have the bits of a sample computed alone") {
+  const bool holonomic = GENERATE(false, true);
+  Model m = model(holonomic);
+  m.slowest_m_s = 0.0f;
+  const Velocity mean = {0.1f, -0.1f, 0.3f};
+  const Batch batch = sampled(m, Sequence(30, mean), 1, 0, 1, 64);
+  Noise noise;
+  noise.start(1, 0);
+  for (int s = 0; s < batch.samples(); ++s) {
+    const auto next = [&](float about, float deviation, int step, std::uint32_t axis, float least, float before) {
+      const std::uint32_t row = noise.row(1, static_cast<std::uint32_t>(step), axis);
+      const float wanted = std::max(about + deviation * noise.block(row, s / lanes)[s % lanes], least);
+      return std::min(std::max(wanted, before - 1.0f * m.step_s), before + 1.0f * m.step_s);
+    };
+    Velocity v = batch.now;
+    float x = 0.0f, y = 0.0f, theta = 0.5f, cosine = std::cos(0.5f), sine = std::sin(0.5f);
+    for (int i = 0; i < batch.steps; ++i) {
+      x += v.v_x * cosine * m.step_s;
+      y += v.v_x * sine * m.step_s;
+      if (holonomic) {
+        x -= v.v_y * sine * m.step_s;
+        y += v.v_y * cosine * m.step_s;
+      }
+      const float turn = v.omega * m.step_s;
+      const float q = turn * turn;
+      const float sin = turn * (1.0f - q / 6.0f * (1.0f - q / 20.0f * (1.0f - q / 42.0f * (1.0f - q / 72.0f))));
+      const float cos = 1.0f - q / 2.0f * (1.0f - q / 12.0f * (1.0f - q / 30.0f * (1.0f - q / 56.0f)));
+      const float before = cosine;
+      cosine = before * cos - sine * sin;
+      sine = sine * cos + before * sin;
+      theta += turn;
+      v.v_x = next(mean.v_x, m.deviation.v_x, i, 0, 0.0f, v.v_x);
+      v.omega = next(mean.omega, m.deviation.omega, i, 2, -INFINITY, v.omega);
+      if (holonomic) v.v_y = next(mean.v_y, m.deviation.v_y, i, 1, -INFINITY, v.v_y);
+      REQUIRE(batch.x.at(s, i) == x);
+      REQUIRE(batch.y.at(s, i) == y);
+      REQUIRE(batch.theta.at(s, i) == theta);
+      REQUIRE(batch.v_x.at(s, i) == v.v_x);
+      REQUIRE(batch.omega.at(s, i) == v.omega);
+      if (holonomic) REQUIRE(batch.v_y.at(s, i) == v.v_y);
     }
   }
 }
