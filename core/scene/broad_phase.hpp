@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// broad_phase.hpp: proximity queries by FCL's dynamic AABB trees. FCL finds candidates; other files compute exact 2-D
-// distances, because the results of FCL's own narrow phase at contact depend on the shape and the solver.
+// broad_phase.hpp: which bodies may meet, by FCL's dynamic AABB trees. collision_shapes.hpp decides whether they do.
 #pragma once
 
 #include <dmrp/values.h>

@@ -51,7 +51,7 @@ std::optional<PartOverlap> overlap_of_discs(const ConvexPart& a, const ConvexPar
 std::optional<PartOverlap> overlap_of_polygons(const ConvexPart& a, const ConvexPart& b) {
   if (!collide(*a.prism, placed(a), *b.prism, placed(b))) return std::nullopt;
   const Separation apart = separation(a.polygon, b.polygon);
-  if (apart.distance_m >= 0.0) return std::nullopt;
+  if (apart.distance_m >= -touching_m) return std::nullopt;
   return PartOverlap{-apart.distance_m, middle_of_overlap(a.polygon, b.polygon), apart.normal};
 }
 

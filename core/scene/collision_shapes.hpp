@@ -3,7 +3,7 @@
 // other header includes it.
 //
 // FCL works in space: a disc is a sphere around a point of the plane, a convex polygon a prism through the plane. FCL
-// decides whether two overlap. Rules for its queries, each from a comparison with closed forms (docs/measured/contacts.md):
+// decides whether two overlap. Rules for its queries, each from a comparison with closed forms (docs/measured/collision.md):
 //
 // - A prism is twice as high as wide: the shortest way out of an overlap never leads up or down, and the bounding box
 //   of a turned prism, a cube around its bounding sphere, stays small. The plane does not cut it in the middle: GJK

@@ -52,12 +52,6 @@ ConvexPolygon left_of(const dmrp_segment& edge, const ConvexPolygon& polygon) {
   return kept;
 }
 
-dmrp_vec2 mean(const ConvexPolygon& points) {
-  dmrp_vec2 sum{};
-  for (const dmrp_vec2 point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
-
 }  // namespace
 
 double extent(toolkit::PolygonView polygon, dmrp_vec2 from, dmrp_vec2 direction) {
@@ -96,17 +90,11 @@ Separation separation(toolkit::PolygonView a, dmrp_vec2 center, double radius_m)
 
 dmrp_vec2 middle_of_overlap(toolkit::PolygonView a, toolkit::PolygonView b) {
   ConvexPolygon common(a.begin(), a.end());
-  for (std::size_t i = 0; i < b.size() && !common.empty(); ++i) common = left_of(b.edge(i), common);
-  if (!common.empty()) return mean(common);
-  dmrp_vec2 from_b{std::numeric_limits<double>::max(), 0.0};
-  dmrp_vec2 middle = a[0];
-  for (const dmrp_vec2 corner : a) {
-    const dmrp_vec2 way = corner - toolkit::closest_border_point(b, corner);
-    if (toolkit::squared_norm(way) >= toolkit::squared_norm(from_b)) continue;
-    from_b = way;
-    middle = corner - 0.5 * way;
-  }
-  return middle;
+  for (std::size_t i = 0; i < b.size(); ++i) common = left_of(b.edge(i), common);
+  assert(!common.empty());
+  dmrp_vec2 sum{};
+  for (const dmrp_vec2 corner : common) sum += corner;
+  return sum / static_cast<double>(common.size());
 }
 
 }  // namespace dmrp::core

@@ -18,7 +18,7 @@ struct Separation {
 Separation separation(toolkit::PolygonView a, toolkit::PolygonView b);
 Separation separation(toolkit::PolygonView a, dmrp_vec2 center, double radius_m);  // b: a disc
 
-// The middle of the overlap of two polygons; the middle between their nearest corners if they do not overlap.
+// The middle of the overlap of two polygons that overlap by more than touching_m.
 dmrp_vec2 middle_of_overlap(toolkit::PolygonView a, toolkit::PolygonView b);
 
 // The farthest extent of the polygon in a direction, relative to `from`.

@@ -2,7 +2,6 @@
 #include "core/world/collision_checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
@@ -60,34 +59,25 @@ void take_deepest(const Parts& a, const Parts& b, Overlap& deepest) {
 
 }  // namespace
 
-struct CollisionChecks::Implementation {
-  std::shared_ptr<const StaticGeometry> geometry;
-  std::array<Wall, 4> walls;    // as seen from the origin
-  std::vector<Parts> shapes{};  // one part each; prisms are made when a body comes close
-  std::vector<Parts> bodies{};
-
-  const Parts& shape(std::uint32_t index) {
-    ConvexPart& part = shapes[index][0];
-    if (!part.is_disc() && !part.prism) part.prism = make_prism(part.polygon);
-    return shapes[index];
-  }
-};
-
-CollisionChecks::CollisionChecks(std::shared_ptr<const StaticGeometry> geometry)
-    : implementation_(new Implementation{geometry, walls_around(*geometry, {})}) {
-  for (const dmrp_shape& shape : geometry->sdk_shapes()) implementation_->shapes.push_back({part_of(shape)});
+CollisionChecks::CollisionChecks(std::shared_ptr<const StaticGeometry> geometry) : geometry_(std::move(geometry)) {
+  for (const dmrp_shape& shape : geometry_->sdk_shapes()) shapes_.push_back({part_of(shape)});
 }
 
 CollisionChecks::~CollisionChecks() = default;
 
+const CollisionChecks::Parts& CollisionChecks::shape(std::uint32_t index) {
+  ConvexPart& part = shapes_[index][0];
+  if (!part.is_disc() && !part.prism) part.prism = make_prism(part.polygon);
+  return shapes_[index];
+}
+
 void CollisionChecks::place(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines) {
-  implementation_->bodies.resize(bodies.size());
+  bodies_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    place_body(implementation_->bodies[i], bodies[i], i < outlines.size() ? outlines[i] : SolidOutline{});
+    place_body(bodies_[i], bodies[i], i < outlines.size() ? outlines[i] : SolidOutline{});
 }
 
 void CollisionChecks::with_shapes(IndexPairs pairs, std::uint32_t count, double depth_m, std::vector<Overlap>& found) {
-  Implementation& my = *implementation_;
   found.clear();
   const auto add = [&](const Overlap& deepest) {
     if (deepest.depth_m > depth_m) found.push_back(deepest);
@@ -96,13 +86,13 @@ void CollisionChecks::with_shapes(IndexPairs pairs, std::uint32_t count, double 
   for (std::uint32_t i = 0; i < count; ++i) {
     for (; pair != pairs.end() && pair->first == i; ++pair) {
       Overlap deepest = {i, pair->second};
-      take_deepest(my.bodies[i], my.shape(pair->second), deepest);
+      take_deepest(bodies_[i], shape(pair->second), deepest);
       add(deepest);
     }
-    Overlap with_border = {i, my.geometry->border()};
-    for (const ConvexPart& part : my.bodies[i]) {
-      if (toolkit::contains(my.geometry->rectangle(), part.bounds)) continue;
-      for (const Wall& wall : my.walls)
+    Overlap with_border = {i, geometry_->border()};
+    for (const ConvexPart& part : bodies_[i]) {
+      if (toolkit::contains(geometry_->rectangle(), part.bounds)) continue;
+      for (const Wall& wall : walls_around(*geometry_, {}))
         take_deeper(overlap_with_half_plane(part, wall.inward, -wall.distance_m), with_border);
     }
     add(with_border);
@@ -114,7 +104,7 @@ void CollisionChecks::between(IndexPairs pairs, std::uint32_t count, double dept
   for (const auto& [a, b] : pairs) {
     if (a >= count) break;
     Overlap deepest = {a, b};
-    take_deepest(implementation_->bodies[a], implementation_->bodies[b], deepest);
+    take_deepest(bodies_[a], bodies_[b], deepest);
     if (deepest.depth_m > depth_m) found.push_back(deepest);
   }
 }

@@ -24,6 +24,8 @@ struct Overlap {
   dmrp_vec2 normal{};  // unit, from b toward a
 };
 
+struct ConvexPart;
+
 class CollisionChecks {
  public:
   explicit CollisionChecks(std::shared_ptr<const StaticGeometry> geometry);
@@ -38,8 +40,13 @@ class CollisionChecks {
   void between(IndexPairs pairs, std::uint32_t count, double depth_m, std::vector<Overlap>& found);
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  using Parts = std::vector<ConvexPart>;
+
+  const Parts& shape(std::uint32_t index);
+
+  std::shared_ptr<const StaticGeometry> geometry_;
+  std::vector<Parts> shapes_;  // one part each; prisms are made when a body comes close
+  std::vector<Parts> bodies_;
 };
 
 }  // namespace dmrp::core
