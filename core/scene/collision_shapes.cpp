@@ -6,6 +6,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -19,7 +20,11 @@ namespace dmrp::core {
 namespace {
 
 Eigen::Isometry3d placed(const ConvexPart& part) {
-  return core::placed(part.position, part.theta);
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.translation() << part.position.x, part.position.y, 0.0;
+  if (part.theta != 0.0)
+    transform.linear() = Eigen::AngleAxisd(part.theta, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return transform;
 }
 
 dmrp_vec2 in_plane(const Eigen::Vector3d& vector) {
@@ -95,13 +100,6 @@ std::shared_ptr<const fcl::Convexd> make_prism(const ConvexPolygon& polygon) {
   for (int i = 0, before = count - 1; i < count; before = i++)
     faces->insert(faces->end(), {4, before, i, count + i, count + before});
   return std::make_shared<fcl::Convexd>(vertices, count + 2, faces);
-}
-
-Eigen::Isometry3d placed(dmrp_vec2 position, double theta) {
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.translation() << position.x, position.y, 0.0;
-  if (theta != 0.0) transform.linear() = Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return transform;
 }
 
 std::optional<PartOverlap> overlap(const ConvexPart& a, const ConvexPart& b) {

@@ -21,7 +21,6 @@
 #include <dmrp/values.h>
 #include <fcl/geometry/shape/convex.h>
 
-#include <Eigen/Geometry>
 #include <dmrp/toolkit/rectangle.hpp>
 #include <memory>
 #include <optional>
@@ -50,9 +49,6 @@ struct PartOverlap {
 };
 
 std::shared_ptr<const fcl::Convexd> make_prism(const ConvexPolygon& polygon);
-
-// The transform of a shape that is given about the origin.
-Eigen::Isometry3d placed(dmrp_vec2 position, double theta = 0.0);
 
 // None if they are apart. Polygons need their prisms.
 std::optional<PartOverlap> overlap(const ConvexPart& a, const ConvexPart& b);
