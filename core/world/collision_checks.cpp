@@ -7,7 +7,7 @@
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
-#include "core/scene/collision_shapes.hpp"
+#include "core/world/collision_shapes.hpp"
 
 namespace dmrp::core {
 namespace {

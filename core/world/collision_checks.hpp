@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // collision_checks.hpp: which bodies overlap, and how deep. FCL decides; how its queries are used is told in
-// core/scene/collision_shapes.hpp.
+// core/world/collision_shapes.hpp.
 #pragma once
 
 #include <dmrp/values.h>

@@ -97,7 +97,7 @@ check_licences "${licensed[@]}"
 check_pragma_once "${headers[@]}"
 check_includes "${cpp[@]}"
 check_tests
-forbid "asks FCL what it answers wrongly (core/scene/collision_shapes.hpp)" \
+forbid "asks FCL what it answers wrongly (core/world/collision_shapes.hpp)" \
   "\b(enable_signed_distance|GST_INDEP|continuousCollide|ContinuousCollision|fcl::(Cylinder|Capsule|Cone)[df]?)\b" "${cpp[@]}"
 forbid "imports all of std" '^[[:space:]]*using namespace std\b' "${cpp[@]}"
 mapfile -t programs < <(files '.*\.(h|hpp|c|cpp)' core host plugins examples)

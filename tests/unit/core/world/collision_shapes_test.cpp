@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FCL's answers about convex parts against closed forms. Each pair is built so that its gap is known without computing a
 // distance: part b lies beyond a line along an edge, or a tangent, of part a, and touches a line parallel to it.
-#include "core/scene/collision_shapes.hpp"
+#include "core/world/collision_shapes.hpp"
 
 #include <dlfcn.h>
 #include <fcl/narrowphase/detail/convexity_based_algorithm/support.h>

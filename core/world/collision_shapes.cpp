@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene/collision_shapes.hpp"
+#include "core/world/collision_shapes.hpp"
 
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
