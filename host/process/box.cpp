@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/box.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
+#include <linux/sockios.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstddef>
 #include <cstdlib>
-#include <vector>
+#include <initializer_list>
+#include <memory>
 
+#include "host/errors/machine_error.hpp"
+#include "host/process/descriptor.hpp"
 #include "host/process/landlock.hpp"
 #include "host/process/sanitized.hpp"
 
@@ -26,198 +27,121 @@ namespace dmrp::host::box {
 
 namespace {
 
-#if defined(__x86_64__)
-constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
-#else
-constexpr std::uint32_t architecture = 0;  // no filter
-#endif
-
 constexpr const char* off_variable = "DMRP_NO_BOX";       // children inherit it
 constexpr const char* sandbox_variable = "DMRP_SANDBOX";  // likewise
 constexpr rlim_t most_descriptors = 4096;
 constexpr rlim_t most_file_bytes = rlim_t{1} << 36;  // traces of a night are smaller
 
-struct Call {
-  std::uint32_t number;
-  const char* name;
-};
-
-// Refused, whatever their arguments.
-constexpr std::array always_refused = {
-    Call{SYS_ptrace, "ptrace"},
-    Call{SYS_process_vm_readv, "process_vm_readv"},
-    Call{SYS_process_vm_writev, "process_vm_writev"},
-    Call{SYS_pidfd_getfd, "pidfd_getfd"},
-    Call{SYS_setrlimit, "setrlimit"},
-    Call{SYS_unshare, "unshare"},
-    Call{SYS_setns, "setns"},
-    Call{SYS_setsid, "setsid"},
-    Call{SYS_setpgid, "setpgid"},
-};
-
-// Refused unless plugins may start processes.
-constexpr std::array starts_programs = {
-#if defined(__x86_64__)
-    Call{SYS_fork, "fork"},
-    Call{SYS_vfork, "vfork"},
-#endif
-    Call{SYS_execve, "execve"},
-    Call{SYS_execveat, "execveat"},
-    Call{SYS_rt_sigqueueinfo, "rt_sigqueueinfo"},
-    Call{SYS_rt_tgsigqueueinfo, "rt_tgsigqueueinfo"},
-    Call{SYS_pidfd_send_signal, "pidfd_send_signal"},
-};
-// Likewise, unless they are for this process.
-constexpr std::array sends_signals = {Call{SYS_kill, "kill"}, Call{SYS_tkill, "tkill"}, Call{SYS_tgkill, "tgkill"}};
-
-// A sandbox answers these with an error. io_uring opens sockets, too.
-constexpr std::array opens_sockets = {Call{SYS_socket, "socket"}, Call{SYS_io_uring_setup, "io_uring_setup"}};
-// Likewise; Landlock does not cover modes, owners, times and attributes of files.
-constexpr std::array changes_attributes = {
-#if defined(__x86_64__)
-    Call{SYS_chmod, "chmod"},
-    Call{SYS_chown, "chown"},
-    Call{SYS_lchown, "lchown"},
-    Call{SYS_utime, "utime"},
-    Call{SYS_utimes, "utimes"},
-    Call{SYS_futimesat, "futimesat"},
-#endif
-    Call{SYS_fchmod, "fchmod"},
-    Call{SYS_fchmodat, "fchmodat"},
-    Call{452, "fchmodat2"},  // older headers do not name it
-    Call{SYS_fchown, "fchown"},
-    Call{SYS_fchownat, "fchownat"},
-    Call{SYS_utimensat, "utimensat"},
-    Call{SYS_setxattr, "setxattr"},
-    Call{SYS_lsetxattr, "lsetxattr"},
-    Call{SYS_fsetxattr, "fsetxattr"},
-    Call{SYS_removexattr, "removexattr"},
-    Call{SYS_lremovexattr, "lremovexattr"},
-    Call{SYS_fremovexattr, "fremovexattr"},
-};
-
-constexpr Call clone_call = {SYS_clone, "fork (clone)"};
-constexpr Call limit_call = {SYS_prlimit64, "prlimit64"};
-constexpr Call process_call = {SYS_prctl, "prctl"};
-
 std::atomic<std::int32_t>* refused_call = nullptr;
 
-// A program for the kernel: instructions that begin with the number of a system call, and end with an answer.
+// Of an argument that is an int to the kernel, which drops the upper half.
+scmp_arg_cmp is(unsigned argument, std::uint32_t value) {
+  return {argument, SCMP_CMP_MASKED_EQ, 0xffffffff, value};
+}
+
+scmp_arg_cmp is_not(unsigned argument, std::uint64_t value) {
+  return {argument, SCMP_CMP_NE, value, 0};
+}
+
+scmp_arg_cmp lacks(unsigned argument, std::uint64_t bit) {
+  return {argument, SCMP_CMP_MASKED_EQ, bit, 0};
+}
+
+// What the kernel refuses; the rest it allows. A call that a processor lacks needs no rule, and gets none.
 class Filter {
  public:
-  Filter() {
-    load(offsetof(seccomp_data, arch));
-    add(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0);
-    answer(SECCOMP_RET_TRAP);
-    load_number();
-#if defined(__x86_64__)
-    constexpr std::uint32_t x32 = 0x40000000;
-    add(BPF_JMP | BPF_JGE | BPF_K, x32, 0, 1);
-    answer(SECCOMP_RET_TRAP);
-#endif
+  Filter() : rules_(seccomp_init(SCMP_ACT_ALLOW), &seccomp_release) {
+    if (!rules_) throw MachineError("seccomp", ENOMEM);
+    set(SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_TRAP);
+    set(SCMP_FLTATR_CTL_TSYNC, 1);  // for all threads
+    set(SCMP_FLTATR_CTL_SSB, 1);    // without it, older kernels make the whole process slower
   }
 
-  void refuse(const Call& call) {
-    if_number(call, {{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_TRAP}});
+  void add(std::uint32_t answer, std::initializer_list<int> calls,
+           std::initializer_list<scmp_arg_cmp> conditions = {}) {
+    for (const int call : calls)
+      check(seccomp_rule_add_array(rules_.get(), answer, call, static_cast<unsigned>(conditions.size()),
+                                   conditions.begin()));
   }
 
-  // The kernel answers with this error.
-  void deny(const Call& call, std::uint32_t error) {
-    if_number(call, {{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | (error & SECCOMP_RET_DATA)}});
-  }
-
-  // Refused unless the lower half of an argument is this value.
-  void allow_only(const Call& call, unsigned argument, std::uint32_t value) {
-    if_number(call, {{BPF_LD | BPF_W | BPF_ABS, 0, 0, argument_at(argument)},
-                     {BPF_JMP | BPF_JEQ | BPF_K, 1, 0, value},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_TRAP},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}});
-  }
-
-  // Refused if it is this value.
-  void refuse_value(const Call& call, unsigned argument, std::uint32_t value) {
-    if_number(call, {{BPF_LD | BPF_W | BPF_ABS, 0, 0, argument_at(argument)},
-                     {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, value},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_TRAP},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}});
-  }
-
-  // Refused unless the argument has this bit.
-  void need_bit(const Call& call, unsigned argument, std::uint32_t bit) {
-    if_number(call, {{BPF_LD | BPF_W | BPF_ABS, 0, 0, argument_at(argument)},
-                     {BPF_JMP | BPF_JSET | BPF_K, 1, 0, bit},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_TRAP},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}});
-  }
-
-  // Refused with EPERM unless a pointer is null: runtimes raise their limits where they may.
-  void deny_pointer(const Call& call, unsigned argument) {
-    constexpr std::uint32_t denied = SECCOMP_RET_ERRNO | (EPERM & SECCOMP_RET_DATA);
-    if_number(call, {{BPF_LD | BPF_W | BPF_ABS, 0, 0, argument_at(argument)},
-                     {BPF_JMP | BPF_JEQ | BPF_K, 0, 2, 0},
-                     {BPF_LD | BPF_W | BPF_ABS, 0, 0, argument_at(argument) + 4},
-                     {BPF_JMP | BPF_JEQ | BPF_K, 1, 0, 0},
-                     {BPF_RET | BPF_K, 0, 0, denied},
-                     {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}});
-  }
-
-  // For all threads of the process.
-  bool install() {
-    answer(SECCOMP_RET_ALLOW);
-    const sock_fprog program = {static_cast<unsigned short>(code_.size()), code_.data()};
-    // without SPEC_ALLOW, older kernels make the whole process slower
-    return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW | SECCOMP_FILTER_FLAG_TSYNC,
-                   &program) == 0;
-  }
+  void load() { check(seccomp_load(rules_.get())); }
 
  private:
-  static std::uint32_t argument_at(unsigned index) {
-    return static_cast<std::uint32_t>(offsetof(seccomp_data, args) + index * sizeof(std::uint64_t));
-  }
-  void add(unsigned code, std::uint32_t value, std::uint8_t if_true = 0, std::uint8_t if_false = 0) {
-    code_.push_back({static_cast<std::uint16_t>(code), if_true, if_false, value});
-  }
-  void load(std::size_t offset) {
-    add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
-  }
-  void load_number() {
-    load(offsetof(seccomp_data, nr));
-  }
-  void answer(std::uint32_t value) {
-    add(BPF_RET | BPF_K, value);
-  }
-  void if_number(const Call& call, std::initializer_list<sock_filter> then) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, call.number, 0, static_cast<std::uint8_t>(then.size()));
-    code_.insert(code_.end(), then);
+  void set(scmp_filter_attr attribute, std::uint32_t value) { check(seccomp_attr_set(rules_.get(), attribute, value)); }
+  static void check(int result) {
+    if (result != 0) throw MachineError("seccomp", -result);
   }
 
-  std::vector<sock_filter> code_;
+  std::unique_ptr<void, void (*)(scmp_filter_ctx)> rules_;
 };
+
+bool is_on() {
+  return !sanitizer_is_loaded() && !std::getenv(off_variable);
+}
 
 bool is_sandbox() {
   return std::getenv(sandbox_variable) != nullptr;
 }
 
-bool install_filter(bool processes_allowed) {
-  const auto self = static_cast<std::uint32_t>(getpid());
+bool has_filters() {
+  return prctl(PR_GET_SECCOMP) >= 0;
+}
+
+void refuse_reaching_others(Filter& filter) {
+  filter.add(SCMP_ACT_TRAP,
+             {SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(pidfd_getfd),
+              SCMP_SYS(setrlimit), SCMP_SYS(unshare), SCMP_SYS(setns), SCMP_SYS(setsid), SCMP_SYS(setpgid)});
+  for (const int what : {PR_SET_PDEATHSIG, PR_SET_DUMPABLE})
+    filter.add(SCMP_ACT_TRAP, {SCMP_SYS(prctl)}, {is(0, static_cast<std::uint32_t>(what))});
+  // runtimes raise their limits where they may
+  filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(prlimit64)}, {is_not(2, 0)});
+  // keys for a terminal; a signal to the owner of a file
+  for (const std::uint32_t request : {TIOCSTI, TIOCLINUX, FIOSETOWN, SIOCSPGRP})
+    filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(ioctl)}, {is(1, request)});
+  for (const std::uint32_t command : {F_SETOWN, F_SETOWN_EX, F_SETSIG})
+    filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(fcntl)}, {is(1, command)});
+  // memory that no limit counts, or that other processes of the user share
+  filter.add(SCMP_ACT_ERRNO(EPERM),
+             {SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(msgget), SCMP_SYS(msgsnd), SCMP_SYS(msgrcv),
+              SCMP_SYS(msgctl), SCMP_SYS(semget), SCMP_SYS(semop), SCMP_SYS(semtimedop), SCMP_SYS(semctl),
+              SCMP_SYS(add_key), SCMP_SYS(request_key), SCMP_SYS(keyctl), SCMP_SYS(userfaultfd)});
+  // no filter sees what a ring asks for; libraries then do without
+  filter.add(SCMP_ACT_ERRNO(ENOSYS), {SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter), SCMP_SYS(io_uring_register)});
+}
+
+void refuse_processes(Filter& filter) {
+  filter.add(SCMP_ACT_TRAP, {SCMP_SYS(fork), SCMP_SYS(vfork), SCMP_SYS(execve), SCMP_SYS(execveat),
+                             SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_send_signal)});
+  filter.add(SCMP_ACT_TRAP, {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(tgkill)},
+             {is_not(0, static_cast<std::uint64_t>(getpid()))});
+  filter.add(SCMP_ACT_TRAP, {SCMP_SYS(clone)}, {lacks(0, CLONE_THREAD)});
+  // the C library then uses clone(), whose arguments can be seen
+  filter.add(SCMP_ACT_ERRNO(ENOSYS), {SCMP_SYS(clone3)});
+}
+
+void refuse_as_sandbox(Filter& filter) {
+  filter.add(SCMP_ACT_ERRNO(EACCES), {SCMP_SYS(socket)});
+  constexpr int fchmodat2 = 452;  // older headers do not name it
+  // Landlock does not cover modes, owners, times and attributes of files
+  filter.add(SCMP_ACT_ERRNO(EPERM),
+             {SCMP_SYS(chmod), SCMP_SYS(chown), SCMP_SYS(lchown), SCMP_SYS(utime), SCMP_SYS(utimes),
+              SCMP_SYS(futimesat), SCMP_SYS(fchmod), SCMP_SYS(fchmodat), fchmodat2, SCMP_SYS(fchown),
+              SCMP_SYS(fchownat), SCMP_SYS(utimensat), SCMP_SYS(setxattr), SCMP_SYS(lsetxattr), SCMP_SYS(fsetxattr),
+              SCMP_SYS(removexattr), SCMP_SYS(lremovexattr), SCMP_SYS(fremovexattr)});
+}
+
+void install_filter(bool processes_allowed) {
   Filter filter;
-  for (const Call& call : always_refused) filter.refuse(call);
-  filter.deny_pointer(limit_call, 2);
-  filter.refuse_value(process_call, 0, PR_SET_PDEATHSIG);
-  if (!processes_allowed) {
-    for (const Call& call : starts_programs) filter.refuse(call);
-    for (const Call& call : sends_signals) filter.allow_only(call, 0, self);
-    filter.need_bit(clone_call, 0, CLONE_THREAD);
-    // the C library then uses clone(), whose arguments can be seen
-    filter.deny({SYS_clone3, "clone3"}, ENOSYS);
-  }
-  if (is_sandbox()) {
-    for (const Call& call : opens_sockets) filter.deny(call, EACCES);
-    for (const Call& call : changes_attributes) filter.deny(call, EPERM);
-  }
-  return filter.install();
+  refuse_reaching_others(filter);
+  if (!processes_allowed) refuse_processes(filter);
+  if (is_sandbox()) refuse_as_sandbox(filter);
+  filter.load();
+}
+
+// Not by setsid(): a kernel that schedules sessions as groups would then forget the priority of the run.
+void leave_terminal() {
+  const Descriptor terminal(open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC));
+  if (terminal.is_open()) ioctl(terminal.number(), TIOCNOTTY);
 }
 
 // Async-signal-safe. The kernel has not executed the call.
@@ -246,9 +170,11 @@ void demand_sandbox() {
 }
 
 std::string gaps() {
-  if (sanitizer_is_loaded() || std::getenv(off_variable)) return "";
-  if (architecture == 0 || prctl(PR_GET_SECCOMP) < 0)
-    return "plugins can start and reach other processes: the kernel has no seccomp filters for this processor";
+  if (!is_on()) return "";
+  if (!has_filters()) return "plugins can start and reach other processes: the kernel has no seccomp filters";
+  if (geteuid() == 0 && !landlock::sets_apart(landlock::version()))
+    return "plugins can change the memory of your other processes: you are root, and the kernel's Landlock does not "
+           "refuse it";
   return "";
 }
 
@@ -259,12 +185,17 @@ std::string sandbox_gaps() {
 }
 
 std::string kind() {
-  if (sanitizer_is_loaded() || std::getenv(off_variable)) return "none";
+  if (!is_on()) return "none";
   return is_sandbox() ? "sandbox" : "box";
 }
 
+void hide() {
+  // a second time, the filter would refuse it
+  if (is_on() && prctl(PR_GET_DUMPABLE) != 0) prctl(PR_SET_DUMPABLE, 0);
+}
+
 void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std::filesystem::path& scratch) {
-  if (sanitizer_is_loaded() || std::getenv(off_variable)) return;
+  if (!is_on()) return;
   lower_limit(RLIMIT_NOFILE, most_descriptors);
   lower_limit(RLIMIT_FSIZE, most_file_bytes);
   refused_call = refused;
@@ -272,22 +203,21 @@ void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std
   action.sa_sigaction = &note_refusal;
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
   sigaction(SIGSYS, &action, nullptr);
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  if (is_sandbox()) landlock::restrict_writing(scratch);
-  if constexpr (architecture != 0) install_filter(processes_allowed);
+  leave_terminal();
+  hide();
+  if (is_sandbox())
+    landlock::restrict_writing(scratch);
+  else
+    landlock::set_apart();
+  if (has_filters()) install_filter(processes_allowed);
 }
 
 std::string name_of(std::int32_t system_call) {
   if (system_call == 0) return "a system call with signals blocked (as by system() or popen())";
-  const auto find = [&](const auto& calls) -> const char* {
-    for (const Call& call : calls)
-      if (call.number == static_cast<std::uint32_t>(system_call)) return call.name;
-    return nullptr;
-  };
-  for (const char* name : {find(always_refused), find(starts_programs), find(sends_signals),
-                           find(std::array{clone_call, limit_call, process_call})})
-    if (name) return name;
-  return fmt::format("system call {}", system_call);
+  if (system_call == SCMP_SYS(clone)) return "fork (clone)";
+  const std::unique_ptr<char, void (*)(void*)> name(seccomp_syscall_resolve_num_arch(SCMP_ARCH_NATIVE, system_call),
+                                                    &std::free);
+  return name ? name.get() : fmt::format("system call {}", system_call);
 }
 
 }  // namespace dmrp::host::box

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // box.hpp: what a process that runs plugins may ask of the kernel. It can compute, start threads and use files; it cannot
-// start programs, or reach other processes. In a sandbox it cannot open sockets either, and writes in one folder alone.
+// start programs, reach other processes, or type into the user's terminal. In a sandbox it cannot open sockets either, and
+// writes in one folder alone.
 #pragma once
 
 #include <atomic>
@@ -24,6 +25,9 @@ std::string sandbox_gaps();
 
 // "sandbox", "box", or "none" where it is disabled, or sanitizers exclude it.
 std::string kind();
+
+// Closes the memory, descriptors and environment of this process to other processes of its user.
+void hide();
 
 // Puts this process into the box, for good. From then on a refused system call raises SIGSYS, which kills the process after
 // its number was stored in `refused`, if that is given. What a sandbox refuses in addition fails with an error. `scratch`:

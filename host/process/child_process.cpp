@@ -53,6 +53,7 @@ void be_killed_first(std::string_view score) {
                             const std::function<void()>& function) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
+  prctl(PR_SET_DUMPABLE, 1);                          // the parent is hidden, and so is what it may write in /proc
   be_killed_first(oom_score);
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
@@ -126,6 +127,7 @@ ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function
 
 ChildProcess::ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function)
     : group_(std::move(group)) {
+  box::hide();
   std::fflush(nullptr);  // buffered output would be written twice
   const pid_t parent = getpid();
   const std::string oom_score = oom_score_of_children();

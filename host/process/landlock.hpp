@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// landlock.hpp: the kernel refuses a process to change files outside of one folder.
+// landlock.hpp: the kernel refuses a process to change files outside of one folder, and to reach processes that are not
+// under the same rules.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +14,14 @@ int version();
 // What restrict_writing() cannot refuse on a kernel with this version, in one line; "" if it refuses all.
 std::string gap(int version);
 
-// From now on, this thread and all that it starts can create, change, rename and delete files in `folder` alone; "": nowhere.
+// Whether set_apart() does something on a kernel with this version.
+bool sets_apart(int version);
+
+// From now on, this thread and all that it starts cannot look into processes outside, whoever their user is; from version 6
+// on, they cannot signal them or reach their abstract sockets either. Files stay open to it. Throws MachineError.
+void set_apart();
+
+// The same, and they can create, change, rename and delete files in `folder` alone; "": nowhere.
 // They can still write to /dev/null and to what they have open. Does nothing where version() is 0. Throws MachineError.
 void restrict_writing(const std::filesystem::path& folder);
 

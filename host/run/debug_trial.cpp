@@ -12,6 +12,7 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/process/box.hpp"
 #include "host/program/exit_status.hpp"
 #include "host/trial/log_line.hpp"
 #include "host/trial/measure.hpp"
@@ -101,6 +102,7 @@ class DebuggedTrial {
 }  // namespace
 
 int debug_trial(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
+  box::disable();  // another debugger can attach
   const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   if (trial >= count)

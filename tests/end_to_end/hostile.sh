@@ -114,6 +114,7 @@ boxed=(
   "stops its parent|abi_breach|step|refuses kill"
   "ends its parent|abi_breach|step|refuses kill"
   "outlives its parent|abi_breach|step|refuses prctl"
+  "lets others look in|abi_breach|step|refuses prctl"
   "traces its parent|abi_breach|step|refuses ptrace"
   "kills siblings|abi_breach|step|refuses kill"
 )
@@ -158,6 +159,17 @@ if $limited; then
   fi
 fi
 expect_status 2 "$host" "$scratch/open.toml" --sandbox --no-box
+
+# what reaches others by a way around those calls fails; it has a terminal here, into which it could type
+reaching=("looks into others" "sends signals by a file" "types into the terminal" "asks for rings and segments")
+if $limited && $has_landlock; then
+  begin reaching
+  for attack in "${reaching[@]}"; do hostile reaching "$attack"; done
+  expect_status 0 script -qec "'$host' '$scratch/reaching.toml' --quiet --jobs 2 --out '$scratch/reaching'" /dev/null
+  [[ ! -s $scratch/stdout ]] || fail "nothing should be said: $(cat "$scratch/stdout")"
+  expect_same reaching
+  for attack in "${reaching[@]}"; do note box "$attack" "refused with an error"; done
+fi
 
 # faults that were a plugin's are tried again on demand; late ones need not come again in the same trial
 prompt_faults() {

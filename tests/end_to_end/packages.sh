@@ -14,7 +14,7 @@ mkdir debs root && mv made/*.deb debs
 [[ $(cd debs && echo *.deb) =~ ^dmrp-doc_.*_all.deb\ dmrp-host_.*\ dmrp-plugins_.*\ dmrp-sdk-dev_.*_all.deb$ ]] ||
   fail "there should be four packages: $(ls debs)"
 depends=$(dpkg-deb -f debs/dmrp-host_*.deb Depends)
-for library in libc6 libstdc++6 libfmt9 libsqlite3-0 libssl3 libyaml-cpp0.7; do
+for library in libc6 libstdc++6 libfmt9 libsqlite3-0 libseccomp2 libssl3 libyaml-cpp0.7; do
   [[ $depends == *"$library "* ]] || fail "dmrp-host should depend on $library: $depends"
 done
 depends=$(dpkg-deb -f debs/dmrp-plugins_*.deb Depends)

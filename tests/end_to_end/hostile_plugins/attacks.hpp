@@ -5,15 +5,21 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fenv.h>
+#include <linux/sockios.h>
+#include <linux/userfaultfd.h>
+#include <sys/ioctl.h>
+#include <sys/ipc.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
+#include <sys/shm.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -53,7 +59,8 @@ inline void close_those(const std::string& part_of_target) {
 }
 
 // Workers of the same run.
-inline void kill_siblings() {
+inline std::vector<int> siblings() {
+  std::vector<int> numbers;
   const std::string parent = std::to_string(getppid());
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const int process = std::atoi(entry.path().filename().c_str());
@@ -64,8 +71,39 @@ inline void kill_siblings() {
     [[maybe_unused]] const ssize_t count = read(file, text, sizeof(text) - 1);
     close(file);
     const char* const after_name = std::strrchr(text, ')');
-    if (after_name && std::string(after_name + 4).rfind(parent + " ", 0) == 0) kill(process, SIGKILL);
+    if (after_name && std::string(after_name + 4).rfind(parent + " ", 0) == 0) numbers.push_back(process);
   }
+  return numbers;
+}
+
+// Whether memory or files of another process of the run are open to this one. (Root reads environments all the same.)
+inline bool sees_others() {
+  std::vector<int> others = siblings();
+  others.push_back(getppid());
+  for (const int process : others)
+    for (const char* const file : {"/mem", "/fd/0", "/cwd"})
+      if (open(("/proc/" + std::to_string(process) + file).c_str(), O_RDONLY) >= 0) return true;
+  return false;
+}
+
+// The kernel would signal the owner.
+inline bool owns_for_parent() {
+  const int ends = open("/dev/zero", O_RDONLY);
+  const int parent = getppid();
+  f_owner_ex owner = {F_OWNER_PID, parent};
+  return fcntl(ends, F_SETOWN, parent) == 0 || fcntl(ends, F_SETOWN_EX, &owner) == 0 ||
+         fcntl(ends, F_SETSIG, SIGKILL) == 0 || ioctl(0, FIOSETOWN, &parent) == 0;
+}
+
+inline bool types() {
+  return open("/dev/tty", O_RDONLY) >= 0 || ioctl(0, TIOCSTI, "x") == 0 || errno != EPERM;
+}
+
+inline bool has_rings_or_segments() {
+  char parameters[256] = {};
+  return syscall(SYS_io_uring_setup, 8, parameters) >= 0 || shmget(IPC_PRIVATE, 4096, 0600) >= 0 ||
+         syscall(SYS_msgget, IPC_PRIVATE, 0600) >= 0 || syscall(SYS_semget, IPC_PRIVATE, 1, 0600) >= 0 ||
+         syscall(SYS_add_key, "user", "dmrp", "x", 1, -4) >= 0 || syscall(SYS_userfaultfd, UFFD_USER_MODE_ONLY) >= 0;
 }
 
 // The worker's scratch folder is that of temporary files; the run directory is two levels above.
@@ -163,13 +201,19 @@ inline void attack(const std::string& what) {
     }
   if (what == "files limited") limit(RLIMIT_FSIZE, 4096);
   if (what == "kills itself") std::raise(SIGKILL);
-  if (what == "kills siblings") kill_siblings();
+  if (what == "kills siblings")
+    for (const int process : siblings()) kill(process, SIGKILL);
+  if (what == "looks into others" && sees_others()) crash();
+  if (what == "sends signals by a file" && owns_for_parent()) crash();
+  if (what == "types into the terminal" && types()) crash();
+  if (what == "asks for rings and segments" && has_rings_or_segments()) crash();
   if (what == "runs a program") [[maybe_unused]]
     const int status = std::system("true");
   if (what == "replaces itself") execl("/bin/true", "true", nullptr);
   if (what == "stops its parent") kill(getppid(), SIGSTOP);
   if (what == "ends its parent") kill(getppid(), SIGTERM);
   if (what == "outlives its parent") prctl(PR_SET_PDEATHSIG, 0);
+  if (what == "lets others look in") prctl(PR_SET_DUMPABLE, 1);
   if (what == "traces its parent") ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr);
   if (what == "prints much")
     for (int i = 0; i < 10'000; ++i) std::fprintf(stderr, "%s\n", std::string(4096, 'x').c_str());

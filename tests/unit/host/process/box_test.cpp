@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: MIT
-// What the sandbox refuses, and what is said where the kernel lacks a part. Each case tries it in a child.
+// What the box and the sandbox refuse, and what is said where the kernel lacks a part. Each case tries it in a child.
 #include "host/process/box.hpp"
 
 #include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/ipc.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <thread>
 
 #include "host/process/landlock.hpp"
 
@@ -94,6 +101,30 @@ std::string attempts(const fs::path& root) {
   return done;
 }
 
+// As system calls, so that the upper halves of arguments arrive.
+std::string reached() {
+  std::string done;
+  const auto attempt = [&](const char* name, int error, long result) {
+    if (result != -1 || errno != error) done += std::string(name) + " ";
+  };
+  constexpr unsigned long high = 1ul << 32;
+  attempt("type", EPERM, syscall(SYS_ioctl, 0, TIOCSTI | high, "x"));
+  attempt("console", EPERM, syscall(SYS_ioctl, 0, TIOCLINUX, "x"));
+  attempt("owner", EPERM, syscall(SYS_fcntl, 0, F_SETOWN | high, getpid()));
+  attempt("signal", EPERM, syscall(SYS_fcntl, 0, F_SETSIG, SIGKILL));
+  attempt("segment", EPERM, syscall(SYS_shmget, IPC_PRIVATE, 4096, 0600));
+  attempt("key", EPERM, syscall(SYS_add_key, "user", "dmrp", "x", 1, -4));
+  attempt("faults", EPERM, syscall(SYS_userfaultfd, 1));
+  attempt("ring", ENOSYS, syscall(SYS_io_uring_setup, 8, nullptr));
+  attempt("limit", EPERM, syscall(SYS_prlimit64, 0, RLIMIT_CORE, std::array<rlim_t, 2>{}.data(), nullptr));
+  const std::string parent = "/proc/" + std::to_string(getppid());
+  if (landlock::sets_apart(landlock::version())) attempt("memory", EACCES, open((parent + "/mem").c_str(), O_RDWR));
+  attempt("terminal", ENXIO, open("/dev/tty", O_RDONLY));
+  if (prctl(PR_GET_DUMPABLE) != 0) done += "dumpable ";
+  if (fcntl(0, F_GETFD) < 0) done += "no fcntl ";
+  return done;
+}
+
 // As a kernel without Landlock.
 void deny_landlock() {
   sock_filter code[] = {{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
@@ -126,6 +157,45 @@ TEST_CASE("without a sandbox the box leaves files and sockets alone") {
     return attempts(places.root);
   });
   CHECK(done == "scratch null read create append truncate rename mkdir chmod socket local socket ");
+}
+
+TEST_CASE("in the box a process reaches no other by a way around signals") {
+  CHECK(in_child([] {
+          box::enter(false);
+          return reached();
+        }).empty());
+  CHECK(in_child([] {  // as a probe does
+          box::enter(true);
+          box::enter(false);
+          return reached();
+        })
+            .empty());
+}
+
+TEST_CASE("what a process may not do to others ends it") {
+  const auto signal_of = [](const std::function<void()>& function) {
+    const pid_t child = fork();
+    if (child == 0) {
+      box::enter(false);
+      function();
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  };
+  const pid_t own = getpid();
+  CHECK(signal_of([&] { kill(own, 0); }) == SIGSYS);
+  CHECK(signal_of([] { kill(getpid(), 0); }) == 0);
+  CHECK(signal_of([] { syscall(SYS_prctl, PR_SET_DUMPABLE | 1ul << 32, 1, 0, 0, 0); }) == SIGSYS);
+  CHECK(signal_of([] { syscall(SYS_clone, SIGCHLD, nullptr, nullptr, nullptr, nullptr); }) == SIGSYS);
+  CHECK(signal_of([] { std::thread([] {}).join(); }) == 0);
+#if defined(__x86_64__)
+  CHECK(signal_of([] { syscall(0x40000000 | SYS_getpid); }) == SIGSYS);  // x32's
+#endif
+  CHECK(box::name_of(SYS_kill) == "kill");
+  CHECK(box::name_of(SYS_clone) == "fork (clone)");
+  CHECK(box::name_of(9999) == "system call 9999");
 }
 
 TEST_CASE("a part of the sandbox that the kernel lacks is named") {
