@@ -7,8 +7,6 @@
 #include <boost/crc.hpp>
 #include <utility>
 
-#include "core/bytes/file_error.hpp"
-
 namespace dmrp::core {
 namespace {
 
@@ -27,9 +25,7 @@ void decompress(const ByteCursor& in, std::span<const std::uint8_t> compressed, 
 }  // namespace
 
 McapReader::McapReader(const std::filesystem::path& path, std::string topic)
-    : path_(path), topic_(std::move(topic)), file_(path, std::ios::binary) {
-  if (!file_) throw_file_error(path_);
-}
+    : path_(path), topic_(std::move(topic)), file_(open_file(path, Links::refused)) {}
 
 void McapReader::rewind() {
   begun_ = false;
@@ -57,12 +53,9 @@ std::optional<McapMessage> McapReader::next() {
 // Finds the size of the file and checks its first bytes.
 void McapReader::begin() {
   begun_ = true;
-  file_.clear();
-  file_.seekg(0, std::ios::end);
-  size_ = static_cast<std::uint64_t>(file_.tellg());
-  file_.seekg(0);
-  position_ = 0;
-  if (!file_) throw_file_error(path_);
+  if (fseeko(file_.get(), 0, SEEK_END) != 0) throw_file_error(path_);
+  size_ = static_cast<std::uint64_t>(ftello(file_.get()));
+  skip_to(0);
   if (size_ < mcap_magic.size() || !magic_follows()) throw TraceError(0, "not an MCAP file");
 }
 
@@ -73,14 +66,12 @@ bool McapReader::magic_follows() {
 
 void McapReader::read(std::vector<std::uint8_t>& bytes, std::uint64_t count) {
   bytes.resize(count);
-  file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (!file_) throw_file_error(path_);
+  if (std::fread(bytes.data(), 1, count, file_.get()) != count) throw_file_error(path_);
   position_ += count;
 }
 
 void McapReader::skip_to(std::uint64_t position) {
-  file_.seekg(static_cast<std::streamoff>(position));
-  if (!file_) throw_file_error(path_);
+  if (fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0) throw_file_error(path_);
   position_ = position;
 }
 

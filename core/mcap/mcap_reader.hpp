@@ -4,13 +4,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/bytes/file.hpp"
 #include "core/bytes/trace_bytes.hpp"
 #include "core/mcap/mcap.hpp"
 
@@ -27,7 +27,7 @@ struct McapMessage {
 //   while (const auto message = file.next()) ...
 class McapReader {
  public:
-  // Throws std::system_error if the file cannot be opened.
+  // Throws std::system_error if the file cannot be opened, or is no regular file.
   McapReader(const std::filesystem::path& path, std::string topic);
 
   // The next message of the channel `topic`, valid until the next call; none after the last. A truncated file ends with
@@ -53,7 +53,7 @@ class McapReader {
 
   std::filesystem::path path_;
   std::string topic_;
-  std::ifstream file_;
+  File file_;
   std::uint64_t size_ = 0;      // of the file at the start of reading
   std::uint64_t position_ = 0;  // in the file
   bool begun_ = false;

@@ -9,7 +9,6 @@
 #include <memory>
 #include <new>
 
-#include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"
 
 namespace dmrp::core {
@@ -84,8 +83,7 @@ void McapWriter::TimeRange::add(std::uint64_t t) {
   empty = false;
 }
 
-McapWriter::McapWriter(const std::filesystem::path& path)
-    : path_(path), file_(path, std::ios::binary | std::ios::trunc) {
+McapWriter::McapWriter(const std::filesystem::path& path) : path_(path), file_(create_file(path)) {
   Bytes begin;
   append(begin, mcap_magic);
   put_record(begin, McapOpcode::header, [](ByteWriter& out) {
@@ -164,7 +162,7 @@ void McapWriter::write_chunk() {
   to_file(record);
   const std::uint64_t indexes_begin = file_size_;
   const auto index_offsets = write_message_indexes();
-  file_.flush();
+  if (std::fflush(file_.get()) != 0) throw_file_error(path_);
 
   put_record(chunk_indexes_, McapOpcode::chunk_index, [&](ByteWriter& out) {
     out.put(chunk_times_.first);
@@ -257,13 +255,11 @@ void McapWriter::finish() {
   put_record(data_end, McapOpcode::data_end, [](ByteWriter& out) { out.put(std::uint32_t{0}); });  // no checksum
   to_file(data_end);
   write_summary();
-  file_.close();
-  if (!file_) throw_file_error(path_);
+  if (std::fclose(file_.release()) != 0) throw_file_error(path_);
 }
 
 void McapWriter::to_file(const Bytes& bytes) {
-  file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file_) throw_file_error(path_);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) throw_file_error(path_);
   file_size_ += bytes.size();
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// mcap_writer.hpp: writes an MCAP file message by message. Throws std::system_error.
+// mcap_writer.hpp: writes a new MCAP file message by message. Throws std::system_error.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <span>
 #include <vector>
 
+#include "core/bytes/file.hpp"
 #include "core/mcap/mcap.hpp"
 
 namespace dmrp::core {
@@ -56,7 +56,7 @@ class McapWriter {
   void to_file(const Bytes& bytes);
 
   std::filesystem::path path_;
-  std::ofstream file_;
+  File file_;
   std::uint64_t file_size_ = 0;
 
   Bytes chunk_;  // records not yet written

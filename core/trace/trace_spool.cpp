@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstring>
 
-#include "core/bytes/file_error.hpp"
 #include "core/bytes/trace_bytes.hpp"
 
 namespace dmrp::core {
@@ -62,9 +61,7 @@ void take_changes(const std::uint8_t* from, TraceBytes& last) {
 
 }  // namespace
 
-TraceSpool::TraceSpool(const std::filesystem::path& path)
-    : path_(path), file_(path, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc) {
-  if (!file_) throw_file_error(path_);
+TraceSpool::TraceSpool(const std::filesystem::path& path) : path_(path), file_(create_file(path)) {
   std::filesystem::remove(path);
 }
 
@@ -91,17 +88,14 @@ void TraceSpool::write(std::span<const std::uint8_t> record) {
 }
 
 void TraceSpool::write_buffer() {
-  file_.write(reinterpret_cast<const char*>(buffer_.data()), static_cast<std::streamsize>(buffer_.size()));
-  if (!file_) throw_file_error(path_);
+  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_.get()) != buffer_.size()) throw_file_error(path_);
   buffer_.clear();
 }
 
 void TraceSpool::rewind() {
   if (!is_written_) write_buffer();
   is_written_ = true;
-  file_.clear();
-  file_.seekg(0);
-  if (!file_) throw_file_error(path_);
+  if (std::fseek(file_.get(), 0, SEEK_SET) != 0) throw_file_error(path_);
   for (TraceBytes& last : last_) last.clear();
   buffer_.clear();
   position_ = 0;
@@ -114,9 +108,9 @@ bool TraceSpool::fill(std::size_t bytes) {
   position_ = 0;
   const std::size_t begin = buffer_.size();
   std::uint8_t* const to = lengthen(buffer_, std::max(buffer_bytes, bytes));
-  file_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(buffer_.size() - begin));
-  if (file_.bad()) throw_file_error(path_);
-  buffer_.resize(begin + static_cast<std::size_t>(file_.gcount()));
+  const std::size_t count = std::fread(to, 1, buffer_.size() - begin, file_.get());
+  if (std::ferror(file_.get())) throw_file_error(path_);
+  buffer_.resize(begin + count);
   return buffer_.size() >= bytes;
 }
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 
+#include "core/bytes/file.hpp"
 #include "core/trace/trace.hpp"
 
 namespace dmrp::core {
@@ -39,7 +39,7 @@ class TraceSpool {
   void write_buffer();
 
   std::filesystem::path path_;
-  std::fstream file_;
+  File file_;
   bool is_written_ = false;
   TraceBytes buffer_;               // bytes to write, or bytes that were read
   std::size_t position_ = 0;        // in the buffer, of the next byte to read

@@ -41,7 +41,7 @@ void write_output(const char* option, const fs::path& file, std::string_view con
     return;
   }
   try {
-    write_file_atomically(file, content);
+    write_named_file(file, content);
   } catch (const std::system_error& error) {
     throw_path_error(fmt::format("{} {}", option, file.string()), error.code());
   }

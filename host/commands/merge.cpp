@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -14,7 +14,9 @@
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/files/open_log.hpp"
 #include "host/files/read_file.hpp"
+#include "host/process/descriptor.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
 #include "host/results/database.hpp"
@@ -167,10 +169,12 @@ void copy_results(std::vector<Part>& parts, ResultsDatabase& to) {
 }
 
 void append_log(const Part& part, const fs::path& out) {
-  std::ifstream from(part.directory.path() / "log.txt", std::ios::binary);
-  if (!from || from.peek() == std::ifstream::traits_type::eof()) return;
-  std::ofstream to(out / "log.txt", std::ios::binary | std::ios::app);
-  if (!(to << from.rdbuf() << std::flush)) throw std::system_error(errno, std::generic_category(), out / "log.txt");
+  const fs::path log = part.directory.path() / "log.txt";
+  if (std::error_code ignored; !fs::is_regular_file(log, ignored)) return;
+  const std::string text = read_file(log, log.string(), UINTMAX_MAX);
+  if (text.empty()) return;
+  if (!Descriptor(open_log(out / "log.txt")).write(text))
+    throw std::system_error(errno, std::generic_category(), out / "log.txt");
 }
 
 int merge_command(const MergeOptions& options) {

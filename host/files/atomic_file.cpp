@@ -30,16 +30,9 @@ bool is_replaced(const std::filesystem::path& path) {
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-void write_in_place(const std::filesystem::path& path, std::string_view content) {
-  std::ofstream out(path, std::ios::binary);
-  out << content << std::flush;
-  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
-}
-
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  if (!is_replaced(path)) return write_in_place(path, content);
   std::string beside = path.string() + ".XXXXXX";
   const int descriptor = ::mkstemp(beside.data());
   if (descriptor < 0) throw std::system_error(errno, std::generic_category(), path.string());
@@ -58,6 +51,13 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     throw std::system_error(error.code(), path.string());
   }
   ::close(descriptor);
+}
+
+void write_named_file(const std::filesystem::path& path, std::string_view content) {
+  if (is_replaced(path)) return write_file_atomically(path, content);
+  std::ofstream out(path, std::ios::binary);
+  out << content << std::flush;
+  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
 }
 
 }  // namespace dmrp::host

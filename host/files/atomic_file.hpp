@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// atomic_file.hpp: replaces a file atomically: readers find the old or the new content. What is no regular file, such as
-// /dev/null, a pipe or a link, is written into instead.
+// atomic_file.hpp: replaces a file atomically: readers find the old or the new content.
 #pragma once
 
 #include <filesystem>
@@ -11,5 +10,9 @@ namespace dmrp::host {
 // Writes a temporary file beside `path`, syncs it, renames it and syncs the folder. Throws std::system_error with the
 // path and then leaves no temporary file.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+// The same for a path that the user names: what is no regular file, such as /dev/null, a pipe or a link, is written into
+// instead.
+void write_named_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace dmrp::host

@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cerrno>
-#include <fstream>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "core/bytes/file.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -47,12 +49,13 @@ std::string sha256_of_bytes(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  const core::File file = core::open_file(path, core::Links::followed);
   Sha256 hash;
   std::vector<char> buffer(1 << 16);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    hash.add(buffer.data(), static_cast<std::size_t>(file.gcount()));
-  if (!file.eof()) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), path.string());
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get()))
+    hash.add(buffer.data(), count);
+  if (std::ferror(file.get()))
+    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), path.string());
   return hash.finish();
 }
 

@@ -19,6 +19,7 @@
 #include <memory>
 
 #include "host/errors/machine_error.hpp"
+#include "host/process/descriptor.hpp"
 #include "host/process/landlock.hpp"
 #include "host/process/sanitized.hpp"
 
@@ -137,6 +138,12 @@ void install_filter(bool processes_allowed) {
   filter.load();
 }
 
+// Not by setsid(): a kernel that schedules sessions as groups would then forget the priority of the run.
+void leave_terminal() {
+  const Descriptor terminal(open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC));
+  if (terminal.is_open()) ioctl(terminal.number(), TIOCNOTTY);
+}
+
 // Async-signal-safe. The kernel has not executed the call.
 void note_refusal(int number, siginfo_t* info, void*) {
   if (refused_call) *refused_call = info->si_syscall;
@@ -196,7 +203,7 @@ void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std
   action.sa_sigaction = &note_refusal;
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
   sigaction(SIGSYS, &action, nullptr);
-  if (getsid(0) != getpid()) setsid();  // it has no terminal from now on
+  leave_terminal();
   hide();
   if (is_sandbox())
     landlock::restrict_writing(scratch);

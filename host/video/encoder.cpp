@@ -124,7 +124,7 @@ void VideoEncoder::add(const Canvas& frame) {
 
 void VideoEncoder::finish() {
   const bool is_whole = wait();
-  if (is_whole) write_file_atomically(file_, read_file(part_, part_.string(), UINTMAX_MAX));
+  if (is_whole) write_named_file(file_, read_file(part_, part_.string(), UINTMAX_MAX));
   std::error_code ignored;
   fs::remove(part_, ignored);
   if (!is_whole) throw MachineError("video: ffmpeg failed");

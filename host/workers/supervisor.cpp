@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/workers/supervisor.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/random.h>
 
@@ -17,6 +16,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/identity.hpp"
+#include "host/files/open_log.hpp"
 #include "host/files/try_to_write.hpp"
 #include "host/process/memory_group.hpp"
 #include "host/process/orphans.hpp"
@@ -83,11 +83,9 @@ class Supervisor {
         digest_(loaded_digest(experiment)),
         combinations_(combinations(experiment)),
         plans_(settings.run_directory),
+        log_(open_log(settings.run_directory / "log.txt")),
         planned_(std::move(trials)),
         open_trials_(planned_.left()) {
-    const fs::path log = settings.run_directory / "log.txt";
-    log_ = Descriptor(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-    if (!log_.is_open()) throw std::system_error(errno, std::generic_category(), log.string());
     delete_scratch_folders(settings.run_directory);  // of a supervisor that was killed
     adopt_orphans();
     slots_.resize(std::min<std::uint64_t>(settings.jobs, open_trials_));
@@ -535,7 +533,7 @@ class Supervisor {
   const bool watches_memory_ = experiment_.limits.memory_mb > 0 && !MemoryGroup::available();
   const bool counts_resident_memory_ = counts_resident_memory(experiment_);
   std::int64_t next_look_at_memory_ns_ = 0;
-  Descriptor log_;
+  const Descriptor log_;
   Watchdog watchdog_;
   PlannedTrials planned_;
   std::vector<OpenTrial> again_;                   // trials that have begun and lost their worker

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/bytes/file.hpp"
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/machine_error.hpp"
@@ -84,8 +84,9 @@ class Sender {
 };
 
 void write_text(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  if (!(out << text << std::flush)) throw std::system_error(errno, std::generic_category(), file);
+  const core::File out = core::create_file(file);
+  if (std::fwrite(text.data(), 1, text.size(), out.get()) != text.size() || std::fflush(out.get()) != 0)
+    throw std::system_error(errno, std::generic_category(), file);
 }
 
 class Worker {

@@ -171,6 +171,30 @@ if $limited && $has_landlock; then
   for attack in "${reaching[@]}"; do note box "$attack" "refused with an error"; done
 fi
 
+# under the names of traces and plans that are still to be made
+begin planted
+for attack in "plants pipes" "plants links"; do hostile planted "$attack"; done
+echo kept >"$scratch/outside"
+run_with_faults planted 0
+[[ $(<"$scratch/outside") == kept ]] || fail "a file outside has been changed by a link"
+[[ -z $(find "$scratch/planted" ! -type f ! -type d) ]] || fail "planted files are left"
+expect_same planted
+for attack in "plants pipes" "plants links"; do note box "$attack" "replaced by files"; done
+
+# in a run directory of somebody else
+ln -sf "$scratch/outside" "$scratch/planted/log.txt"
+expect_status 2 "$host" "$scratch/planted.toml" --quiet --resume --trials 3 --out "$scratch/planted"
+grep -q "planted/log.txt: is no regular file" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+mkfifo "$scratch/pipe"
+for planted in outside pipe; do
+  ln -sf "$scratch/$planted" "$scratch/planted/traces/trial_000000.mcap"
+  status=0
+  timeout 60 "$host" evaluate "$scratch/planted" --trial 0 >"$scratch/stdout" 2>"$scratch/stderr" || status=$?
+  ((status > 0 && status < 100)) || fail "$planted: exit status $status"
+  grep -Eq "trial_000000.mcap(: is no regular file| is missing)" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+done
+[[ $(<"$scratch/outside") == kept ]] || fail "a file outside has been changed by a link"
+
 # faults that were a plugin's are tried again on demand; late ones need not come again in the same trial
 prompt_faults() {
   local row late=""

@@ -125,6 +125,28 @@ inline void replace_trace() {
   }
 }
 
+// A pipe or a link under each name that the host will use in the scratch folders and for plans.
+inline void plant(const std::string& what) {
+  namespace fs = std::filesystem;
+  const fs::path scratch = fs::temp_directory_path().parent_path();
+  std::vector<fs::path> places;
+  for (const auto& entry : fs::directory_iterator(scratch)) {
+    for (const char* const name : {"plan.csv", "samples"}) places.push_back(entry.path() / name);
+    for (int trial = 0; trial < 10; ++trial)
+      places.push_back(entry.path() / ("trial_00000" + std::to_string(trial) + ".mcap"));
+  }
+  for (const char* const ending : {".csv", ".json"})
+    if (what == "pipes")
+      places.push_back(scratch.parent_path() /
+                       ("plans/scenario_00_planner_00_repetition_000001" + std::string(ending)));
+  std::error_code ignored;
+  for (const fs::path& place : places)
+    if (what == "pipes")
+      mkfifo(place.c_str(), 0600);
+    else if (const char* const outside = std::getenv("DMRP_TEST_OUTSIDE"))
+      fs::create_symlink(outside, place, ignored);
+}
+
 inline void limit(int resource, rlim_t most) {
   const rlimit both = {most, most};
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
@@ -207,6 +229,8 @@ inline void attack(const std::string& what) {
   if (what == "sends signals by a file" && owns_for_parent()) crash();
   if (what == "types into the terminal" && types()) crash();
   if (what == "asks for rings and segments" && has_rings_or_segments()) crash();
+  if (what == "plants pipes") plant("pipes");
+  if (what == "plants links") plant("links");
   if (what == "runs a program") [[maybe_unused]]
     const int status = std::system("true");
   if (what == "replaces itself") execl("/bin/true", "true", nullptr);

@@ -28,7 +28,20 @@ TEST_CASE("files are replaced atomically, with default permissions", "[files]") 
   CHECK_THROWS_WITH(write_file_atomically(folder / "no/folder.txt", "x"), Catch::Contains("no/folder.txt"));
 }
 
-TEST_CASE("a pipe, a link and a device stay what they are, and get the content", "[files]") {
+TEST_CASE("what is no file is replaced, not written into", "[files]") {
+  const ScratchFolder folder;
+  write_file_atomically(folder / "target", "kept");
+  std::filesystem::create_symlink(folder / "target", folder / "link");
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  for (const char* name : {"link", "pipe"}) {
+    write_file_atomically(folder / name, "new");
+    CHECK(std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / name)));
+    CHECK(content_of(folder / name) == "new");
+  }
+  CHECK(content_of(folder / "target") == "kept");
+}
+
+TEST_CASE("a pipe, a link and a device that the user names stay what they are, and get the content", "[files]") {
   namespace fs = std::filesystem;
   const ScratchFolder folder;
   const fs::path pipe = folder / "pipe";
@@ -39,18 +52,18 @@ TEST_CASE("a pipe, a link and a device stay what they are, and get the content",
     const ssize_t size = ::read(reader, got.data(), got.size());
     return size >= 0 && got.substr(0, static_cast<std::size_t>(size)) == expected;
   };
-  write_file_atomically(pipe, "written");
+  write_named_file(pipe, "written");
   CHECK(fs::is_fifo(pipe));
   CHECK(is_read("written"));
   ::close(reader);
 
   write_file_atomically(folder / "target", "a longer text");
   fs::create_symlink(folder / "target", folder / "link");
-  write_file_atomically(folder / "link", "short");
+  write_named_file(folder / "link", "short");
   CHECK(fs::is_symlink(folder / "link"));
   CHECK(content_of(folder / "target") == "short");
   fs::create_symlink("/dev/full", folder / "full");
-  CHECK_THROWS_WITH(write_file_atomically(folder / "full", "x"), Catch::Contains("full: No space left"));
+  CHECK_THROWS_WITH(write_named_file(folder / "full", "x"), Catch::Contains("full: No space left"));
   CHECK(fs::is_symlink(folder / "full"));
-  CHECK_THROWS_WITH(write_file_atomically(folder.path(), "x"), Catch::Contains("Is a directory"));
+  CHECK_THROWS_WITH(write_named_file(folder.path(), "x"), Catch::Contains("Is a directory"));
 }

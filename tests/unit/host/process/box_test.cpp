@@ -119,7 +119,7 @@ std::string reached() {
   attempt("limit", EPERM, syscall(SYS_prlimit64, 0, RLIMIT_CORE, std::array<rlim_t, 2>{}.data(), nullptr));
   const std::string parent = "/proc/" + std::to_string(getppid());
   if (landlock::sets_apart(landlock::version())) attempt("memory", EACCES, open((parent + "/mem").c_str(), O_RDWR));
-  if (getsid(0) != getpid()) done += "session ";
+  attempt("terminal", ENXIO, open("/dev/tty", O_RDONLY));
   if (prctl(PR_GET_DUMPABLE) != 0) done += "dumpable ";
   if (fcntl(0, F_GETFD) < 0) done += "no fcntl ";
   return done;
