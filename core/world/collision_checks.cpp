@@ -91,7 +91,7 @@ void CollisionChecks::with_shapes(IndexPairs pairs, std::uint32_t count, double 
     }
     Overlap with_border = {i, geometry_->border()};
     for (const ConvexPart& part : bodies_[i]) {
-      if (toolkit::contains(geometry_->rectangle(), part.bounds)) continue;
+      if (geometry_->inside_world(part.bounds.lower) && geometry_->inside_world(part.bounds.upper)) continue;
       for (const Wall& wall : walls_around(*geometry_, {}))
         take_deeper(overlap_with_half_plane(part, wall.inward, -wall.distance_m), with_border);
     }

@@ -25,10 +25,6 @@ constexpr bool contains(const Rectangle& rectangle, dmrp_vec2 point) {
          point.y <= rectangle.upper.y;
 }
 
-constexpr bool contains(const Rectangle& rectangle, const Rectangle& other) {
-  return contains(rectangle, other.lower) && contains(rectangle, other.upper);
-}
-
 constexpr bool touch(const Rectangle& one, const Rectangle& other) {
   return one.lower.x <= other.upper.x && other.lower.x <= one.upper.x && one.lower.y <= other.upper.y &&
          other.lower.y <= one.upper.y;
