@@ -22,7 +22,7 @@ enum class Links { followed, refused };
 // Opens a regular file to read. Throws std::system_error, also for what is no regular file.
 File open_file(const std::filesystem::path& path, Links links);
 
-// For a file that the machine fails to read or write: throws std::system_error with errno (EIO if it is 0) and the path.
+// Throws std::system_error with errno (EIO if it is 0) and the path, for a file that the machine fails to read or write.
 [[noreturn]] void throw_file_error(const std::filesystem::path& path);
 
 }  // namespace dmrp::core

@@ -31,11 +31,12 @@ class CollisionChecks {
   explicit CollisionChecks(std::shared_ptr<const StaticGeometry> geometry);
   ~CollisionChecks();
 
-  // Where the bodies are. `outlines` are those of the first bodies; their parts must be the same at each call.
+  // Says where the bodies are. `outlines` are those of the first bodies; their parts must be the same at each call.
   void place(std::span<const SolidBody> bodies, std::span<const SolidOutline> outlines);
 
-  // Overlaps deeper than `depth_m` of the first `count` bodies with shapes and the border, and with other bodies, ordered
-  // by a, then b. The pairs (body, shape; body, later body) contain all that can overlap, in ascending order.
+  // Find overlaps deeper than `depth_m` of the first `count` bodies with shapes and the border, and with other bodies,
+  // ordered by a, then b; overwrite `found`. The pairs (body, shape; body, later body) contain all that can overlap, in
+  // ascending order.
   void with_shapes(IndexPairs pairs, std::uint32_t count, double depth_m, std::vector<Overlap>& found);
   void between(IndexPairs pairs, std::uint32_t count, double depth_m, std::vector<Overlap>& found);
 

@@ -31,7 +31,7 @@ dmrp_vec2 in_plane(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y()};
 }
 
-// Without the point: FCL's own is not in the middle.
+// Leaves the point out: FCL's own is not in the middle.
 std::optional<PartOverlap> collide(const fcl::CollisionGeometryd& a, const Eigen::Isometry3d& at_a,
                                    const fcl::CollisionGeometryd& b, const Eigen::Isometry3d& at_b) {
   fcl::CollisionResultd result;

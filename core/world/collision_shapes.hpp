@@ -53,7 +53,7 @@ std::shared_ptr<const fcl::Convexd> make_prism(const ConvexPolygon& polygon);
 // None if they are apart. Polygons need their prisms.
 std::optional<PartOverlap> overlap(const ConvexPart& a, const ConvexPart& b);
 
-// With the half-plane of points p with dot(p, outward) <= offset_m.
+// The other part is the half-plane of the points p with dot(p, outward) <= offset_m; `outward` is a unit vector.
 std::optional<PartOverlap> overlap_with_half_plane(const ConvexPart& part, dmrp_vec2 outward, double offset_m);
 
 }  // namespace dmrp::core

@@ -11,8 +11,8 @@ namespace dmrp::host {
 // path and then leaves no temporary file.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-// The same for a path that the user names: what is no regular file, such as /dev/null, a pipe or a link, is written into
-// instead.
+// Does the same for a path that the user names, but writes into what is no regular file, such as /dev/null, a pipe or a
+// link.
 void write_named_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace dmrp::host

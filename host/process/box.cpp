@@ -34,7 +34,7 @@ constexpr rlim_t most_file_bytes = rlim_t{1} << 36;  // traces of a night are sm
 
 std::atomic<std::int32_t>* refused_call = nullptr;
 
-// Of an argument that is an int to the kernel, which drops the upper half.
+// Compares an argument that is an int to the kernel, which drops the upper half.
 scmp_arg_cmp is(unsigned argument, std::uint32_t value) {
   return {argument, SCMP_CMP_MASKED_EQ, 0xffffffff, value};
 }

@@ -17,8 +17,8 @@ std::string gap(int version);
 // Whether set_apart() does something on a kernel with this version.
 bool sets_apart(int version);
 
-// From now on, this thread and all that it starts cannot look into processes outside, whoever their user is; from version 6
-// on, they cannot signal them or reach their abstract sockets either. Files stay open to it. Throws MachineError.
+// Keeps this thread and all that it starts from looking into processes outside, whoever their user is; from version 6 on,
+// they cannot signal them or reach their abstract sockets either. Files stay open to it. Throws MachineError.
 void set_apart();
 
 // The same, and they can create, change, rename and delete files in `folder` alone; "": nowhere.
